@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/analysis/step_quadratic.h"
+#include "engine/model/rpsup_parameters.h"
+
+namespace engine {
+
+/// Largest slider acceleration that the drives ask of the linkage itself: rigid, ideal, driven exactly; located to rounding.
+/// @param from, to  window, [s]
+/// @returns empty if the window is empty, or the ideal linkage locks in it
+[[nodiscard]] std::optional<Peak> find_ideal_peak(const RpsupParameters& parameters, double from, double to);
+
+}  // namespace engine

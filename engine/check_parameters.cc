@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "engine/errors.h"
+#include "engine/model/rpsup.h"
+#include "engine/simulate_rpsup.h"
+
+namespace engine {
+
+namespace {
+
+std::string to_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void require(bool holds, const std::string& field, const std::string& allowed) {
+  if (!holds) throw InvalidInput(field, "must be " + allowed);
+}
+
+/// Written so that not-a-number fails as well.
+void require_positive(double value, const std::string& field) { require(value > 0.0 && std::isfinite(value), field, "a finite number above 0"); }
+void require_not_negative(double value, const std::string& field) { require(value >= 0.0 && std::isfinite(value), field, "a finite number of at least 0"); }
+void require_finite(double value, const std::string& field) { require(std::isfinite(value), field, "a finite number"); }
+
+/// Moments of a body obey I_x <= I_y + I_z and its turns, about any point.
+bool is_inertia_of_a_body(const Eigen::Vector3d& I) {
+  const double rounding = 1e-12 * I.sum();
+  return (I.array() > 0.0).all() && (I.sum() - 2.0 * I.maxCoeff() >= -rounding);
+}
+
+void check_links(const RpsupParameters& p) {
+  static constexpr std::array<const char*, kLinkCount> names{"1,1", "1,2", "1,3", "2,1", "2,2"};
+  const std::array<double, kLinkCount> lengths{p.crank_length, p.rod_length, p.coupler_length, 0.0, 0.0};
+  for (std::size_t k = 0; k < kLinkCount; ++k) {
+    const std::string name = std::string("links.") + names[k];
+    const LinkInertia& link = p.links[k];
+    require_positive(link.mass, name + ".mass");
+    const std::string field = name + ".inertia";
+    require(link.inertia.allFinite() && is_inertia_of_a_body(link.inertia), field,
+            "three moments above 0, none of them larger than the sum of the other two");
+    const double steiner = link.mass * 0.25 * lengths[k] * lengths[k];
+    require(is_inertia_of_a_body(link.inertia - Eigen::Vector3d(0.0, steiner, steiner)), field,
+            "those of a body about its frame's origin: about the centre of mass, at x = " + to_text(0.5 * lengths[k]) +
+                " m, they break I_x <= I_y + I_z or are not above 0");
+  }
+}
+
+void check_geometry(const RpsupParameters& p) {
+  require_positive(p.crank_length, "crank_length");
+  require_positive(p.rod_length, "rod_length");
+  require_positive(p.coupler_length, "coupler_length");
+  require_finite(p.guide_offset_y, "guide_offset_y");
+  require_finite(p.guide_offset_z, "guide_offset_z");
+  require_finite(p.gravity, "gravity");
+}
+
+void check_coupler(const RpsupParameters& p) {
+  require(p.rigid_elements >= 2, "rigid_elements", "at least 2");
+  require_positive(p.youngs_modulus, "youngs_modulus");
+  require_positive(p.shear_modulus, "shear_modulus");
+  const double nu = p.youngs_modulus / (2.0 * p.shear_modulus) - 1.0;
+  require(nu > -1.0 && nu <= 0.5, "shear_modulus",
+          "such that Poisson's ratio E / (2 G) - 1 lies in (-1, 0.5]; it is " + to_text(nu));
+  require_positive(p.coupler_diameter, "coupler_diameter");
+  require_not_negative(p.coupler_damping_ratio, "coupler_damping_ratio");
+}
+
+void check_drives(const RpsupParameters& p) {
+  require_finite(p.crank_velocity, "crank_velocity");
+  require_not_negative(p.run_up, "run_up");
+  require_finite(p.rod_stroke, "rod_stroke");
+  require_positive(p.rod_stroke_time, "rod_stroke_time");
+  require_not_negative(p.rod_pause, "rod_pause");
+  require_not_negative(p.baumgarte_alpha, "baumgarte_alpha");
+  require_not_negative(p.baumgarte_beta, "baumgarte_beta");
+}
+
+void check_joint(const RpsupParameters& p) {
+  require_positive(p.bearing_radius, "bearing_radius");
+  require_positive(p.bearing_length, "bearing_length");
+  require(p.c_r >= 0.0 && p.c_r < p.bearing_radius, "c_r", "at least 0 and below the bearing radius of " + to_text(1e3 * p.bearing_radius) + " mm");
+  require_not_negative(p.c_a, "c_a");
+  require(p.radial_levels >= 1, "radial_levels", "at least 1");
+  require(p.radial_elements >= 3, "radial_elements", "at least 3");
+  require(p.axial_levels >= 1, "axial_levels", "at least 1");
+  require(p.axial_elements >= 3, "axial_elements", "at least 3");
+  require(p.restitution > 0.0 && p.restitution <= 1.0, "restitution", "above 0 and at most 1");
+  require_positive(p.contact_stiffness_scale, "contact_stiffness_scale");
+  require_not_negative(p.axial_stiffness, "axial_stiffness");
+  require_positive(p.minimum_impact_velocity, "minimum_impact_velocity");
+  require_positive(p.mu_s, "mu_s");
+  require_positive(p.mu_k, "mu_k");
+  require_not_negative(p.sigma_0, "sigma_0");
+  require_not_negative(p.sigma_1, "sigma_1");
+  require_not_negative(p.sigma_2, "sigma_2");
+  require_positive(p.v_s, "v_s");
+}
+
+void check_options(const RunOptions& options) {
+  require_positive(options.duration, "duration");
+  require_positive(options.output_rate, "output_rate");
+  require_positive(options.step, "step");
+  require_positive(options.relative_tolerance, "relative_tolerance");
+  require_positive(options.absolute_tolerance, "absolute_tolerance");
+}
+
+/// The guide must be within the coupler's reach at every instant. Sampled so that neither drive moves far between two looks.
+void check_reach(const RpsupParameters& p, double duration) {
+  constexpr double kAngle = 0.02;   // [rad] of the crank between two looks
+  constexpr double kOfStroke = 0.02;  // of the rise time
+  const double speed = std::max(std::abs(p.crank_velocity), 1e-9);
+  const double interval = std::min({kAngle / speed, kOfStroke * p.rod_stroke_time, 0.1 * duration});
+  const auto looks = static_cast<long>(std::ceil(duration / interval));
+  for (long k = 0; k <= looks; ++k) {
+    const double t = duration * static_cast<double>(k) / static_cast<double>(looks);
+    const double reach = calc_reach_squared(p, t);
+    if (reach > 0.0) continue;
+    throw InvalidInput("coupler_length",
+                       (k == 0 ? std::string("the linkage cannot be assembled") : "the linkage locks at t = " + to_text(t) + " s") +
+                           ": the coupler of " + to_text(p.coupler_length) + " m must be longer than " +
+                           to_text(std::sqrt(p.coupler_length * p.coupler_length - reach)) +
+                           " m, the distance from the end of the rod to the slider's guide there (guide_offset_y_m, guide_offset_z_m)");
+  }
+}
+
+}  // namespace
+
+void check_parameters(const RpsupParameters& parameters, const RunOptions& options) {
+  check_geometry(parameters);
+  check_links(parameters);
+  check_coupler(parameters);
+  check_drives(parameters);
+  check_joint(parameters);
+  check_options(options);
+  check_reach(parameters, options.duration);
+}
+
+}  // namespace engine

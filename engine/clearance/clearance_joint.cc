@@ -1,0 +1,50 @@
+#include "engine/clearance/clearance_joint.h"
+
+#include <utility>
+
+namespace engine {
+
+namespace {
+
+std::variant<RadialContinuum, RadialElements> make_radial(const ClearanceParameters& joint) {
+  if (joint.form == RadialForm::kElements) return RadialElements(joint);
+  return RadialContinuum(joint);
+}
+
+}  // namespace
+
+ClearanceJoint::ClearanceJoint(const ClearanceParameters& joint) : radial_(make_radial(joint)), faces_(joint) {}
+
+int ClearanceJoint::bristle_count() const {
+  return std::visit([](const auto& radial) { return radial.bristle_count(); }, radial_);
+}
+
+bool ClearanceJoint::calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const {
+  load = ContactLoad{};
+  faces_.calc(journal, load);
+  if (const auto* elements = std::get_if<RadialElements>(&radial_)) return elements->calc(journal, bristles, bristle_rates, load);
+  std::get<RadialContinuum>(radial_).calc(journal, bristles, bristle_rates, load);
+  return true;
+}
+
+void ClearanceJoint::add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const {
+  std::visit([&](const auto& radial) { radial.add_penetrations(journal, rings); }, radial_);
+}
+
+bool ClearanceJoint::follow(const JournalMotion& journal, double dt, double* bristles) {
+  auto* elements = std::get_if<RadialElements>(&radial_);
+  return elements && elements->follow(journal, dt, bristles);
+}
+
+ContactChange ClearanceJoint::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
+  ContactChange change = std::visit([&](auto& radial) { return radial.advance(start, end, dt, bristles); }, radial_);
+  change.any |= faces_.advance(start, end, dt);
+  return change;
+}
+
+Eigen::VectorXd ClearanceJoint::widen(const double* bristles) {
+  if (auto* elements = std::get_if<RadialElements>(&radial_)) return elements->widen(bristles);
+  return Eigen::Map<const Eigen::VectorXd>(bristles, bristle_count());
+}
+
+}  // namespace engine

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/clearance/axial_faces.h"
+#include "engine/clearance/radial_continuum.h"
+#include "engine/clearance/radial_elements.h"
+
+namespace engine {
+
+/// All contacts of one revolute joint with clearance, with what they remember between steps.
+class ClearanceJoint {
+ public:
+  explicit ClearanceJoint(const ClearanceParameters& joint);
+
+  [[nodiscard]] int bristle_count() const;
+
+  /// Computes the load on the journal and the bristles' rates. @returns false if a bristle was needed that has no place: widen()
+  [[nodiscard]] bool calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const;
+
+  /// Appends the penetration of each ring, negative where there is a gap.
+  void add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const;
+
+  /// Before a step: bristles follow the contact around the journal. @returns true if any changed its place
+  bool follow(const JournalMotion& journal, double dt, double* bristles);
+
+  /// After a step: which contacts began or ended in it.
+  ContactChange advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles);
+
+  [[nodiscard]] Eigen::VectorXd widen(const double* bristles);
+
+ private:
+  std::variant<RadialContinuum, RadialElements> radial_;
+  AxialFaces faces_;
+};
+
+}  // namespace engine

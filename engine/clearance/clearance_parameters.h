@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace engine {
+
+/// LuGre friction, Eq. (11.2).
+struct LuGreParameters {
+  double mu_s = 0.1;      ///< static, [1]
+  double mu_k = 0.2;      ///< kinetic, [1]
+  double sigma_0 = 100.0; ///< bristle stiffness, [1/m]
+  double sigma_1 = 5.0;   ///< bristle damping, [s/m]
+  double sigma_2 = 0.0;   ///< viscous, [s/m]
+  double v_s = 1e-3;      ///< Stribeck velocity, [m/s]
+};
+
+enum class RadialForm { kContinuum, kElements };
+
+/// A revolute joint with clearance: a journal of length L_b in a bearing, contact on the bore and on the two faces.
+struct ClearanceParameters {
+  double r_b = 5e-3;               ///< bearing radius, [m]
+  double c_r = 0.25e-3;            ///< radial clearance, [m], 0 < c_r < r_b
+  double c_a = 0.0;                ///< axial clearance at each face, [m], >= 0
+  double L_b = 20e-3;              ///< [m]
+  RadialForm form = RadialForm::kContinuum;
+  int n_r = 2;                     ///< rings
+  int n_ce = 180;                  ///< elements on a ring (kElements)
+  int n_a = 1;                     ///< circles of points on a face
+  int n_ce_axial = 8;              ///< points on a circle
+  double K = 4.7e10;               ///< Hertz stiffness of the whole bore, [N/m^1.5]
+  double K_a = 1e8;                ///< stiffness of one face, [N/m]
+  double chi = 0.1425;             ///< damping factor of the normal law, 3/4 (1 - k_r^2), [1]
+  double minimum_onset_rate = 1e-3;///< floor of the latched penetration rate, [m/s]
+  std::optional<LuGreParameters> friction;
+
+  [[nodiscard]] double r_j() const { return r_b - c_r; }  ///< journal radius, [m]
+};
+
+/// Hertz stiffness of the bore: K = 4 / (3 pi 2 h) sqrt(r_b r_j / c_r), h = (1 - nu^2) / (pi E). Source: project paper, ref. [9].
+/// @param nu  Poisson's ratio, [1]
+[[nodiscard]] inline double calc_hertz_stiffness(double r_b, double c_r, double youngs_modulus, double nu) {
+  const double h = (1.0 - nu * nu) / (std::numbers::pi * youngs_modulus);
+  return 4.0 / (3.0 * std::numbers::pi * 2.0 * h) * std::sqrt(r_b * (r_b - c_r) / c_r);
+}
+
+/// Hysteresis of Lankarani and Nikravesh: chi = 3/4 (1 - k_r^2).
+[[nodiscard]] inline double calc_damping_factor(double k_r) { return 0.75 * (1.0 - k_r * k_r); }
+
+}  // namespace engine

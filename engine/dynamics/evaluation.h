@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/clearance/journal_motion.h"
+#include "engine/kinematics/frame_motion.h"
+
+namespace engine {
+
+/// A cut joint at one instant.
+struct JointState {
+  JournalMotion journal;                                    ///< {j} seen from {b}
+  ContactLoad load;                                         ///< of a joint with clearance; zero for an ideal one
+  Eigen::Vector3d reaction_W = Eigen::Vector3d::Zero();     ///< force on the journal, [N]
+};
+
+/// Energy and work since the start of the run, and the power with which they change.
+struct EnergyAccount {
+  double kinetic = 0.0;                                     ///< [J]
+  double potential = 0.0;                                   ///< gravity, springs, elastic contact, [J]
+  Eigen::VectorXd drive_work;                               ///< one a drive, [J]
+  double impact_loss = 0.0;                                 ///< [J]
+  double friction_loss = 0.0;                               ///< [J]
+  double structural_loss = 0.0;                             ///< [J]
+
+  /// E - work of the drives + losses: constant if the integration were exact.
+  [[nodiscard]] double calc_balance() const {
+    return kinetic + potential - drive_work.sum() + impact_loss + friction_loss + structural_loss;
+  }
+};
+
+/// All that is known of the mechanism at one instant.
+struct Evaluation {
+  double t = 0.0;
+  Eigen::VectorXd q, qd, qdd;                               ///< every coordinate
+  Eigen::VectorXd drive_force;                              ///< one a drive, [N] or [N m]
+  std::vector<FrameMotion> frames;                          ///< one a coordinate
+  std::vector<JointState> joints;                           ///< one a cut joint
+  EnergyAccount energy;                                     ///< kinetic and potential: by calc_energies()
+};
+
+}  // namespace engine

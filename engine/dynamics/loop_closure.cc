@@ -1,0 +1,125 @@
+#include "engine/dynamics/loop_closure.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <Eigen/QR>
+
+namespace engine {
+
+namespace {
+
+constexpr double kClosed = 1e-13;  // of Phi, [m] and [1]: rounding of positions near 1 m
+constexpr int kMaxIterations = 100;
+constexpr double kMaxStep = 0.5;   // of one Newton step, [rad] or [m]: from a guess far away a full step may leave the branch
+
+Mechanism make_ideal(Mechanism mechanism) {
+  for (CutJoint& joint : mechanism.cut_joints) joint.clearance.reset();
+  mechanism.drive_rows = DriveRows::kEliminated;
+  return mechanism;
+}
+
+std::vector<FrameIndex> unknown_coordinates(const Mechanism& mechanism) {
+  std::vector<FrameIndex> unknown;
+  for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) {
+    const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
+    if (!driven && mechanism.coordinates[static_cast<std::size_t>(i)].stiffness == 0.0) unknown.push_back(i);
+  }
+  return unknown;
+}
+
+}  // namespace
+
+LoopClosure::LoopClosure(const Mechanism& mechanism)
+    : ideal_(make_ideal(mechanism)), unknown_(unknown_coordinates(ideal_)), constraints_(ideal_), tree_(ideal_) {
+  J_.setZero(constraints_.count(), static_cast<Eigen::Index>(unknown_.size()));
+}
+
+bool LoopClosure::is_determined() const {
+  return constraints_.count() == static_cast<Eigen::Index>(unknown_.size()) &&
+         unknown_.size() + ideal_.drives.size() == ideal_.coordinates.size();
+}
+
+void LoopClosure::set_drives(double t, Evaluation& at) const {
+  at.t = t;
+  for (const Drive& drive : ideal_.drives) {
+    const DrivenMotion motion = calc_driven_motion(drive.law, t);
+    at.q[drive.coordinate] = motion.q;
+    at.qd[drive.coordinate] = motion.qd;
+    at.qdd[drive.coordinate] = motion.qdd;
+  }
+}
+
+void LoopClosure::calc_rows(Evaluation& at) {
+  calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
+  constraints_.calc(at.frames, at.q, at.qd, at.t);
+  for (std::size_t k = 0; k < unknown_.size(); ++k) J_.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(unknown_[k]);
+}
+
+bool LoopClosure::assemble(double t, Evaluation& at) {
+  at.q.setZero();
+  at.qd.setZero();
+  at.qdd.setZero();
+  for (const FrameIndex i : unknown_) at.q[i] = ideal_.coordinates[static_cast<std::size_t>(i)].assembly_guess;
+  set_drives(t, at);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    calc_rows(at);
+    if (residual() < kClosed) {
+      const Eigen::VectorXd rates = -J_.completeOrthogonalDecomposition().solve(constraints_.Phi_d);
+      for (std::size_t k = 0; k < unknown_.size(); ++k) at.qd[unknown_[k]] = rates[static_cast<Eigen::Index>(k)];
+      return true;
+    }
+    Eigen::VectorXd step = -J_.completeOrthogonalDecomposition().solve(constraints_.Phi);
+    step *= std::min(1.0, kMaxStep / step.cwiseAbs().maxCoeff());
+    for (std::size_t k = 0; k < unknown_.size(); ++k) at.q[unknown_[k]] += step[static_cast<Eigen::Index>(k)];
+  }
+  return false;
+}
+
+bool LoopClosure::solve(double t, Evaluation& at) {
+  set_drives(t, at);
+  if (!close_position(at)) return false;
+  solve_velocity(at);
+  solve_forces(at);
+  return at.qdd.allFinite();
+}
+
+/// Newton from the present position, which is near: a loop that does not close in a few full steps has reached its end.
+bool LoopClosure::close_position(Evaluation& at) {
+  constexpr int kMaxNear = 12;
+  for (int iteration = 0; iteration < kMaxNear; ++iteration) {
+    for (const FrameIndex i : unknown_) at.qd[i] = at.qdd[i] = 0.0;
+    calc_rows(at);
+    J_lu_.compute(J_);
+    if (residual() < kClosed) return true;
+    const Eigen::VectorXd step = J_lu_.solve(constraints_.Phi);
+    if (!(step.cwiseAbs().maxCoeff() < kMaxStep)) return false;
+    for (std::size_t k = 0; k < unknown_.size(); ++k) at.q[unknown_[k]] -= step[static_cast<Eigen::Index>(k)];
+  }
+  return false;
+}
+
+/// With the unknown rates at zero, Phi_d is what the drives alone do to the loop.
+void LoopClosure::solve_velocity(Evaluation& at) {
+  const Eigen::VectorXd rates = -J_lu_.solve(constraints_.Phi_d);
+  for (std::size_t k = 0; k < unknown_.size(); ++k) at.qd[unknown_[k]] = rates[static_cast<Eigen::Index>(k)];
+  calc_rows(at);
+  const Eigen::VectorXd accelerations = -J_lu_.solve(constraints_.bias);
+  for (std::size_t k = 0; k < unknown_.size(); ++k) at.qdd[unknown_[k]] = accelerations[static_cast<Eigen::Index>(k)];
+}
+
+/// With all accelerations known the recursion gives every generalised force; those of the unknown coordinates are the reactions' doing.
+void LoopClosure::solve_forces(Evaluation& at) {
+  calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
+  tree_.calc(at.frames);
+  Eigen::VectorXd needed(static_cast<Eigen::Index>(unknown_.size()));
+  for (std::size_t k = 0; k < unknown_.size(); ++k) needed[static_cast<Eigen::Index>(k)] = tree_.bias()[unknown_[k]];
+  const Eigen::VectorXd lambda = J_lu_.transpose().solve(needed);
+  for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = lambda.segment<3>(constraints_.row_of_joint(k));
+  for (std::size_t k = 0; k < ideal_.drives.size(); ++k) {
+    const FrameIndex d = ideal_.drives[k].coordinate;
+    at.drive_force[static_cast<Eigen::Index>(k)] = tree_.bias()[d] - constraints_.Phi_q.col(d).dot(lambda);
+  }
+}
+
+}  // namespace engine

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/clearance/normal_force.h"
+
+namespace engine {
+
+/// Where in a step a ring comes into contact or leaves it, by the cubic through its penetration at the two ends.
+///
+/// A step that is to end there should end a hair beyond, on the new side: kBand is how far beyond may still be called "there".
+class ContactEvents {
+ public:
+  static constexpr double kBand = 1e-10;  ///< [m]; at 0.1 m/s that is a nanosecond, and K delta^1.5 a thousandth of a newton at most
+
+  /// The earliest crossing in a step of dt as the length of the step that ends just beyond it; empty if there is none, or only
+  /// one that lies within kBand of the step's end.
+  [[nodiscard]] static std::optional<double> find_first(const std::vector<Penetration>& start, const std::vector<Penetration>& end, double dt);
+};
+
+}  // namespace engine

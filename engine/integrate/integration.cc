@@ -1,0 +1,198 @@
+#include "engine/integrate/integration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/integrate/contact_events.h"
+#include "engine/integrate/interpolation.h"
+
+namespace engine {
+
+namespace {
+
+constexpr double kFirstStep = 1e-6;       // [s]; the controller finds its own within some steps
+constexpr double kLongestStep = 1e-3;     // [s]; no drive and no free flight of a journal is over within it unseen
+constexpr int kMaxLandings = 6;           // tries to end a step on an event
+constexpr long kStepsBetweenQueries = 256;
+
+/// Steps are below this when error control has failed: a hundred roundings of the time.
+double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
+
+}  // namespace
+
+Integration::Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer)
+    : options_(options),
+      observer_(observer),
+      system_(mechanism),
+      dopri5_(options.relative_tolerance, options.absolute_tolerance),
+      control_(5.0),
+      samples_(options.output_rate, options.duration) {}
+
+RunEnd Integration::run(const Evaluation& assembled) {
+  if (!start(assembled)) return run_end_;
+  end_ = start_;
+  take_samples();
+  const bool fixed = options_.integrator == Integrator::kRk4;
+  while (!failed_ && start_.t < options_.duration) {
+    if (run_end_.steps >= options_.step_limit) {
+      fail(RunStatus::kStepLimit, "the run needs more than " + std::to_string(options_.step_limit) + " steps");
+    } else if (run_end_.steps % kStepsBetweenQueries == 0 && observer_.stop_requested(start_.t)) {
+      fail(RunStatus::kStopped, "stopped on request");
+    } else if (fixed ? try_fixed_step() : try_controlled_step()) {
+      accept();
+    }
+  }
+  run_end_.t = start_.t;
+  return run_end_;
+}
+
+bool Integration::start(const Evaluation& assembled) {
+  start_.y = system_.make_state(assembled.q, assembled.qd);
+  start_.at = system_.make_evaluation();
+  end_ = sample_ = start_;
+  start_.f = end_.f = sample_.f = Eigen::VectorXd::Zero(start_.y.size());
+  ++run_end_.evaluations;
+  const EvaluationStatus status = system_.calc_derivative(0.0, start_.y, start_.f, start_.at);
+  if (status != EvaluationStatus::kOk) {
+    fail(status);
+    return false;
+  }
+  system_.calc_energies(start_.at);
+  dt_ = kFirstStep;
+  return true;
+}
+
+/// Bristles follow their contacts; their rates are then those of other elements.
+void Integration::prepare(double dt) {
+  if (system_.prepare_step(start_.at, dt, start_.y)) evaluate_again(start_);
+}
+
+void Integration::evaluate_again(StepEnd& end) {
+  ++run_end_.evaluations;
+  (void)system_.calc_derivative(end.t, end.y, end.f, end.at);  // where it could be evaluated before, it can be now
+  system_.calc_energies(end.at);
+}
+
+void Integration::widen_bristles() {
+  system_.widen_bristles(start_.y);
+  start_.f.setZero(start_.y.size());
+  end_.f.setZero(start_.y.size());
+  sample_.f.setZero(start_.y.size());
+  evaluate_again(start_);
+}
+
+void Integration::fail(EvaluationStatus status) {
+  if (status == EvaluationStatus::kLocked)
+    fail(RunStatus::kLockUp, "the linkage cannot follow its drives any further");
+  else
+    fail(RunStatus::kNonFinite, "the state is no longer a number; a smaller step or tolerance may help");
+}
+
+void Integration::fail(RunStatus status, std::string detail) {
+  failed_ = true;
+  run_end_.status = status;
+  run_end_.detail = std::move(detail);
+}
+
+/// Step k ends at (k + 1) step, whatever rounding; the last one at the end of the run.
+bool Integration::try_fixed_step() {
+  const double t_end = std::min(static_cast<double>(fixed_steps_ + 1) * options_.step, options_.duration);
+  prepare(t_end - start_.t);
+  run_end_.evaluations += 4;
+  const Trial trial = rk4_.try_step(system_, start_, t_end - start_.t, end_);
+  if (trial.status == EvaluationStatus::kBristleMissing) {
+    widen_bristles();
+    return false;
+  }
+  if (trial.status != EvaluationStatus::kOk || !end_.y.allFinite()) {
+    fail(trial.status);
+    return false;
+  }
+  end_.t = t_end;
+  ++fixed_steps_;
+  return true;
+}
+
+bool Integration::try_controlled_step() {
+  const double remaining = options_.duration - start_.t;
+  const double dt = std::min({dt_, kLongestStep, remaining});
+  prepare(dt);
+  const Trial trial = try_step(dt);
+  if (!is_accepted(trial, dt)) return false;
+  dt_ = dt * control_.accept(trial.error);
+  land_on_event(dt);
+  if (failed_) return false;
+  if (dt == remaining && end_.t - start_.t == dt) end_.t = options_.duration;
+  return true;
+}
+
+Trial Integration::try_step(double dt) {
+  run_end_.evaluations += 6;
+  return dopri5_.try_step(system_, start_, dt, end_);
+}
+
+/// Sees to it that the next try does better where this one failed.
+bool Integration::is_accepted(const Trial& trial, double dt) {
+  if (trial.status == EvaluationStatus::kBristleMissing) {
+    widen_bristles();
+    return false;
+  }
+  const bool evaluated = trial.status == EvaluationStatus::kOk && std::isfinite(trial.error);
+  if (evaluated && trial.error <= 1.0) return true;
+  dt_ = dt * (evaluated ? control_.reject(trial.error) : 0.25);
+  if (dt_ < shortest_step(start_.t)) {
+    if (evaluated)
+      fail(RunStatus::kStepUnderflow, "the error stays above the tolerance however small the step");
+    else
+      fail(trial.status);
+  }
+  return false;
+}
+
+/// Where a ring meets or leaves the bore inside the step just tried, takes a shorter one that ends there instead.
+void Integration::land_on_event(double dt) {
+  for (int landing = 0; landing < kMaxLandings; ++landing) {
+    rings_start_.clear();
+    rings_end_.clear();
+    system_.add_penetrations(start_.at, rings_start_);
+    system_.add_penetrations(end_.at, rings_end_);
+    const std::optional<double> until = ContactEvents::find_first(rings_start_, rings_end_, dt);
+    if (!until || *until < shortest_step(start_.t)) return;
+    const Trial trial = try_step(*until);
+    if (trial.status != EvaluationStatus::kOk) {
+      fail(trial.status);
+      return;
+    }
+    dt = *until;
+  }
+}
+
+void Integration::accept() {
+  ++run_end_.steps;
+  system_.calc_energies(end_.at);
+  observer_.on_step(start_.at, end_.at);
+  take_samples();
+  const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
+  if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
+  if (change.any) evaluate_again(end_);
+  std::swap(start_, end_);
+}
+
+/// Samples up to the end of the step, with the contacts as they were in it.
+void Integration::take_samples() {
+  const double dt = end_.t - start_.t;
+  while (!samples_.all_taken() && samples_.next() <= end_.t) {
+    const double t = samples_.next();
+    if (t < end_.t)
+      interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / dt, sample_.y);
+    else
+      sample_.y = end_.y;
+    (void)system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);  // between two states that could be evaluated
+    system_.calc_energies(sample_.at);
+    observer_.on_sample(sample_.at);
+    samples_.take();
+  }
+}
+
+}  // namespace engine

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/integrate/observer.h"
+#include "engine/integrate/sample_times.h"
+#include "engine/integrate/step_control.h"
+#include "engine/integrate/step_method.h"
+#include "engine/simulate.h"
+
+namespace engine {
+
+/// One run by steps: fixed ones, or error-controlled ones that end where a ring meets or leaves the bore.
+class Integration {
+ public:
+  Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer);
+
+  /// @param assembled  position and rates of all coordinates at t = 0
+  [[nodiscard]] RunEnd run(const Evaluation& assembled);
+
+ private:
+  [[nodiscard]] bool start(const Evaluation& assembled);
+  [[nodiscard]] bool try_fixed_step();
+  [[nodiscard]] bool try_controlled_step();
+  [[nodiscard]] Trial try_step(double dt);
+  [[nodiscard]] bool is_accepted(const Trial& trial, double dt);
+  void land_on_event(double dt);
+  void accept();
+  void take_samples();
+  void prepare(double dt);
+  void evaluate_again(StepEnd& end);
+  void widen_bristles();
+  void fail(EvaluationStatus status);
+  void fail(RunStatus status, std::string detail);
+
+  const RunOptions& options_;
+  Observer& observer_;
+  MotionSystem system_;
+  Rk4 rk4_;
+  Dopri5 dopri5_;
+  StepControl control_;
+  SampleTimes samples_;
+  StepEnd start_, end_;
+  StepEnd sample_;                                ///< the state between steps that a sample is taken from
+  std::vector<Penetration> rings_start_, rings_end_;
+  double dt_ = 0.0;                               ///< of the next controlled step
+  long fixed_steps_ = 0;
+  RunEnd run_end_;
+  bool failed_ = false;
+};
+
+}  // namespace engine

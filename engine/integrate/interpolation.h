@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "engine/integrate/step_method.h"
+
+namespace engine {
+
+/// State inside an accepted step: quintic in the coordinates (from q, qd, qdd at both ends) with its derivative for their rates,
+/// cubic for the rest. Contact is stiff: a cubic in q would be wrong by a part of the penetration.
+/// @param s  place in the step, 0 to 1
+void interpolate_state(const StepEnd& start, const StepEnd& end, Eigen::Index free_coordinates, double s, Eigen::VectorXd& y);
+
+}  // namespace engine

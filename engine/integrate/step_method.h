@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+// Odeint's resizing of Eigen vectors must be known before its steppers.
+#include <boost/numeric/odeint/external/eigen/eigen_resize.hpp>
+#include <boost/numeric/odeint/algebra/vector_space_algebra.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+
+#include "engine/dynamics/motion_system.h"
+
+namespace engine {
+
+/// One end of a step: state, its derivative and what was evaluated with it.
+struct StepEnd {
+  double t = 0.0;
+  Eigen::VectorXd y;
+  Eigen::VectorXd f;
+  Evaluation at;
+};
+
+/// A step tried: whether the equations could be evaluated all the way, and the estimate of its local error.
+struct Trial {
+  EvaluationStatus status = EvaluationStatus::kOk;
+  double error = 0.0;  ///< in units of the tolerance; 0 for methods without an estimate
+};
+
+/// The paper's integrator: the classical Runge-Kutta method of order 4.
+class Rk4 {
+ public:
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
+
+ private:
+  boost::numeric::odeint::runge_kutta4<Eigen::VectorXd, double, Eigen::VectorXd, double, boost::numeric::odeint::vector_space_algebra>
+      stepper_;
+};
+
+/// Dormand and Prince's method of order 5 with an error estimate of order 4. The last stage is the next step's first.
+class Dopri5 {
+ public:
+  Dopri5(double relative_tolerance, double absolute_tolerance) : relative_(relative_tolerance), absolute_(absolute_tolerance) {}
+
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
+
+ private:
+  [[nodiscard]] double calc_error(const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const;
+
+  double relative_, absolute_;
+  Eigen::VectorXd local_error_;
+  boost::numeric::odeint::runge_kutta_dopri5<Eigen::VectorXd, double, Eigen::VectorXd, double, boost::numeric::odeint::vector_space_algebra>
+      stepper_;
+};
+
+}  // namespace engine

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// Pose, velocity and acceleration of one coordinate's frame F; all vectors in W.
+struct FrameMotion {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();      ///< R_WF
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();          ///< origin, [m]
+  Eigen::Vector3d p_parent = Eigen::Vector3d::Zero();   ///< origin seen from the parent frame's origin, [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();       ///< of the coordinate
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();          ///< angular velocity, [rad/s]
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();          ///< of the origin, [m/s]
+  Eigen::Vector3d wd = Eigen::Vector3d::Zero();         ///< angular acceleration, [rad/s^2]
+  Eigen::Vector3d vd = Eigen::Vector3d::Zero();         ///< acceleration of the origin less that of gravity, [m/s^2]
+};
+
+/// The motion of the ground as the frames on it see it: at rest, gravity as an upward acceleration.
+[[nodiscard]] FrameMotion ground_motion(const Mechanism& mechanism);
+
+/// Computes the motion of every frame from the joint coordinates, root to tip, Eq. (2) and its derivatives by time.
+/// @param q, qd, qdd  one entry a coordinate. Where qdd is not known yet it is zero, and the result is the bias acceleration.
+/// @param frames      one a coordinate
+void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
+                        std::vector<FrameMotion>& frames);
+
+/// A frame fixed to a coordinate's frame at a constant placement: {b} or {j} of a cut joint.
+[[nodiscard]] FrameMotion calc_placed_motion(const FrameMotion& frame, const Placement& placement);
+
+/// Velocity that a unit rate of the coordinate gives to a point p_W of a body it moves, and its angular velocity.
+struct JacobianColumn {
+  Eigen::Vector3d v;
+  Eigen::Vector3d w;
+};
+[[nodiscard]] JacobianColumn calc_jacobian_column(const Coordinate& coordinate, const FrameMotion& frame, const Eigen::Vector3d& p_W);
+
+}  // namespace engine

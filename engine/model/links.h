@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace engine {
+
+/// Mass properties of one link. Moments are about the link's frame origin, along its frame's axes.
+struct LinkInertia {
+  double mass = 0.0;                                   ///< [kg], > 0
+  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();   ///< (I_x, I_y, I_z), [kg m^2], > 0
+};
+
+/// The links of the linkage, in the order of an array of them.
+enum class Link : std::size_t { k11, k12, k13, k21, k22 };
+inline constexpr std::size_t kLinkCount = 5;
+
+/// A uniform rod along x with its frame's origin at one end: I_y = I_z = m l^2 / 3 + I_x / 2.
+[[nodiscard]] inline LinkInertia rod_inertia(double mass, double length, double I_x) {
+  const double transverse = mass * length * length / 3.0 + 0.5 * I_x;
+  return {mass, {I_x, transverse, transverse}};
+}
+
+}  // namespace engine

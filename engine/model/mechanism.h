@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/clearance/clearance_parameters.h"
+#include "engine/model/drive_law.h"
+
+namespace engine {
+
+enum class Axis { kX, kY, kZ };
+enum class Motion { kRotation, kTranslation };
+
+/// A constant placement of one frame in another: x_A = R_AB x_B + p_AB.
+struct Placement {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// Index of a coordinate, and of the frame it moves; kGround is the fixed frame {0}, called W in names.
+using FrameIndex = int;
+inline constexpr FrameIndex kGround = -1;
+
+/// One joint coordinate and the frame it moves. Joints of several degrees of freedom are several of them in a row.
+/// The frame's mass properties are those of the body fixed to it; a frame inside a joint has none.
+struct Coordinate {
+  std::string name;                   ///< the paper's symbol in ASCII, e.g. "psi_1_3_0"
+  FrameIndex parent = kGround;        ///< smaller than the own index
+  Placement placement;                ///< of the joint in the parent's frame
+  Motion motion = Motion::kRotation;
+  Axis axis = Axis::kZ;               ///< in the parent's frame after `placement`, and in the own
+  double stiffness = 0.0;             ///< spring on the coordinate, [N m/rad] or [N/m]
+  double damping = 0.0;               ///< damper on the coordinate, [N m s/rad] or [N s/m]
+  double assembly_guess = 0.0;        ///< where Newton's method begins to close the loops, [rad] or [m]
+
+  double mass = 0.0;                                      ///< [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();          ///< centre of mass in the frame, [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();      ///< about the frame's origin, [kg m^2]
+};
+
+/// A revolute joint at which a loop is cut: a bearing on one frame, a journal on another, z their common axis.
+/// Without clearance it is five constraint rows, with it only the forces between the two surfaces.
+struct CutJoint {
+  FrameIndex bearing_frame = kGround;
+  FrameIndex journal_frame = kGround;
+  Placement bearing;                                      ///< {b} in bearing_frame
+  Placement journal;                                      ///< {j} in journal_frame
+  std::optional<ClearanceParameters> clearance;           ///< empty: the ideal joint
+};
+
+/// A coordinate whose motion is given.
+struct Drive {
+  FrameIndex coordinate = 0;
+  DriveLaw law;
+};
+
+enum class DriveRows {
+  kEliminated,  ///< the driven coordinates are substituted: exact
+  kMultipliers, ///< constraint rows with Baumgarte's stabilisation, as in the paper
+};
+
+/// A link made visible: the pose of one frame.
+struct NamedFrame {
+  std::string name;  ///< of the link, "1,3" say
+  FrameIndex frame = 0;
+};
+
+/// Open chains of bodies and joints, the joints that close them, the drives. Constant once a run has begun.
+struct Mechanism {
+  std::vector<Coordinate> coordinates;
+  std::vector<CutJoint> cut_joints;
+  std::vector<Drive> drives;
+  DriveRows drive_rows = DriveRows::kEliminated;
+  double baumgarte_alpha = 100.0;                         ///< [1/s]
+  double baumgarte_beta = 100.0;                          ///< [1/s]
+  Eigen::Vector3d gravity_W = Eigen::Vector3d::Zero();    ///< [m/s^2]
+  std::vector<NamedFrame> links;
+};
+
+/// True if the coordinate `ancestor` moves the frame `frame`.
+[[nodiscard]] inline bool moves(const Mechanism& mechanism, FrameIndex ancestor, FrameIndex frame) {
+  while (frame > ancestor) frame = mechanism.coordinates[static_cast<std::size_t>(frame)].parent;
+  return frame == ancestor;
+}
+
+}  // namespace engine

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+
+#include "engine/model/links.h"
+
+namespace engine {
+
+enum class Coupler { kRigid, kFlexible };
+enum class DriveEnforcement { kPrescribed, kBaumgarte };
+enum class ContactForm { kContinuum, kElements };
+enum class FrictionLaw { kLuGre, kNone };
+
+/// Everything that defines one RPSUP linkage, its drives and its clearance joint, in SI units.
+/// The values below are the defaults of the study; the README says where each comes from.
+struct RpsupParameters {
+  // Links
+  Coupler coupler = Coupler::kRigid;
+  double crank_length = 0.2;                       ///< length of link (1,1), [m]
+  double rod_length = 0.2;                         ///< length of link (1,2): its origin to the S joint, [m]
+  double coupler_length = 0.5;                     ///< S joint to the centre of the bearing, [m]
+  double guide_offset_y = 0.0;                     ///< the slider's guide in the global frame, [m]
+  double guide_offset_z = 0.2;                     ///< [m]
+  double gravity = 9.81;                           ///< along -y, [m/s^2]
+  /// Table 1, links of chain 1 as the rods they are. Its rows for (2,1) and (2,2) are no moments of a body (they break
+  /// I_x <= I_y + I_z: the third repeats the second) and are read as those of a box and of a tube along z.
+  std::array<LinkInertia, kLinkCount> links{{
+      rod_inertia(0.471, 0.2, 6.964e-5),
+      rod_inertia(0.490, 0.2, 2.451e-5),
+      rod_inertia(0.306, 0.5, 3.829e-6),
+      {0.780, {8.126e-4, 1.885e-4, 6.76e-4}},
+      {0.107, {9.354e-5, 9.354e-5, 8.377e-6}},
+  }};
+
+  // Flexible coupler (modified rigid finite element method)
+  int rigid_elements = 4;                          ///< n_rfe, >= 2
+  double youngs_modulus = 2.1e11;                  ///< E, [Pa]
+  double shear_modulus = 0.8e11;                   ///< G, [Pa]
+  double coupler_diameter = 0.010;                 ///< d, [m]
+  double coupler_damping_ratio = 0.01;             ///< zeta of the first bending mode, [1]
+
+  // Drives
+  double crank_velocity = 10.0;                    ///< omega_0, [rad/s]
+  double run_up = 2.0;                             ///< time in which the crank reaches omega_0, [s]
+  double rod_stroke = 0.05;                        ///< [m]
+  double rod_stroke_time = 0.5;                    ///< time of the rise, and of the return, [s]
+  double rod_pause = 0.5;                          ///< [s]
+  DriveEnforcement drive = DriveEnforcement::kPrescribed;
+  double baumgarte_alpha = 100.0;                  ///< [1/s]
+  double baumgarte_beta = 100.0;                   ///< [1/s]
+
+  // Clearance joint
+  double c_r = 0.25e-3;                            ///< radial clearance, [m]; 0: the ideal joint
+  double c_a = 0.0;                                ///< axial clearance, [m]
+  ContactForm contact = ContactForm::kContinuum;
+  int radial_levels = 2;                           ///< n_r, rings along the journal
+  int radial_elements = 180;                       ///< n_ce on a ring
+  int axial_levels = 1;                            ///< n_a, circles on a face
+  int axial_elements = 8;                          ///< points on a circle
+  double bearing_radius = 5e-3;                    ///< r_b, [m]
+  double bearing_length = 20e-3;                   ///< L_b, [m]
+  double restitution = 0.9;                        ///< k_r, (0, 1]
+  double contact_stiffness_scale = 1.0;            ///< factor on the Hertz stiffness K, [1]
+  double axial_stiffness = 1e8;                    ///< K_a of one face, [N/m]
+  double minimum_impact_velocity = 1e-3;           ///< floor of the latched onset velocity, [m/s]
+  FrictionLaw friction = FrictionLaw::kLuGre;
+  double mu_s = 0.1;                               ///< static; the paper prints mu_s < mu_k, [1]
+  double mu_k = 0.2;                               ///< kinetic, [1]
+  double sigma_0 = 100.0;                          ///< bristle stiffness, [1/m]
+  double sigma_1 = 5.0;                            ///< bristle damping, [s/m]
+  double sigma_2 = 0.0;                            ///< viscous friction, [s/m]
+  double v_s = 1e-3;                               ///< Stribeck velocity, [m/s]
+};
+
+}  // namespace engine

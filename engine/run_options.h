@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string_view>
+
+namespace engine {
+
+enum class Integrator { kDopri5, kRk4 };
+
+/// How a run is integrated and what is kept of it.
+struct RunOptions {
+  double duration = 5.0;                    ///< [s], > 0
+  double output_rate = 1000.0;              ///< samples of the trajectory, [Hz]
+  Integrator integrator = Integrator::kDopri5;
+  double step = 1e-5;                       ///< of rk4, [s]
+  double relative_tolerance = 1e-6;         ///< of the error-controlled integrators, [1]
+  double absolute_tolerance = 1e-7;         ///< of the error-controlled integrators, in the state's units
+  long step_limit = 100'000'000;            ///< steps after which the run ends with kStepLimit
+};
+
+/// How a run ended. Everything but kSucceeded keeps the samples up to the time of the end.
+enum class RunStatus {
+  kSucceeded,
+  kAssembly,       ///< the loop cannot be closed at t = 0
+  kLockUp,         ///< the loop cannot follow its drives any further
+  kNonFinite,      ///< the state is no longer a number
+  kStepUnderflow,  ///< error control asks for steps below the resolution of time
+  kStepLimit,      ///< RunOptions::step_limit reached
+  kStopped,        ///< the caller asked for it
+};
+
+/// The word for a status that the service and its users see: "succeeded", "assembly", "lock_up", "non_finite", ...
+[[nodiscard]] std::string_view status_name(RunStatus status);
+
+}  // namespace engine

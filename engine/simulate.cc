@@ -1,0 +1,40 @@
+#include "engine/simulate.h"
+
+#include <cstddef>
+#include <string>
+
+#include "engine/dynamics/loop_closure.h"
+#include "engine/integrate/integration.h"
+#include "engine/integrate/kinematic_run.h"
+
+namespace engine {
+
+std::string_view status_name(RunStatus status) {
+  switch (status) {
+    case RunStatus::kSucceeded: return "succeeded";
+    case RunStatus::kAssembly: return "assembly";
+    case RunStatus::kLockUp: return "lock_up";
+    case RunStatus::kNonFinite: return "non_finite";
+    case RunStatus::kStepUnderflow: return "step_underflow";
+    case RunStatus::kStepLimit: return "step_limit";
+    case RunStatus::kStopped: return "stopped";
+  }
+  return "unknown";
+}
+
+RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer) {
+  LoopClosure closure(mechanism);
+  Evaluation assembled = MotionSystem(mechanism).make_evaluation();
+  if (!closure.assemble(0.0, assembled)) {
+    RunEnd end;
+    end.status = RunStatus::kAssembly;
+    end.detail = "the loop cannot be closed at t = 0: the nearest position found leaves a gap of " + std::to_string(closure.residual()) + " m";
+    return end;
+  }
+  bool ideal = mechanism.drive_rows == DriveRows::kEliminated && options.integrator != Integrator::kRk4;
+  for (const CutJoint& joint : mechanism.cut_joints) ideal = ideal && !joint.clearance;
+  if (ideal && closure.is_determined()) return run_kinematics(mechanism, closure, options, observer, assembled);
+  return Integration(mechanism, options, observer).run(assembled);
+}
+
+}  // namespace engine

@@ -1,0 +1,45 @@
+#include "engine/simulate_rpsup.h"
+
+#include "engine/analysis/rpsup_channels.h"
+#include "engine/analysis/rpsup_metrics.h"
+#include "engine/model/rpsup.h"
+#include "engine/simulate.h"
+
+namespace engine {
+
+namespace {
+
+class RpsupObserver : public Observer {
+ public:
+  RpsupObserver(const RpsupParameters& parameters, const Rpsup& rpsup, const StopQuery& stop_requested)
+      : metrics(parameters, rpsup.layout), channels(parameters, rpsup), stop_requested_(stop_requested) {}
+
+  void on_step(const Evaluation& start, const Evaluation& end) override {
+    metrics.take_step(start, end);
+    channels.take_step(start, end);
+  }
+  void on_sample(const Evaluation& at) override { channels.take_sample(at); }
+  void on_onsets(int count) override { metrics.take_onsets(count); }
+  [[nodiscard]] bool stop_requested(double t) override { return stop_requested_ && stop_requested_(t); }
+
+  RpsupMetrics metrics;
+  RpsupChannels channels;
+
+ private:
+  const StopQuery& stop_requested_;
+};
+
+}  // namespace
+
+RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& options, const StopQuery& stop_requested) {
+  check_parameters(parameters, options);
+  const Rpsup rpsup = build_rpsup(parameters);
+  RpsupObserver observer(parameters, rpsup, stop_requested);
+  const RunEnd end = simulate(rpsup.mechanism, options, observer);
+  RunResult result{.status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
+  if (end.status == RunStatus::kSucceeded) result.metrics = observer.metrics.calc(options, end);
+  result.trajectory = observer.channels.finish(observer.metrics.work_turned_over());
+  return result;
+}
+
+}  // namespace engine

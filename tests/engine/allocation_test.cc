@@ -1,0 +1,82 @@
+// The right-hand side allocates nothing: this program counts every operator new.
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "engine/dynamics/loop_closure.h"
+#include "engine/integrate/step_method.h"
+#include "engine/model/rpsup.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Not inlined: the compiler would see malloc meet delete.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace engine {
+namespace {
+
+struct AllocationCase {
+  const char* name;
+  RpsupParameters parameters;
+};
+void PrintTo(const AllocationCase& c, std::ostream* out) { *out << c.name; }
+
+class RightHandSide : public testing::TestWithParam<AllocationCase> {};
+
+TEST_P(RightHandSide, AllocatesNothing) {
+  const Mechanism mechanism = build_rpsup(GetParam().parameters).mechanism;
+  MotionSystem system(mechanism);
+  Evaluation assembled = system.make_evaluation();
+  ASSERT_TRUE(LoopClosure(mechanism).assemble(0.0, assembled));
+  assembled.q[2] += 0.51e-3;  // lifts the coupler's end by 0.255 mm: 5 um into contact
+  StepEnd start, end;
+  start.y = system.make_state(assembled.q, assembled.qd);
+  start.f = Eigen::VectorXd::Zero(start.y.size());
+  start.at = system.make_evaluation();
+  end = start;
+  Dopri5 method(1e-6, 1e-7);
+  (void)system.calc_derivative(0.0, start.y, start.f, start.at);
+  (void)system.prepare_step(start.at, 1e-9, start.y);  // the elements' bristles go where the contact is
+  ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
+  ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the method's own vectors
+
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
+    system.calc_energies(end.at);
+  }
+  EXPECT_EQ(allocations - before, 0);
+}
+
+RpsupParameters with(Coupler coupler, ContactForm contact, double c_r, DriveEnforcement drive) {
+  RpsupParameters p;
+  p.coupler = coupler;
+  p.contact = contact;
+  p.c_r = c_r;
+  p.drive = drive;
+  return p;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, RightHandSide,
+    testing::Values(
+        AllocationCase{"rigid", with(Coupler::kRigid, ContactForm::kContinuum, 0.25e-3, DriveEnforcement::kPrescribed)},
+        AllocationCase{"flexible", with(Coupler::kFlexible, ContactForm::kContinuum, 0.25e-3, DriveEnforcement::kPrescribed)},
+        AllocationCase{"elements", with(Coupler::kFlexible, ContactForm::kElements, 0.25e-3, DriveEnforcement::kPrescribed)},
+        AllocationCase{"ideal", with(Coupler::kFlexible, ContactForm::kContinuum, 0.0, DriveEnforcement::kPrescribed)},
+        AllocationCase{"multipliers", with(Coupler::kRigid, ContactForm::kContinuum, 0.0, DriveEnforcement::kBaumgarte)}),
+    [](const auto& c) { return c.param.name; });
+
+}  // namespace
+}  // namespace engine

@@ -1,0 +1,161 @@
+// The integrators on problems whose answer is known: order of convergence, events, samples.
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/integrate/contact_events.h"
+#include "engine/integrate/integration.h"
+#include "engine/integrate/interpolation.h"
+#include "engine/model/mechanism.h"
+#include "engine/simulate.h"
+
+namespace engine {
+namespace {
+
+/// A double pendulum of two bodies: smooth, free, with an energy.
+Mechanism make_pendulum(double gravity = 9.81) {
+  Mechanism m;
+  m.coordinates.push_back({.name = "angle", .placement = {}, .axis = Axis::kZ, .assembly_guess = 1.0, .mass = 2.0,
+                           .com = {0.3, 0.0, 0.0}, .inertia = Eigen::Vector3d(0.01, 0.25, 0.25).asDiagonal()});
+  m.coordinates.push_back({.name = "second", .parent = 0, .placement = {.p = {0.5, 0.0, 0.0}}, .axis = Axis::kZ, .assembly_guess = -0.5,
+                           .mass = 1.0, .com = {0.2, 0.1, 0.0}, .inertia = Eigen::Vector3d(0.02, 0.06, 0.08).asDiagonal()});
+  m.gravity_W = {0.0, -gravity, 0.0};
+  return m;
+}
+
+class LastState : public Observer {
+ public:
+  void on_step(const Evaluation&, const Evaluation& end) override { q = end.q; }
+  void on_sample(const Evaluation& at) override {
+    times.push_back(at.t);
+    sampled_q.push_back(at.q[0]);
+    balance.push_back(at.energy.calc_balance());
+  }
+  void on_onsets(int) override {}
+  bool stop_requested(double) override { return false; }
+  Eigen::VectorXd q;
+  std::vector<double> times, sampled_q, balance;
+};
+
+Eigen::VectorXd final_position(const RunOptions& options) {
+  LastState observer;
+  EXPECT_EQ(simulate(make_pendulum(), options, observer).status, RunStatus::kSucceeded);
+  return observer.q;
+}
+
+TEST(Rk4, ConvergesWithOrderFour) {
+  RunOptions options{.duration = 1.0, .integrator = Integrator::kRk4, .step = 1e-4};
+  const Eigen::VectorXd exact = final_position(options);
+  std::vector<double> errors;
+  for (const double step : {8e-3, 4e-3, 2e-3}) {
+    options.step = step;
+    errors.push_back((final_position(options) - exact).norm());
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 4.0, 0.25);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4.0, 0.25);
+}
+
+// In a field so strong that the pendulum swings some hundred times a second, the tolerance decides the steps.
+TEST(Dopri5, ErrorFallsWithTheTolerance) {
+  const Mechanism fast = make_pendulum(1e6);
+  const auto run = [&](const RunOptions& options) {
+    LastState observer;
+    EXPECT_EQ(simulate(fast, options, observer).status, RunStatus::kSucceeded);
+    return observer.q;
+  };
+  const Eigen::VectorXd exact = run({.duration = 5e-3, .integrator = Integrator::kRk4, .step = 1e-7});
+  double last = 1.0;
+  for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) {
+    const double error = (run({.duration = 5e-3, .relative_tolerance = tolerance, .absolute_tolerance = tolerance}) - exact).norm();
+    EXPECT_LT(error, 30.0 * tolerance);
+    EXPECT_LT(error, 0.2 * last);  // two digits less tolerance, at least most of one digit less error
+    last = error;
+  }
+}
+
+TEST(Integration, SamplesAtEachMultipleAndAtTheEnd) {
+  LastState observer;
+  ASSERT_EQ(simulate(make_pendulum(), {.duration = 0.0255, .output_rate = 1000.0}, observer).status, RunStatus::kSucceeded);
+  ASSERT_EQ(observer.times.size(), 27u);  // 0, 1 ms, ... 25 ms and the end
+  EXPECT_DOUBLE_EQ(observer.times[13], 0.013);
+  EXPECT_DOUBLE_EQ(observer.times.back(), 0.0255);
+  EXPECT_DOUBLE_EQ(observer.sampled_q.front(), 1.0);
+  EXPECT_EQ(observer.sampled_q.back(), observer.q[0]);
+}
+
+TEST(Integration, SamplesBetweenStepsLieOnTheSolution) {
+  // Steps of 4 ms, samples each 1 ms, against steps of 1 ms that end on the samples.
+  LastState coarse, fine;
+  const RunOptions options{.duration = 0.4, .integrator = Integrator::kRk4, .step = 4e-3};
+  ASSERT_EQ(simulate(make_pendulum(), options, coarse).status, RunStatus::kSucceeded);
+  RunOptions small = options;
+  small.step = 1e-3;
+  ASSERT_EQ(simulate(make_pendulum(), small, fine).status, RunStatus::kSucceeded);
+  ASSERT_EQ(coarse.times.size(), fine.times.size());
+  for (std::size_t k = 0; k < coarse.times.size(); ++k) {
+    EXPECT_NEAR(coarse.sampled_q[k], fine.sampled_q[k], 1e-8) << coarse.times[k];
+    EXPECT_NEAR(coarse.balance[k], coarse.balance[0], 2e-7) << coarse.times[k];  // RK4 itself drifts by 1.2e-7 J at 4 ms
+  }
+}
+
+TEST(Interpolation, IsExactForAQuinticMotion) {
+  // q = t^5 - t^3 + 2 over [0, 2]: q, qd, qdd at both ends give it back.
+  const auto q = [](double t) { return std::pow(t, 5) - std::pow(t, 3) + 2.0; };
+  const auto qd = [](double t) { return 5.0 * std::pow(t, 4) - 3.0 * t * t; };
+  const auto qdd = [](double t) { return 20.0 * std::pow(t, 3) - 6.0 * t; };
+  StepEnd start, end;
+  end.t = 2.0;
+  start.y = Eigen::Vector2d(q(0.0), qd(0.0));
+  start.f = Eigen::Vector2d(qd(0.0), qdd(0.0));
+  end.y = Eigen::Vector2d(q(2.0), qd(2.0));
+  end.f = Eigen::Vector2d(qd(2.0), qdd(2.0));
+  Eigen::VectorXd y;
+  for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+    interpolate_state(start, end, 1, s, y);
+    EXPECT_NEAR(y[0], q(2.0 * s), 1e-13);
+    EXPECT_NEAR(y[1], qd(2.0 * s), 1e-12);
+  }
+}
+
+std::vector<Penetration> one(double delta, double rate) { return {{delta, rate}}; }
+
+TEST(ContactEvents, EndAStepJustBeyondTheOnset) {
+  // Constant approach at 0.5 m/s, onset in the middle of a step of 2 us.
+  const auto until = ContactEvents::find_first(one(-0.5e-6, 0.5), one(0.5e-6, 0.5), 2e-6);
+  ASSERT_TRUE(until);
+  EXPECT_GT(*until, 1e-6);
+  EXPECT_NEAR(0.5 * (*until - 1e-6), 0.5 * ContactEvents::kBand, 1e-15);
+}
+
+TEST(ContactEvents, EndAStepJustBeyondTheParting) {
+  const auto until = ContactEvents::find_first(one(1e-6, -0.5), one(-1e-6, -0.5), 4e-6);
+  ASSERT_TRUE(until);
+  EXPECT_NEAR(*until, 2e-6 + 1e-10, 1e-12);
+}
+
+TEST(ContactEvents, SeeATouchBetweenTwoEndsThatAreFree) {
+  // (t - 1/4)(3/4 - t) um over a second
+  const auto until = ContactEvents::find_first(one(-0.1875e-6, 1e-6), one(-0.1875e-6, -1e-6), 1.0);
+  ASSERT_TRUE(until);
+  EXPECT_NEAR(*until, 0.25, 1e-3);
+}
+
+TEST(ContactEvents, TakeTheFirstOfTwoRings) {
+  const std::vector<Penetration> start{{-1e-6, 1.0}, {-2e-6, 1.0}};
+  const std::vector<Penetration> end{{9e-6, 1.0}, {8e-6, 1.0}};
+  const auto until = ContactEvents::find_first(start, end, 1e-5);
+  ASSERT_TRUE(until);
+  EXPECT_NEAR(*until, 1e-6, 1e-9);
+}
+
+TEST(ContactEvents, LeaveAStepAloneThatEndsOnTheEventOrHasNone) {
+  EXPECT_FALSE(ContactEvents::find_first(one(-1e-6, 1.0), one(0.5e-10, 1.0), 1e-6));
+  EXPECT_FALSE(ContactEvents::find_first(one(-2e-6, 0.1), one(-1e-6, 0.1), 1e-5));
+  EXPECT_FALSE(ContactEvents::find_first(one(2e-6, 0.1), one(3e-6, 0.1), 1e-5));
+}
+
+}  // namespace
+}  // namespace engine

@@ -1,0 +1,149 @@
+// What is no linkage is refused before it runs, and what locks while it runs says so.
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/errors.h"
+#include "engine/model/rpsup.h"
+#include "engine/simulate.h"
+#include "engine/simulate_rpsup.h"
+
+namespace engine {
+namespace {
+
+struct Refusal {
+  const char* name;
+  const char* field;
+  std::function<void(RpsupParameters&, RunOptions&)> spoil;
+};
+void PrintTo(const Refusal& c, std::ostream* out) { *out << c.name; }
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class Refusals : public testing::TestWithParam<Refusal> {};
+
+TEST_P(Refusals, NameTheField) {
+  RpsupParameters parameters;
+  RunOptions options;
+  EXPECT_NO_THROW(check_parameters(parameters, options));
+  GetParam().spoil(parameters, options);
+  try {
+    check_parameters(parameters, options);
+    FAIL() << "accepted";
+  } catch (const InvalidInput& refusal) {
+    EXPECT_EQ(refusal.field(), GetParam().field);
+    EXPECT_FALSE(refusal.detail().empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Engine, Refusals,
+    testing::Values(
+        Refusal{"negative_clearance", "c_r", [](auto& p, auto&) { p.c_r = -1e-4; }},
+        Refusal{"clearance_of_the_whole_bearing", "c_r", [](auto& p, auto&) { p.c_r = p.bearing_radius; }},
+        Refusal{"not_a_number", "crank_velocity", [](auto& p, auto&) { p.crank_velocity = kNan; }},
+        Refusal{"infinite_stroke", "rod_stroke", [](auto& p, auto&) { p.rod_stroke = 1.0 / 0.0; }},
+        Refusal{"no_mass", "links.1,2.mass", [](auto& p, auto&) { p.links[1].mass = 0.0; }},
+        // The paper's own printed row for link (2,1).
+        Refusal{"triangle_inequality", "links.2,1.inertia", [](auto& p, auto&) { p.links[3].inertia = {8.126e-4, 1.885e-4, 1.885e-4}; }},
+        Refusal{"steiner", "links.1,3.inertia", [](auto& p, auto&) { p.links[2].inertia = {3.829e-6, 0.01, 0.01}; }},
+        Refusal{"one_element", "rigid_elements", [](auto& p, auto&) { p.rigid_elements = 1; }},
+        Refusal{"poisson", "shear_modulus", [](auto& p, auto&) { p.shear_modulus = 0.5e11; }},
+        Refusal{"restitution", "restitution", [](auto& p, auto&) { p.restitution = 1.1; }},
+        Refusal{"guide_out_of_reach", "coupler_length", [](auto& p, auto&) { p.guide_offset_z = 0.6; }},
+        Refusal{"locks_on_the_way", "coupler_length", [](auto& p, auto&) { p.guide_offset_z = 0.45; }},
+        Refusal{"no_time", "duration", [](auto&, auto& o) { o.duration = 0.0; }},
+        Refusal{"no_tolerance", "relative_tolerance", [](auto&, auto& o) { o.relative_tolerance = -1.0; }}),
+    [](const auto& c) { return c.param.name; });
+
+class NoObserver : public Observer {
+ public:
+  void on_step(const Evaluation&, const Evaluation& end) override { last_t = end.t; }
+  void on_sample(const Evaluation&) override { ++samples; }
+  void on_onsets(int) override {}
+  bool stop_requested(double t) override { return t > stop_at; }
+  double last_t = 0.0;
+  int samples = 0;
+  double stop_at = std::numeric_limits<double>::infinity();
+};
+
+TEST(Runs, AGuideOutOfReachCannotBeAssembled) {
+  RpsupParameters parameters;
+  parameters.guide_offset_z = 0.6;  // 0.1 m beyond the coupler
+  NoObserver observer;
+  const RunEnd end = simulate(build_rpsup(parameters).mechanism, {}, observer);
+  EXPECT_EQ(end.status, RunStatus::kAssembly);
+  EXPECT_EQ(end.t, 0.0);
+  EXPECT_NE(end.detail.find("cannot be closed"), std::string::npos);
+  EXPECT_EQ(observer.samples, 0);
+}
+
+/// Time at which r sin psi reaches the end of the coupler's reach, by bisection of the closed form.
+double lock_time(const RpsupParameters& parameters) {
+  double free = 0.0;
+  double locked = 2.0;
+  while (locked - free > 1e-12) {
+    const double middle = 0.5 * (free + locked);
+    (calc_reach_squared(parameters, middle) > 0.0 ? free : locked) = middle;
+  }
+  return free;
+}
+
+TEST(Runs, ALinkageThatLocksSaysWhen) {
+  RpsupParameters parameters;
+  parameters.guide_offset_z = 0.48;  // reach left for r sin psi: 0.14 m of 0.2 m
+  const double expected = lock_time(parameters);
+  ASSERT_GT(expected, 0.1);
+  struct Case {
+    const char* name;
+    Coupler coupler;
+    Integrator integrator;
+  };
+  for (const Case& c : {Case{"solved", Coupler::kRigid, Integrator::kDopri5}, Case{"rk4", Coupler::kRigid, Integrator::kRk4}}) {
+    parameters.c_r = 0.0;
+    parameters.coupler = c.coupler;
+    RunOptions options;
+    options.integrator = c.integrator;
+    NoObserver observer;
+    const RunEnd end = simulate(build_rpsup(parameters).mechanism, options, observer);
+    EXPECT_TRUE(end.status == RunStatus::kLockUp || (c.integrator == Integrator::kRk4 && end.status == RunStatus::kNonFinite))
+        << c.name << " " << status_name(end.status);
+    EXPECT_NEAR(end.t, expected, 2e-3) << c.name;
+    EXPECT_GT(observer.samples, static_cast<int>(1000 * (expected - 2e-3))) << c.name;
+  }
+}
+
+TEST(Runs, StopWhenAsked) {
+  NoObserver observer;
+  observer.stop_at = 0.02;
+  const RunEnd end = simulate(build_rpsup({}).mechanism, {}, observer);
+  EXPECT_EQ(end.status, RunStatus::kStopped);
+  EXPECT_GT(end.t, 0.02);
+  EXPECT_LT(end.t, 0.1);
+}
+
+TEST(Runs, EndAtTheirStepLimit) {
+  RunOptions options;
+  options.step_limit = 100;
+  NoObserver observer;
+  const RunEnd end = simulate(build_rpsup({}).mechanism, options, observer);
+  EXPECT_EQ(end.status, RunStatus::kStepLimit);
+  EXPECT_EQ(end.steps, 100);
+}
+
+TEST(Runs, AStepTooLargeForTheContactIsAFailureNotAResult) {
+  RunOptions options;
+  options.integrator = Integrator::kRk4;
+  options.step = 1e-3;  // ten times the duration of an impact
+  NoObserver observer;
+  const RunEnd end = simulate(build_rpsup({}).mechanism, options, observer);
+  EXPECT_EQ(end.status, RunStatus::kNonFinite);
+  EXPECT_LT(end.t, options.duration);
+}
+
+}  // namespace
+}  // namespace engine

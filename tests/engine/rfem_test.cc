@@ -1,0 +1,69 @@
+#include "engine/flexible/rfem.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace engine {
+namespace {
+
+const UniformRod kCoupler{.length = 0.5, .mass = 0.306, .I_x = 3.829e-6, .diameter = 0.01, .youngs_modulus = 2.1e11,
+                          .shear_modulus = 0.8e11, .damping_ratio = 0.01};
+
+class DividedRods : public testing::TestWithParam<int> {};
+
+// Cutting a rod in pieces changes neither its mass nor its moments.
+TEST_P(DividedRods, KeepMassAndMomentsOfTheWhole) {
+  const DividedRod divided = divide_rod(kCoupler, GetParam());
+  ASSERT_EQ(divided.elements.size(), static_cast<std::size_t>(GetParam()));
+  double x = 0.0, mass = 0.0, I_x = 0.0, I_y = 0.0, moment = 0.0;
+  for (const RigidElement& rfe : divided.elements) {
+    mass += rfe.mass;
+    moment += rfe.mass * (x + 0.5 * rfe.length);
+    I_x += rfe.inertia.x();
+    I_y += rfe.inertia.y() + rfe.mass * (2.0 * x * 0.5 * rfe.length + x * x);  // Steiner to the rod's end
+    x += rfe.length;
+  }
+  EXPECT_NEAR(x, 0.5, 1e-15);
+  EXPECT_NEAR(mass, 0.306, 1e-15);
+  EXPECT_NEAR(moment, 0.306 * 0.25, 1e-15);
+  EXPECT_NEAR(I_x, 3.829e-6, 1e-20);
+  EXPECT_NEAR(I_y, 0.306 * 0.25 / 3.0 + 0.5 * 3.829e-6, 1e-15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Numbers, DividedRods, testing::Values(2, 3, 4, 10, 64));
+
+// n_sde springs in a row twist like the rod itself: GJ / l, with J = pi d^4 / 32.
+TEST(DividedRod, TwistsLikeTheRod) {
+  const DividedRod divided = divide_rod(kCoupler, 4);
+  EXPECT_NEAR(divided.sde.stiffness[2] / 3.0, 0.8e11 * std::numbers::pi * 1e-8 / 32.0 / 0.5, 1e-9);
+}
+
+// A clamped rod of n equal segments with a spring in the middle of each bends under a tip force by P l^3 / (3 EI) (1 - 1 / (4 n^2)).
+TEST(DividedRod, BendsLikeTheRod) {
+  for (const int n_rfe : {2, 4, 9}) {
+    const DividedRod divided = divide_rod(kCoupler, n_rfe);
+    double deflection = 0.0;  // under 1 N: each spring turns by its arm over its stiffness, and lifts the tip by its arm times that
+    double x = 0.0;
+    for (int s = 0; s + 1 < n_rfe; ++s) {
+      x += divided.elements[static_cast<std::size_t>(s)].length;
+      deflection += (0.5 - x) * (0.5 - x) / divided.sde.stiffness[1];
+    }
+    const double EI = 2.1e11 * std::numbers::pi * 1e-8 / 64.0;
+    const int n = n_rfe - 1;
+    EXPECT_NEAR(deflection, std::pow(0.5, 3) / (3.0 * EI) * (1.0 - 1.0 / (4.0 * n * n)), 1e-16);
+  }
+}
+
+// zeta = 0.01 at the first pinned-pinned frequency of the paper's coupler, 81.4994 Hz: D = 2 zeta / omega_1 S.
+TEST(DividedRod, DampsTheFirstBendingMode) {
+  const DividedRod divided = divide_rod(kCoupler, 4);
+  const double omega_1 = std::pow(std::numbers::pi / 0.5, 2) * std::sqrt(2.1e11 * std::numbers::pi * 1e-8 / 64.0 * 0.5 / 0.306);
+  EXPECT_NEAR(omega_1 / (2.0 * std::numbers::pi), 81.54, 0.01);  // 81.4994 for the mass of 0.30631 kg
+  EXPECT_NEAR(divided.sde.damping[0] / divided.sde.stiffness[0], 0.02 / omega_1, 1e-12);
+  EXPECT_NEAR(divided.sde.damping[2] / divided.sde.stiffness[2], 0.02 / omega_1, 1e-12);
+}
+
+}  // namespace
+}  // namespace engine
