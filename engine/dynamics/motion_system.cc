@@ -156,12 +156,12 @@ void MotionSystem::add_contact_load(const CutJoint& joint, const FrameMotion& j,
 
 EvaluationStatus MotionSystem::solve_accelerations(Evaluation& at) {
   const Eigen::Index n = free_count();
-  Eigen::MatrixXd& H = free_mass_.matrix();
+  TreeLtdl::Matrix& H = free_mass_.matrix();
   for (Eigen::Index a = 0; a < n; ++a) {
     const FrameIndex i = free_[static_cast<std::size_t>(a)];
     const Coordinate& c = mechanism_.coordinates[static_cast<std::size_t>(i)];
     free_force_[a] = -tree_.bias()[i] - c.stiffness * at.q[i] - c.damping * at.qd[i];
-    for (Eigen::Index b = 0; b <= a; ++b) H(a, b) = tree_.M(i, free_[static_cast<std::size_t>(b)]);
+    for (Eigen::Index b = free_mass_.first(a); b <= a; ++b) H(a, b) = tree_.M()(i, free_[static_cast<std::size_t>(b)]);
   }
   if (!free_mass_.factor()) return EvaluationStatus::kNonFinite;
   free_mass_.solve_in_place(free_force_);

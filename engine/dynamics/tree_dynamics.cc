@@ -6,6 +6,12 @@ namespace engine {
 
 namespace {
 
+void add(const SpatialInertia& inertia, SpatialInertia& sum) {
+  sum.mass += inertia.mass;
+  sum.mc += inertia.mc;
+  sum.I += inertia.I;
+}
+
 /// The same inertia about a point from which the present origin is seen at r.
 void add_shifted(const SpatialInertia& inertia, const Eigen::Vector3d& r, SpatialInertia& sum) {
   const Eigen::Vector3d both = 2.0 * inertia.mc + inertia.mass * r;
@@ -26,6 +32,7 @@ TreeDynamics::TreeDynamics(const Mechanism& mechanism)
   const auto n = static_cast<Eigen::Index>(mechanism.coordinates.size());
   M_.setZero(n, n);
   bias_.setZero(n);
+  for (const Coordinate& c : mechanism.coordinates) nodes_.push_back({c.parent, c.motion == Motion::kRotation, is_inside_joint(c)});
 }
 
 void TreeDynamics::add_load(FrameIndex frame, const Wrench& about_origin) {
@@ -63,32 +70,42 @@ void TreeDynamics::calc_body_forces(const std::vector<FrameMotion>& frames) {
 
 void TreeDynamics::carry_to_parents(const std::vector<FrameMotion>& frames) {
   for (std::size_t i = frames.size(); i-- > 0;) {
-    const Coordinate& c = mechanism_.coordinates[i];
+    const Node& node = nodes_[i];
     const FrameMotion& f = frames[i];
-    bias_[static_cast<Eigen::Index>(i)] = f.axis.dot(c.motion == Motion::kRotation ? forces_[i].moment : forces_[i].force);
-    if (c.parent == kGround) continue;
-    const auto parent = static_cast<std::size_t>(c.parent);
+    bias_[static_cast<Eigen::Index>(i)] = f.axis.dot(node.rotates ? forces_[i].moment : forces_[i].force);
+    if (node.parent == kGround) continue;
+    const auto parent = static_cast<std::size_t>(node.parent);
     forces_[parent].force += forces_[i].force;
-    forces_[parent].moment += forces_[i].moment + f.p_parent.cross(forces_[i].force);
-    add_shifted(composite_[i], f.p_parent, composite_[parent]);
+    forces_[parent].moment += forces_[i].moment;
+    if (node.inside_joint) {
+      add(composite_[i], composite_[parent]);
+    } else {
+      forces_[parent].moment += f.p_parent.cross(forces_[i].force);
+      add_shifted(composite_[i], f.p_parent, composite_[parent]);
+    }
   }
 }
 
-/// Column i: the force that a unit acceleration of coordinate i asks for, projected on the axes of i and its ancestors.
+/// Row i: the force that a unit acceleration of coordinate i asks for, projected on the axes of i and its ancestors.
 void TreeDynamics::calc_mass_matrix(const std::vector<FrameMotion>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Eigen::Vector3d& axis = frames[i].axis;
     const SpatialInertia& carried = composite_[i];
-    const bool rotates = mechanism_.coordinates[i].motion == Motion::kRotation;
-    const Eigen::Vector3d force = rotates ? Eigen::Vector3d(axis.cross(carried.mc)) : Eigen::Vector3d(carried.mass * axis);
-    Eigen::Vector3d moment = rotates ? Eigen::Vector3d(carried.I * axis) : Eigen::Vector3d(carried.mc.cross(axis));
-    for (FrameIndex j = static_cast<FrameIndex>(i);;) {
-      const Coordinate& c = mechanism_.coordinates[static_cast<std::size_t>(j)];
+    Eigen::Vector3d force, moment;
+    if (nodes_[i].rotates) {
+      force = axis.cross(carried.mc);
+      moment.noalias() = carried.I * axis;
+    } else {
+      force = carried.mass * axis;
+      moment = carried.mc.cross(axis);
+    }
+    double* row = M_.row(static_cast<Eigen::Index>(i)).data();
+    for (auto j = static_cast<FrameIndex>(i); j != kGround;) {
+      const Node& node = nodes_[static_cast<std::size_t>(j)];
       const FrameMotion& f = frames[static_cast<std::size_t>(j)];
-      M_(static_cast<Eigen::Index>(i), j) = f.axis.dot(c.motion == Motion::kRotation ? moment : force);
-      if (c.parent == kGround) break;
-      moment += f.p_parent.cross(force);
-      j = c.parent;
+      row[j] = f.axis.dot(node.rotates ? moment : force);
+      if (!node.inside_joint) moment += f.p_parent.cross(force);
+      j = node.parent;
     }
   }
 }

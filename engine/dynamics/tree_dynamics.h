@@ -22,6 +22,9 @@ struct SpatialInertia {
   Eigen::Matrix3d I = Eigen::Matrix3d::Zero();       ///< [kg m^2]
 };
 
+/// Rows are read one at a time.
+using TreeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Mass matrix and bias forces of the open chains, Eqs. (5)-(7): recursive Newton-Euler and composite bodies in W,
 /// each frame about its own origin (about a common one, the spin inertia of a thin rod would lose its last digits).
 class TreeDynamics {
@@ -29,7 +32,7 @@ class TreeDynamics {
   explicit TreeDynamics(const Mechanism& mechanism);
 
   /// M(i, j) for j an ancestor of i or i itself; other entries stay 0.
-  [[nodiscard]] const Eigen::MatrixXd& M() const { return M_; }
+  [[nodiscard]] const TreeMatrix& M() const { return M_; }
   [[nodiscard]] double M(FrameIndex i, FrameIndex j) const { return i > j ? M_(i, j) : M_(j, i); }
   /// Generalised forces that hold the motion given by the frames' accelerations: h + g less what the loads do.
   [[nodiscard]] const Eigen::VectorXd& bias() const { return bias_; }
@@ -45,11 +48,19 @@ class TreeDynamics {
   void carry_to_parents(const std::vector<FrameMotion>& frames);
   void calc_mass_matrix(const std::vector<FrameMotion>& frames);
 
+  /// What the recursions need of a coordinate, close together.
+  struct Node {
+    FrameIndex parent;
+    bool rotates;
+    bool inside_joint;
+  };
+
   const Mechanism& mechanism_;
+  std::vector<Node> nodes_;
   std::vector<Wrench> loads_;
   std::vector<Wrench> forces_;            ///< needed to move all that a frame carries
   std::vector<SpatialInertia> composite_; ///< of all that a frame carries
-  Eigen::MatrixXd M_;
+  TreeMatrix M_;
   Eigen::VectorXd bias_;
 };
 

@@ -23,6 +23,24 @@ FrameMotion calc_placed_motion(const FrameMotion& frame, const Placement& placem
   return placed;
 }
 
+namespace {
+
+/// Position, velocity and acceleration of a frame's origin, which its parent carries and a translation moves along the axis.
+void move_origin(const Coordinate& c, const FrameMotion& parent, double q, double qd, double qdd, FrameMotion& f) {
+  f.p_parent.noalias() = parent.R * c.placement.p;
+  const bool slides = c.motion == Motion::kTranslation;
+  if (slides) f.p_parent += f.axis * q;
+  f.p = parent.p + f.p_parent;
+  const Eigen::Vector3d carried = parent.w.cross(f.p_parent);
+  f.v = parent.v + carried;
+  f.vd = parent.vd + parent.wd.cross(f.p_parent) + parent.w.cross(carried);
+  if (!slides) return;
+  f.v += f.axis * qd;
+  f.vd += 2.0 * qd * parent.w.cross(f.axis) + f.axis * qdd;
+}
+
+}  // namespace
+
 void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
                         std::vector<FrameMotion>& frames) {
   const FrameMotion ground = ground_motion(mechanism);
@@ -31,23 +49,28 @@ void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, co
     const auto k = static_cast<Eigen::Index>(i);
     const FrameMotion& parent = c.parent == kGround ? ground : frames[static_cast<std::size_t>(c.parent)];
     FrameMotion& f = frames[i];
-    f.R.noalias() = parent.R * c.placement.R;
+    if (is_unturned(c.placement)) {
+      f.R = parent.R;
+    } else {
+      f.R.noalias() = parent.R * c.placement.R;
+    }
     f.axis = f.R.col(static_cast<int>(c.axis));
-    f.p_parent.noalias() = parent.R * c.placement.p;
-    f.w = parent.w;
-    f.wd = parent.wd;
+    if (is_inside_joint(c)) {
+      f.p_parent.setZero();
+      f.p = parent.p;
+      f.v = parent.v;
+      f.vd = parent.vd;
+    } else {
+      move_origin(c, parent, q[k], qd[k], qdd[k], f);
+    }
     if (c.motion == Motion::kRotation) {
       rotate_about_own_axis(static_cast<int>(c.axis), std::sin(q[k]), std::cos(q[k]), f.R);
-      f.w += f.axis * qd[k];
-      f.wd += parent.w.cross(f.axis) * qd[k] + f.axis * qdd[k];
-      f.v = parent.v + parent.w.cross(f.p_parent);
-      f.vd = parent.vd + parent.wd.cross(f.p_parent) + parent.w.cross(parent.w.cross(f.p_parent));
+      f.w = parent.w + f.axis * qd[k];
+      f.wd = parent.wd + parent.w.cross(f.axis) * qd[k] + f.axis * qdd[k];
     } else {
-      f.p_parent += f.axis * q[k];
-      f.v = parent.v + parent.w.cross(f.p_parent) + f.axis * qd[k];
-      f.vd = parent.vd + parent.wd.cross(f.p_parent) + parent.w.cross(parent.w.cross(f.p_parent) + 2.0 * qd[k] * f.axis) + f.axis * qdd[k];
+      f.w = parent.w;
+      f.wd = parent.wd;
     }
-    f.p = parent.p + f.p_parent;
   }
 }
 

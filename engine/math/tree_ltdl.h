@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -7,49 +8,56 @@
 namespace engine {
 
 /// Factorisation H = L^T D L of a mass matrix with the sparsity of a kinematic tree: no fill-in, and separate chains never meet.
+/// Each row is treated as dense from its first ancestor on: what is not an ancestor in between stays zero, and the inner loops are plain.
 /// Source: R. Featherstone, Rigid Body Dynamics Algorithms, section 6.5.
 class TreeLtdl {
  public:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
   /// @param parent  for each row its parent row, smaller than the own, or -1
-  explicit TreeLtdl(std::vector<int> parent)
-      : parent_(std::move(parent)), H_(static_cast<Eigen::Index>(parent_.size()), static_cast<Eigen::Index>(parent_.size())) {
-    H_.setZero();
+  explicit TreeLtdl(const std::vector<int>& parent) {
+    const auto n = static_cast<Eigen::Index>(parent.size());
+    H_.setZero(n, n);
+    for (std::size_t k = 0; k < parent.size(); ++k)
+      first_.push_back(parent[k] < 0 ? static_cast<Eigen::Index>(k) : first_[static_cast<std::size_t>(parent[k])]);
   }
 
-  /// The matrix to be factored: the entries (i, j) with j an ancestor of i or i itself.
-  [[nodiscard]] Eigen::MatrixXd& matrix() { return H_; }
+  /// The matrix to be factored: its lower triangle, of which only entries from first(row) on are read.
+  [[nodiscard]] Matrix& matrix() { return H_; }
+  [[nodiscard]] Eigen::Index first(Eigen::Index row) const { return first_[static_cast<std::size_t>(row)]; }
 
   /// Factors in place. False if the matrix is not positive definite.
   [[nodiscard]] bool factor() {
-    bool positive = true;
-    for (int k = size() - 1; k >= 0; --k) {
-      positive = positive && H_(k, k) > 0.0;
-      for (int i = parent(k); i >= 0; i = parent(i)) {
-        const double a = H_(k, i) / H_(k, k);
-        for (int j = i; j >= 0; j = parent(j)) H_(i, j) -= a * H_(k, j);
-        H_(k, i) = a;
+    for (Eigen::Index k = H_.rows() - 1; k >= 0; --k) {
+      double* row = H_.row(k).data();
+      if (!(row[k] > 0.0)) return false;
+      const double inverse = 1.0 / row[k];
+      for (Eigen::Index i = k - 1; i >= first(k); --i) {
+        const double a = row[i] * inverse;
+        double* above = H_.row(i).data();
+        for (Eigen::Index j = first(k); j <= i; ++j) above[j] -= a * row[j];
+        row[i] = a;
       }
+      row[k] = inverse;  // D^-1 is what solving needs
     }
-    return positive;
+    return true;
   }
 
   /// x <- H^-1 x after factor().
   template <typename Vector>
   void solve_in_place(Vector&& x) const {
-    for (int i = size() - 1; i >= 0; --i)
-      for (int j = parent(i); j >= 0; j = parent(j)) x[j] -= H_(i, j) * x[i];
-    for (int i = 0; i < size(); ++i) {
-      x[i] /= H_(i, i);
-      for (int j = parent(i); j >= 0; j = parent(j)) x[i] -= H_(i, j) * x[j];
+    for (Eigen::Index i = H_.rows() - 1; i >= 0; --i)
+      for (Eigen::Index j = first(i); j < i; ++j) x[j] -= H_(i, j) * x[i];
+    for (Eigen::Index i = 0; i < H_.rows(); ++i) {
+      double sum = x[i] * H_(i, i);
+      for (Eigen::Index j = first(i); j < i; ++j) sum -= H_(i, j) * x[j];
+      x[i] = sum;
     }
   }
 
  private:
-  [[nodiscard]] int size() const { return static_cast<int>(parent_.size()); }
-  [[nodiscard]] int parent(int i) const { return parent_[static_cast<std::size_t>(i)]; }
-
-  std::vector<int> parent_;
-  Eigen::MatrixXd H_;
+  Matrix H_;
+  std::vector<Eigen::Index> first_;  ///< of each row: its eldest ancestor
 };
 
 }  // namespace engine

@@ -21,6 +21,11 @@ struct Placement {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< [m]
 };
 
+/// A rotation with ones on its diagonal is none.
+[[nodiscard]] inline bool is_unturned(const Placement& placement) {
+  return placement.R(0, 0) == 1.0 && placement.R(1, 1) == 1.0 && placement.R(2, 2) == 1.0;
+}
+
 /// Index of a coordinate, and of the frame it moves; kGround is the fixed frame {0}, called W in names.
 using FrameIndex = int;
 inline constexpr FrameIndex kGround = -1;
@@ -41,6 +46,9 @@ struct Coordinate {
   Eigen::Vector3d com = Eigen::Vector3d::Zero();          ///< centre of mass in the frame, [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();      ///< about the frame's origin, [kg m^2]
 };
+
+/// True for a rotation about the parent frame's own origin, as between the axes of a spherical joint: nothing to shift there.
+[[nodiscard]] inline bool is_inside_joint(const Coordinate& c) { return c.motion == Motion::kRotation && c.placement.p.isZero(0.0); }
 
 /// A revolute joint at which a loop is cut: a bearing on one frame, a journal on another, z their common axis.
 /// Without clearance it is five constraint rows, with it only the forces between the two surfaces.
