@@ -1,0 +1,40 @@
+#include "jobs/content_id.h"
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+
+#include <openssl/evp.h>
+
+namespace jobs {
+namespace {
+
+using Digest = std::array<unsigned char, 32>;
+
+Digest sha256(std::string_view first, std::string_view second) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+  Digest digest{};
+  const bool done = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1 &&
+                    EVP_DigestUpdate(context.get(), first.data(), first.size()) == 1 &&
+                    EVP_DigestUpdate(context.get(), second.data(), second.size()) == 1 &&
+                    EVP_DigestFinal_ex(context.get(), digest.data(), nullptr) == 1;
+  if (!done) throw std::runtime_error("SHA-256 is not available");
+  return digest;
+}
+
+}  // namespace
+
+std::string canonical_text(const nlohmann::json& completed) { return completed.dump(); }
+
+std::string content_id(std::string_view canonical_parameters, std::string_view engine_version) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  // The line feed cannot stand in canonical text, so no two pairs run together into one.
+  std::string hex;
+  for (const unsigned char byte : sha256(canonical_parameters, "\n" + std::string(engine_version))) {
+    hex += kHex[byte >> 4U];
+    hex += kHex[byte & 15U];
+  }
+  return hex;
+}
+
+}  // namespace jobs

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace jobs {
+
+/// The one text of a parameter set: keys sorted, no blanks, shortest numbers. @param completed  all parameters, canonical
+[[nodiscard]] std::string canonical_text(const nlohmann::json& completed);
+
+/// What names a result: the same parameters computed by the same engine. SHA-256 in hex, 64 characters.
+[[nodiscard]] std::string content_id(std::string_view canonical_parameters, std::string_view engine_version);
+
+}  // namespace jobs

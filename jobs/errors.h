@@ -1,0 +1,51 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace jobs {
+
+/// One fault of a request: where (RFC 6901 JSON pointer into the request) and what is allowed there.
+struct Fault {
+  std::string pointer;
+  std::string detail;
+};
+
+/// A request that is well-formed JSON but asks for something that is not allowed. Carries every fault, not the first.
+class InvalidRequest : public std::runtime_error {
+ public:
+  explicit InvalidRequest(std::vector<Fault> faults)
+      : std::runtime_error(faults.empty() ? "invalid request" : faults.front().pointer + ": " + faults.front().detail),
+        faults_(std::move(faults)) {}
+
+  [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+/// The request is fine, but not in the state in which its object is (cancelling what has ended, say).
+class WrongState : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// There are so many jobs waiting that no more are taken; later there may be room.
+class QueueFull : public WrongState {
+ public:
+  using WrongState::WrongState;
+};
+
+/// The store could not be opened, read or written. `full` says that the disk has no room left.
+class StorageError : public std::runtime_error {
+ public:
+  StorageError(const std::string& what, int sqlite_extended_code, bool disk_full)
+      : std::runtime_error(what), code(sqlite_extended_code), full(disk_full) {}
+
+  int code;
+  bool full;
+};
+
+}  // namespace jobs

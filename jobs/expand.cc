@@ -1,0 +1,152 @@
+#include "jobs/expand.h"
+
+#include <map>
+#include <utility>
+
+#include "jobs/content_id.h"
+#include "jobs/parameter_path.h"
+#include "jobs/parameter_table.h"
+#include "jobs/parameter_value.h"
+#include "jobs/parameters.h"
+#include "jobs/program_info.h"
+#include "jobs/service.h"
+#include "jobs/sweep_request.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kStiffnessKey = "contact_stiffness_scale";
+
+/// Where a point lies in its sweep.
+struct Position {
+  std::size_t case_index = 0;
+  std::vector<std::size_t> values;  ///< one index an axis
+
+  /// Moves on to the next point. False after the last.
+  bool advance(const SweepRequest& sweep) {
+    for (std::size_t axis = values.size(); axis-- > 0;) {
+      if (++values[axis] < sweep.axes[axis].values.size()) return true;
+      values[axis] = 0;
+    }
+    return ++case_index < sweep.cases.size();
+  }
+};
+
+json parameters_at(const SweepRequest& sweep, const Position& position) {
+  json given = sweep.parameters;
+  if (!sweep.cases.empty()) given.merge_patch(sweep.cases[position.case_index]);
+  for (std::size_t axis = 0; axis < sweep.axes.size(); ++axis) {
+    set_at_path(given, sweep.axes[axis].path, sweep.axes[axis].values[position.values[axis]]);
+  }
+  return given;
+}
+
+/// Gathers the faults of points: one entry for each place in the request, however many points share it.
+class PointFaults {
+ public:
+  explicit PointFaults(const SweepRequest& sweep) : sweep_(sweep) {}
+
+  void add(const Fault& fault, const Position& position, const json& completed) {
+    const std::string pointer = pointer_in_request(fault.pointer, position);
+    const auto [entry, is_new] = entries_.try_emplace(pointer);
+    if (is_new) entry->second.detail = fault.detail + point_text(completed);
+    ++entry->second.points;
+  }
+
+  void throw_if_any() const {
+    if (entries_.empty()) return;
+    std::vector<Fault> faults;
+    for (const auto& [pointer, entry] : entries_) {
+      const std::string others = entry.points > 1 ? "; likewise at " + std::to_string(entry.points - 1) + " more points" : "";
+      faults.push_back({pointer, entry.detail + others});
+    }
+    throw InvalidRequest(std::move(faults));
+  }
+
+ private:
+  struct Entry {
+    std::string detail;
+    std::size_t points = 0;
+  };
+
+  /// The place that gave the parameter its value; defaults stand nowhere, so theirs is where they could be given.
+  [[nodiscard]] std::string pointer_in_request(const std::string& pointer, const Position& position) const {
+    const std::string path = path_of_pointer(pointer);
+    for (const Axis& axis : sweep_.axes) {
+      if (axis.path == path) return "/sweep" + pointer_token(path);
+    }
+    if (!sweep_.cases.empty() && sweep_.cases[position.case_index].contains(json::json_pointer(pointer))) {
+      return "/cases" + pointer_token(std::to_string(position.case_index)) + pointer;
+    }
+    return "/parameters" + pointer;
+  }
+
+  [[nodiscard]] std::string point_text(const json& completed) const {
+    std::string text;
+    for (const std::string& path : sweep_.swept) {
+      text += (text.empty() ? " (at " : ", ") + path + " = " + value_at_path(completed, path).dump();
+    }
+    return text.empty() ? "" : text + ")";
+  }
+
+  const SweepRequest& sweep_;
+  std::map<std::string, Entry> entries_;
+};
+
+PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, const std::vector<std::string>& swept) {
+  PlannedJob job;
+  job.parameters = canonical_text(completed);
+  job.content_id = content_id(job.parameters, kEngineVersion);
+  job.coupler = completed.at("coupler").get<std::string>();
+  job.replicate = replicate;
+  json values = json::array();
+  for (const std::string& path : swept) values.push_back(value_at_path(completed, path));
+  job.swept = values.dump();
+  return job;
+}
+
+/// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the point's checks hold for them.
+void add_jobs(const json& completed, const SweepRequest& sweep, SweepPlan& plan) {
+  json replicate = completed;
+  for (std::uint64_t k = 0; k < sweep.replicates.count; ++k) {
+    const double scale = completed.at(kStiffnessKey).get<double>() * replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
+    replicate[kStiffnessKey] = scale;
+    if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty()) {
+      throw InvalidRequest(std::vector<Fault>{{"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
+    }
+    plan.jobs.push_back(make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, plan.swept));
+  }
+}
+
+}  // namespace
+
+double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation) {
+  if (k == 0) return 1.0;
+  std::uint64_t z = seed + k * 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  z ^= z >> 31U;
+  const double u = static_cast<double>(z >> 11U) * 0x1p-52 - 1.0;
+  return 1.0 + perturbation * u;
+}
+
+SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs) {
+  const SweepRequest sweep = parse_sweep_request(request, max_jobs);
+  SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse, .jobs = {}};
+  PointFaults faults(sweep);
+  Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
+  do {
+    const json completed = fill_in_defaults(parameters_at(sweep, position));
+    const auto found = find_combination_faults(completed);
+    for (const Fault& fault : found) faults.add(fault, position, completed);
+    if (found.empty()) add_jobs(completed, sweep, plan);
+  } while (position.advance(sweep));
+  faults.throw_if_any();
+  return plan;
+}
+
+PlannedJob plan_job(const json& parameters) { return make_job(complete_parameters(parameters, ""), std::nullopt, {}); }
+
+}  // namespace jobs

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace jobs {
+
+/// Makes opaque ids that sort by the time of their making: prefix, 10 characters of Unix time in ms, 16 of chance, in
+/// Crockford's base 32 in lower case. Within a process each is greater than the one before, whatever the clock does.
+class IdMaker {
+ public:
+  [[nodiscard]] std::string make(std::string_view prefix, std::int64_t now_unix_ms);
+
+ private:
+  std::mutex mutex_;  // guards the rest
+  std::int64_t last_ms_ = 0;
+  std::uint64_t chance_high_ = 0;  ///< 40 bits
+  std::uint64_t chance_low_ = 0;   ///< 40 bits
+};
+
+inline constexpr std::string_view kSweepPrefix = "swp_";
+inline constexpr std::string_view kJobPrefix = "job_";
+
+/// Whether a text has the form of an id of that kind.
+[[nodiscard]] bool is_id(std::string_view text, std::string_view prefix);
+
+}  // namespace jobs

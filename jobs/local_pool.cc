@@ -1,0 +1,128 @@
+#include "jobs/local_pool.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <nlohmann/json.hpp>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace jobs {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kFirstPause{500};
+constexpr milliseconds kLongestPause{30'000};
+
+/// Solvers give way to the threads that answer users. If the system does not allow it they just do not.
+void lower_priority() {
+  constexpr int kNice = 10;
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
+  ::pthread_setname_np(::pthread_self(), "rpsup-solver");
+}
+
+}  // namespace
+
+LocalPool::LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log)
+    : source_(std::move(source)), runner_(std::move(runner)), log_(std::move(log)) {
+  for (int i = 0; i < threads; ++i) {
+    threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+  }
+}
+
+LocalPool::~LocalPool() { stop(); }
+
+void LocalPool::wake() {
+  {
+    const std::lock_guard lock(wake_mutex_);
+    ++wakes_;
+  }
+  wake_.notify_all();
+}
+
+void LocalPool::stop_job(const std::string& id) {
+  const std::lock_guard lock(claim_mutex_);
+  const auto found = running_.find(id);
+  if (found != running_.end()) found->second.request_stop();
+}
+
+void LocalPool::stop() {
+  const std::lock_guard lock(stop_mutex_);
+  for (std::jthread& thread : threads_) thread.request_stop();
+  for (std::jthread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+void LocalPool::work(const std::stop_token& stop) {
+  lower_priority();
+  milliseconds next_pause = kFirstPause;
+  while (!stop.stop_requested()) {
+    std::uint64_t seen = 0;
+    {
+      const std::lock_guard lock(wake_mutex_);
+      seen = wakes_;
+    }
+    try {
+      std::stop_source job_stop;
+      if (const auto job = claim_next(stop, job_stop)) {
+        compute(*job, stop, job_stop.get_token());
+      } else {
+        std::unique_lock lock(wake_mutex_);
+        wake_.wait(lock, stop, [&] { return wakes_ != seen; });
+      }
+      next_pause = kFirstPause;
+    } catch (const std::exception& error) {  // the store's errors, or no memory
+      log_(std::string("no job could be taken: ") + error.what());
+      pause(next_pause, stop);
+      next_pause = std::min(2 * next_pause, kLongestPause);
+    }
+  }
+}
+
+std::optional<ClaimedJob> LocalPool::claim_next(const std::stop_token& stop, std::stop_source& job_stop) {
+  const std::lock_guard lock(claim_mutex_);
+  if (stop.stop_requested()) return std::nullopt;
+  auto job = source_.claim();
+  if (job) running_.insert_or_assign(job->id, job_stop);
+  return job;
+}
+
+void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) {
+  // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the user of the job.
+  const auto read_and_run = [&](const JobSpec&, const engine::StopQuery& query) {
+    return runner_(to_job_spec(nlohmann::json::parse(job.parameters)), query);
+  };
+  const RunRecord record = run_and_record({}, read_and_run, [&](double) { return stop.stop_requested() || job_stop.stop_requested(); });
+  deliver(job, record, stop);
+  {
+    const std::lock_guard lock(claim_mutex_);
+    running_.erase(job.id);
+  }
+  wake();  // jobs of the same content may have waited for this one
+}
+
+/// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered again. If the
+/// program ends before that, the job is still marked as running and will be queued again at the next start.
+void LocalPool::deliver(const ClaimedJob& job, const RunRecord& record, const std::stop_token& stop) {
+  for (milliseconds next_pause = kFirstPause;; next_pause = std::min(2 * next_pause, kLongestPause)) {
+    try {
+      if (record.end == RunRecord::End::kStopped && stop.stop_requested()) return source_.give_back(job);
+      return source_.record(job, record);
+    } catch (const std::exception& error) {  // the store's errors, or no memory
+      log_("the result of " + job.id + " could not be stored yet: " + error.what());
+    }
+    if (stop.stop_requested()) return;
+    pause(next_pause, stop);
+  }
+}
+
+void LocalPool::pause(milliseconds time, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any never;
+  never.wait_for(lock, stop, time, [] { return false; });
+}
+
+}  // namespace jobs

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "jobs/run_record.h"
+#include "jobs/store.h"
+
+namespace jobs {
+
+/// Where an executor gets its jobs and leaves what became of them. Members may be called from any thread and throw StorageError.
+struct JobSource {
+  std::function<std::optional<ClaimedJob>()> claim;
+  std::function<void(const ClaimedJob&, const RunRecord&)> record;
+  std::function<void(const ClaimedJob&)> give_back;
+};
+
+/// Computes jobs on threads of this process, as many at a time as it has threads. Threads sleep while there is nothing to do.
+class LocalPool {
+ public:
+  /// @param log  told what needs a human's eye; must not throw
+  LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log);
+  ~LocalPool();  ///< stop()
+  LocalPool(const LocalPool&) = delete;
+  LocalPool& operator=(const LocalPool&) = delete;
+
+  /// Tells sleeping threads that there may be a job.
+  void wake();
+
+  /// Stops the job if it is being computed; its record comes to nothing unless the source still wants it.
+  void stop_job(const std::string& id);
+
+  /// Stops all running jobs, gives them back to the source and ends the threads. Returns when that is done.
+  void stop();
+
+ private:
+  void work(const std::stop_token& stop);
+  std::optional<ClaimedJob> claim_next(const std::stop_token& stop, std::stop_source& job_stop);
+  void compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop);
+  void deliver(const ClaimedJob& job, const RunRecord& record, const std::stop_token& stop);
+  void pause(std::chrono::milliseconds time, const std::stop_token& stop);
+
+  const JobSource source_;
+  const Runner runner_;
+  const std::function<void(const std::string&)> log_;
+
+  std::mutex claim_mutex_;  // guards running_; held while claiming, so that a job is in the store as running and here at once
+  std::map<std::string, std::stop_source> running_;
+
+  std::mutex wake_mutex_;  // guards wakes_
+  std::condition_variable_any wake_;
+  std::uint64_t wakes_ = 0;
+
+  std::mutex stop_mutex_;  // guards threads_, which stop() may join but once
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace jobs

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace jobs {
+
+// A path names one value of a parameter set in one word: "clearance_mm", "links.1,3.mass_kg".
+
+/// Every path that an axis may have.
+[[nodiscard]] const std::vector<std::string>& known_paths();
+
+/// The paths that a parameter set without faults gives values to, in its order.
+[[nodiscard]] std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters);
+
+/// "links.1,3.mass_kg" -> "/links/1,3/mass_kg".
+[[nodiscard]] std::string pointer_of_path(std::string_view path);
+
+/// The path of the value at or around that pointer: "/links/1,3/inertia_kg_m2/0" -> "links.1,3.inertia_kg_m2".
+[[nodiscard]] std::string path_of_pointer(std::string_view pointer);
+
+void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value);
+
+/// @param completed  all parameters
+[[nodiscard]] const nlohmann::json& value_at_path(const nlohmann::json& completed, std::string_view path);
+
+}  // namespace jobs

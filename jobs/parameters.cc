@@ -1,0 +1,146 @@
+#include "jobs/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "engine/errors.h"
+#include "jobs/link_parameters.h"
+#include "jobs/parameter_table.h"
+#include "jobs/parameter_value.h"
+#include "jobs/service.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMostSamples = 2e6;
+constexpr double kMostStoredValues = 1.28e8;   // samples times channels: 1 GB while the job runs
+constexpr double kLeastClearance_mm = 1e-6;    // 1 nm: below, a gap between atoms
+
+std::vector<std::string_view> known_keys() {
+  std::vector<std::string_view> keys{"links"};
+  for (const ParameterInfo& info : parameter_table()) keys.push_back(info.key);
+  return keys;
+}
+
+double number_at(const json& completed, std::string_view key) { return completed.at(key).get<double>(); }
+
+void add_clearance_faults(const json& completed, std::vector<Fault>& faults) {
+  const double clearance = number_at(completed, "clearance_mm");
+  const double bearing_radius = number_at(completed, "bearing_radius_mm");
+  if (clearance >= bearing_radius) {
+    faults.push_back({"/clearance_mm", "must be less than bearing_radius_mm, which is " + readable_number(bearing_radius) + " mm"});
+  } else if (clearance > 0.0 && clearance < kLeastClearance_mm) {
+    faults.push_back({"/clearance_mm", "must be 0 (the ideal joint) or at least " + readable_number(kLeastClearance_mm) + " mm"});
+  }
+}
+
+void add_material_faults(const json& completed, std::vector<Fault>& faults) {
+  const double most = 3.0 * number_at(completed, "shear_modulus_pa");
+  // Poisson's ratio E/(2G) - 1 of a stable isotropic material is at most 1/2.
+  if (number_at(completed, "youngs_modulus_pa") > most) {
+    faults.push_back({"/youngs_modulus_pa", "must be at most 3 times shear_modulus_pa, " + readable_number(most) + " Pa: Poisson's ratio is at most 0.5"});
+  }
+}
+
+void add_size_faults(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
+  const double duration = spec.options.duration;
+  const double samples = duration * spec.options.output_rate;
+  if (samples > kMostSamples) {
+    faults.push_back({"/output_rate_hz", "duration_s times output_rate_hz is " + readable_number(std::floor(samples)) + " samples; at most " +
+                                             readable_number(kMostSamples) + " are kept"});
+  } else if (const double values = samples * static_cast<double>(engine::channel_table(spec.parameters).size()); values > kMostStoredValues) {
+    faults.push_back({"/output_rate_hz", "the trajectory would have " + readable_number(std::floor(values)) + " values; at most " +
+                                             readable_number(kMostStoredValues) + " are kept"});
+  }
+  const double steps = duration / number_at(completed, "step_s");
+  if (spec.options.integrator == engine::Integrator::kRk4 && steps > static_cast<double>(spec.options.step_limit)) {
+    faults.push_back({"/step_s", "duration_s over step_s is " + readable_number(std::floor(steps)) + " steps; at most " +
+                                     std::to_string(spec.options.step_limit) + " are taken"});
+  }
+}
+
+/// "c_r" -> "/clearance_mm", "links.1,3.inertia" -> "/links/1,3/inertia_kg_m2"; empty if the engine's name is no parameter.
+std::string pointer_of_member(const std::string& member) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.member == member) return pointer_token(info.key);
+  }
+  for (const std::string_view link : kLinkNames) {
+    const std::string prefix = "links." + std::string(link);
+    if (member == prefix + ".mass") return "/links" + pointer_token(link) + pointer_token(kMassKey);
+    if (member.starts_with(prefix)) return "/links" + pointer_token(link) + pointer_token(kInertiaKey);
+  }
+  return "";
+}
+
+void add_engine_fault(const JobSpec& spec, std::vector<Fault>& faults) {
+  try {
+    engine::check_parameters(spec.parameters, spec.options);
+  } catch (const engine::InvalidInput& fault) {
+    std::string pointer = pointer_of_member(fault.field());
+    faults.push_back({pointer, pointer.empty() ? fault.what() : fault.detail()});
+  }
+}
+
+}  // namespace
+
+std::vector<Fault> find_value_faults(const json& given) {
+  if (!given.is_object()) return {{"", "must be an object of parameters"}};
+  const std::vector<std::string_view> known = known_keys();
+  std::vector<Fault> faults;
+  for (const auto& [key, value] : given.items()) {
+    if (key == "links") {
+      std::ranges::move(find_link_faults(value), std::back_inserter(faults));
+    } else if (const ParameterInfo* info = find_parameter(key)) {
+      if (std::string detail = describe_fault(*info, value); !detail.empty()) faults.push_back({pointer_token(key), std::move(detail)});
+    } else {
+      faults.push_back({pointer_token(key), describe_unknown_key(key, known)});
+    }
+  }
+  return faults;
+}
+
+json fill_in_defaults(const json& given) {
+  json completed = json::object();
+  for (const ParameterInfo& info : parameter_table()) {
+    const auto found = given.find(info.key);
+    completed[info.key] = canonical_value(info, found == given.end() ? default_value(info) : *found);
+  }
+  completed["links"] = complete_links(given.value("links", json::object()), completed);
+  return completed;
+}
+
+std::vector<Fault> find_combination_faults(const json& completed) {
+  const JobSpec spec = to_job_spec(completed);
+  std::vector<Fault> faults = find_inertia_faults(completed);
+  add_clearance_faults(completed, faults);
+  add_material_faults(completed, faults);
+  add_size_faults(completed, spec, faults);
+  // The engine may rely on what has been checked so far.
+  if (faults.empty()) add_engine_fault(spec, faults);
+  return faults;
+}
+
+json complete_parameters(const json& given, const std::string& pointer) {
+  std::vector<Fault> faults = find_value_faults(given);
+  json completed;
+  if (faults.empty()) {
+    completed = fill_in_defaults(given);
+    faults = find_combination_faults(completed);
+  }
+  if (faults.empty()) return completed;
+  for (Fault& fault : faults) fault.pointer.insert(0, pointer);
+  throw InvalidRequest(std::move(faults));
+}
+
+JobSpec to_job_spec(const json& completed_parameters) {
+  JobSpec spec;
+  for (const ParameterInfo& info : parameter_table()) info.write(spec, completed_parameters.at(info.key));
+  write_links(completed_parameters.at("links"), spec.parameters);
+  return spec;
+}
+
+}  // namespace jobs

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/errors.h"
+
+namespace jobs {
+
+// The three steps of complete_parameters, for those who have many parameter sets made of the same values.
+// Pointers of the faults start at the parameter set: "/clearance_mm".
+
+/// The faults that the given values have each by itself: unknown key, wrong type, out of range.
+[[nodiscard]] std::vector<Fault> find_value_faults(const nlohmann::json& given);
+
+/// The given values and all defaults, in canonical form. @param given  an object whose values have no faults
+[[nodiscard]] nlohmann::json fill_in_defaults(const nlohmann::json& given);
+
+/// The faults that values have together: limits that depend on each other, and what the engine refuses.
+/// @param completed  from fill_in_defaults
+[[nodiscard]] std::vector<Fault> find_combination_faults(const nlohmann::json& completed);
+
+}  // namespace jobs

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace jobs {
+
+enum class Bound { kInclusive, kExclusive };
+
+/// The values that a number may take. NaN and the infinities lie in no range.
+struct Range {
+  double minimum = -std::numeric_limits<double>::max();
+  double maximum = std::numeric_limits<double>::max();
+  Bound lower = Bound::kInclusive;
+  Bound upper = Bound::kInclusive;
+
+  [[nodiscard]] bool contains(double x) const;
+  [[nodiscard]] std::string text() const;  ///< for the user: "in (0, 3600]"
+};
+
+/// A number in a sentence: without an exponent where that is easy to read. Reads back as the same double, too.
+[[nodiscard]] std::string readable_number(double x);
+
+/// The shortest decimal that reads back as the same double; "nan", "inf" and "-inf" for the others.
+[[nodiscard]] std::string number_text(double x);
+
+}  // namespace jobs

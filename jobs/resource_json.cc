@@ -1,0 +1,128 @@
+#include "jobs/resource_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "jobs/machine.h"
+#include "jobs/program_info.h"
+#include "jobs/time_text.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+json stored_json(const std::string& text) {
+  json value = json::parse(text, nullptr, false);
+  if (value.is_discarded()) throw StorageError("the store holds a text that is no JSON; it is damaged", 0, false);
+  return value;
+}
+
+json time_or_null(const std::optional<std::int64_t>& unix_ms) { return unix_ms ? json(time_text(*unix_ms)) : json(); }
+
+template <typename T>
+json value_or_null(const std::optional<T>& value) { return value ? json(*value) : json(); }
+
+json error_json(const std::string& reason, const std::string& detail, const std::optional<double>& t_s) {
+  return {{"reason", reason}, {"detail", detail}, {"t_s", value_or_null(t_s)}};
+}
+
+json run_json(const RunRow& run, std::int64_t attempts, bool reused) {
+  return {{"wall_time_s", run.wall_time_s}, {"cpu_time_s", run.cpu_time_s}, {"attempts", attempts}, {"host", run.host}, {"cpu", run.cpu},
+          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}}},
+          {"reused", reused}};
+}
+
+json job_links(const JobRow& row) {
+  const std::string self = "/v1/jobs/" + row.id;
+  return {{"self", self}, {"trajectory", self + "/trajectory"}, {"sweep", row.sweep_id ? json("/v1/sweeps/" + *row.sweep_id) : json()}};
+}
+
+json counts_json(const StateCounts& counts) {
+  json object = json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) object[kJobStates[i]] = counts[i];
+  object["total"] = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  return object;
+}
+
+double progress(const StateCounts& counts) {
+  const auto total = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  const auto left = counts[static_cast<std::size_t>(JobState::kQueued)] + counts[static_cast<std::size_t>(JobState::kRunning)];
+  return static_cast<double>(total - left) / static_cast<double>(total);
+}
+
+}  // namespace
+
+std::optional<double> estimate_time_left_s(const SweepRow& row, int threads) {
+  if (has_ended(row.counts)) return 0.0;
+  double cpu_time_s = 0.0;
+  std::int64_t left = 0;
+  for (const auto& [kind, cost] : row.costs) {
+    if (cost.queued + cost.running == 0) continue;
+    if (cost.computed == 0) return std::nullopt;
+    const double each_s = cost.cpu_time_s / static_cast<double>(cost.computed);
+    cpu_time_s += each_s * (static_cast<double>(cost.queued) + 0.5 * static_cast<double>(cost.running));
+    left += cost.queued + cost.running;
+  }
+  return cpu_time_s / static_cast<double>(std::clamp<std::int64_t>(left, 1, threads));
+}
+
+json job_json(const JobRow& row, Detail detail) {
+  json job{{"id", row.id}, {"sweep_id", value_or_null(row.sweep_id)}, {"state", row.state},
+           {"error", row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json()},
+           {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
+           {"run", row.run ? run_json(*row.run, row.attempts, row.reused) : json()}, {"links", job_links(row)}};
+  if (row.replicate) job["replicate"] = *row.replicate;
+  if (detail == Detail::kFull) {
+    job["parameters"] = stored_json(row.parameters);
+    job["metrics"] = row.metrics ? stored_json(*row.metrics) : json();
+  }
+  return job;
+}
+
+json sweep_json(const SweepRow& row, int threads, Detail detail) {
+  const std::string self = "/v1/sweeps/" + row.id;
+  json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)},
+             {"progress", progress(row.counts)}, {"eta_s", value_or_null(estimate_time_left_s(row, threads))},
+             {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
+             {"axes", stored_json(row.swept)},
+             {"links", {{"self", self}, {"results", self + "/results"}, {"cancel", self + "/cancel"}}}};
+  if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
+  return sweep;
+}
+
+json unstored_job_json(const json& parameters, const RunRecord& record, std::int64_t started_ms, std::int64_t ended_ms) {
+  JobState state = JobState::kSucceeded;
+  json error;
+  if (record.end == RunRecord::End::kStopped) state = JobState::kCancelled;
+  if (record.end == RunRecord::End::kFailed) {
+    state = JobState::kFailed;
+    error = error_json(record.error_reason, record.error_detail, record.error_t_s);
+  }
+  const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = host_name(), .cpu = cpu_name(),
+                   .version = std::string(kProgramVersion), .commit = std::string(kProgramCommit), .compiler = std::string(kProgramCompiler)};
+  return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics}, {"error", error},
+          {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)}, {"ended_at", time_text(ended_ms)},
+          {"run", run_json(run, 1, false)}};
+}
+
+ResultTable result_table(const SweepRow& sweep, const std::vector<ResultRow>& rows) {
+  const auto swept = stored_json(sweep.swept).get<std::vector<std::string>>();
+  ResultTable table{.columns = {"job_id", "state"}, .rows = {}};
+  if (sweep.replicated) table.columns.emplace_back("replicate");
+  table.columns.insert(table.columns.end(), swept.begin(), swept.end());
+  for (const engine::QuantityInfo& metric : engine::metric_table()) table.columns.push_back(metric.key);
+  table.rows.reserve(rows.size());
+  for (const ResultRow& row : rows) {
+    std::vector<json> cells{row.job_id, row.state};
+    if (sweep.replicated) cells.push_back(value_or_null(row.replicate));
+    for (json& value : stored_json(row.swept)) cells.push_back(std::move(value));
+    const json metrics = row.metrics ? stored_json(*row.metrics) : json::object();
+    for (const engine::QuantityInfo& metric : engine::metric_table()) cells.push_back(metrics.value(metric.key, json()));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace jobs

@@ -1,0 +1,80 @@
+#include "jobs/run_record.h"
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "jobs/trajectory_codec.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+double thread_cpu_time_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+json metric_value(const engine::QuantityInfo& info, double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return info.integer ? json(std::llround(value)) : json(value);
+}
+
+json metrics_json(const std::vector<double>& values) {
+  const auto table = engine::metric_table();
+  if (values.size() != table.size()) throw std::logic_error("the run has " + std::to_string(values.size()) + " metrics instead of " + std::to_string(table.size()));
+  json metrics = json::object();
+  for (std::size_t i = 0; i < values.size(); ++i) metrics[table[i].key] = metric_value(table[i], values[i]);
+  return metrics;
+}
+
+void take_result(engine::RunResult result, RunRecord& record) {
+  record.trajectory = rounded_to_stored(std::move(result.trajectory));
+  if (result.status == engine::RunStatus::kSucceeded) {
+    record.metrics = metrics_json(result.metrics);
+    return;
+  }
+  record.end = result.status == engine::RunStatus::kStopped ? RunRecord::End::kStopped : RunRecord::End::kFailed;
+  record.error_reason = engine::status_name(result.status);
+  record.error_detail = std::move(result.detail);
+  record.error_t_s = result.t_end;
+}
+
+void take_exception(const std::string& what, RunRecord& record) {
+  record.end = RunRecord::End::kFailed;
+  record.error_reason = "internal";
+  // The text may come from anywhere; JSON takes UTF-8 only.
+  record.error_detail = json::parse(json(what).dump(-1, ' ', false, json::error_handler_t::replace));
+  record.trajectory = {};
+}
+
+}  // namespace
+
+RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine::StopQuery& stop_requested) {
+  RunRecord record;
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu_start_s = thread_cpu_time_s();
+  try {
+    take_result(runner(spec, stop_requested), record);
+  } catch (const std::exception& error) {
+    take_exception(error.what(), record);
+  } catch (...) {
+    take_exception("something was thrown that is no exception", record);
+  }
+  record.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.cpu_time_s = thread_cpu_time_s() - cpu_start_s;
+  return record;
+}
+
+Runner engine_runner() {
+  return [](const JobSpec& spec, const engine::StopQuery& stop_requested) {
+    return engine::simulate_rpsup(spec.parameters, spec.options, stop_requested);
+  };
+}
+
+}  // namespace jobs

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/service.h"
+
+namespace jobs {
+
+/// What one run of a job left.
+struct RunRecord {
+  enum class End { kSucceeded, kFailed, kStopped };
+
+  End end = End::kSucceeded;
+  nlohmann::json metrics;          ///< object by key, null for what does not apply; null unless succeeded
+  std::string error_reason;        ///< of a failure: engine::status_name, or "internal"
+  std::string error_detail;
+  std::optional<double> error_t_s; ///< simulated time reached; empty if unknown
+  engine::Trajectory trajectory;   ///< as far as the run came, with the precision that is kept
+  double wall_time_s = 0.0;
+  double cpu_time_s = 0.0;
+};
+
+/// Runs one job on this thread and measures it. Whatever the runner throws becomes a failure with the reason "internal".
+[[nodiscard]] RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine::StopQuery& stop_requested);
+
+/// The engine as a runner.
+[[nodiscard]] Runner engine_runner();
+
+}  // namespace jobs

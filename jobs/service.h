@@ -1,0 +1,129 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/simulate_rpsup.h"
+
+namespace jobs {
+
+/// What one job asks the engine for.
+struct JobSpec {
+  engine::RpsupParameters parameters;
+  engine::RunOptions options;
+};
+
+/// Computes one job; tests put their own in the place of engine::simulate_rpsup.
+using Runner = std::function<engine::RunResult(const JobSpec&, const engine::StopQuery&)>;
+
+struct ServiceOptions {
+  std::filesystem::path store;  ///< the SQLite file; made if it does not exist
+  int threads = 2;              ///< jobs computed at a time, >= 1
+  std::size_t max_sweep_jobs = 10'000;
+  std::size_t max_queued_jobs = 100'000;
+  Runner runner;                ///< empty: the engine
+  /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not throw.
+  std::function<void(const std::string&)> log;
+};
+
+/// A page of a listing.
+struct PageQuery {
+  std::string state;            ///< only these; empty: all
+  std::size_t limit = 50;       ///< 1 .. 1000
+  std::string cursor;           ///< next_cursor of the page before; empty: the newest
+};
+
+/// Flat rows, one a job, in the order in which the sweep was expanded. Columns are the same for JSON and CSV:
+/// job_id, state, replicate (if the sweep has any), the swept parameters, every metric.
+struct ResultTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<nlohmann::json>> rows;  ///< null where a job has no value
+};
+
+/// What is wanted of a trajectory.
+struct TrajectoryQuery {
+  std::vector<std::string> channels;  ///< empty: all; t_s always comes first
+  std::optional<double> from, to;     ///< [s], both included
+};
+
+/// The study queue: validates, stores, computes and hands out sweeps and jobs. One per store.
+///
+/// Every JSON it returns is the resource as the HTTP interface and the command line show it.
+/// All members may be called from any thread.
+/// What throws: InvalidRequest (a faulty request; of a query "/limit", "/state", "/cursor", "/channels/0", "/from", "/to"
+/// are the pointers), WrongState, StorageError.
+class Service {
+ public:
+  /// Opens the store (its lock is held until destruction), queues again what a former process left running, starts the pool.
+  explicit Service(ServiceOptions options);
+  ~Service();  ///< stop()
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
+
+  /// Stores a sweep and its jobs, or nothing at all. When it returns, the sweep survives a crash.
+  /// @param request  order-preserving, since the axes multiply in the order in which they were written, the last one
+  ///                 fastest: parse the body with nlohmann::ordered_json::parse
+  /// @throws QueueFull if more than max_queued_jobs would be waiting
+  nlohmann::json submit_sweep(const nlohmann::ordered_json& request);
+  nlohmann::json submit_job(const nlohmann::json& parameters);
+
+  [[nodiscard]] std::optional<nlohmann::json> find_sweep(const std::string& id) const;
+  [[nodiscard]] std::optional<nlohmann::json> find_job(const std::string& id) const;
+  [[nodiscard]] nlohmann::json list_sweeps(const PageQuery& query) const;  ///< {"items": [...], "next_cursor": ""}
+  [[nodiscard]] nlohmann::json list_jobs(const PageQuery& query) const;
+  [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id) const;
+  /// Empty if there is no such job or it has no trajectory (yet).
+  [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const;
+
+  /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there is none.
+  /// Cancelling what is already cancelled changes nothing; what has ended otherwise throws WrongState.
+  std::optional<nlohmann::json> cancel_sweep(const std::string& id);
+  std::optional<nlohmann::json> cancel_job(const std::string& id);
+
+  /// Deletes a sweep that has ended, with its jobs and the results that no other job shares. False if there is none.
+  bool delete_sweep(const std::string& id);
+
+  /// Blocks until the sweep has ended, or for that long. True if it has ended; false at once if there is none.
+  bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const;
+
+  /// Ends the pool: running jobs are stopped and go back to the queue. Nothing can be submitted afterwards.
+  void stop();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// JSON Schema (2020-12) of the parameters of a job: type, unit, range, default, where the default comes from.
+[[nodiscard]] nlohmann::json parameter_schema();
+
+/// All parameters of a job with their defaults filled in.
+/// @param pointer  where `given` stands in the request, for the faults
+/// @throws InvalidRequest with every fault
+[[nodiscard]] nlohmann::json complete_parameters(const nlohmann::json& given, const std::string& pointer);
+
+/// The engine's view of completed parameters: the only place where units are converted.
+[[nodiscard]] JobSpec to_job_spec(const nlohmann::json& completed_parameters);
+
+/// A job computed on the spot, without a store.
+struct Outcome {
+  nlohmann::json job;             ///< as GET /v1/jobs/{id} shows it, without an id
+  engine::Trajectory trajectory;  ///< as far as the run came
+};
+
+/// @throws InvalidRequest with every fault
+[[nodiscard]] Outcome run_job(const nlohmann::json& parameters, const engine::StopQuery& stop_requested);
+
+/// CSV of a table or a trajectory: RFC 4180, a header line, numbers that read back exactly, empty cells for null.
+[[nodiscard]] std::string to_csv(const ResultTable& table);
+[[nodiscard]] std::string to_csv(const engine::Trajectory& trajectory);
+
+}  // namespace jobs

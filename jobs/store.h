@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jobs/expand.h"
+#include "jobs/ids.h"
+#include "jobs/run_record.h"
+#include "jobs/store_connection.h"
+
+namespace jobs {
+
+enum class JobState { kQueued, kRunning, kSucceeded, kFailed, kCancelled };
+inline constexpr std::array<std::string_view, 5> kJobStates{"queued", "running", "succeeded", "failed", "cancelled"};
+[[nodiscard]] inline std::string_view state_name(JobState state) { return kJobStates[static_cast<std::size_t>(state)]; }
+
+/// How many jobs of a sweep are in each state, by JobState.
+using StateCounts = std::array<std::int64_t, kJobStates.size()>;
+
+/// What is left to compute of a sweep, and what its jobs have cost so far, by coupler kind.
+struct CostOfKind {
+  std::int64_t queued = 0, running = 0;
+  std::int64_t computed = 0;   ///< ended jobs that were computed, not reused
+  double cpu_time_s = 0.0;     ///< of those together
+};
+
+struct SweepRow {
+  std::string id, name, request, swept;
+  bool replicated = false;
+  std::int64_t created_ms = 0;
+  std::optional<std::int64_t> started_ms, ended_ms;  ///< of its first job, and of its last one if all have ended
+  StateCounts counts{};
+  std::map<std::string, CostOfKind> costs;           ///< only of sweeps that have not ended
+};
+
+/// The run behind a result.
+struct RunRow {
+  double wall_time_s = 0.0, cpu_time_s = 0.0;
+  std::string host, cpu, version, commit, compiler;
+};
+
+struct JobRow {
+  std::string id;
+  std::optional<std::string> sweep_id;
+  std::optional<std::int64_t> replicate;
+  std::string state;
+  std::string parameters;              ///< empty in listings
+  std::optional<std::string> metrics;  ///< empty in listings
+  std::optional<std::string> error_reason;
+  std::string error_detail;
+  std::optional<double> error_t_s;
+  std::int64_t created_ms = 0;
+  std::optional<std::int64_t> started_ms, ended_ms;
+  std::int64_t attempts = 0;
+  bool reused = false;
+  std::optional<RunRow> run;
+};
+
+/// One job's line in the table of its sweep.
+struct ResultRow {
+  std::string job_id, state, swept;
+  std::optional<std::int64_t> replicate;
+  std::optional<std::string> metrics;
+};
+
+/// A job that a worker has taken.
+struct ClaimedJob {
+  std::int64_t seq = 0;
+  std::string id;
+  std::int64_t attempt = 0;  ///< a record must name it: what an earlier attempt left is void
+  std::string parameters;
+};
+
+enum class CancelOutcome { kMissing, kDone, kEnded };
+
+struct Cancellation {
+  CancelOutcome outcome = CancelOutcome::kMissing;
+  std::vector<std::string> running;  ///< jobs that were being computed
+};
+
+enum class DeleteOutcome { kMissing, kDone, kNotEnded };
+
+/// Everything that is kept on disk, and all the SQL. May be called from any thread. Throws StorageError.
+class Store {
+ public:
+  /// Opens or makes the file, and queues again what a former process left running.
+  explicit Store(const std::filesystem::path& file);
+
+  /// Stores a sweep with its jobs, those whose result is known as succeeded. Returns its id.
+  /// @throws QueueFull if more than max_queued jobs would wait
+  std::string add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued);
+  std::string add_job(const PlannedJob& job, std::size_t max_queued);
+
+  /// Takes a job: of the sweep that was served least recently, the first whose content nobody is computing.
+  [[nodiscard]] std::optional<ClaimedJob> claim();
+  /// Stores what a run left, and settles every queued job of the same content. False, and nothing is stored, if the job
+  /// is no longer this attempt's (it was cancelled).
+  bool record(const ClaimedJob& job, const RunRecord& record);
+  /// Puts a job back that was not computed to its end. Nothing happens if it is no longer this attempt's.
+  void give_back(const ClaimedJob& job);
+
+  [[nodiscard]] Cancellation cancel_sweep(const std::string& id);
+  [[nodiscard]] Cancellation cancel_job(const std::string& id);
+  [[nodiscard]] DeleteOutcome delete_sweep(const std::string& id);
+
+  [[nodiscard]] std::optional<SweepRow> find_sweep(const std::string& id) const;
+  [[nodiscard]] std::optional<JobRow> find_job(const std::string& id) const;
+  /// Newest first. @param state empty: all  @param before  an id; empty: the newest
+  [[nodiscard]] std::vector<SweepRow> list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const;
+  [[nodiscard]] std::vector<JobRow> list_jobs(const std::string& state, const std::string& before, std::size_t limit) const;
+  [[nodiscard]] std::vector<ResultRow> list_results(const std::string& sweep_id) const;
+  /// The packed trajectory of a job that has one.
+  [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
+
+ private:
+  StoreLock lock_;
+  // Readers close before the writer, which is then the one that empties the log.
+  Writer writer_;
+  mutable ReaderPool readers_;
+  IdMaker ids_;
+  // Which sweep was served when, as counted by claims; single jobs are sweep 0 together. Guarded by the writer's lock.
+  std::map<std::int64_t, std::uint64_t> served_;
+  std::uint64_t claims_ = 0;
+};
+
+/// The state of a sweep as its jobs make it.
+[[nodiscard]] std::string_view sweep_state(const StateCounts& counts);
+[[nodiscard]] bool has_ended(const StateCounts& counts);
+
+}  // namespace jobs

@@ -1,0 +1,113 @@
+#include "jobs/store_connection.h"
+
+#include <cerrno>
+#include <cstring>
+#include <limits>
+
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "jobs/store_schema.h"
+
+namespace jobs {
+namespace {
+
+constexpr int kBusyTimeout_ms = 5000;
+constexpr mode_t kOwnerOnly = 0600;
+
+StorageError system_error(const std::string& what) { return {what + ": " + std::strerror(errno), 0, errno == ENOSPC}; }
+
+/// What both kinds of connection need before they see a row: nothing in the file may run code of its own.
+void harden(SQLite::Database& database) {
+  for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                      {SQLITE_DBCONFIG_DQS_DML, 0}, {SQLITE_DBCONFIG_DQS_DDL, 0}}) {
+    sqlite3_db_config(database.getHandle(), option, value, nullptr);
+  }
+  database.exec("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA temp_store = MEMORY");
+}
+
+/// SQLite would make the file readable for all; its log and index files copy the file's mode.
+SQLite::Database open_for_writing(const std::filesystem::path& store) {
+  const int file = ::open(store.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kOwnerOnly);
+  if (file >= 0) {
+    ::close(file);
+  } else if (errno != EEXIST) {
+    throw system_error("cannot make the store " + store.string());
+  }
+  return with_storage_errors([&] { return SQLite::Database(store.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms); });
+}
+
+}  // namespace
+
+bool is_full(int sqlite_code) { return sqlite_code == SQLITE_FULL; }
+
+StoreLock::StoreLock(const std::filesystem::path& store) {
+  const std::string path = store.string() + ".lock";
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
+  if (file_ < 0) throw system_error("cannot open " + path);
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    const bool held = errno == EWOULDBLOCK;
+    const StorageError error = held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY, false)
+                                    : system_error("cannot lock " + path);
+    ::close(file_);
+    throw error;
+  }
+}
+
+StoreLock::~StoreLock() { ::close(file_); }
+
+Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {
+  with_storage_errors([&] {
+    harden(database_);
+    prepare_schema(database_, store);
+    // Freed pages are not wiped: results are no secrets, and wiping makes deleting slow.
+    database_.exec("PRAGMA foreign_keys = ON; PRAGMA secure_delete = OFF; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 67108864");
+  });
+}
+
+Writer::~Writer() {
+  // Nothing is lost if this fails: the log is read at the next start.
+  database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+void Writer::set_durability(Durability durability) {
+  if (durability == durability_) return;
+  database_.exec(durability == Durability::kSurvivesPowerLoss ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+  durability_ = durability;
+}
+
+void Writer::release_free_pages() {
+  int before = std::numeric_limits<int>::max();
+  for (int now = before - 1; now > 0 && now < before;) {
+    const std::lock_guard lock(mutex_);
+    with_storage_errors([&] {
+      database_.exec("PRAGMA incremental_vacuum(2048)");
+      before = std::exchange(now, database_.execAndGet("PRAGMA freelist_count").getInt());
+    });
+  }
+}
+
+std::unique_ptr<SQLite::Database> ReaderPool::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      auto connection = std::move(idle_.back());
+      idle_.pop_back();
+      return connection;
+    }
+  }
+  auto connection = std::make_unique<SQLite::Database>(store_.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms);
+  harden(*connection);
+  connection->exec("PRAGMA query_only = ON");
+  return connection;
+}
+
+void ReaderPool::put_back(std::unique_ptr<SQLite::Database> connection) {
+  constexpr std::size_t kMostIdle = 8;
+  const std::lock_guard lock(mutex_);
+  if (idle_.size() < kMostIdle) idle_.push_back(std::move(connection));
+}
+
+}  // namespace jobs

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "jobs/errors.h"
+
+namespace jobs {
+
+/// The lock that a process holds as long as it has a store open: <store>.lock. The kernel drops it when the process dies.
+class StoreLock {
+ public:
+  /// @throws StorageError if another process (or another store of this one) holds it
+  explicit StoreLock(const std::filesystem::path& store);
+  ~StoreLock();
+  StoreLock(const StoreLock&) = delete;
+  StoreLock& operator=(const StoreLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+/// Whether SQLite says that there is no room left.
+[[nodiscard]] bool is_full(int sqlite_code);
+
+/// Runs database work and throws StorageError in the place of SQLite's exceptions.
+template <typename Work>
+auto with_storage_errors(Work&& work) {
+  try {
+    return std::forward<Work>(work)();
+  } catch (const SQLite::Exception& error) {
+    throw StorageError(std::string("the store failed: ") + error.what(), error.getExtendedErrorCode(), is_full(error.getErrorCode()));
+  }
+}
+
+/// How sure a commit must be before it returns.
+enum class Durability {
+  kSurvivesProcess,    ///< of what can be computed again
+  kSurvivesPowerLoss,  ///< of what has been promised to a user
+};
+
+/// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before 3.51.3 a
+/// checkpoint beside another connection's commit can damage a store, so no second connection may do either.
+class Writer {
+ public:
+  explicit Writer(const std::filesystem::path& store);
+  ~Writer();
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  /// Runs work(database) in one transaction: all of it, or nothing if it throws.
+  template <typename Work>
+  auto write(Durability durability, Work&& work) {
+    const std::lock_guard lock(mutex_);
+    return with_storage_errors([&] {
+      set_durability(durability);
+      SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+      if constexpr (std::is_void_v<decltype(work(database_))>) {
+        work(database_);
+        transaction.commit();
+      } else {
+        auto result = work(database_);
+        transaction.commit();
+        return result;
+      }
+    });
+  }
+
+  /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their turn.
+  void release_free_pages();
+
+ private:
+  void set_durability(Durability durability);
+
+  std::mutex mutex_;  // guards the rest
+  SQLite::Database database_;
+  Durability durability_ = Durability::kSurvivesPowerLoss;
+};
+
+/// Read-only connections, kept for the next who needs one.
+class ReaderPool {
+ public:
+  explicit ReaderPool(std::filesystem::path store) : store_(std::move(store)) {}
+
+  /// Runs work(database) on one consistent picture of the store.
+  template <typename Work>
+  auto read(Work&& work) {
+    return with_storage_errors([&] {
+      Lease lease(*this);
+      SQLite::Transaction transaction(*lease.connection);
+      return work(static_cast<const SQLite::Database&>(*lease.connection));
+    });
+  }
+
+ private:
+  struct Lease {
+    explicit Lease(ReaderPool& owner) : pool(owner), connection(owner.take()) {}
+    ~Lease() { pool.put_back(std::move(connection)); }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+
+    ReaderPool& pool;
+    std::unique_ptr<SQLite::Database> connection;
+  };
+
+  std::unique_ptr<SQLite::Database> take();
+  void put_back(std::unique_ptr<SQLite::Database> connection);
+
+  const std::filesystem::path store_;
+  std::mutex mutex_;  // guards idle_
+  std::vector<std::unique_ptr<SQLite::Database>> idle_;
+};
+
+}  // namespace jobs

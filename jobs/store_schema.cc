@@ -1,0 +1,135 @@
+#include "jobs/store_schema.h"
+
+#include <array>
+#include <string>
+
+#include <sqlite3.h>
+
+#include "jobs/errors.h"
+
+namespace jobs {
+namespace {
+
+constexpr int kApplicationId = 0x52505355;  // "RPSU"
+
+/// Step i brings a store from version i to i + 1. What has been released is never changed, only added to.
+constexpr std::array<const char*, 1> kMigrations{R"sql(
+  CREATE TABLE sweeps (
+    seq INTEGER PRIMARY KEY,
+    id TEXT NOT NULL UNIQUE,
+    name TEXT NOT NULL,
+    request TEXT NOT NULL,
+    swept TEXT NOT NULL,
+    replicated INTEGER NOT NULL,
+    created_ms INTEGER NOT NULL
+  ) STRICT;
+
+  CREATE TABLE contents (
+    seq INTEGER PRIMARY KEY,
+    content_id TEXT NOT NULL UNIQUE,
+    engine_version TEXT NOT NULL,
+    parameters TEXT NOT NULL
+  ) STRICT;
+
+  CREATE TABLE results (
+    seq INTEGER PRIMARY KEY,
+    content INTEGER NOT NULL REFERENCES contents,
+    metrics TEXT,
+    error_reason TEXT,
+    error_detail TEXT,
+    error_t_s REAL,
+    wall_time_s REAL NOT NULL,
+    cpu_time_s REAL NOT NULL,
+    host TEXT NOT NULL,
+    cpu TEXT NOT NULL,
+    version TEXT NOT NULL,
+    "commit" TEXT NOT NULL,
+    compiler TEXT NOT NULL
+  ) STRICT;
+  CREATE INDEX results_by_content ON results (content);
+
+  CREATE TABLE trajectories (
+    result INTEGER PRIMARY KEY REFERENCES results ON DELETE CASCADE,
+    data BLOB NOT NULL
+  ) STRICT;
+
+  CREATE TABLE jobs (
+    seq INTEGER PRIMARY KEY,
+    id TEXT NOT NULL UNIQUE,
+    sweep INTEGER REFERENCES sweeps,
+    replicate INTEGER,
+    swept TEXT NOT NULL,
+    state TEXT NOT NULL CHECK (state IN ('queued', 'running', 'succeeded', 'failed', 'cancelled')),
+    content INTEGER NOT NULL REFERENCES contents,
+    coupler TEXT NOT NULL,
+    reuse INTEGER NOT NULL,
+    reused INTEGER NOT NULL DEFAULT 0,
+    attempt INTEGER NOT NULL DEFAULT 0,
+    result INTEGER REFERENCES results,
+    created_ms INTEGER NOT NULL,
+    started_ms INTEGER,
+    ended_ms INTEGER
+  ) STRICT;
+  CREATE INDEX jobs_by_sweep ON jobs (sweep, state, started_ms, ended_ms);
+  CREATE INDEX jobs_by_content ON jobs (content);
+  CREATE INDEX jobs_by_result ON jobs (result);
+  CREATE INDEX queued_jobs ON jobs (sweep) WHERE state = 'queued';
+  CREATE INDEX running_jobs ON jobs (content) WHERE state = 'running';
+)sql"};
+constexpr int kNewestVersion = static_cast<int>(kMigrations.size());
+
+int pragma(SQLite::Database& database, const std::string& name) { return database.execAndGet("PRAGMA " + name).getInt(); }
+
+bool is_empty(SQLite::Database& database) { return database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0; }
+
+/// Looks at all but the trajectories: they are nearly all of a large store, and each carries its own checksum.
+void check_health(SQLite::Database& database, const std::string& name) {
+  for (const char* table : {"sweeps", "contents", "results", "jobs"}) {
+    const std::string verdict = database.execAndGet(std::string("PRAGMA quick_check(") + table + ")").getString();
+    if (verdict != "ok") throw StorageError("the store " + name + " is damaged (" + verdict + "); it has been left as it is", SQLITE_CORRUPT, false);
+  }
+}
+
+void check_identity(SQLite::Database& database, const std::string& name) {
+  const int version = pragma(database, "user_version");
+  if (pragma(database, "application_id") != kApplicationId && !(version == 0 && is_empty(database))) {
+    throw StorageError(name + " is a database, but not a store of this program; it has been left as it is", SQLITE_NOTADB, false);
+  }
+  if (version > kNewestVersion) {
+    throw StorageError("the store " + name + " is of a newer program (form " + std::to_string(version) + ", this one knows " +
+                           std::to_string(kNewestVersion) + "); it has been left as it is",
+                       SQLITE_MISMATCH, false);
+  }
+}
+
+void migrate(SQLite::Database& database) {
+  for (int version = pragma(database, "user_version"); version < kNewestVersion; ++version) {
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    database.exec(kMigrations.at(static_cast<std::size_t>(version)));
+    database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+    database.exec("PRAGMA user_version = " + std::to_string(version + 1));
+    transaction.commit();
+  }
+}
+
+}  // namespace
+
+void prepare_schema(SQLite::Database& database, const std::filesystem::path& store) {
+  const std::string name = store.string();
+  try {
+    check_identity(database, name);
+    if (pragma(database, "user_version") > 0) check_health(database, name);
+    // The first two only take effect in a file without tables. Large pages suit large trajectories.
+    database.exec("PRAGMA page_size = 8192; PRAGMA auto_vacuum = INCREMENTAL");
+    if (database.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
+      throw StorageError("the store " + name + " lies on a file system that does not share memory, as a network's", SQLITE_CANTOPEN, false);
+    }
+    migrate(database);
+  } catch (const SQLite::Exception& error) {
+    const int code = error.getErrorCode();
+    if (code != SQLITE_CORRUPT && code != SQLITE_NOTADB) throw;
+    throw StorageError("the store " + name + " is damaged or no database (" + error.what() + "); it has been left as it is", code, false);
+  }
+}
+
+}  // namespace jobs

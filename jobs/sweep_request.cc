@@ -1,0 +1,176 @@
+#include "jobs/sweep_request.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+#include "jobs/parameter_path.h"
+#include "jobs/parameter_value.h"
+#include "jobs/parameters.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::size_t kLongestName = 200;
+constexpr Range kReplicateCount{.minimum = 1, .maximum = 1e9};
+constexpr Range kPerturbation{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
+constexpr Range kSeed{.minimum = 0, .maximum = 9007199254740991.0};  // integers that every JSON reader keeps
+
+/// Reads one request; a member function a part of it.
+class Parser {
+ public:
+  Parser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+
+  SweepRequest parse() {
+    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
+    check_keys();
+    read_name();
+    read_reuse();
+    read_replicates();
+    read_parameters();
+    check_cases_shape();
+    check_size();
+    read_cases();
+    read_axes();
+    if (faults_.empty()) check_places();
+    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
+    return std::move(sweep_);
+  }
+
+ private:
+  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+
+  void check_keys() {
+    constexpr std::array<std::string_view, 6> kKeys{"name", "parameters", "sweep", "cases", "replicates", "reuse"};
+    for (const auto& [key, value] : request_.items()) {
+      if (std::ranges::find(kKeys, key) != kKeys.end()) continue;
+      const bool is_parameter = std::ranges::find(known_paths(), key) != known_paths().end();
+      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\"" : describe_unknown_key(key, kKeys));
+    }
+  }
+
+  void read_name() {
+    if (!request_.contains("name")) return;
+    const ordered_json& name = request_.at("name");
+    if (!name.is_string() || name.get_ref<const std::string&>().size() > kLongestName) {
+      fault("/name", "must be a string of at most " + std::to_string(kLongestName) + " bytes");
+    } else {
+      sweep_.name = name.get<std::string>();
+    }
+  }
+
+  void read_reuse() {
+    if (!request_.contains("reuse")) return;
+    if (!request_.at("reuse").is_boolean()) return fault("/reuse", "must be true or false");
+    sweep_.reuse = request_.at("reuse").get<bool>();
+  }
+
+  void read_replicates() {
+    if (!request_.contains("replicates")) return;
+    const json replicates = request_.at("replicates");
+    if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation and seed");
+    constexpr std::array<std::string_view, 3> kKeys{"count", "perturbation", "seed"};
+    for (const auto& [key, value] : replicates.items()) {
+      const std::string detail = key == "count"          ? describe_integer_fault(kReplicateCount, value)
+                                 : key == "perturbation" ? describe_number_fault(kPerturbation, "", value)
+                                 : key == "seed"         ? describe_integer_fault(kSeed, value)
+                                                         : describe_unknown_key(key, kKeys);
+      if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
+    }
+    if (!replicates.contains("count")) fault("/replicates/count", "is missing");
+    if (!faults_.empty()) return;
+    sweep_.replicates = {.requested = true,
+                         .count = replicates.at("count").get<std::uint64_t>(),
+                         .perturbation = replicates.value("perturbation", Replicates{}.perturbation),
+                         .seed = replicates.value("seed", Replicates{}.seed)};
+  }
+
+  void read_parameters() {
+    if (!request_.contains("parameters")) return;
+    sweep_.parameters = request_.at("parameters");
+    for (const Fault& found : find_value_faults(sweep_.parameters)) fault("/parameters" + found.pointer, found.detail);
+  }
+
+  void check_cases_shape() {
+    if (!request_.contains("cases")) return;
+    const ordered_json& cases = request_.at("cases");
+    if (!cases.is_array() || cases.empty()) return fault("/cases", "must be a list of one parameter object or more");
+    case_count_ = cases.size();
+  }
+
+  /// Multiplies what has been counted, and ends here if that is too much.
+  void check_size() {
+    std::uint64_t jobs = case_count_;
+    bool overflow = __builtin_mul_overflow(jobs, sweep_.replicates.count, &jobs);
+    if (request_.contains("sweep")) {
+      if (!request_.at("sweep").is_object()) return fault("/sweep", "must be an object of axes");
+      for (const auto& [path, axis] : request_.at("sweep").items()) {
+        const std::uint64_t values = count_axis_values(path, axis, "/sweep" + pointer_token(path), faults_);
+        overflow |= values > 0 && __builtin_mul_overflow(jobs, values, &jobs);
+      }
+    }
+    if (!overflow && jobs <= max_jobs_) return;
+    const std::string size = overflow ? "more than " + std::to_string(std::numeric_limits<std::uint64_t>::max()) : std::to_string(jobs);
+    throw InvalidRequest(std::vector<Fault>{{request_.contains("sweep") ? "/sweep" : request_.contains("cases") ? "/cases" : "/replicates/count",
+                           "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed"}});
+  }
+
+  void read_cases() {
+    if (!request_.contains("cases") || !request_.at("cases").is_array()) return;
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < request_.at("cases").size(); ++i) {
+      json given = request_.at("cases")[i];
+      const std::string pointer = "/cases" + pointer_token(std::to_string(i));
+      for (const Fault& found : find_value_faults(given)) fault(pointer + found.pointer, found.detail);
+      if (!seen.insert(given.dump()).second) fault(pointer, "is in the list already");
+      sweep_.cases.push_back(std::move(given));
+    }
+  }
+
+  void read_axes() {
+    if (!request_.contains("sweep") || !request_.at("sweep").is_object()) return;
+    for (const auto& [path, axis] : request_.at("sweep").items()) {
+      const std::string pointer = "/sweep" + pointer_token(path);
+      std::vector<Fault> known;  // those that counting has reported already
+      if (count_axis_values(path, axis, pointer, known) == 0) continue;
+      sweep_.axes.push_back(make_axis(path, axis, pointer, faults_));
+      sweep_.swept.push_back(path);
+    }
+  }
+
+  /// Every value has one place: parameters, an axis, or the cases.
+  void check_places() {
+    std::set<std::string> fixed;
+    if (request_.contains("parameters")) {
+      for (const std::string& path : paths_of(request_.at("parameters"))) fixed.insert(path);
+    }
+    const std::set<std::string> axes(sweep_.swept.begin(), sweep_.swept.end());
+    for (const std::string& path : sweep_.swept) {
+      if (fixed.contains(path)) fault("/sweep" + pointer_token(path), "stands in parameters, too");
+    }
+    for (std::size_t i = 0; i < sweep_.cases.size(); ++i) {
+      for (const std::string& path : paths_of(request_.at("cases")[i])) {
+        const std::string pointer = "/cases" + pointer_token(std::to_string(i)) + pointer_of_path(path);
+        if (fixed.contains(path)) fault(pointer, "stands in parameters, too");
+        if (axes.contains(path)) fault(pointer, "is an axis of sweep, too");
+        if (std::ranges::find(sweep_.swept, path) == sweep_.swept.end()) sweep_.swept.push_back(path);
+      }
+    }
+  }
+
+  const ordered_json& request_;
+  std::size_t max_jobs_;
+  std::uint64_t case_count_ = 1;
+  SweepRequest sweep_;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+SweepRequest parse_sweep_request(const ordered_json& request, std::size_t max_jobs) { return Parser(request, max_jobs).parse(); }
+
+}  // namespace jobs

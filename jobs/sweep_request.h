@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/axis.h"
+
+namespace jobs {
+
+/// How often each point of a sweep is run, with slightly different contact stiffness.
+struct Replicates {
+  bool requested = false;       ///< whether rows carry `replicate`
+  std::uint64_t count = 1;
+  double perturbation = 1e-6;   ///< relative, of contact_stiffness_scale
+  std::uint64_t seed = 1;
+};
+
+/// A sweep as it was asked for, checked as far as that can be done value by value.
+struct SweepRequest {
+  std::string name;
+  nlohmann::json parameters = nlohmann::json::object();  ///< of all points
+  std::vector<nlohmann::json> cases;                     ///< empty: none were given, which counts as one
+  std::vector<Axis> axes;
+  std::vector<std::string> swept;                        ///< paths that differ from job to job: axes first, then those of the cases
+  Replicates replicates;
+  bool reuse = true;
+};
+
+/// Reads {"name", "parameters", "sweep", "cases", "replicates", "reuse"}; all are optional.
+/// The number of jobs is counted before anything of that size is made.
+/// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
+[[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);
+
+}  // namespace jobs

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/simulate_rpsup.h"
+
+namespace jobs {
+
+/// A blob that is no trajectory, or one that was damaged.
+class DamagedTrajectory : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A trajectory with the precision that is kept: channels marked single_precision rounded to 24 bits.
+/// @throws std::invalid_argument if the columns are not one for each channel, of one length
+[[nodiscard]] engine::Trajectory rounded_to_stored(engine::Trajectory trajectory);
+
+/// Packs a trajectory:
+///
+///     version byte | size of header | header | one block a channel
+///
+/// The header and each block are zstd frames with a checksum. A block holds the bytes of its column shuffled (all first
+/// bytes, all second bytes, ...): neighbours differ in their low bytes only, so that the others compress well. A time
+/// axis k / rate is stored as its rate and last value, if that reads back to the same bits.
+/// Decoding gives rounded_to_stored(trajectory), bit by bit.
+/// @throws std::invalid_argument as rounded_to_stored does
+[[nodiscard]] std::string encode_trajectory(const engine::Trajectory& trajectory);
+
+/// Unpacks the channels that are wanted, in that order.
+/// @param keys  empty: all. A key that is not there is left out
+/// @throws DamagedTrajectory; sizes are checked against limits before memory is taken
+[[nodiscard]] engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<const std::string> keys);
+
+/// What a blob holds, without its columns.
+[[nodiscard]] std::vector<engine::QuantityInfo> decode_channels(std::span<const std::byte> blob);
+
+}  // namespace jobs

@@ -1,0 +1,33 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "jobs/service.h"
+
+namespace jobs_tests {
+namespace {
+
+TEST(Csv, WritesNumbersThatReadBackAndEmptyCells) {
+  const jobs::ResultTable table{{"job_id", "x", "n"}, {{"job_1", 0.1, 3}, {"job_2", 1.0 / 3.0, nullptr}, {"job_3", 1e300, -2}}};
+  EXPECT_EQ(jobs::to_csv(table), "job_id,x,n\r\njob_1,0.1,3\r\njob_2,0.3333333333333333,\r\njob_3,1e+300,-2\r\n");
+}
+
+TEST(Csv, QuotesWhatWouldBreakTheTable) {
+  const jobs::ResultTable table{{"links.1,3.mass_kg", "b\"c"}, {{"line\nbreak", "plain"}}};
+  EXPECT_EQ(jobs::to_csv(table), "\"links.1,3.mass_kg\",\"b\"\"c\"\r\n\"line\nbreak\",plain\r\n");
+}
+
+TEST(Csv, DisarmsFormulasInTextButNotNumbers) {
+  const jobs::ResultTable table{{"a"}, {{"=1+1"}, {"+1"}, {"-1"}, {"@x"}, {"\tx"}, {"\rx"}, {"=HYPERLINK(\"u\",\"v\")"}, {-1.5}, {"a=b"}}};
+  EXPECT_EQ(jobs::to_csv(table), "a\r\n'=1+1\r\n'+1\r\n'-1\r\n'@x\r\n'\tx\r\n\"'\rx\"\r\n\"'=HYPERLINK(\"\"u\"\",\"\"v\"\")\"\r\n-1.5\r\na=b\r\n");
+}
+
+TEST(Csv, OfATrajectoryHasALineASample) {
+  engine::Trajectory trajectory;
+  trajectory.channels = {{.key = "t_s", .help = ""}, {.key = "slider_position_m", .help = ""}};
+  trajectory.columns = {{0.0, 0.001}, {0.5, std::nan("")}};
+  EXPECT_EQ(jobs::to_csv(trajectory), "t_s,slider_position_m\r\n0,0.5\r\n0.001,\r\n");
+}
+
+}  // namespace
+}  // namespace jobs_tests

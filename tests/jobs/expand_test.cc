@@ -1,0 +1,151 @@
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "jobs/content_id.h"
+#include "jobs/expand.h"
+#include "jobs/program_info.h"
+#include "jobs/service.h"
+#include "tests/jobs/request_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxJobs = 10'000;
+
+jobs::SweepPlan plan_of(const std::string& request) { return jobs::plan_sweep(request_of(request), kMaxJobs); }
+
+std::vector<std::string> swept_values(const jobs::SweepPlan& plan) {
+  std::vector<std::string> values;
+  for (const jobs::PlannedJob& job : plan.jobs) values.push_back(job.swept);
+  return values;
+}
+
+using Strings = std::vector<std::string>;
+
+TEST(PlanSweep, MultipliesAxesInTheirOrderLastFastest) {
+  // crank_velocity_rad_s comes before clearance_mm in the alphabet of neither the request nor the sorted keys.
+  const auto plan = plan_of(R"({"name": "n", "sweep": {"crank_velocity_rad_s": [5, 10], "coupler": ["flexible", "rigid"], "clearance_mm": [0, 0.25, 0.5]}})");
+  EXPECT_EQ(plan.name, "n");
+  EXPECT_EQ(plan.swept, (Strings{"crank_velocity_rad_s", "coupler", "clearance_mm"}));
+  EXPECT_EQ(swept_values(plan), (Strings{R"([5.0,"flexible",0.0])", R"([5.0,"flexible",0.25])", R"([5.0,"flexible",0.5])", R"([5.0,"rigid",0.0])",
+                                         R"([5.0,"rigid",0.25])", R"([5.0,"rigid",0.5])", R"([10.0,"flexible",0.0])", R"([10.0,"flexible",0.25])",
+                                         R"([10.0,"flexible",0.5])", R"([10.0,"rigid",0.0])", R"([10.0,"rigid",0.25])", R"([10.0,"rigid",0.5])"}));
+  EXPECT_EQ(plan.jobs[3].coupler, "rigid");
+}
+
+TEST(PlanSweep, GivesEachJobItsWholeParameterSet) {
+  const auto plan = plan_of(R"({"parameters": {"duration_s": 4, "links": {"1,3": {"inertia_kg_m2": [4e-6, 0.026, 0.026]}}},
+                                "sweep": {"links.1,3.mass_kg": [0.3, 0.31], "clearance_mm": [0.5]}})");
+  ASSERT_EQ(plan.jobs.size(), 2U);
+  const json expected = jobs::complete_parameters(
+      json_of(R"({"duration_s": 4, "clearance_mm": 0.5, "links": {"1,3": {"mass_kg": 0.31, "inertia_kg_m2": [4e-6, 0.026, 0.026]}}})"), "");
+  EXPECT_EQ(json::parse(plan.jobs[1].parameters), expected);
+  EXPECT_EQ(plan.jobs[1].content_id, jobs::content_id(expected.dump(), jobs::kEngineVersion));
+  EXPECT_EQ(plan.jobs[1].swept, "[0.31,0.5]");
+}
+
+TEST(PlanSweep, RunsThroughCasesOutermost) {
+  const auto plan = plan_of(R"({"cases": [{"clearance_mm": 0, "coupler": "rigid"}, {"coupler": "flexible", "links": {"2,2": {"mass_kg": 0.2}}}],
+                                "sweep": {"crank_velocity_rad_s": [5, 10]}})");
+  EXPECT_EQ(plan.swept, (Strings{"crank_velocity_rad_s", "clearance_mm", "coupler", "links.2,2.mass_kg"}));
+  // A case that leaves a key out has its default there.
+  EXPECT_EQ(swept_values(plan), (Strings{R"([5.0,0.0,"rigid",0.107])", R"([10.0,0.0,"rigid",0.107])", R"([5.0,0.25,"flexible",0.2])", R"([10.0,0.25,"flexible",0.2])"}));
+}
+
+TEST(PlanSweep, OfNothingIsOneJobOfDefaults) {
+  const auto plan = plan_of("{}");
+  ASSERT_EQ(plan.jobs.size(), 1U);
+  EXPECT_EQ(json::parse(plan.jobs[0].parameters), jobs::complete_parameters(json::object(), ""));
+  EXPECT_FALSE(plan.replicated);
+  EXPECT_TRUE(plan.reuse);
+}
+
+TEST(PlanSweep, SpacesLinearAndLogarithmicAxes) {
+  EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 5}}})")), (Strings{"[0.1]", "[0.2]", "[0.3]", "[0.4]", "[0.5]"}));
+  EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"crank_velocity_rad_s": {"from": 10, "to": -10, "count": 3, "scale": "linear"}}})")), (Strings{"[10.0]", "[0.0]", "[-10.0]"}));
+  EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"rigid_elements": {"from": 2, "to": 8, "count": 4}}})")), (Strings{"[2]", "[4]", "[6]", "[8]"}));
+  EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"clearance_mm": {"from": 0.3, "to": 0.3, "count": 1}}})")), (Strings{"[0.3]"}));
+  const auto plan = plan_of(R"({"sweep": {"relative_tolerance": {"from": 1e-9, "to": 1e-3, "count": 4, "scale": "log"}}})");
+  const double expected[] = {1e-9, 1e-7, 1e-5, 1e-3};
+  ASSERT_EQ(plan.jobs.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(json::parse(plan.jobs[k].swept)[0].get<double>() / expected[k], 1.0, 1e-14) << k;
+  EXPECT_EQ(plan.jobs[0].swept, "[1e-09]");
+  EXPECT_EQ(plan.jobs[3].swept, "[0.001]");
+}
+
+/// The numbers of the bits that are set, from 1: a subset of 1 .. 6.
+std::vector<int> subset(int bits) {
+  std::vector<int> members;
+  for (int i = 0; i < 6; ++i) {
+    if ((bits >> i & 1) != 0) members.push_back(i + 1);
+  }
+  return members;
+}
+
+RC_GTEST_PROP(PlanSweep, HasTheProductOfTheAxesAsCountAndEveryCombinationOnce, ()) {
+  const auto speeds = subset(*rc::gen::inRange(1, 64));
+  const auto levels = subset(*rc::gen::inRange(1, 64));
+  const int replicates = *rc::gen::inRange(1, 4);
+  const nlohmann::ordered_json request{{"sweep", {{"radial_levels", levels}, {"crank_velocity_rad_s", speeds}}}, {"replicates", {{"count", replicates}}}};
+  const auto plan = jobs::plan_sweep(request, kMaxJobs);
+  RC_ASSERT(plan.jobs.size() == speeds.size() * levels.size() * static_cast<std::size_t>(replicates));
+  std::size_t next = 0;
+  for (const int level : levels) {
+    for (const int speed : speeds) {
+      for (int k = 0; k < replicates; ++k, ++next) {
+        RC_ASSERT(json::parse(plan.jobs[next].swept) == json::array({level, speed}));
+        RC_ASSERT(plan.jobs[next].replicate == static_cast<std::uint64_t>(k));
+      }
+    }
+  }
+  std::set<std::string> contents;
+  for (const auto& job : plan.jobs) contents.insert(job.content_id);
+  RC_ASSERT(contents.size() == plan.jobs.size());
+}
+
+// The first numbers of splitmix64 from the seed 1234567, as its author's program prints them.
+TEST(ReplicateFactor, ComesFromSplitmix64) {
+  const std::uint64_t published[] = {6457827717110365317U, 3203168211198807973U, 9817491932198370423U};
+  for (std::uint64_t k = 1; k <= 3; ++k) {
+    const double u = 2.0 * (static_cast<double>(published[k - 1] >> 11U) / 9007199254740992.0) - 1.0;
+    EXPECT_EQ(jobs::replicate_factor(1234567, k, 0.01), 1.0 + 0.01 * u);
+  }
+  EXPECT_EQ(jobs::replicate_factor(1234567, 0, 0.01), 1.0);
+}
+
+RC_GTEST_PROP(ReplicateFactor, StaysWithinThePerturbation, (std::uint64_t seed, std::uint64_t k)) {
+  const double factor = jobs::replicate_factor(seed, k, 1e-3);
+  RC_ASSERT(factor >= 1.0 - 1e-3 && factor <= 1.0 + 1e-3);
+}
+
+TEST(PlanSweep, RunsReplicatesOfEachPointInnermost) {
+  const std::string request = R"({"parameters": {"contact_stiffness_scale": 2}, "sweep": {"clearance_mm": [0.25, 0.5]},
+                                  "replicates": {"count": 3, "perturbation": 1e-4, "seed": 7}})";
+  const auto plan = plan_of(request);
+  ASSERT_EQ(plan.jobs.size(), 6U);
+  EXPECT_TRUE(plan.replicated);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::uint64_t k = i % 3;
+    EXPECT_EQ(plan.jobs[i].replicate, k);
+    EXPECT_EQ(plan.jobs[i].swept, i < 3 ? "[0.25]" : "[0.5]");
+    EXPECT_EQ(json::parse(plan.jobs[i].parameters).at("contact_stiffness_scale"), 2.0 * jobs::replicate_factor(7, k, 1e-4));
+  }
+  const auto again = plan_of(request);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(plan.jobs[i].content_id, again.jobs[i].content_id);
+  EXPECT_EQ(plan.jobs[0].content_id, plan_of(R"({"parameters": {"contact_stiffness_scale": 2, "clearance_mm": 0.25}})").jobs[0].content_id);
+}
+
+TEST(PlanJob, IsTheJobOfItsParameters) {
+  const auto job = jobs::plan_job(json_of(R"({"coupler": "flexible"})"));
+  EXPECT_EQ(job.content_id, plan_of(R"({"sweep": {"coupler": ["flexible"]}})").jobs[0].content_id);
+  EXPECT_EQ(job.coupler, "flexible");
+  EXPECT_FALSE(job.replicate.has_value());
+}
+
+}  // namespace
+}  // namespace jobs_tests

@@ -1,0 +1,116 @@
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "jobs/local_pool.h"
+#include "tests/jobs/request_support.h"
+#include "tests/jobs/service_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
+  FakeEngine engine;
+  std::atomic<int> claims = 0;
+  std::atomic<int> offers = 0;
+  std::atomic<int> logs = 0;
+  std::atomic<bool> stored = false;
+  const jobs::ClaimedJob job{.seq = 1, .id = "job_1", .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
+  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> { return claims++ == 0 ? std::optional(job) : std::nullopt; },
+                        .record =
+                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record) {
+                              EXPECT_EQ(claimed.id, "job_1");
+                              EXPECT_EQ(record.end, jobs::RunRecord::End::kSucceeded);
+                              if (offers++ == 0) throw jobs::StorageError("disk full", 13, true);
+                              stored = true;
+                              stored.notify_all();
+                            },
+                        .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE() << "a finished job was given back"; }},
+                       engine.runner(), 1, [&](const std::string& text) {
+                         ++logs;
+                         EXPECT_NE(text.find("disk full"), std::string::npos);
+                       });
+  stored.wait(false);
+  EXPECT_EQ(offers, 2);
+  EXPECT_EQ(logs, 1);
+  EXPECT_EQ(engine.begun_speeds().size(), 1U);  // computed once
+}
+
+TEST(LocalPool, OutlivesAStoreThatCannotBeClaimedFrom) {
+  FakeEngine engine;
+  std::atomic<int> claims = 0;
+  std::atomic<bool> done = false;
+  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> {
+                          if (claims++ == 0) throw jobs::StorageError("disk full", 13, true);
+                          done = true;
+                          done.notify_all();
+                          return std::nullopt;
+                        },
+                        .record = [](const jobs::ClaimedJob&, const jobs::RunRecord&) {},
+                        .give_back = [](const jobs::ClaimedJob&) {}},
+                       engine.runner(), 1, [](const std::string&) {});
+  done.wait(false);
+  EXPECT_GE(claims, 2);
+}
+
+TEST(LocalPool, SleepsWhileThereIsNothingToDo) {
+  FakeEngine engine;
+  std::atomic<int> claims = 0;
+  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> { ++claims; claims.notify_all(); return std::nullopt; },
+                        .record = [](const jobs::ClaimedJob&, const jobs::RunRecord&) {},
+                        .give_back = [](const jobs::ClaimedJob&) {}},
+                       engine.runner(), 1, [](const std::string&) {});
+  claims.wait(0);
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(claims, 1);
+  pool.wake();
+  claims.wait(1);
+  EXPECT_EQ(claims, 2);
+}
+
+TEST(LocalPool, StopsAtOnceWhileItWaitsForTheDisk) {
+  FakeEngine engine;
+  std::atomic<int> claims = 0;
+  std::atomic<bool> offered = false;
+  const jobs::ClaimedJob job{.seq = 1, .id = "job_1", .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
+  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> { return claims++ == 0 ? std::optional(job) : std::nullopt; },
+                        .record =
+                            [&](const jobs::ClaimedJob&, const jobs::RunRecord&) {
+                              offered = true;
+                              offered.notify_all();
+                              throw jobs::StorageError("disk full", 13, true);
+                            },
+                        .give_back = [](const jobs::ClaimedJob&) {}},
+                       engine.runner(), 1, [](const std::string&) {});
+  offered.wait(false);
+  const auto start = std::chrono::steady_clock::now();
+  pool.stop();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 400ms);  // the first pause alone is 500 ms
+}
+
+TEST(RunAndRecord, TurnsWhateverIsThrownIntoAFailure) {
+  const jobs::RunRecord record = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult {
+    throw std::runtime_error("broken \xff text");
+  }, [](double) { return false; });
+  EXPECT_EQ(record.end, jobs::RunRecord::End::kFailed);
+  EXPECT_EQ(record.error_reason, "internal");
+  EXPECT_NE(record.error_detail.find("broken"), std::string::npos);
+  EXPECT_NO_THROW((void)nlohmann::json(record.error_detail).dump());
+  const jobs::RunRecord odd = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw 7; },
+                                                   [](double) { return false; });
+  EXPECT_EQ(odd.error_reason, "internal");
+}
+
+TEST(RunAndRecord, RefusesAResultThatLacksMetrics) {
+  const jobs::RunRecord record = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) { return engine::RunResult{}; },
+                                                      [](double) { return false; });
+  EXPECT_EQ(record.end, jobs::RunRecord::End::kFailed);
+  EXPECT_EQ(record.error_reason, "internal");
+}
+
+}  // namespace
+}  // namespace jobs_tests

@@ -1,0 +1,67 @@
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "jobs/parameter_table.h"
+#include "jobs/errors.h"
+#include "jobs/service.h"
+
+namespace jobs_tests {
+namespace {
+
+using nlohmann::json;
+
+// The keys of the interface's description, written down here by hand.
+const std::set<std::string> kKeys{
+    "coupler", "clearance_mm", "axial_clearance_mm", "crank_velocity_rad_s", "duration_s", "output_rate_hz", "run_up_s", "rod_stroke_mm",
+    "rod_stroke_time_s", "rod_pause_s", "drive", "baumgarte_alpha_1_s", "baumgarte_beta_1_s", "contact", "radial_levels", "radial_elements",
+    "axial_levels", "axial_elements", "bearing_radius_mm", "bearing_length_mm", "restitution", "contact_stiffness_scale", "axial_stiffness_n_m",
+    "minimum_impact_velocity_m_s", "friction", "friction_static", "friction_kinetic", "bristle_stiffness_1_m", "bristle_damping_s_m",
+    "bristle_viscous_s_m", "stribeck_velocity_m_s", "rigid_elements", "youngs_modulus_pa", "shear_modulus_pa", "coupler_diameter_mm",
+    "coupler_damping_ratio", "integrator", "step_s", "relative_tolerance", "absolute_tolerance", "crank_length_m", "rod_length_m",
+    "coupler_length_m", "guide_offset_y_m", "guide_offset_z_m", "gravity_m_s2", "links"};
+
+TEST(ParameterSchema, ListsEveryKeyAndNoOther) {
+  std::set<std::string> listed;
+  const json schema = jobs::parameter_schema();
+  for (const auto& [key, property] : schema.at("properties").items()) listed.insert(key);
+  EXPECT_EQ(listed, kKeys);
+  EXPECT_EQ(schema.at("additionalProperties"), false);
+}
+
+TEST(ParameterSchema, SaysTypeRangeUnitDefaultAndSource) {
+  const json properties = jobs::parameter_schema().at("properties");
+  const json& duration = properties.at("duration_s");
+  EXPECT_EQ(duration.at("type"), "number");
+  EXPECT_EQ(duration.at("exclusiveMinimum"), 0.0);
+  EXPECT_EQ(duration.at("maximum"), 3600.0);
+  EXPECT_FALSE(duration.contains("minimum"));
+  EXPECT_EQ(duration.at("x-unit"), "s");
+  EXPECT_EQ(duration.at("default"), 5.0);
+  EXPECT_EQ(duration.at("x-default-source"), "chosen");
+  EXPECT_EQ(properties.at("rigid_elements").at("type"), "integer");
+  EXPECT_EQ(properties.at("rigid_elements").at("x-default-source"), "paper");
+  EXPECT_EQ(properties.at("coupler").at("enum"), json::array({"rigid", "flexible"}));
+  EXPECT_EQ(properties.at("coupler_diameter_mm").at("x-default-source"), "deduced from the paper");
+  EXPECT_EQ(properties.at("links").at("properties").at("1,3").at("properties").at("mass_kg").at("default"), 0.306);
+  EXPECT_EQ(properties.at("links").at("properties").size(), 5U);
+}
+
+// Whoever follows the schema must be let in, and whoever leaves it by a hair must not.
+TEST(ParameterSchema, AgreesWithTheChecks) {
+  const json schema = jobs::parameter_schema();
+  for (const auto& [key, property] : schema.at("properties").items()) {
+    if (key == "links") continue;
+    EXPECT_NO_THROW((void)jobs::complete_parameters({{key, property.at("default")}}, "")) << key;
+    if (property.contains("maximum")) {
+      EXPECT_THROW((void)jobs::complete_parameters({{key, property.at("maximum").get<double>() * 1.001 + 1.0}}, ""), jobs::InvalidRequest) << key;
+    }
+    if (property.contains("exclusiveMinimum")) {
+      EXPECT_THROW((void)jobs::complete_parameters({{key, property.at("exclusiveMinimum")}}, ""), jobs::InvalidRequest) << key;
+    }
+    EXPECT_FALSE(property.at("description").get<std::string>().empty()) << key;
+  }
+}
+
+}  // namespace
+}  // namespace jobs_tests

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "jobs/service.h"
+
+namespace jobs_tests {
+
+/// A folder of its own for a test's store; gone with the test.
+class TemporaryStore {
+ public:
+  TemporaryStore();
+  ~TemporaryStore();
+  TemporaryStore(const TemporaryStore&) = delete;
+  TemporaryStore& operator=(const TemporaryStore&) = delete;
+
+  [[nodiscard]] std::filesystem::path file() const { return folder_ / "study.db"; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Stands for the engine: its results are plain functions of the parameters, and it can be held up. What a job does
+/// depends on its restitution: 0.5 fails as non_finite, 0.4 throws, anything else succeeds.
+class FakeEngine {
+ public:
+  /// Safe to call from many threads. Must not outlive this.
+  [[nodiscard]] jobs::Runner runner();
+
+  void hold();     ///< runs that begin from now on wait
+  void release();  ///< until this, or until they are asked to stop
+  void await_running(int count);  ///< returns when so many runs are under way
+
+  [[nodiscard]] std::vector<double> begun_speeds();  ///< crank velocities of the runs so far, in order of their beginning
+  [[nodiscard]] int stopped();                       ///< how many runs ended because they were asked to
+
+ private:
+  engine::RunResult run(const jobs::JobSpec& spec, const engine::StopQuery& stop_requested);
+
+  std::mutex mutex_;  // guards the rest
+  std::condition_variable changed_;
+  bool held_ = false;
+  int running_ = 0;
+  int stopped_ = 0;
+  std::vector<double> speeds_;
+};
+
+/// A service on a fake engine.
+[[nodiscard]] jobs::ServiceOptions options_of(const TemporaryStore& store, FakeEngine& engine, int threads);
+
+/// Runs one statement on a store that nobody has open.
+void execute_sql(const std::filesystem::path& file, const std::string& sql);
+/// The first column of the first row, as text.
+[[nodiscard]] std::string query_sql(const std::filesystem::path& file, const std::string& sql);
+
+}  // namespace jobs_tests

@@ -1,0 +1,307 @@
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "jobs/expand.h"
+#include "jobs/store.h"
+#include "tests/jobs/request_support.h"
+#include "tests/jobs/service_support.h"
+
+namespace jobs_tests {
+namespace {
+
+constexpr std::size_t kMaxQueued = 1000;
+
+jobs::SweepPlan plan_of(const char* request) { return jobs::plan_sweep(request_of(request), 10'000); }
+
+std::string add_sweep(jobs::Store& store, const char* request) { return store.add_sweep(plan_of(request), request, kMaxQueued); }
+
+jobs::RunRecord success(double metric) {
+  jobs::RunRecord record;
+  record.metrics = {{"peak", metric}};
+  record.trajectory.channels = {{.key = "t_s", .help = ""}};
+  record.trajectory.columns = {{0.0, metric}};
+  record.cpu_time_s = 2.0;
+  return record;
+}
+
+jobs::RunRecord failure() {
+  jobs::RunRecord record;
+  record.end = jobs::RunRecord::End::kFailed;
+  record.error_reason = "non_finite";
+  record.error_detail = "no number";
+  record.error_t_s = 0.5;
+  return record;
+}
+
+std::int64_t count_of(const jobs::Store& store, const std::string& sweep, jobs::JobState state) {
+  return store.find_sweep(sweep).value().counts[static_cast<std::size_t>(state)];
+}
+
+constexpr const char* kThreeJobs = R"({"sweep": {"crank_velocity_rad_s": [5, 10, 12]}})";
+
+TEST(Store, QueuesAgainWhatADeadProcessLeftRunning) {
+  const TemporaryStore temporary;
+  std::string sweep;
+  jobs::ClaimedJob abandoned;
+  {
+    jobs::Store store(temporary.file());
+    sweep = add_sweep(store, kThreeJobs);
+    abandoned = store.claim().value();
+    EXPECT_EQ(count_of(store, sweep, jobs::JobState::kRunning), 1);
+  }
+  jobs::Store store(temporary.file());
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 3);
+  const jobs::ClaimedJob again = store.claim().value();
+  EXPECT_EQ(again.id, abandoned.id);
+  EXPECT_EQ(again.attempt, 2);
+  // What the first attempt still delivers is void; the second counts, once.
+  EXPECT_FALSE(store.record(abandoned, success(1.0)));
+  EXPECT_TRUE(store.record(again, success(2.0)));
+  EXPECT_FALSE(store.record(again, success(3.0)));
+  EXPECT_EQ(store.find_job(again.id)->metrics, R"({"peak":2.0})");
+  EXPECT_EQ(store.find_job(again.id)->attempts, 2);
+}
+
+TEST(Store, IsRefusedToASecondOpener) {
+  const TemporaryStore temporary;
+  {
+    const jobs::Store store(temporary.file());
+    EXPECT_THROW(jobs::Store second(temporary.file()), jobs::StorageError);
+  }
+  EXPECT_NO_THROW(jobs::Store third(temporary.file()));
+}
+
+TEST(Store, IsForItsOwnerOnly) {
+  const TemporaryStore temporary;
+  const jobs::Store store(temporary.file());
+  for (const char* suffix : {"", ".lock", "-wal"}) {
+    struct stat status {};
+    ASSERT_EQ(::stat((temporary.file().string() + suffix).c_str(), &status), 0) << suffix;
+    EXPECT_EQ(status.st_mode & 0777U, 0600U) << suffix;
+  }
+}
+
+std::string refusal_of(const std::filesystem::path& file) {
+  try {
+    const jobs::Store store(file);
+  } catch (const jobs::StorageError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Store, RefusesTheFormOfANewerProgramAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  { const jobs::Store store(temporary.file()); }
+  execute_sql(temporary.file(), "PRAGMA user_version = 1000");
+  EXPECT_NE(refusal_of(temporary.file()).find("newer program"), std::string::npos);
+  EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "1000");
+}
+
+TEST(Store, RefusesTheDatabaseOfAnotherProgramAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  { std::ofstream(temporary.file()) << ""; }
+  execute_sql(temporary.file(), "CREATE TABLE notes (text)");
+  const std::string before = bytes_of(temporary.file());
+  EXPECT_NE(refusal_of(temporary.file()).find("not a store of this program"), std::string::npos);
+  EXPECT_EQ(bytes_of(temporary.file()), before);
+}
+
+TEST(Store, RefusesWhatIsNoDatabaseAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  const std::string text(10'000, 'x');
+  { std::ofstream(temporary.file()) << text; }
+  EXPECT_NE(refusal_of(temporary.file()).find("left as it is"), std::string::npos);
+  EXPECT_EQ(bytes_of(temporary.file()), text);
+}
+
+TEST(Store, RefusesADamagedFileAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 300}}})");
+  }
+  std::string damaged = bytes_of(temporary.file());
+  ASSERT_GT(damaged.size(), 400'000U);
+  for (std::size_t i = damaged.size() / 4; i < damaged.size(); ++i) damaged[i] = static_cast<char>(i * 37);
+  { std::ofstream(temporary.file(), std::ios::binary) << damaged; }
+  EXPECT_NE(refusal_of(temporary.file()).find("damaged"), std::string::npos);
+  EXPECT_EQ(bytes_of(temporary.file()), damaged);
+}
+
+TEST(Store, RefusesAFileThatWasCutOff) {
+  const TemporaryStore temporary;
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 300}}})");
+  }
+  std::filesystem::resize_file(temporary.file(), std::filesystem::file_size(temporary.file()) / 2);
+  EXPECT_NE(refusal_of(temporary.file()).find("damaged"), std::string::npos);
+}
+
+TEST(Store, TurnsADirectoryOrAMissingFolderDown) {
+  const TemporaryStore temporary;
+  EXPECT_THROW(jobs::Store store(temporary.file().parent_path()), jobs::StorageError);
+  EXPECT_THROW(jobs::Store store(temporary.file() / "no" / "such" / "folder.db"), jobs::StorageError);
+}
+
+TEST(Store, KnowsWhatHasBeenComputed) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  EXPECT_TRUE(store.record(store.claim().value(), success(7.0)));
+  const std::string wider = add_sweep(store, kThreeJobs);
+  EXPECT_EQ(count_of(store, wider, jobs::JobState::kSucceeded), 1);
+  EXPECT_EQ(count_of(store, wider, jobs::JobState::kQueued), 2);
+  const auto rows = store.list_results(wider);
+  EXPECT_EQ(rows[0].metrics, R"({"peak":7.0})");
+  EXPECT_TRUE(store.find_job(rows[0].job_id)->reused);
+  EXPECT_TRUE(store.find_trajectory(rows[0].job_id).has_value());
+  const std::string forced = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}, "reuse": false})");
+  EXPECT_EQ(count_of(store, forced, jobs::JobState::kQueued), 1);
+}
+
+TEST(Store, ComputesAFailedContentAgain) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string first = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  EXPECT_TRUE(store.record(store.claim().value(), failure()));
+  EXPECT_EQ(count_of(store, first, jobs::JobState::kFailed), 1);
+  const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  EXPECT_EQ(count_of(store, second, jobs::JobState::kQueued), 1);
+}
+
+TEST(Store, LetsAJobWaitForTheSameContentElsewhere) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5, 10]}})");
+  const auto five = store.claim().value();
+  const auto ten = store.claim().value();
+  EXPECT_NE(five.parameters, ten.parameters);
+  EXPECT_FALSE(store.claim().has_value());
+  EXPECT_TRUE(store.record(five, success(1.0)));
+  EXPECT_EQ(count_of(store, second, jobs::JobState::kSucceeded), 1);
+  EXPECT_FALSE(store.claim().has_value());
+}
+
+TEST(Store, LetsAWaitingJobRunWhenTheOtherFailed) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  const auto first = store.claim().value();
+  EXPECT_FALSE(store.claim().has_value());
+  EXPECT_TRUE(store.record(first, failure()));
+  EXPECT_TRUE(store.claim().has_value());
+}
+
+TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4]}})");
+  std::vector<std::string> speeds;
+  const auto claim = [&] { speeds.push_back(json_of(store.claim().value().parameters).at("crank_velocity_rad_s").dump()); };
+  claim();
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [11, 12]}})");
+  (void)store.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueued);
+  for (int i = 0; i < 6; ++i) claim();
+  EXPECT_EQ(speeds, (std::vector<std::string>{"1.0", "11.0", "21.0", "2.0", "12.0", "3.0", "4.0"}));
+}
+
+TEST(Store, RefusesMoreThanMayWaitAndStoresNoneOfThem) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  EXPECT_THROW((void)store.add_sweep(plan_of(kThreeJobs), kThreeJobs, 2), jobs::QueueFull);
+  EXPECT_TRUE(store.list_sweeps("", "", 10).empty());
+  EXPECT_TRUE(store.list_jobs("", "", 10).empty());
+  EXPECT_NO_THROW((void)store.add_sweep(plan_of(kThreeJobs), kThreeJobs, 3));
+}
+
+TEST(Store, DropsTheResultOfACancelledJob) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  add_sweep(store, kThreeJobs);
+  const auto job = store.claim().value();
+  const auto cancellation = store.cancel_job(job.id);
+  EXPECT_EQ(cancellation.outcome, jobs::CancelOutcome::kDone);
+  EXPECT_EQ(cancellation.running, (std::vector<std::string>{job.id}));
+  EXPECT_FALSE(store.record(job, success(1.0)));
+  store.give_back(job);
+  EXPECT_EQ(store.find_job(job.id)->state, "cancelled");
+  EXPECT_EQ(store.cancel_job(job.id).outcome, jobs::CancelOutcome::kDone);
+  EXPECT_EQ(store.cancel_job("job_none").outcome, jobs::CancelOutcome::kMissing);
+}
+
+TEST(Store, DeletesASweepButNotWhatAnotherShares) {
+  const TemporaryStore temporary;
+  {
+    jobs::Store store(temporary.file());
+    const std::string first = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5, 10]}})");
+    EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kNotEnded);
+    EXPECT_TRUE(store.record(store.claim().value(), success(5.0)));
+    EXPECT_TRUE(store.record(store.claim().value(), success(10.0)));
+    const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+    const auto shared = store.list_results(second);
+    EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kDone);
+    EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kMissing);
+    EXPECT_FALSE(store.find_sweep(first).has_value());
+    EXPECT_EQ(store.list_results(second)[0].metrics, R"({"peak":5.0})");
+    EXPECT_TRUE(store.find_trajectory(shared[0].job_id).has_value());
+  }
+  EXPECT_EQ(query_sql(temporary.file(), "SELECT (SELECT count(*) FROM results) || ' ' || (SELECT count(*) FROM contents) || ' ' || "
+                                        "(SELECT count(*) FROM trajectories) || ' ' || (SELECT count(*) FROM jobs)"), "1 1 1 1");
+  EXPECT_EQ(query_sql(temporary.file(), "PRAGMA integrity_check"), "ok");
+  EXPECT_EQ(query_sql(temporary.file(), "SELECT count(*) FROM pragma_foreign_key_check"), "0");
+}
+
+TEST(Store, GivesTheRoomOfADeletedSweepBack) {
+  const TemporaryStore temporary;
+  std::uintmax_t full = 0;
+  {
+    jobs::Store store(temporary.file());
+    const std::string sweep = add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 500}}})");
+    ASSERT_EQ(store.cancel_sweep(sweep).outcome, jobs::CancelOutcome::kDone);
+  }
+  full = std::filesystem::file_size(temporary.file());
+  {
+    jobs::Store store(temporary.file());
+    const std::string sweep = store.list_sweeps("", "", 1).at(0).id;
+    EXPECT_EQ(store.delete_sweep(sweep), jobs::DeleteOutcome::kDone);
+  }
+  EXPECT_LT(std::filesystem::file_size(temporary.file()), full / 4);
+}
+
+// The queue is made for the version of the engine that computes it, not for the one that queued it.
+TEST(Store, RenamesWhatAnOlderEngineWasToCompute) {
+  const TemporaryStore temporary;
+  std::string sweep;
+  {
+    jobs::Store store(temporary.file());
+    sweep = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  }
+  const std::string name = query_sql(temporary.file(), "SELECT content_id FROM contents");
+  execute_sql(temporary.file(), "UPDATE contents SET content_id = 'old', engine_version = '0.0.1'");
+  { const jobs::Store store(temporary.file()); }
+  EXPECT_EQ(query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"), name);
+}
+
+TEST(SweepState, FollowsFromItsJobs) {
+  // queued, running, succeeded, failed, cancelled
+  EXPECT_EQ(jobs::sweep_state({3, 0, 0, 0, 0}), "queued");
+  EXPECT_EQ(jobs::sweep_state({2, 1, 0, 0, 0}), "running");
+  EXPECT_EQ(jobs::sweep_state({2, 0, 1, 0, 0}), "running");
+  EXPECT_EQ(jobs::sweep_state({0, 0, 3, 0, 0}), "succeeded");
+  EXPECT_EQ(jobs::sweep_state({0, 0, 2, 1, 0}), "failed");
+  EXPECT_EQ(jobs::sweep_state({0, 0, 1, 1, 1}), "cancelled");
+}
+
+}  // namespace
+}  // namespace jobs_tests

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include "jobs/expand.h"
+#include "tests/jobs/request_support.h"
+
+namespace jobs_tests {
+namespace {
+
+struct FaultCase {
+  const char* name;
+  const char* request;
+  const char* pointer;
+  const char* says;
+};
+
+class SweepFault : public testing::TestWithParam<FaultCase> {};
+
+TEST_P(SweepFault, IsNamedWithItsPlace) {
+  const auto faults = faults_of([] { (void)jobs::plan_sweep(request_of(GetParam().request), 10'000); });
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].pointer, GetParam().pointer);
+  EXPECT_NE(faults[0].detail.find(GetParam().says), std::string::npos) << faults[0].detail;
+}
+
+constexpr FaultCase kFaultCases[] = {
+    {"not_an_object", "[]", "", "object"},
+    {"unknown_key", R"({"swep": {}})", "/swep", "did you mean sweep?"},
+    {"parameter_at_the_top", R"({"clearance_mm": 1})", "/clearance_mm", "under \"parameters\""},
+    {"name_no_text", R"({"name": 1})", "/name", "string"},
+    {"reuse_no_boolean", R"({"reuse": 1})", "/reuse", "true or false"},
+    {"value_of_parameters", R"({"parameters": {"clearance_mm": -1}})", "/parameters/clearance_mm", "[0, 1000)"},
+    {"sweep_no_object", R"({"sweep": []})", "/sweep", "object"},
+    {"unknown_axis", R"({"sweep": {"clearence_mm": [1]}})", "/sweep/clearence_mm", "did you mean clearance_mm?"},
+    {"whole_links_as_axis", R"({"sweep": {"links": [1]}})", "/sweep/links", "links.1,3.mass_kg"},
+    {"unknown_dotted_axis", R"({"sweep": {"links.1,3.mas_kg": [1]}})", "/sweep/links.1,3.mas_kg", "did you mean links.1,3.mass_kg?"},
+    {"empty_axis", R"({"sweep": {"clearance_mm": []}})", "/sweep/clearance_mm", "one value or more"},
+    {"scalar_axis", R"({"sweep": {"clearance_mm": 1}})", "/sweep/clearance_mm", "must be a list"},
+    {"bad_value", R"({"sweep": {"clearance_mm": [0, 0.1, -1]}})", "/sweep/clearance_mm/2", "[0, 1000)"},
+    {"bad_dotted_value", R"({"sweep": {"links.1,3.mass_kg": [0.3, 0]}})", "/sweep/links.1,3.mass_kg/1", "(0, 1000000] kg"},
+    {"value_twice", R"({"sweep": {"clearance_mm": [0.5, 0, 0.50]}})", "/sweep/clearance_mm/2", "already"},
+    {"integer_and_number_twice", R"({"sweep": {"crank_velocity_rad_s": [5, 5.0]}})", "/sweep/crank_velocity_rad_s/1", "already"},
+    {"word_twice", R"({"sweep": {"coupler": ["rigid", "rigid"]}})", "/sweep/coupler/1", "already"},
+    {"span_of_words", R"({"sweep": {"coupler": {"from": 1, "to": 2, "count": 2}}})", "/sweep/coupler", "must be a list"},
+    {"span_without_to", R"({"sweep": {"clearance_mm": {"from": 1, "count": 2}}})", "/sweep/clearance_mm/to", "missing"},
+    {"span_without_count", R"({"sweep": {"clearance_mm": {"from": 1, "to": 2}}})", "/sweep/clearance_mm/count", "missing"},
+    {"span_with_step", R"({"sweep": {"clearance_mm": {"from": 1, "to": 2, "count": 2, "step": 1}}})", "/sweep/clearance_mm/step", "unknown key"},
+    {"span_of_unknown_scale", R"({"sweep": {"clearance_mm": {"from": 1, "to": 2, "count": 2, "scale": "cubic"}}})", "/sweep/clearance_mm/scale", "\"log\""},
+    {"span_count_fraction", R"({"sweep": {"clearance_mm": {"from": 1, "to": 2, "count": 2.5}}})", "/sweep/clearance_mm/count", "integer"},
+    {"span_count_zero", R"({"sweep": {"clearance_mm": {"from": 1, "to": 2, "count": 0}}})", "/sweep/clearance_mm/count", "integer"},
+    {"span_of_one", R"({"sweep": {"clearance_mm": {"from": 1, "to": 2, "count": 1}}})", "/sweep/clearance_mm/count", "2 or more"},
+    {"span_of_equal_ends", R"({"sweep": {"clearance_mm": {"from": 1, "to": 1, "count": 2}}})", "/sweep/clearance_mm/to", "already"},
+    {"span_end_out_of_range", R"({"sweep": {"restitution": {"from": 0.5, "to": 1.5, "count": 2}}})", "/sweep/restitution/to", "value 1.5: must be"},
+    {"log_from_zero", R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 2, "scale": "log"}}})", "/sweep/clearance_mm/from", "above 0"},
+    {"span_of_broken_integers", R"({"sweep": {"rigid_elements": {"from": 2, "to": 5, "count": 3}}})", "/sweep/rigid_elements", "value 3.5: must be an integer"},
+    {"axis_in_parameters", R"({"parameters": {"clearance_mm": 1}, "sweep": {"clearance_mm": [1]}})", "/sweep/clearance_mm", "parameters"},
+    {"dotted_axis_in_parameters", R"({"parameters": {"links": {"1,3": {"mass_kg": 0.3}}}, "sweep": {"links.1,3.mass_kg": [0.3]}})", "/sweep/links.1,3.mass_kg", "parameters"},
+    {"cases_no_list", R"({"cases": {}})", "/cases", "list"},
+    {"no_cases", R"({"cases": []})", "/cases", "one parameter object or more"},
+    {"case_no_object", R"({"cases": [1]})", "/cases/0", "object"},
+    {"value_of_case", R"({"cases": [{}, {"clearance_mm": -1}]})", "/cases/1/clearance_mm", "[0, 1000)"},
+    {"case_twice", R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 1}]})", "/cases/1", "already"},
+    {"case_in_parameters", R"({"parameters": {"clearance_mm": 1}, "cases": [{"clearance_mm": 2}]})", "/cases/0/clearance_mm", "parameters"},
+    {"case_in_axis", R"({"sweep": {"clearance_mm": [1]}, "cases": [{"clearance_mm": 2}]})", "/cases/0/clearance_mm", "axis"},
+    {"replicates_number", R"({"replicates": 3})", "/replicates", "object"},
+    {"replicates_without_count", R"({"replicates": {"seed": 1}})", "/replicates/count", "missing"},
+    {"replicates_count_zero", R"({"replicates": {"count": 0}})", "/replicates/count", "integer"},
+    {"perturbation_zero", R"({"replicates": {"count": 2, "perturbation": 0}})", "/replicates/perturbation", "(0, 0.1]"},
+    {"seed_negative", R"({"replicates": {"count": 2, "seed": -1}})", "/replicates/seed", "integer"},
+    {"replicates_unknown_key", R"({"replicates": {"count": 2, "sed": 1}})", "/replicates/sed", "did you mean seed?"},
+    {"perturbed_out_of_range", R"({"parameters": {"contact_stiffness_scale": 1e6}, "replicates": {"count": 20, "perturbation": 0.1}})", "/replicates/perturbation", "[1e-06, 1000000]"},
+    // Combinations: which place gave the value, which points have the fault.
+    {"clearance_of_bearing", R"({"sweep": {"clearance_mm": [1, 6], "bearing_radius_mm": [5, 6, 7], "coupler": ["rigid"]}})", "/sweep/clearance_mm",
+     "which is 5 mm (at clearance_mm = 6.0, bearing_radius_mm = 5.0, coupler = \"rigid\"); likewise at 1 more points"},
+    {"reach_of_the_point", R"({"sweep": {"guide_offset_z_m": [0.2, 0.49]}})", "/parameters/coupler_length_m", "(at guide_offset_z_m = 0.49)"},
+    {"reach_of_the_case", R"({"cases": [{}, {"coupler_length_m": 0.3}]})", "/cases/1/coupler_length_m", "(at coupler_length_m = 0.3)"},
+    {"inertia_of_the_axis", R"({"parameters": {"links": {"1,3": {"inertia_kg_m2": [4e-6, 0.02, 0.02]}}}, "sweep": {"links.1,3.mass_kg": [0.3, 0.4]}})",
+     "/parameters/links/1,3/inertia_kg_m2", "(at links.1,3.mass_kg = 0.4)"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SweepFault, testing::ValuesIn(kFaultCases), [](const auto& tested) { return tested.param.name; });
+
+TEST(SweepFaults, AreAllReportedAtOnce) {
+  const auto faults = faults_of([] {
+    (void)jobs::plan_sweep(request_of(R"({"name": 3, "parameters": {"coupler": 1}, "sweep": {"x": [1], "clearance_mm": [-1, 1, -2]}, "cases": [{"y": 1}],
+                                          "replicates": {"count": "two"}, "extra": 0})"), 10'000);
+  });
+  EXPECT_EQ(pointers_of(faults), (std::vector<std::string>{"/cases/0/y", "/extra", "/name", "/parameters/coupler", "/replicates/count",
+                                                            "/sweep/clearance_mm/0", "/sweep/clearance_mm/2", "/sweep/x"}));
+}
+
+struct SizeCase {
+  const char* name;
+  const char* request;
+  const char* size;
+};
+
+class SweepTooLarge : public testing::TestWithParam<SizeCase> {};
+
+TEST_P(SweepTooLarge, IsRefusedWithItsSize) {
+  const auto faults = faults_of([] { (void)jobs::plan_sweep(request_of(GetParam().request), 10'000); });
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(faults[0].detail.find(std::string("would have ") + GetParam().size + " jobs; at most 10000"), std::string::npos) << faults[0].detail;
+}
+
+constexpr SizeCase kSizeCases[] = {
+    {"one_too_many", R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 10001}}})", "10001"},
+    {"by_replicates", R"({"replicates": {"count": 10001}})", "10001"},
+    {"by_product", R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 200}, "crank_velocity_rad_s": {"from": 0, "to": 1, "count": 100}}})", "20000"},
+    {"by_cases", R"({"cases": [{"radial_levels": 1}, {"radial_levels": 2}], "sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 5001}}})", "10002"},
+    {"too_many_to_count", R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 1e9}, "crank_velocity_rad_s": {"from": 0, "to": 1, "count": 1e9},
+       "gravity_m_s2": {"from": 0, "to": 1, "count": 1e9}}})", "more than 18446744073709551615"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SweepTooLarge, testing::ValuesIn(kSizeCases), [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace jobs_tests
