@@ -1,0 +1,70 @@
+#include "server/commands/command.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "jobs/errors.h"
+#include "server/json_text.h"
+
+namespace server::commands {
+
+namespace {
+
+int report(ExitCode code, const std::string& text) {
+  std::cerr << "rpsup: " << text << '\n';
+  return code;
+}
+
+int report(const jobs::InvalidRequest& error) {
+  for (const jobs::Fault& fault : error.faults()) std::cerr << fault.pointer << ": " << fault.detail << '\n';
+  return kBadInput;
+}
+
+std::string read_all(std::istream& in) { return {std::istreambuf_iterator<char>(in), {}}; }
+
+std::string read_text(const std::string& path) {
+  if (path == "-") return read_all(std::cin);
+  std::ifstream file(path, std::ios::binary);
+  std::string text = file ? read_all(file) : "";
+  if (!file) throw BadInput("cannot read " + path + ": " + std::strerror(errno));
+  return text;
+}
+
+}  // namespace
+
+int run_guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const jobs::InvalidRequest& error) {
+    return report(error);
+  } catch (const BadInput& error) {
+    return report(kBadInput, error.what());
+  } catch (const std::exception& error) {
+    return report(kMachineFailed, error.what());
+  }
+}
+
+nlohmann::ordered_json read_json(const std::string& path) {
+  const std::string text = read_text(path);
+  try {
+    return parse_json(text);
+  } catch (const BadJson& error) {
+    throw BadInput((path == "-" ? "standard input" : path) + ": " + error.what());
+  }
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::cout << text << std::flush;
+    if (!std::cout) throw CannotWrite("cannot write to standard output");
+    return;
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  if (!file) throw CannotWrite("cannot write " + path + ": " + std::strerror(errno));
+}
+
+}  // namespace server::commands

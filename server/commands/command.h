@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace server::commands {
+
+/// How the program ends, for scripts.
+enum ExitCode : int {
+  kDone = 0,
+  kJobFailed = 1,
+  kBadInput = 2,
+  kMachineFailed = 3,   ///< disk, port, store in use
+  kInterrupted = 130,   ///< as a shell says it of Ctrl-C
+};
+
+/// What the user gave cannot be used; one sentence says why.
+class BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file could not be written.
+class CannotWrite : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs a command and turns what it throws into words on standard error and an exit code.
+int run_guarded(const std::function<int()>& command);
+
+/// Reads a JSON file, "-" for standard input.
+/// @throws BadInput if it cannot be read or is no JSON
+[[nodiscard]] nlohmann::ordered_json read_json(const std::string& path);
+
+/// Writes a whole file, "-" for standard output.
+/// @throws CannotWrite if not every byte reached it
+void write_text(const std::string& path, const std::string& text);
+
+}  // namespace server::commands

@@ -1,0 +1,89 @@
+#include "server/commands/serve.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <stdexcept>
+#include <thread>
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "jobs/service.h"
+#include "server/commands/command.h"
+#include "server/commands/signals.h"
+#include "server/http.h"
+#include "server/request_head.h"
+#include "server/routes.h"
+
+namespace server::commands {
+
+namespace {
+
+/// The log goes to standard error: standard output holds the one line that scripts read.
+void start_log(const std::string& level) {
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("rpsup"));
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+  spdlog::set_level(spdlog::level::from_str(level));
+}
+
+/// Without authentication, whoever reaches the port may fill the disk and use the processors.
+std::string loopback_address(const std::string& host) {
+  if (!is_loopback(host)) {
+    throw BadInput("--host " + host + ": only addresses of the loopback (127.0.0.1, ::1) are served, "
+                   "because requests are not authenticated; reach it from elsewhere through an SSH tunnel");
+  }
+  return host == "localhost" ? "127.0.0.1" : host;
+}
+
+std::string url(const std::string& address, int port) {
+  const bool v6 = address.find(':') != std::string::npos;
+  return "http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
+}
+
+/// Serves on a thread of its own until a signal comes.
+/// @throws std::runtime_error if the server ended by itself
+void serve_until_signal(HttpServer& http, Routes& routes, jobs::Service& service, const EndSignals& signals) {
+  std::atomic<bool> failed = false;
+  std::jthread listener([&] {
+    failed = !http.listen();
+    // Wakes the wait below if the server ended by itself.
+    if (failed) ::kill(::getpid(), SIGTERM);
+  });
+  signals.wait();
+  if (failed) throw std::runtime_error("the server cannot accept connections any more");
+  spdlog::info("ending: running jobs go back to the queue");
+  routes.start_draining();
+  service.stop();
+  http.stop();
+}
+
+}  // namespace
+
+int serve(const ServeOptions& options) {
+  const std::string address = loopback_address(options.host);
+  start_log(options.log_level);
+  // Before the first thread: threads take over which signals are blocked.
+  const EndSignals signals;
+  jobs::ServiceOptions service_options;
+  service_options.store = options.store;
+  service_options.threads = options.threads;
+  service_options.log = [](const std::string& message) { spdlog::warn(message); };
+  jobs::Service service(service_options);
+  Routes routes(service);
+  HttpServer http(routes, {.address = address, .port = options.port});
+  const int port = http.bind();
+  if (port == 0) {
+    throw std::runtime_error("cannot listen on " + url(address, options.port) + ": another program has this port, "
+                             "or it is not this user's to take; --port 0 takes any free one");
+  }
+  spdlog::info("store {}, {} threads", options.store, options.threads);
+  std::cout << "rpsup listens on " << url(address, port) << std::endl;
+  serve_until_signal(http, routes, service, signals);
+  spdlog::info("ended");
+  return kDone;
+}
+
+}  // namespace server::commands

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+namespace server::commands {
+
+struct ServeOptions {
+  std::string store;               ///< SQLite file
+  std::string host = "127.0.0.1";  ///< an address of this machine that only this machine reaches
+  int port = 8080;                 ///< 0: any free one
+  int threads = 2;
+  std::string log_level = "info";
+};
+
+/// Runs the service until SIGTERM or SIGINT.
+/// @returns an exit code
+int serve(const ServeOptions& options);
+
+}  // namespace server::commands

@@ -1,0 +1,72 @@
+#include "server/commands/simulate.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "jobs/service.h"
+#include "server/commands/command.h"
+#include "server/json_text.h"
+#include "server/tables.h"
+
+namespace server::commands {
+
+namespace {
+
+/// Refuses before the run what could not be written after it.
+void check_trajectory_file(const std::string& path) {
+  if (path.empty()) return;
+  const auto extension = std::filesystem::path(path).extension();
+  if (extension != ".csv" && extension != ".json") {
+    throw BadInput("--trajectory " + path + ": the name must end in .csv or .json");
+  }
+  const auto folder = std::filesystem::absolute(path).parent_path();
+  if (!std::filesystem::is_directory(folder)) throw BadInput("--trajectory " + path + ": there is no folder " + folder.string());
+}
+
+void check_channels(const SimulateOptions& options, const engine::RpsupParameters& parameters) {
+  if (options.channels.empty()) return;
+  if (options.trajectory.empty()) throw BadInput("--channels needs --trajectory");
+  std::string known;
+  std::vector<jobs::Fault> faults;
+  const auto channels = engine::channel_table(parameters);
+  for (const auto& channel : channels) known += (known.empty() ? "" : ", ") + channel.key;
+  for (const std::string& wanted : options.channels) {
+    const bool found = std::any_of(channels.begin(), channels.end(), [&](const auto& c) { return c.key == wanted; });
+    if (!found) faults.push_back({"--channels", "there is no channel " + wanted + "; there are: " + known});
+  }
+  if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
+}
+
+/// The channels that were asked for, in the order of the table, time first.
+engine::Trajectory select(engine::Trajectory all, const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return all;
+  engine::Trajectory some;
+  for (std::size_t c = 0; c < all.channels.size(); ++c) {
+    const std::string& key = all.channels[c].key;
+    if (c == 0 || std::find(wanted.begin(), wanted.end(), key) != wanted.end()) {
+      some.channels.push_back(std::move(all.channels[c]));
+      some.columns.push_back(std::move(all.columns[c]));
+    }
+  }
+  return some;
+}
+
+}  // namespace
+
+int simulate(const SimulateOptions& options) {
+  check_trajectory_file(options.trajectory);
+  const nlohmann::json parameters = read_json(options.file);
+  check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")).parameters);
+  jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
+  if (!options.trajectory.empty()) {
+    const auto trajectory = select(std::move(outcome.trajectory), options.channels);
+    const bool csv = options.trajectory.ends_with(".csv");
+    write_text(options.trajectory, csv ? jobs::to_csv(trajectory) : to_json_columns(trajectory));
+  }
+  write_text("-", to_text(outcome.job, 2) + "\n");
+  return outcome.job.at("state") == "succeeded" ? kDone : kJobFailed;
+}
+
+}  // namespace server::commands

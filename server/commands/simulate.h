@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace server::commands {
+
+struct SimulateOptions {
+  std::string file;                   ///< parameter object; "-": standard input
+  std::string trajectory;             ///< where the trajectory goes, .csv or .json; empty: nowhere
+  std::vector<std::string> channels;  ///< of the trajectory; empty: all
+};
+
+/// Computes one job on the spot and prints it as GET /v1/jobs/{id} would.
+/// @returns an exit code
+int simulate(const SimulateOptions& options);
+
+}  // namespace server::commands

@@ -1,0 +1,56 @@
+#include "server/commands/sweep.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "jobs/service.h"
+#include "server/commands/command.h"
+#include "server/commands/progress.h"
+#include "server/commands/signals.h"
+
+namespace server::commands {
+
+namespace {
+
+/// Waits for the end of a sweep and shows its progress. False if the user ended it first.
+bool follow(jobs::Service& service, const std::string& id, const EndSignals& signals) {
+  ProgressView view(std::cerr, isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines);
+  bool ended = false;
+  bool interrupted = false;
+  while (!ended && !interrupted) {
+    ended = service.wait_for_sweep(id, std::chrono::milliseconds(200));
+    view.show(*service.find_sweep(id));
+    interrupted = !ended && signals.arrived();
+  }
+  view.finish();
+  return ended;
+}
+
+int interrupt(jobs::Service& service, const std::string& id) {
+  // What is left would start again with the store, beside the sweep that the same command submits next time.
+  service.cancel_sweep(id);
+  service.stop();
+  std::cerr << "rpsup: interrupted; the same command computes only what is missing\n";
+  return kInterrupted;
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  const auto request = read_json(options.file);
+  const EndSignals signals;
+  jobs::ServiceOptions service_options;
+  service_options.store = options.store;
+  service_options.threads = options.threads;
+  service_options.log = [](const std::string& message) { std::cerr << "rpsup: " << message << '\n'; };
+  jobs::Service service(service_options);
+  const auto id = service.submit_sweep(request).at("id").get<std::string>();
+  std::cerr << "sweep " << id << " in " << options.store << '\n';
+  if (!follow(service, id, signals)) return interrupt(service, id);
+  write_text(options.results, jobs::to_csv(*service.find_results(id)));
+  return service.find_sweep(id)->at("state") == "succeeded" ? kDone : kJobFailed;
+}
+
+}  // namespace server::commands

@@ -1,0 +1,200 @@
+#include "server/http.h"
+
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "server/http_guard.h"
+#include "server/problem.h"
+#include "server/request_head.h"
+
+namespace server {
+
+namespace {
+
+// Nothing but what this server itself sends runs in its page, and no other page shows it in a frame.
+const httplib::Headers kSecurityHeaders = {
+    {"Content-Security-Policy",
+     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self'; base-uri 'none'; "
+     "form-action 'none'; frame-ancestors 'none'"},
+    {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Referrer-Policy", "no-referrer"},
+    {"X-Content-Type-Options", "nosniff"},
+};
+
+/// Names requests: a random part for this run of the program, then a number.
+class RequestIds {
+ public:
+  RequestIds() : prefix_(hex(std::random_device{}())) {}
+  std::string next() { return prefix_ + "-" + std::to_string(++count_); }
+
+ private:
+  static std::string hex(unsigned value) {
+    char digits[16];
+    return {digits, std::to_chars(digits, digits + sizeof digits, value, 16).ptr};
+  }
+
+  std::string prefix_;
+  std::atomic<unsigned long> count_ = 0;
+};
+
+void copy_to(httplib::Response& to, Response from) {
+  to.status = from.status;
+  to.body = std::move(from.body);
+  if (!from.content_type.empty()) to.set_header("Content-Type", from.content_type);
+  for (const auto& [name, value] : from.headers) to.set_header(name, value);
+}
+
+/// The media type is not looked at beyond this: `curl -d` calls every body a form.
+std::optional<Refusal> find_media_fault(const httplib::Request& request) {
+  if (request.is_multipart_form_data()) return Refusal{415, "send the JSON text itself, not as a part of a form"};
+  const std::string encoding = request.get_header_value("Content-Encoding");
+  if (encoding.empty() || encoding == "identity" || encoding == "gzip" || encoding == "deflate") return std::nullopt;
+  return Refusal{415, "of the content encodings, gzip and deflate are understood"};
+}
+
+bool has_body(const httplib::Request& request) {
+  return request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+}
+
+}  // namespace
+
+class HttpServer::Impl {
+ public:
+  Impl(const Routes& routes, HttpOptions http_options, const HttpLimits& http_limits)
+      : options(std::move(http_options)),
+        limits(http_limits),
+        routes_(routes),
+        origin_check_(options.address),
+        guard(http_limits, make_refusal) {
+    guard.set_default_headers(kSecurityHeaders);
+    guard.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+      return route_without_body(request, response);
+    });
+    // All of them with a reader of our own: the library refuses forms above 8 KiB, and that is what `curl -d` sends.
+    guard.Post(R"([\s\S]*)", [this](const httplib::Request& request, httplib::Response& response,
+                                    const httplib::ContentReader& reader) { route_with_body(request, response, reader); });
+    guard.set_error_handler([](const httplib::Request&, httplib::Response& response) { complete_error(response); });
+    guard.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+      copy_to(response, make_problem(500, "something went wrong"));
+    });
+    guard.set_post_routing_handler([](const httplib::Request&, httplib::Response& response) { tidy_headers(response); });
+  }
+
+  HttpOptions options;
+  HttpLimits limits;
+  std::atomic<bool> ended = false;  ///< listen() has returned
+
+ private:
+  using Handled = httplib::Server::HandlerResponse;
+
+  static Response make_refusal(int status, const std::string& detail) {
+    Response response = make_problem(status, detail);
+    for (const auto& [name, value] : kSecurityHeaders) response.headers.emplace_back(name, value);
+    return response;
+  }
+
+  /// The library ends some requests itself, with a status and no body.
+  static void complete_error(httplib::Response& response) {
+    if (response.body.empty()) copy_to(response, make_problem(response.status, "the request cannot be understood"));
+  }
+
+  static void tidy_headers(httplib::Response& response) {
+    response.headers.erase("Accept-Ranges");
+    if (response.status == 204) response.headers.erase("Content-Length");
+  }
+
+  Handled route_without_body(const httplib::Request& request, httplib::Response& response) {
+    if (const auto fault = find_origin_fault(request)) {
+      copy_to(response, make_problem(fault->status, fault->detail));
+      return Handled::Handled;
+    }
+    if (request.method == "POST") return Handled::Unhandled;
+    answer(request, {}, response);
+    return Handled::Handled;
+  }
+
+  void route_with_body(const httplib::Request& request, httplib::Response& response,
+                       const httplib::ContentReader& reader) {
+    std::string body;
+    if (has_body(request)) {
+      if (const auto fault = find_media_fault(request)) return copy_to(response, make_problem(fault->status, fault->detail));
+      if (const auto fault = read_body(reader, body)) {
+        return copy_to(response, make_problem(fault->status, fault->detail));
+      }
+    }
+    answer(request, std::move(body), response);
+  }
+
+  std::optional<Refusal> read_body(const httplib::ContentReader& reader, std::string& body) const {
+    bool too_large = false;
+    const bool complete = reader([&](const char* data, std::size_t size) {
+      too_large = size > limits.body_bytes - body.size();
+      if (!too_large) body.append(data, size);
+      return !too_large;
+    });
+    if (too_large) return Refusal{413, "the body is larger than " + std::to_string(limits.body_bytes) + " bytes"};
+    if (!complete) return Refusal{400, "the body is incomplete, malformed or did not come in time"};
+    return std::nullopt;
+  }
+
+  std::optional<Refusal> find_origin_fault(const httplib::Request& request) const {
+    return origin_check_.find_fault({.method = request.method,
+                                     .host = request.get_header_value("Host"),
+                                     .origin = request.get_header_value("Origin"),
+                                     .fetch_site = request.get_header_value("Sec-Fetch-Site"),
+                                     .fetch_mode = request.get_header_value("Sec-Fetch-Mode")});
+  }
+
+  void answer(const httplib::Request& from, std::string body, httplib::Response& to) {
+    const auto start = std::chrono::steady_clock::now();
+    Request request;
+    request.method = from.method;
+    request.path = from.path;
+    request.query.assign(from.params.begin(), from.params.end());
+    request.accept = from.get_header_value("Accept");
+    request.body = std::move(body);
+    request.id = request_ids_.next();
+    copy_to(to, routes_.answer(request));
+    to.set_header("X-Request-Id", request.id);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, from.target, to.status, took.count());
+  }
+
+  const Routes& routes_;
+  OriginCheck origin_check_;
+  RequestIds request_ids_;
+
+ public:
+  GuardedServer guard;  // last: its handlers use what stands above
+};
+
+HttpServer::HttpServer(const Routes& routes, const HttpOptions& options) : HttpServer(routes, options, HttpLimits{}) {}
+
+HttpServer::HttpServer(const Routes& routes, const HttpOptions& options, const HttpLimits& limits)
+    : impl_(std::make_unique<Impl>(routes, options, limits)) {}
+
+HttpServer::~HttpServer() = default;
+
+int HttpServer::bind() { return impl_->guard.bind(impl_->options.address, impl_->options.port); }
+
+bool HttpServer::listen() {
+  const bool served = impl_->guard.listen_after_bind();
+  impl_->ended = true;
+  return served;
+}
+
+void HttpServer::stop() {
+  impl_->guard.start_draining();
+  // The library forgets a stop that comes before it has begun to accept.
+  while (!impl_->guard.is_running() && !impl_->ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  impl_->guard.stop();
+}
+
+}  // namespace server

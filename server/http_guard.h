@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "server/http_stream.h"
+#include "server/message.h"
+
+namespace server {
+
+/// The library's server behind a guard. As it stands, the library reads heads without end, waits without end, believes
+/// Range headers to the last one and keeps its few threads for clients that do nothing; here a connection carries one
+/// request, within HttpLimits, and is closed.
+class GuardedServer final : public httplib::Server {
+ public:
+  /// @param limits        of every connection
+  /// @param make_refusal  turns a status and a sentence into the answer to a request whose head is not served
+  GuardedServer(const HttpLimits& limits, std::function<Response(int status, const std::string& detail)> make_refusal);
+
+  ~GuardedServer() override;
+
+  /// Binds to an address (no name) and starts to queue connections.
+  /// @param port  0: any free one
+  /// @returns the port; 0 if it could not be bound, because another process has it say
+  int bind(const std::string& address, int port);
+
+  /// From now on every connection has HttpLimits::drain_time left.
+  void start_draining() { draining_ = true; }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override;
+  void serve(HttpStream& stream);
+  void refuse(HttpStream& stream, int status, const std::string& detail);
+
+  HttpLimits limits_;
+  std::function<Response(int, const std::string&)> make_refusal_;
+  std::atomic<bool> draining_ = false;
+};
+
+}  // namespace server

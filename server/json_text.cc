@@ -1,0 +1,83 @@
+#include "server/json_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace server {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Watches the parser and ends it as soon as a bound is passed.
+class Bounds {
+ public:
+  bool operator()(Json::parse_event_t event, const Json& parsed) {
+    switch (event) {
+      case Json::parse_event_t::object_start:
+      case Json::parse_event_t::array_start:
+        open_.emplace_back();
+        if (open_.size() > kMaxJsonDepth) throw BadJson("nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+        break;
+      case Json::parse_event_t::object_end:
+      case Json::parse_event_t::array_end:
+        open_.pop_back();
+        break;
+      case Json::parse_event_t::key:
+        check_key(parsed.get_ref<const std::string&>());
+        break;
+      case Json::parse_event_t::value:
+        break;
+    }
+    return true;
+  }
+
+ private:
+  void check_key(const std::string& key) {
+    if (!open_.back().insert(key).second) throw BadJson("the key \"" + key + "\" stands twice in one object");
+    if (open_.back().size() > kMaxObjectKeys) {
+      throw BadJson("more than " + std::to_string(kMaxObjectKeys) + " keys in one object");
+    }
+  }
+
+  std::vector<std::set<std::string>> open_;  ///< the keys met so far, of every object or array that is open
+};
+
+/// The message of the parser without its bracketed name, which means nothing to a user.
+std::string plain_message(const std::string& what) {
+  const auto end = what.find("] ");
+  return end == std::string::npos ? what : what.substr(end + 2);
+}
+
+}  // namespace
+
+nlohmann::ordered_json parse_json(std::string_view text) {
+  if (text.empty()) throw BadJson("there is no JSON: the text is empty");
+  Bounds bounds;
+  const Json::parser_callback_t watch = [&bounds](int, Json::parse_event_t event, Json& parsed) {
+    return bounds(event, parsed);
+  };
+  try {
+    return Json::parse(text.begin(), text.end(), watch);
+  } catch (const Json::parse_error& error) {
+    throw BadJson("not JSON at byte " + std::to_string(error.byte) + ": " + plain_message(error.what()));
+  } catch (const Json::exception& error) {
+    throw BadJson(plain_message(error.what()));
+  }
+}
+
+void append_number_to(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += "null";
+    return;
+  }
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, end);
+}
+
+void append_string_to(std::string& text, const std::string& value) { text += to_text(nlohmann::json(value)); }
+
+}  // namespace server

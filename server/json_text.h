@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace server {
+
+/// Text that is no JSON, or JSON that no request of ours looks like.
+class BadJson : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Levels of nesting that are read: copying and writing a value recurses, so depth is stack.
+inline constexpr std::size_t kMaxJsonDepth = 32;
+/// Keys of one object that are read: an object that keeps its order is searched from its front.
+inline constexpr std::size_t kMaxObjectKeys = 1024;
+
+/// Reads JSON text, keeping the order of keys (the axes of a sweep multiply in the order in which they are given).
+/// @throws BadJson with the position in bytes for text that is no JSON; also for a number that no double holds,
+///         a key that an object has twice, more than kMaxJsonDepth levels, more than kMaxObjectKeys keys in an object.
+[[nodiscard]] nlohmann::ordered_json parse_json(std::string_view text);
+
+/// Appends a number as JSON that reads back exactly; null for what is not finite.
+void append_number_to(std::string& text, double value);
+
+/// Appends a string with its quotes; bytes that are no UTF-8 become U+FFFD.
+void append_string_to(std::string& text, const std::string& value);
+
+/// JSON text of a value, with the same rule for bytes that are no UTF-8.
+template <typename Json>
+[[nodiscard]] std::string to_text(const Json& value, int indent = -1) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace server

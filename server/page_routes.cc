@@ -1,0 +1,33 @@
+#include "server/page_routes.h"
+
+#include <string>
+
+#include "server/error_answer.h"
+#include "server/problem.h"
+#include "server/web_files.h"
+
+namespace server {
+
+Response get_page_file(const Call& call) {
+  const std::string_view path = call.request.path == "/" ? "/index.html" : std::string_view(call.request.path);
+  for (const WebFile& file : web_files()) {
+    if (file.path == path) {
+      return {.status = 200,
+              .content_type = std::string(file.content_type),
+              .body = std::string(file.content),
+              .headers = {{"Cache-Control", "no-cache"}}};
+    }
+  }
+  throw HttpError(404, "there is nothing at " + call.request.path);
+}
+
+Response get_health(const Call&) { return make_json(200, R"({"status":"ok"})"); }
+
+Response get_readiness(const Call& call) {
+  if (call.draining) return make_retry_later(503, "the service is shutting down");
+  // Throws if the store cannot be read.
+  static_cast<void>(call.service.list_sweeps({.state = {}, .limit = 1, .cursor = {}}));
+  return make_json(200, R"({"status":"ready"})");
+}
+
+}  // namespace server

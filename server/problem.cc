@@ -1,0 +1,43 @@
+#include "server/problem.h"
+
+#include <nlohmann/json.hpp>
+
+#include "server/json_text.h"
+
+namespace server {
+
+std::string_view status_phrase(int status) {
+  switch (status) {
+    case 200: return "OK";
+    case 201: return "Created";
+    case 204: return "No Content";
+    case 400: return "Bad Request";
+    case 403: return "Forbidden";
+    case 404: return "Not Found";
+    case 405: return "Method Not Allowed";
+    case 408: return "Request Timeout";
+    case 409: return "Conflict";
+    case 413: return "Content Too Large";
+    case 414: return "URI Too Long";
+    case 415: return "Unsupported Media Type";
+    case 422: return "Unprocessable Content";
+    case 429: return "Too Many Requests";
+    case 431: return "Request Header Fields Too Large";
+    case 500: return "Internal Server Error";
+    case 501: return "Not Implemented";
+    case 503: return "Service Unavailable";
+    case 507: return "Insufficient Storage";
+    default: return "Error";
+  }
+}
+
+Response make_problem(int status, const std::string& detail, const std::vector<jobs::Fault>& faults) {
+  nlohmann::ordered_json problem = {
+      {"type", "about:blank"}, {"title", status_phrase(status)}, {"status", status}, {"detail", detail}};
+  for (const jobs::Fault& fault : faults) {
+    problem["errors"].push_back({{"pointer", fault.pointer}, {"detail", fault.detail}});
+  }
+  return {.status = status, .content_type = "application/problem+json", .body = to_text(problem) + "\n", .headers = {}};
+}
+
+}  // namespace server

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jobs/errors.h"
+#include "server/message.h"
+
+namespace server {
+
+/// The query string of one request, read key by key. Faults are collected, so that a user sees all of them at once.
+class Query {
+ public:
+  /// @param allowed  the keys that the route knows; any other is a fault that names them
+  Query(const Request& request, std::initializer_list<std::string_view> allowed);
+
+  /// The value of a key, if it stands in the query.
+  [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
+  /// The same, split at its commas; empty if the key is missing. An empty item is a fault.
+  [[nodiscard]] std::vector<std::string> list(std::string_view key);
+  /// The same as a finite number; anything else is a fault.
+  [[nodiscard]] std::optional<double> number(std::string_view key);
+  /// The same as a count without sign; anything else is a fault.
+  [[nodiscard]] std::optional<std::size_t> count(std::string_view key);
+  /// The same as one of the words given; anything else is a fault.
+  [[nodiscard]] std::optional<std::string> word(std::string_view key, std::initializer_list<std::string_view> words);
+
+  /// @throws jobs::InvalidRequest with every fault met so far, if there is any. Call it once all keys are read.
+  void check() const;
+
+ private:
+  void add_fault(std::string_view key, const std::string& detail);
+
+  const Request& request_;
+  std::vector<jobs::Fault> faults_;
+};
+
+}  // namespace server

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace server {
+
+/// Why a request is not served.
+struct Refusal {
+  int status;
+  std::string detail;
+};
+
+/// Longest path, and longest line of a head, that are looked at.
+inline constexpr std::size_t kMaxPathBytes = 512;
+inline constexpr std::size_t kMaxLineBytes = 8000;
+
+/// Examines the head of a request as it came off the wire, before anything else reads it: two readers that understand
+/// a head differently are how one request is smuggled inside another.
+/// @param head        request line and header lines, up to and with the empty line
+/// @param body_bytes  largest Content-Length
+/// @returns what is wrong with it, if anything
+[[nodiscard]] std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes);
+
+/// Examines what names this server and where a request comes from. A page of another site that a user's browser shows
+/// must not reach this service, neither under a name that resolves to it nor by a form or a script.
+class OriginCheck {
+ public:
+  /// @param bound_host  the address the server is bound to; it and the names of the loopback are good
+  explicit OriginCheck(std::string bound_host);
+
+  /// What a request says about its origin; an empty text is a header that is missing.
+  struct Headers {
+    std::string method;
+    std::string host;
+    std::string origin;
+    std::string fetch_site;  ///< Sec-Fetch-Site
+    std::string fetch_mode;  ///< Sec-Fetch-Mode
+  };
+
+  [[nodiscard]] std::optional<Refusal> find_fault(const Headers& headers) const;
+
+ private:
+  [[nodiscard]] bool names_this_server(const std::string& host) const;
+
+  std::string bound_host_;
+};
+
+/// True for an address or name that only this machine reaches: 127.0.0.0/8, ::1, localhost.
+[[nodiscard]] bool is_loopback(const std::string& host);
+
+}  // namespace server

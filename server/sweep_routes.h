@@ -1,0 +1,15 @@
+#pragma once
+
+#include "server/message.h"
+#include "server/routes.h"
+
+namespace server {
+
+Response post_sweep(const Call& call);
+Response get_sweeps(const Call& call);
+Response get_sweep(const Call& call);
+Response delete_sweep(const Call& call);
+Response get_results(const Call& call);
+Response cancel_sweep(const Call& call);
+
+}  // namespace server

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "jobs/service.h"
+#include "server/message.h"
+#include "server/query.h"
+
+namespace server {
+
+enum class TableFormat { kJson, kCsv };
+
+/// The format that a request asks for: `?format=csv|json` first, then the Accept header, then JSON.
+/// @param query  one that allows the key `format`; a wrong word is a fault of it
+[[nodiscard]] TableFormat find_format(const Request& request, Query& query);
+
+/// A JSON array of flat objects, one a row; every object has every column.
+[[nodiscard]] std::string to_json_rows(const jobs::ResultTable& table);
+
+/// {"channels": [key, ...], "columns": {key: [number, ...], ...}}; null for what is not finite.
+[[nodiscard]] std::string to_json_columns(const engine::Trajectory& trajectory);
+
+/// A table as an answer: JSON as text, CSV as a download with a name.
+/// @param file_stem  of the download; letters, digits, '-' and '_'
+[[nodiscard]] Response make_table(TableFormat format, std::string text, const std::string& file_stem);
+
+}  // namespace server

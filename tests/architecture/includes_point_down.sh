@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Fails for an include that points up a layer: server -> jobs -> engine, and some libraries have one layer that may use
+# them.   includes_point_down.sh ROOT
+set -euo pipefail
+cd "$1"
+
+faults=0
+
+# forbid FOLDER PATTERN [EXCEPT]: no source of the folder includes what matches, save the files named
+forbid() {
+  local files found
+  files=$(find "$1" -type f \( -name '*.h' -o -name '*.cc' \) | sort)
+  if [ -z "$files" ]; then
+    echo "$1 holds no source at all: is this the right folder?" >&2
+    exit 1
+  fi
+  [ -z "${3:-}" ] || files=$(grep -vE "$3" <<<"$files" || true)
+  found=$(xargs -r grep -nE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($2)" <<<"$files" || true)
+  if [ -n "$found" ]; then
+    echo "$1 must not include $2:"
+    sed 's/^/  /' <<<"$found"
+    faults=$((faults + 1))
+  fi
+}
+
+sqlite='sqlite3|SQLiteCpp'
+http='httplib'
+forbid engine "(\.\./)*(jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CLI|zstd|openssl"
+forbid jobs "(\.\./)*(server|web|tests)/|$http|spdlog|CLI"
+forbid server "(\.\./)*(web|tests)/|$sqlite|zstd"
+forbid server "$http" '^server/http(_[a-z]+)?\.(h|cc)$'
+# A path that climbs out of its folder hides which layer it reaches.
+forbid engine '\.\./'
+forbid jobs '\.\./'
+forbid server '\.\./'
+
+[ "$faults" -eq 0 ] && echo "every include points down"

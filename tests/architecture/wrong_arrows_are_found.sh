@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Plants one wrong include at a time in a small tree and expects includes_point_down.sh to fail on it.
+set -euo pipefail
+check=$(dirname "${BASH_SOURCE[0]}")/includes_point_down.sh
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+
+# plant FILE INCLUDE: the tree of correct includes with one more
+plant() {
+  rm -rf "${tree:?}"/*
+  mkdir -p "$tree/engine" "$tree/jobs" "$tree/server"
+  echo '#include <vector>' >"$tree/engine/simulate.h"
+  echo '#include "engine/simulate.h"' >"$tree/jobs/store.cc"
+  echo '#include "jobs/store.h"' >"$tree/server/routes.cc"
+  echo '#include <httplib.h>' >"$tree/server/http_guard.cc"
+  [ -z "${1:-}" ] || echo "$2" >>"$tree/$1"
+}
+
+plant
+bash "$check" "$tree" >/dev/null || { echo "correct includes are refused"; exit 1; }
+
+expect_refused() {
+  plant "$1" "$2"
+  if bash "$check" "$tree" >/dev/null; then
+    echo "not found: $2 in $1"
+    exit 1
+  fi
+}
+expect_refused engine/simulate.h '#include "jobs/store.h"'
+expect_refused engine/simulate.h '#include <nlohmann/json.hpp>'
+expect_refused jobs/store.cc '#include "server/routes.h"'
+expect_refused jobs/store.cc '#  include <httplib.h>'
+expect_refused server/routes.cc '#include <SQLiteCpp/SQLiteCpp.h>'
+expect_refused server/routes.cc '#include <sqlite3.h>'
+expect_refused server/routes.cc '#include <httplib.h>'
+expect_refused server/routes.cc '#include "../jobs/store.h"'
+echo "all planted faults are found"

@@ -1,0 +1,326 @@
+#include "server/http.h"
+
+#include <chrono>
+#include <list>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "server/http_stream.h"
+#include "tests/server/raw_client.h"
+#include "tests/server/service_fixture.h"
+
+namespace {
+
+using namespace std::chrono_literals;
+using server::HttpLimits;
+using server::HttpServer;
+using server_tests::Bench;
+using server_tests::body_of;
+using server_tests::RawClient;
+using server_tests::status_of;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kBodyBytes = 100'000;
+
+/// Limits that a test can run into without waiting for long.
+HttpLimits short_limits() {
+  HttpLimits limits;
+  limits.body_bytes = kBodyBytes;
+  limits.head_time = 400ms;
+  limits.body_time = 900ms;
+  limits.linger_time = 300ms;
+  limits.drain_time = 200ms;
+  return limits;
+}
+
+class Http : public testing::Test {
+ protected:
+  Http() : http_(bench_.routes(), {.address = "127.0.0.1", .port = 0}, short_limits()), port_(http_.bind()) {
+    if (port_ == 0) throw std::runtime_error("no free port");
+    listener_ = std::jthread([this] { http_.listen(); });
+  }
+  ~Http() override { http_.stop(); }
+
+  /// The answer to these bytes.
+  [[nodiscard]] std::string ask(const std::string& bytes) const {
+    RawClient client(port_);
+    client.send(bytes);
+    return client.read_all();
+  }
+
+  [[nodiscard]] std::string get(const std::string& path, const std::string& headers = "") const {
+    return ask("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n");
+  }
+
+  [[nodiscard]] std::string post(const std::string& path, const std::string& body, const std::string& headers = "") const {
+    return ask("POST " + path + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(body.size()) + "\r\n" +
+               headers + "\r\n" + body);
+  }
+
+  [[nodiscard]] std::size_t sweep_count() {
+    return nlohmann::json::parse(bench_.call("GET", "/v1/sweeps").body).at("items").size();
+  }
+
+  Bench bench_;
+  HttpServer http_;
+  int port_;
+  std::jthread listener_;
+};
+
+/// A request that is good and larger than 8 KiB, the library's bound for forms.
+std::string padded_request() { return R"({"name": "padded", "sweep": {"clearance_mm": [0.1]})" + std::string(20'000, ' ') + "}"; }
+
+std::string chunked(const std::string& body, std::size_t chunk_bytes) {
+  std::string text;
+  char size[32];
+  for (std::size_t start = 0; start < body.size(); start += chunk_bytes) {
+    const std::string chunk = body.substr(start, chunk_bytes);
+    std::snprintf(size, sizeof size, "%zx\r\n", chunk.size());
+    text += size + chunk + "\r\n";
+  }
+  return text + "0\r\n\r\n";
+}
+
+TEST_F(Http, CarriesOneRequestAConnection) {
+  const std::string request = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: keep-alive\r\n\r\n";
+  const std::string answer = ask(request + request);
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << "two answers";
+  EXPECT_NE(answer.find("Connection: close\r\n"), std::string::npos);
+}
+
+TEST_F(Http, SendsTheHeadersThatBrowsersObey) {
+  for (const std::string& answer : {get("/"), get("/nothing"), ask("GET / HTTP/1.1\r\n\r\n")}) {
+    EXPECT_NE(answer.find("X-Content-Type-Options: nosniff\r\n"), std::string::npos) << answer;
+    EXPECT_NE(answer.find("Content-Security-Policy: default-src 'none';"), std::string::npos) << answer;
+    EXPECT_NE(answer.find("Referrer-Policy: no-referrer\r\n"), std::string::npos) << answer;
+  }
+}
+
+TEST_F(Http, AnswersInProblemJsonWhateverIsWrong) {
+  for (const std::string& answer : {get("/nothing"), ask("GET / HTTP/1.1\r\n\r\n"), ask("FETCH / HTTP/1.1\r\nHost: localhost\r\n\r\n"),
+                                    ask("GET / HTTP/3.0\r\nHost: localhost\r\n\r\n"), ask("PUT /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")}) {
+    EXPECT_NE(answer.find("Content-Type: application/problem+json\r\n"), std::string::npos) << answer;
+    EXPECT_EQ(nlohmann::json::parse(body_of(answer)).at("status"), status_of(answer));
+  }
+}
+
+TEST_F(Http, DropsAHeadThatComesTooSlowly) {
+  RawClient client(port_);
+  const auto start = Clock::now();
+  client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ");
+  while (!client.answered_within(50ms) && Clock::now() - start < 5s) client.send("a");
+  EXPECT_EQ(status_of(client.read_all()), 408);
+  // The limit is on the whole head, however many single bytes keep coming.
+  EXPECT_LT(Clock::now() - start, 2s);
+}
+
+TEST_F(Http, ServesOthersWhileManyHeadsComeSlowly) {
+  std::list<RawClient> slow;
+  for (int i = 0; i < 40; ++i) slow.emplace_back(port_).send("GET / HTTP/1.1\r\n");
+  const auto start = Clock::now();
+  EXPECT_EQ(status_of(get("/healthz")), 200);
+  EXPECT_LT(Clock::now() - start, 5s);
+}
+
+TEST_F(Http, RefusesAHeadThatIsTooLarge) {
+  EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(20'000, 'a') + "\r\n")), 431);
+  std::string many;
+  for (int i = 0; i < 5'000; ++i) many += "X: 1\r\n";
+  EXPECT_EQ(status_of(get("/healthz", many)), 431);
+  EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(7'900, 'a') + "\r\n")), 200);
+}
+
+TEST_F(Http, RefusesABodyByItsLengthBeforeItComes) {
+  EXPECT_EQ(status_of(ask("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100001\r\n\r\n")), 413);
+}
+
+TEST_F(Http, RefusesAChunkedBodyThatGrowsTooLarge) {
+  const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  EXPECT_EQ(status_of(ask(head + chunked(std::string(kBodyBytes + 1, ' '), 4000))), 413);
+  // No end in sight.
+  RawClient client(port_);
+  client.send(head);
+  const std::string chunk = chunked(std::string(4000, ' '), 4000).substr(0, 4007);
+  int sent = 0;
+  while (sent < 1000 && !client.answered_within(0ms) && client.send(chunk)) ++sent;
+  EXPECT_LT(sent, 1000);
+  EXPECT_EQ(status_of(client.read_all()), 413);
+}
+
+TEST_F(Http, TakesABodyOfExactlyTheLimit) {
+  std::string body = R"({"sweep": {"clearance_mm": [0.1]})";
+  body += std::string(kBodyBytes - body.size() - 1, ' ') + "}";
+  EXPECT_EQ(status_of(post("/v1/sweeps", body)), 201);
+}
+
+TEST_F(Http, BoundsWhatAChunkedBodyIsWrappedIn) {
+  // Chunks of one byte: a good request that takes six bytes off the wire for each of its own.
+  const std::string body = R"({"sweep": {"clearance_mm": [0.1]})" + std::string(60'000, ' ') + "}";
+  const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  EXPECT_EQ(status_of(ask(head + chunked(body, 1))), 400);
+  EXPECT_EQ(sweep_count(), 0U);
+  EXPECT_EQ(status_of(ask(head + chunked(body, 100))), 201);
+}
+
+TEST_F(Http, ReachesAClientThatIsStillSending) {
+  RawClient client(port_);
+  client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n");
+  // A server that closes with unread bytes resets the connection, and the answer may be lost with it.
+  for (int i = 0; i < 4; ++i) {
+    std::this_thread::sleep_for(30ms);
+    EXPECT_TRUE(client.send(std::string(250'000, ' '))) << i;
+  }
+  EXPECT_EQ(status_of(client.read_all()), 413);
+}
+
+TEST_F(Http, ReadsAHeadThatComesInPieces) {
+  RawClient client(port_);
+  for (const char* const piece : {"GET /heal", "thz HTTP/1.1\r\nHost: localhost\r", "\n\r", "\n"}) {
+    client.send(piece);
+    std::this_thread::sleep_for(30ms);
+  }
+  EXPECT_EQ(status_of(client.read_all()), 200);
+}
+
+TEST_F(Http, GivesABodyItsOwnTime) {
+  const std::string body = R"({"sweep": {"clearance_mm": [0.1]}})";
+  RawClient client(port_);
+  client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n");
+  std::this_thread::sleep_for(500ms);  // more than a head may take
+  client.send(body);
+  EXPECT_EQ(status_of(client.read_all()), 201);
+}
+
+TEST_F(Http, DropsABodyThatComesTooSlowly) {
+  RawClient client(port_);
+  const auto start = Clock::now();
+  client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\r\n");
+  while (!client.answered_within(50ms) && Clock::now() - start < 5s) client.send(" ");
+  EXPECT_EQ(status_of(client.read_all()), 400);
+  EXPECT_LT(Clock::now() - start, 2s);
+  EXPECT_EQ(sweep_count(), 0U);
+}
+
+TEST_F(Http, TakesWhatCurlSendsByDefault) {
+  // `curl -d @file` calls every body a form.
+  EXPECT_EQ(status_of(post("/v1/sweeps", padded_request(), "Content-Type: application/x-www-form-urlencoded\r\n")), 201);
+  const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  EXPECT_EQ(status_of(ask(head + chunked(padded_request(), 777))), 201);
+}
+
+TEST_F(Http, SaysContinueToAClientThatAsks) {
+  RawClient client(port_);
+  client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
+  ASSERT_TRUE(client.answered_within(300ms));
+  client.send("[]");
+  EXPECT_EQ(client.read_all().find("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 422"), 0U);
+}
+
+TEST_F(Http, AnswersAPostWithoutBodyAtOnce) {
+  const auto start = Clock::now();
+  const std::string answer = ask("POST /v1/sweeps/none/cancel HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 404);
+  EXPECT_LT(Clock::now() - start, 350ms);
+}
+
+TEST_F(Http, RefusesBodiesThatAreNotTheText) {
+  EXPECT_EQ(status_of(post("/v1/sweeps", "--a--", "Content-Type: multipart/form-data; boundary=a\r\n")), 415);
+  EXPECT_EQ(status_of(post("/v1/sweeps", "{}", "Content-Encoding: br\r\n")), 415);
+}
+
+TEST_F(Http, IgnoresRangesAndCompression) {
+  std::string ranges = "Range: bytes=0-1";
+  for (int i = 0; i < 300; ++i) ranges += ",0-999";
+  const std::string plain = get("/");
+  const std::string answer = get("/", ranges + "\r\nAccept-Encoding: br, gzip\r\n");
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_EQ(body_of(answer), body_of(plain));
+  EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos);
+}
+
+TEST_F(Http, RefusesOtherNamesAndOtherSites) {
+  EXPECT_EQ(status_of(ask("GET /v1/sweeps HTTP/1.1\r\nHost: evil.com\r\n\r\n")), 403);
+  const std::string request = R"({"sweep": {"clearance_mm": [0.1]}})";
+  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://evil.com\r\n")), 403);
+  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: navigate\r\n")), 403);
+  EXPECT_EQ(sweep_count(), 0U);
+  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://localhost\r\n")), 201);
+}
+
+TEST_F(Http, DecodesThePathAndTheQuery) {
+  EXPECT_EQ(status_of(get("/v1/%73weeps?limit=%35")), 200);
+  EXPECT_EQ(status_of(get("/v1/sweeps?limit=%35%35%35%35")), 422);
+  EXPECT_EQ(status_of(get("/%0a")), 404);
+}
+
+TEST_F(Http, SendsNoLengthWithoutContent) {
+  const std::string id = bench_.run(R"({"sweep": {"clearance_mm": [0.1]}})");
+  const std::string answer = ask("DELETE /v1/sweeps/" + id + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 204);
+  EXPECT_EQ(answer.find("Content-Length"), std::string::npos);
+  const std::string head = ask("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(status_of(head), 200);
+  EXPECT_EQ(body_of(head), "");
+}
+
+TEST_F(Http, DoesNotShareItsPort) {
+  HttpServer second(bench_.routes(), {.address = "127.0.0.1", .port = port_}, short_limits());
+  EXPECT_EQ(second.bind(), 0);
+}
+
+TEST(HttpBind, QueuesManyConnectionsAtOnce) {
+  Bench bench;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, short_limits());
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  const auto start = Clock::now();
+  std::list<RawClient> clients;
+  // Nobody accepts yet. Where the queue is full a client tries again after one second, then after three.
+  for (int i = 0; i < 200; ++i) clients.emplace_back(port).send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_LT(Clock::now() - start, 900ms);
+  std::jthread listener([&] { http.listen(); });
+  for (RawClient& client : clients) EXPECT_EQ(status_of(client.read_all()), 200);
+  http.stop();
+}
+
+TEST(HttpStop, EndsConnectionsThatWait) {
+  Bench bench;
+  HttpLimits limits;  // 5 s for a head: the end must not wait for them
+  limits.drain_time = 200ms;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, limits);
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
+  RawClient idle(port);
+  RawClient slow(port);
+  slow.send("GET / HTTP/1.1\r\n");
+  // Accepted in their order: once a later one has its answer, those two are being read.
+  RawClient later(port);
+  later.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(status_of(later.read_all()), 200);
+  const auto start = Clock::now();
+  http.stop();
+  listener.join();
+  EXPECT_LT(Clock::now() - start, 2s);
+}
+
+TEST(HttpStop, LeavesThePortToTheNext) {
+  Bench bench;
+  HttpServer first(bench.routes(), {.address = "127.0.0.1", .port = 0}, short_limits());
+  const int port = first.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { first.listen(); });
+  RawClient client(port);
+  client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(status_of(client.read_all()), 200);
+  first.stop();
+  listener.join();
+  HttpServer second(bench.routes(), {.address = "127.0.0.1", .port = port}, short_limits());
+  EXPECT_EQ(second.bind(), port);
+}
+
+}  // namespace

@@ -1,0 +1,127 @@
+#include "server/sweep_routes.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/server/service_fixture.h"
+
+namespace {
+
+using nlohmann::json;
+using server_tests::Bench;
+using server_tests::endless_run;
+using server_tests::header;
+
+const char* const kSmallSweep = R"({"name": "small", "sweep": {"clearance_mm": [0.1, 0.25], "coupler": ["rigid", "flexible"]}})";
+
+TEST(PostSweep, AnswersWithTheResourceAndItsPlace) {
+  Bench bench;
+  const auto created = bench.call("POST", "/v1/sweeps", kSmallSweep);
+  ASSERT_EQ(created.status, 201) << created.body;
+  const json sweep = json::parse(created.body);
+  EXPECT_EQ(sweep.at("name"), "small");
+  EXPECT_EQ(header(created, "Location"), "/v1/sweeps/" + sweep.at("id").get<std::string>());
+  const auto found = bench.call("GET", header(created, "Location"));
+  EXPECT_EQ(found.status, 200);
+  EXPECT_EQ(json::parse(found.body).at("id"), sweep.at("id"));
+}
+
+TEST(PostSweep, NamesEveryFault) {
+  Bench bench;
+  const auto response =
+      bench.call("POST", "/v1/sweeps", R"({"parameters": {"nonsense": 1}, "sweep": {"clearance_mm": [0.1, -1, "a"]}})");
+  ASSERT_EQ(response.status, 422);
+  std::set<std::string> pointers;
+  const json problem = json::parse(response.body);
+  for (const auto& error : problem.at("errors")) pointers.insert(error.at("pointer").get<std::string>());
+  EXPECT_EQ(pointers, (std::set<std::string>{"/parameters/nonsense", "/sweep/clearance_mm/1", "/sweep/clearance_mm/2"}));
+  EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
+}
+
+TEST(PostSweep, RefusesWhatIsNoJson) {
+  Bench bench;
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps", "name=paper").status, 400);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps", "").status, 400);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps", std::string(100'000, '[')).status, 400);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps", "[]").status, 422);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps", kSmallSweep, {{"dry_run", "1"}}).status, 422);
+}
+
+TEST(GetSweeps, PagesFromTheNewest) {
+  Bench bench;
+  const std::string first = bench.run(R"({"name": "first", "sweep": {"clearance_mm": [0.1]}})");
+  const std::string second = bench.run(R"({"name": "second", "sweep": {"clearance_mm": [0.2]}})");
+  const json page = json::parse(bench.call("GET", "/v1/sweeps", "", {{"limit", "1"}}).body);
+  ASSERT_EQ(page.at("items").size(), 1U);
+  EXPECT_EQ(page.at("items")[0].at("id"), second);
+  const std::string cursor = page.at("next_cursor");
+  ASSERT_FALSE(cursor.empty());
+  const json rest = json::parse(bench.call("GET", "/v1/sweeps", "", {{"limit", "1"}, {"cursor", cursor}}).body);
+  EXPECT_EQ(rest.at("items").at(0).at("id"), first);
+  const json failed = json::parse(bench.call("GET", "/v1/sweeps", "", {{"state", "failed"}}).body);
+  EXPECT_TRUE(failed.at("items").empty());
+}
+
+TEST(GetSweeps, RefusesAFaultyQuery) {
+  Bench bench;
+  for (const auto& [key, value] : {std::pair{"limit", "0"}, {"limit", "1001"}, {"limit", "ten"}, {"state", "done"}, {"page", "2"}}) {
+    const auto response = bench.call("GET", "/v1/sweeps", "", {{key, value}});
+    EXPECT_EQ(response.status, 422) << key << "=" << value;
+    EXPECT_EQ(json::parse(response.body).at("errors").at(0).at("pointer"), std::string("/") + key);
+  }
+}
+
+TEST(GetResults, AreTheSameInBothForms) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kSmallSweep) + "/results";
+  const json rows = json::parse(bench.call("GET", path).body);
+  ASSERT_EQ(rows.size(), 4U);
+  // The last axis is the fastest.
+  EXPECT_EQ(rows[1].at("clearance_mm"), 0.1);
+  EXPECT_EQ(rows[1].at("coupler"), "flexible");
+  EXPECT_EQ(rows[2].at("clearance_mm"), 0.25);
+  EXPECT_EQ(rows[2].at("coupler"), "rigid");
+  const auto metrics = engine::metric_table();
+  // known_run: metric i is 100 i + the clearance.
+  EXPECT_NEAR(rows[2].at(metrics[1].key).get<double>(), 100.25, 1e-9);
+  EXPECT_TRUE(rows[2].at(metrics.back().key).is_null());
+
+  const auto csv = bench.call("GET", path, "", {}, "text/csv");
+  EXPECT_EQ(csv.content_type, "text/csv; charset=utf-8");
+  EXPECT_EQ(csv.body, bench.call("GET", path, "", {{"format", "csv"}}).body);
+  EXPECT_EQ(std::count(csv.body.begin(), csv.body.end(), '\n'), 5);
+  EXPECT_EQ(csv.body.substr(0, csv.body.find(',')), "job_id");
+  EXPECT_NE(csv.body.find(rows[2].at("job_id").get<std::string>()), std::string::npos);
+}
+
+TEST(CancelSweep, EndsWhatRuns) {
+  Bench bench(endless_run);
+  const std::string id = bench.submit(kSmallSweep);
+  const auto busy = bench.call("DELETE", "/v1/sweeps/" + id);
+  EXPECT_EQ(busy.status, 409) << busy.body;
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps/" + id + "/cancel").status, 200);
+  EXPECT_TRUE(bench.service().wait_for_sweep(id, std::chrono::seconds(5)));
+  EXPECT_EQ(json::parse(bench.call("GET", "/v1/sweeps/" + id).body).at("state"), "cancelled");
+  EXPECT_EQ(bench.call("DELETE", "/v1/sweeps/" + id).status, 204);
+  EXPECT_EQ(bench.call("DELETE", "/v1/sweeps/" + id).status, 404);
+}
+
+TEST(CancelSweep, RefusesWhatHasSucceeded) {
+  Bench bench;
+  const std::string id = bench.run(R"({"sweep": {"clearance_mm": [0.1]}})");
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps/" + id + "/cancel").status, 409);
+}
+
+TEST(SweepRoutes, AnswerUnknownIdsWith404) {
+  Bench bench;
+  EXPECT_EQ(bench.call("GET", "/v1/sweeps/none").status, 404);
+  EXPECT_EQ(bench.call("GET", "/v1/sweeps/none/results").status, 404);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps/none/cancel").status, 404);
+  EXPECT_EQ(bench.call("DELETE", "/v1/sweeps/none").status, 404);
+}
+
+}  // namespace

@@ -1,0 +1,65 @@
+#include "server/tables.h"
+
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using nlohmann::json;
+using server::Request;
+using server::TableFormat;
+
+TableFormat format_of(const std::string& accept, const std::string& format) {
+  Request request;
+  request.accept = accept;
+  if (!format.empty()) request.query = {{"format", format}};
+  server::Query query(request, {"format"});
+  const TableFormat result = server::find_format(request, query);
+  query.check();
+  return result;
+}
+
+TEST(FindFormat, TakesTheQueryBeforeTheHeader) {
+  EXPECT_EQ(format_of("", ""), TableFormat::kJson);
+  EXPECT_EQ(format_of("*/*", ""), TableFormat::kJson);
+  EXPECT_EQ(format_of("text/csv", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("text/csv, application/json;q=0.5", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("application/json, text/csv", ""), TableFormat::kJson);
+  EXPECT_EQ(format_of("text/csv", "json"), TableFormat::kJson);
+  EXPECT_EQ(format_of("application/json", "csv"), TableFormat::kCsv);
+  EXPECT_THROW(format_of("", "xml"), jobs::InvalidRequest);
+}
+
+TEST(JsonRows, HaveEveryColumnInEveryRow) {
+  const double third = 1.0 / 3.0;
+  const jobs::ResultTable table{{"job_id", "clearance_mm", "peak"}, {{"j\"1", 0.25, third}, {"j2", 0, nullptr}}};
+  const json rows = json::parse(server::to_json_rows(table));
+  EXPECT_EQ(rows, json::parse(R"([{"job_id": "j\"1", "clearance_mm": 0.25, "peak": 0.3333333333333333},
+                                  {"job_id": "j2", "clearance_mm": 0, "peak": null}])"));
+}
+
+TEST(JsonRows, AreAnEmptyArrayForNoRows) { EXPECT_EQ(json::parse(server::to_json_rows({{"a"}, {}})), json::array()); }
+
+TEST(JsonColumns, AreArraysByTheirKey) {
+  engine::Trajectory trajectory;
+  trajectory.channels = {{.key = "t_s", .help = ""}, {.key = "z_m", .help = ""}};
+  trajectory.columns = {{0.0, 0.001}, {-2.5, std::numeric_limits<double>::quiet_NaN()}};
+  EXPECT_EQ(json::parse(server::to_json_columns(trajectory)),
+            json::parse(R"({"channels": ["t_s", "z_m"], "columns": {"t_s": [0, 0.001], "z_m": [-2.5, null]}})"));
+}
+
+TEST(JsonColumns, ReadWithoutAnyChannel) {
+  EXPECT_EQ(json::parse(server::to_json_columns({})), json::parse(R"({"channels": [], "columns": {}})"));
+}
+
+TEST(MakeTable, NamesTheDownload) {
+  const auto csv = server::make_table(TableFormat::kCsv, "a\r\n", "sweep-1");
+  EXPECT_EQ(csv.content_type, "text/csv; charset=utf-8");
+  EXPECT_EQ(csv.headers.back().second, "attachment; filename=\"sweep-1.csv\"");
+  EXPECT_EQ(server::make_table(TableFormat::kJson, "[]", "sweep-1").content_type, "application/json");
+}
+
+}  // namespace

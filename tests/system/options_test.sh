@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Options from the command line, the environment and a file: each of them works, in this order of precedence.
+source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
+
+echo '{"duration_s": 0.05}' >job.json
+rows() { wc -l <"$1" | tr -d ' '; }
+
+RPSUP_TRAJECTORY=from_environment.csv expect_code 0 "$rpsup" simulate job.json
+expect_equal "$(rows from_environment.csv)" 52 "lines of the trajectory named in the environment"
+
+printf '[simulate]\ntrajectory=from_file.csv\nchannels=contact_force_n\n' >options.ini
+for place in before after environment; do
+  rm -f from_file.csv
+  case $place in
+    before) expect_code 0 "$rpsup" --config options.ini simulate job.json ;;
+    after) expect_code 0 "$rpsup" simulate job.json --config options.ini ;;
+    environment) RPSUP_CONFIG=options.ini expect_code 0 "$rpsup" simulate job.json ;;
+  esac
+  expect_equal "$(head -n 1 from_file.csv | tr -d '\r')" t_s,contact_force_n "channels named in the file ($place)"
+done
+
+expect_code 0 "$rpsup" --config options.ini simulate job.json --trajectory from_line.csv
+expect_equal "$(rows from_line.csv)" 52 "lines of the trajectory named on the command line"
+
+printf '[simulate]\ntrajektory=t.csv\n' >wrong.ini
+expect_code 2 "$rpsup" --config wrong.ini simulate job.json
+expect_text err trajektory
+expect_code 2 "$rpsup" --config missing.ini simulate job.json
+RPSUP_CONFIG=missing.ini expect_code 2 "$rpsup" simulate job.json
+RPSUP_PORT=many expect_code 2 "$rpsup" serve --db a.db
+expect_text err port
+expect_code 2 "$rpsup" serve --db a.db --threads 0
+expect_code 2 "$rpsup" serve --db a.db --host 0.0.0.0
+expect_text err 'not authenticated'
+expect_code 2 "$rpsup" serve
+[ ! -e a.db ] || fail "a refused command has made a store"
+echo "options work"

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# rpsup serve: a session with curl, a second instance, and how it ends.
+source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
+
+start_service store.db
+expect_equal "$(cat ready)" "rpsup listens on $url" "what stands on standard output"
+expect_equal "$(get "$url/readyz" | jq -r .status)" ready "readiness"
+
+# A sweep from the request to its results.
+cat >sweep.json <<'JSON'
+{"name": "session", "parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "sweep": {"clearance_mm": [0, 0.3]}}
+JSON
+get --include --data @sweep.json "$url/v1/sweeps" >created
+expect_text created '^HTTP/1.1 201 '
+place=$(tr -d '\r' <created | sed -n 's/^Location: //p')
+id=${place##*/}
+wait_for_end "$id"
+expect_equal "$state" succeeded "state of the sweep"
+get "$url$place/results" >rows.json
+expect_equal "$(jq -c '[.[].clearance_mm]' rows.json)" '[0,0.3]' "rows"
+results "$id" >rows.csv
+expect_equal "$(wc -l <rows.csv | tr -d ' ')" 3 "lines of the CSV"
+
+# One job and its trajectory.
+job=$(jq -r '.[1].job_id' rows.json)
+expect_equal "$(get "$url/v1/jobs/$job" | jq -c '.metrics.peak_slider_acceleration_m_s2')" \
+  "$(jq -c '.[1].peak_slider_acceleration_m_s2' rows.json)" "the peak of the job and of its row"
+get "$url/v1/jobs/$job/trajectory?channels=slider_acceleration_m_s2&from=0.05&to=0.06" >trajectory.json
+expect_equal "$(jq -c '.columns.t_s | [length, first, last]' trajectory.json)" '[11,0.05,0.06]' "times"
+
+# Repeated parameters are not computed again: the metrics are those of the first job, whatever the new one is called.
+again=$(submit sweep.json)
+wait_for_end "$again"
+expect_equal "$(results "$again")" "$(cat rows.csv)" "results of the same sweep again"
+
+# The page asks for nothing of another site, and is served with a strict policy.
+get --include "$url/" >page
+expect_text page "^Content-Security-Policy: default-src 'none';"
+! grep -E '(src|href)="(https?:)?//' page || fail "the page asks another site"
+
+# What is refused.
+expect_equal "$(status_of --data '{' "$url/v1/sweeps")" 400 "broken JSON"
+expect_equal "$(status_of --data '{"sweep": {"clearance_mm": [-1]}}' "$url/v1/sweeps")" 422 "a clearance below zero"
+expect_equal "$(status_of "$url/v1/sweeps/none")" 404 "no such sweep"
+expect_equal "$(status_of -X PATCH "$url/v1/sweeps")" 405 "no such method"
+expect_equal "$(status_of -H 'Host: evil.com' "$url/v1/sweeps")" 403 "another name"
+expect_equal "$(status_of -X DELETE "$url/v1/sweeps/$again")" 204 "deleting"
+expect_equal "$(status_of "$url/v1/sweeps/$again")" 404 "the deleted sweep"
+
+# A second instance: the store is in use, the port is taken.
+expect_code 3 "$rpsup" serve --db store.db --port 0
+expect_text err 'rpsup: '
+expect_code 3 "$rpsup" serve --db other.db --port "${url##*:}"
+expect_text err 'cannot listen'
+expect_code 3 "$rpsup" sweep sweep.json --db store.db
+
+# Cancelling ends a running job soon, although nothing is sent but the request line.
+echo '{"parameters": {"duration_s": 500, "coupler": "flexible"}, "sweep": {"clearance_mm": [0.3, 0.4, 0.5]}}' >long.json
+long=$(submit long.json)
+get -X POST "$url/v1/sweeps/$long/cancel" >/dev/null
+started=$SECONDS
+wait_for_end "$long"
+expect_equal "$state" cancelled "state of the cancelled sweep"
+[ $((SECONDS - started)) -le 5 ] || fail "cancelling took too long"
+
+# Ends soon and in order while jobs run; they are still there after a new start.
+long=$(submit long.json)
+started=$SECONDS
+stop_service TERM
+expect_equal "$code" 0 "exit code after SIGTERM"
+[ $((SECONDS - started)) -le 5 ] || fail "the end took too long"
+start_service store.db
+case "$(get "$url/v1/sweeps/$long" | jq -r .state)" in queued | running) ;; *) fail "the sweep did not survive" ;; esac
+get -X POST "$url/v1/sweeps/$long/cancel" >/dev/null
+stop_service INT
+expect_equal "$code" 0 "exit code after SIGINT"
+echo "serve works"
