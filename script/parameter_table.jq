@@ -1,0 +1,14 @@
+# The README's table of parameters, from the JSON Schema that GET /v1/parameters answers:
+#   curl -s http://127.0.0.1:8080/v1/parameters | jq -r -f script/parameter_table.jq
+def range:
+  if .enum then (.enum | map("`\(.)`") | join(", "))
+  else (if has("exclusiveMinimum") then "> \(.exclusiveMinimum)" elif has("minimum") then "≥ \(.minimum)" else "" end)
+    + (if has("exclusiveMaximum") then ", < \(.exclusiveMaximum)" elif has("maximum") then ", ≤ \(.maximum)" else "" end)
+  end;
+def row($key): "| `\($key)` | \(.default | tojson | gsub("\""; "")) | \(.["x-unit"] // "") | \(range) | \(.description) | \(.["x-default-source"]) |";
+"| parameter | default | unit | allowed | meaning | default from |",
+"|---|---|---|---|---|---|",
+(.properties | to_entries[] | select(.key != "links") | .key as $key | .value | row($key)),
+(.properties.links.properties | to_entries[] | .key as $link | .value.properties | to_entries[]
+  | "links.\($link).\(.key)" as $key | .value
+  | if .type == "array" then .default as $d | .items as $i | . + $i | .default = $d else . end | row($key))
