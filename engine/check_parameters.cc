@@ -122,7 +122,7 @@ void check_reach(const RpsupParameters& p, double duration) {
     const double t = duration * static_cast<double>(k) / static_cast<double>(looks);
     const double reach = calc_reach_squared(p, t);
     if (reach > 0.0) continue;
-    throw InvalidInput("coupler_length",
+    throw InvalidInput("reach",
                        (k == 0 ? std::string("the linkage cannot be assembled") : "the linkage locks at t = " + to_text(t) + " s") +
                            ": the coupler of " + to_text(p.coupler_length) + " m must be longer than " +
                            to_text(std::sqrt(p.coupler_length * p.coupler_length - reach)) +

@@ -76,11 +76,20 @@ std::string pointer_of_member(const std::string& member) {
   return "";
 }
 
-void add_engine_fault(const JobSpec& spec, std::vector<Fault>& faults) {
+/// The parameter to name for a coupler that does not reach the guide: many decide it, and one that is not at its default is the
+/// likeliest cause.
+std::string pointer_of_reach(const json& completed) {
+  for (const std::string_view key : {"guide_offset_z_m", "guide_offset_y_m", "coupler_length_m", "rod_length_m", "rod_stroke_mm"}) {
+    if (completed.at(key) != canonical_value(*find_parameter(key), default_value(*find_parameter(key)))) return pointer_token(key);
+  }
+  return pointer_token("coupler_length_m");
+}
+
+void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
   try {
     engine::check_parameters(spec.parameters, spec.options);
   } catch (const engine::InvalidInput& fault) {
-    std::string pointer = pointer_of_member(fault.field());
+    std::string pointer = fault.field() == "reach" ? pointer_of_reach(completed) : pointer_of_member(fault.field());
     faults.push_back({pointer, pointer.empty() ? fault.what() : fault.detail()});
   }
 }
@@ -120,7 +129,7 @@ std::vector<Fault> find_combination_faults(const json& completed) {
   add_material_faults(completed, faults);
   add_size_faults(completed, spec, faults);
   // The engine may rely on what has been checked so far.
-  if (faults.empty()) add_engine_fault(spec, faults);
+  if (faults.empty()) add_engine_fault(completed, spec, faults);
   return faults;
 }
 

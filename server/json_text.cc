@@ -1,5 +1,7 @@
 #include "server/json_text.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -10,6 +12,8 @@ namespace server {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 4> kNonFiniteWords{"NaN", "-Infinity", "Infinity", "-NaN"};
 
 /// Watches the parser and ends it as soon as a bound is passed.
 class Bounds {
@@ -45,6 +49,29 @@ class Bounds {
   std::vector<std::set<std::string>> open_;  ///< the keys met so far, of every object or array that is open
 };
 
+/// The text with the words NaN and Infinity, which Python and others write for numbers that JSON cannot hold, as null:
+/// then the fault is reported where it stands, as any other value of a wrong type.
+std::string without_non_finite_words(std::string_view text) {
+  std::string result;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_string && text[i] == '\\' && i + 1 < text.size()) {
+      result += text[i++];
+    } else if (text[i] == '"') {
+      in_string = !in_string;
+    } else if (!in_string) {
+      const auto word = std::ranges::find_if(kNonFiniteWords, [&](std::string_view w) { return text.substr(i).starts_with(w); });
+      if (word != kNonFiniteWords.end()) {
+        result += "null";
+        i += word->size() - 1;
+        continue;
+      }
+    }
+    result += text[i];
+  }
+  return result;
+}
+
 /// The message of the parser without its bracketed name, which means nothing to a user.
 std::string plain_message(const std::string& what) {
   const auto end = what.find("] ");
@@ -60,7 +87,7 @@ nlohmann::ordered_json parse_json(std::string_view text) {
     return bounds(event, parsed);
   };
   try {
-    return Json::parse(text.begin(), text.end(), watch);
+    return Json::parse(without_non_finite_words(text), watch);
   } catch (const Json::parse_error& error) {
     throw BadJson("not JSON at byte " + std::to_string(error.byte) + ": " + plain_message(error.what()));
   } catch (const Json::exception& error) {

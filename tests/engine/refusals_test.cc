@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"one_element", "rigid_elements", [](auto& p, auto&) { p.rigid_elements = 1; }},
         Refusal{"poisson", "shear_modulus", [](auto& p, auto&) { p.shear_modulus = 0.5e11; }},
         Refusal{"restitution", "restitution", [](auto& p, auto&) { p.restitution = 1.1; }},
-        Refusal{"guide_out_of_reach", "coupler_length", [](auto& p, auto&) { p.guide_offset_z = 0.6; }},
-        Refusal{"locks_on_the_way", "coupler_length", [](auto& p, auto&) { p.guide_offset_z = 0.45; }},
+        Refusal{"guide_out_of_reach", "reach", [](auto& p, auto&) { p.guide_offset_z = 0.6; }},
+        Refusal{"locks_on_the_way", "reach", [](auto& p, auto&) { p.guide_offset_z = 0.45; }},
         Refusal{"no_time", "duration", [](auto&, auto& o) { o.duration = 0.0; }},
         Refusal{"no_tolerance", "relative_tolerance", [](auto&, auto& o) { o.relative_tolerance = -1.0; }}),
     [](const auto& c) { return c.param.name; });

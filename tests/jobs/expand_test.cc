@@ -70,6 +70,8 @@ TEST(PlanSweep, SpacesLinearAndLogarithmicAxes) {
   EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"crank_velocity_rad_s": {"from": 10, "to": -10, "count": 3, "scale": "linear"}}})")), (Strings{"[10.0]", "[0.0]", "[-10.0]"}));
   EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"rigid_elements": {"from": 2, "to": 8, "count": 4}}})")), (Strings{"[2]", "[4]", "[6]", "[8]"}));
   EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"clearance_mm": {"from": 0.3, "to": 0.3, "count": 1}}})")), (Strings{"[0.3]"}));
+  // Three times 0.1 over three is 0.10000000000000002; the ends are what was written all the same.
+  EXPECT_EQ(swept_values(plan_of(R"({"sweep": {"clearance_mm": {"from": 0.4, "to": 0.1, "count": 4}}})")).back(), "[0.1]");
   const auto plan = plan_of(R"({"sweep": {"relative_tolerance": {"from": 1e-9, "to": 1e-3, "count": 4, "scale": "log"}}})");
   const double expected[] = {1e-9, 1e-7, 1e-5, 1e-3};
   ASSERT_EQ(plan.jobs.size(), 4U);

@@ -56,6 +56,12 @@ TEST(ParseJson, RefusesAnObjectOfTooManyKeys) {
 
 TEST(ParseJson, RefusesANumberThatNoDoubleHolds) { EXPECT_NE(message_of("[1e999]"), "accepted"); }
 
+TEST(ParseJson, ReadsWordsForWhatIsNoNumberAsNull) {
+  const auto value = parse_json(R"({"a": NaN, "b": [-Infinity, Infinity], "c": "NaN \" Infinity"})");
+  EXPECT_EQ(server::to_text(value), R"({"a":null,"b":[null,null],"c":"NaN \" Infinity"})");
+  EXPECT_NE(message_of("[Nan]"), "accepted");
+}
+
 TEST(ParseJson, RefusesBytesThatAreNoUtf8) { EXPECT_NE(message_of("\"\xff\""), "accepted"); }
 
 TEST(AppendNumber, ReadsBackExactly) {

@@ -1,6 +1,7 @@
 #include "server/sweep_routes.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 
@@ -39,6 +40,19 @@ TEST(PostSweep, NamesEveryFault) {
   const json problem = json::parse(response.body);
   for (const auto& error : problem.at("errors")) pointers.insert(error.at("pointer").get<std::string>());
   EXPECT_EQ(pointers, (std::set<std::string>{"/parameters/nonsense", "/sweep/clearance_mm/1", "/sweep/clearance_mm/2"}));
+  EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
+}
+
+// JSON has no such number, but the json module of Python writes it.
+TEST(PostSweep, NamesThePlaceOfANotANumber) {
+  Bench bench;
+  const auto response = bench.call("POST", "/v1/sweeps", R"({"parameters": {"clearance_mm": NaN}, "sweep": {"restitution": [0.9, Infinity]}})");
+  ASSERT_EQ(response.status, 422);
+  std::map<std::string, std::string> details;
+  const json problem = json::parse(response.body);
+  for (const auto& error : problem.at("errors")) details[error.at("pointer").get<std::string>()] = error.at("detail").get<std::string>();
+  EXPECT_EQ(details, (std::map<std::string, std::string>{{"/parameters/clearance_mm", "must be a number in [0, 1000) mm"},
+                                                         {"/sweep/restitution/1", "must be a number in (0, 1]"}}));
   EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
 }
 
