@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -111,13 +110,24 @@ void check_options(const RunOptions& options) {
   require_positive(options.absolute_tolerance, "absolute_tolerance");
 }
 
-/// The guide must be within the coupler's reach at every instant. Sampled so that neither drive moves far between two looks.
+/// True if the coupler reaches the guide for whatever crank angle and rod position: no need to look at instants then.
+bool reaches_always(const RpsupParameters& p) {
+  const double least = p.rod_length + std::min(0.0, p.rod_stroke);
+  const double most = p.rod_length + std::max(0.0, p.rod_stroke);
+  const double dy = std::max(std::abs(least), std::abs(most)) + std::abs(p.guide_offset_y);
+  return p.coupler_length * p.coupler_length - dy * dy - p.guide_offset_z * p.guide_offset_z > 0.0;
+}
+
+/// The guide must be within the coupler's reach at every instant. Sampled so that neither drive moves far between two looks; a linkage
+/// that would need more than kMostLooks is sampled coarser, and if it locks between them, the run says so.
 void check_reach(const RpsupParameters& p, double duration) {
+  if (reaches_always(p)) return;
+  constexpr long kMostLooks = 100'000;
   constexpr double kAngle = 0.02;   // [rad] of the crank between two looks
   constexpr double kOfStroke = 0.02;  // of the rise time
   const double speed = std::max(std::abs(p.crank_velocity), 1e-9);
   const double interval = std::min({kAngle / speed, kOfStroke * p.rod_stroke_time, 0.1 * duration});
-  const auto looks = static_cast<long>(std::ceil(duration / interval));
+  const auto looks = static_cast<long>(std::min(static_cast<double>(kMostLooks), std::ceil(duration / interval)));
   for (long k = 0; k <= looks; ++k) {
     const double t = duration * static_cast<double>(k) / static_cast<double>(looks);
     const double reach = calc_reach_squared(p, t);

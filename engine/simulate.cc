@@ -1,6 +1,5 @@
 #include "engine/simulate.h"
 
-#include <cstddef>
 #include <string>
 
 #include "engine/dynamics/loop_closure.h"

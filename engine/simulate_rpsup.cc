@@ -1,5 +1,8 @@
 #include "engine/simulate_rpsup.h"
 
+#include <optional>
+
+#include "engine/analysis/ideal_peak.h"
 #include "engine/analysis/rpsup_channels.h"
 #include "engine/analysis/rpsup_metrics.h"
 #include "engine/model/rpsup.h"
@@ -37,7 +40,15 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
   RpsupObserver observer(parameters, rpsup, stop_requested);
   const RunEnd end = simulate(rpsup.mechanism, options, observer);
   RunResult result{.status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
-  if (end.status == RunStatus::kSucceeded) result.metrics = observer.metrics.calc(options, end);
+  if (end.status == RunStatus::kSucceeded) {
+    const std::optional<Peak> ideal = find_ideal_peak(parameters, parameters.run_up, options.duration, stop_requested);
+    if (stop_requested && stop_requested(end.t)) {
+      result.status = RunStatus::kStopped;
+      result.detail = "stopped on request";
+    } else {
+      result.metrics = observer.metrics.calc(end, ideal);
+    }
+  }
   result.trajectory = observer.channels.finish(observer.metrics.work_turned_over());
   return result;
 }

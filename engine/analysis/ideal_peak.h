@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "engine/analysis/step_quadratic.h"
@@ -8,8 +9,10 @@
 namespace engine {
 
 /// Largest slider acceleration that the drives ask of the linkage itself: rigid, ideal, driven exactly; located to rounding.
-/// @param from, to  window, [s]
+/// @param from, to        window, [s]
+/// @param stop_requested  asked now and then with the simulated time, may be empty; true ends the search without a result
 /// @returns empty if the window is empty, or the ideal linkage locks in it
-[[nodiscard]] std::optional<Peak> find_ideal_peak(const RpsupParameters& parameters, double from, double to);
+[[nodiscard]] std::optional<Peak> find_ideal_peak(const RpsupParameters& parameters, double from, double to,
+                                                  const std::function<bool(double)>& stop_requested);
 
 }  // namespace engine

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace engine {
 
 namespace {
-
-constexpr std::size_t kResidualColumn = 24;
 
 std::vector<QuantityInfo> measured_channels() {
   return {
@@ -128,8 +128,10 @@ double RpsupChannels::calc_deflection(const Evaluation& at) const {
 }
 
 Trajectory RpsupChannels::finish(double work_turned_over) {
-  if (work_turned_over > 0.0)
-    for (double& value : trajectory_.columns[kResidualColumn]) value /= work_turned_over;
+  for (std::size_t k = 0; k < trajectory_.columns.size(); ++k) {
+    if (trajectory_.channels[k].key != "energy_residual" || !(work_turned_over > 0.0)) continue;
+    for (double& value : trajectory_.columns[k]) value /= work_turned_over;
+  }
   return std::move(trajectory_);
 }
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "engine/analysis/ideal_peak.h"
 #include "engine/simulate_rpsup.h"
 
 namespace engine {
@@ -46,8 +44,8 @@ void RpsupMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   take_loads(end);
   take_energy(last_energy_, end.energy);
   last_energy_ = end.energy;
-  const double touching = (start.joints[0].load.max_penetration > 0.0 ? 0.5 : 0.0) + (end.joints[0].load.max_penetration > 0.0 ? 0.5 : 0.0);
-  contact_time_ += touching * (end.t - start.t);
+  // Steps end just beyond an onset or a parting, so what holds at the start of a step holds in all of it.
+  if (start.joints[0].load.max_penetration > 0.0) contact_time_ += end.t - start.t;
 }
 
 void RpsupMetrics::take_acceleration(const Evaluation& start, const Evaluation& end) {
@@ -76,11 +74,10 @@ void RpsupMetrics::take_energy(const EnergyAccount& start, const EnergyAccount& 
                   std::abs(end.friction_loss - start.friction_loss) + std::abs(end.structural_loss - start.structural_loss);
 }
 
-std::vector<double> RpsupMetrics::calc(const RunOptions& options, const RunEnd& end) const {
+std::vector<double> RpsupMetrics::calc(const RunEnd& end, const std::optional<Peak>& ideal) const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const bool has_steady = steady_time_ > 0.0;
   const bool has_clearance = parameters_.c_r > 0.0;
-  const std::optional<Peak> ideal = find_ideal_peak(parameters_, parameters_.run_up, options.duration);
   const double ideal_peak = ideal ? ideal->magnitude : kNone;
   return {
       has_steady ? steady_.magnitude : kNone,

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/analysis/step_quadratic.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/model/rpsup.h"
-#include "engine/run_options.h"
 #include "engine/simulate.h"
 
 namespace engine {
@@ -21,8 +21,9 @@ class RpsupMetrics {
   /// Work of the drives and losses, counted without sign: what an energy residual is measured against, [J].
   [[nodiscard]] double work_turned_over() const { return turned_over_; }
 
-  /// @param end  of the run whose steps were taken
-  [[nodiscard]] std::vector<double> calc(const RunOptions& options, const RunEnd& end) const;
+  /// @param end    of the run whose steps were taken
+  /// @param ideal  the ideal linkage's peak in the steady window, if there is one
+  [[nodiscard]] std::vector<double> calc(const RunEnd& end, const std::optional<Peak>& ideal) const;
 
  private:
   void take_acceleration(const Evaluation& start, const Evaluation& end);

@@ -1,7 +1,5 @@
 #include "engine/clearance/clearance_joint.h"
 
-#include <utility>
-
 namespace engine {
 
 namespace {

@@ -1,7 +1,5 @@
 #include "engine/clearance/normal_force.h"
 
-#include <cmath>
-
 namespace engine {
 
 namespace {

@@ -64,7 +64,7 @@ MotionSystem::MotionSystem(const Mechanism& mechanism)
   free_Phi_q_t_.setZero(free_count(), rows);
   response_.setZero(free_count(), rows);
   A_.setZero(rows, rows);
-  A_llt_ = Eigen::LLT<Eigen::MatrixXd>(rows);
+  A_llt_.compute(Eigen::MatrixXd::Identity(rows, rows));  // has its memory, and a state that may be copied
   lambda_.setZero(rows);
 }
 
@@ -113,7 +113,10 @@ void MotionSystem::read_state(double t, const Eigen::VectorXd& y, Evaluation& at
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at) {
   read_state(t, y, at);
   calc_frame_motions(mechanism_, at.q, at.qd, at.qdd, at.frames);
-  if (!calc_contacts(y, dydt, at)) return EvaluationStatus::kBristleMissing;
+  if (!calc_contacts(y, dydt, at)) {
+    tree_.clear_loads();
+    return EvaluationStatus::kBristleMissing;
+  }
   tree_.calc(at.frames);
   const EvaluationStatus status = solve_accelerations(at);
   if (status != EvaluationStatus::kOk) return status;
@@ -185,6 +188,7 @@ EvaluationStatus MotionSystem::solve_multipliers(const Evaluation& at) {
   for (Eigen::Index r = 0; r < response_.cols(); ++r) free_mass_.solve_in_place(response_.col(r));
   A_.noalias() = free_Phi_q_t_.transpose() * response_;
   A_llt_.compute(A_);
+  if (A_llt_.info() != Eigen::Success) return EvaluationStatus::kLocked;
   constexpr double kSingular = 1e-12;  // of a pivot, relative to its row: the loop stands at the end of its reach
   for (Eigen::Index r = 0; r < A_.rows(); ++r) {
     const double pivot = A_llt_.matrixLLT()(r, r);

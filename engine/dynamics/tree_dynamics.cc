@@ -1,5 +1,6 @@
 #include "engine/dynamics/tree_dynamics.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace engine {
@@ -36,14 +37,16 @@ TreeDynamics::TreeDynamics(const Mechanism& mechanism)
 }
 
 void TreeDynamics::add_load(FrameIndex frame, const Wrench& about_origin) {
-  if (frame == kGround) return;
   Wrench& load = loads_[static_cast<std::size_t>(frame)];
   load.force += about_origin.force;
   load.moment += about_origin.moment;
 }
 
+void TreeDynamics::clear_loads() { std::fill(loads_.begin(), loads_.end(), Wrench{}); }
+
 void TreeDynamics::calc(const std::vector<FrameMotion>& frames) {
   calc_body_forces(frames);
+  clear_loads();
   carry_to_parents(frames);
   calc_mass_matrix(frames);
 }
@@ -57,7 +60,6 @@ void TreeDynamics::calc_body_forces(const std::vector<FrameMotion>& frames) {
     Wrench& force = forces_[i];
     force.force = -loads_[i].force;
     force.moment = -loads_[i].moment;
-    loads_[i] = Wrench{};
     inertia = SpatialInertia{};
     if (body.mass == 0.0) continue;
     inertia.mass = body.mass;

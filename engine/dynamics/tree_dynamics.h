@@ -39,6 +39,7 @@ class TreeDynamics {
 
   /// External forces for the next calc(); cleared by it.
   void add_load(FrameIndex frame, const Wrench& about_origin);
+  void clear_loads();
 
   /// Computes M and bias from the frames' motions and the loads added since.
   void calc(const std::vector<FrameMotion>& frames);

@@ -12,7 +12,8 @@ namespace engine {
 namespace {
 
 constexpr double kFirstStep = 1e-6;       // [s]; the controller finds its own within some steps
-constexpr double kLongestStep = 1e-3;     // [s]; no drive and no free flight of a journal is over within it unseen
+constexpr double kLongestStep = 1e-3;     // [s]; short enough for the cubic that finds a ring's contact inside a step
+constexpr double kWidenBelow = 1e-5;      // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;           // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
 
@@ -121,8 +122,7 @@ bool Integration::try_controlled_step() {
   const Trial trial = try_step(dt);
   if (!is_accepted(trial, dt)) return false;
   dt_ = dt * control_.accept(trial.error);
-  land_on_event(dt);
-  if (failed_) return false;
+  if (!land_on_event(dt)) return false;
   if (dt == remaining && end_.t - start_.t == dt) end_.t = options_.duration;
   return true;
 }
@@ -134,7 +134,7 @@ Trial Integration::try_step(double dt) {
 
 /// Sees to it that the next try does better where this one failed.
 bool Integration::is_accepted(const Trial& trial, double dt) {
-  if (trial.status == EvaluationStatus::kBristleMissing) {
+  if (trial.status == EvaluationStatus::kBristleMissing && dt <= kWidenBelow) {
     widen_bristles();
     return false;
   }
@@ -151,21 +151,20 @@ bool Integration::is_accepted(const Trial& trial, double dt) {
 }
 
 /// Where a ring meets or leaves the bore inside the step just tried, takes a shorter one that ends there instead.
-void Integration::land_on_event(double dt) {
+/// @returns false if that one failed; the next try is shorter still
+bool Integration::land_on_event(double dt) {
   for (int landing = 0; landing < kMaxLandings; ++landing) {
     rings_start_.clear();
     rings_end_.clear();
     system_.add_penetrations(start_.at, rings_start_);
     system_.add_penetrations(end_.at, rings_end_);
     const std::optional<double> until = ContactEvents::find_first(rings_start_, rings_end_, dt);
-    if (!until || *until < shortest_step(start_.t)) return;
+    if (!until || *until < shortest_step(start_.t)) return true;
     const Trial trial = try_step(*until);
-    if (trial.status != EvaluationStatus::kOk) {
-      fail(trial.status);
-      return;
-    }
+    if (trial.status != EvaluationStatus::kOk) return is_accepted(trial, *until);
     dt = *until;
   }
+  return true;
 }
 
 void Integration::accept() {

@@ -25,7 +25,7 @@ class Integration {
   [[nodiscard]] bool try_controlled_step();
   [[nodiscard]] Trial try_step(double dt);
   [[nodiscard]] bool is_accepted(const Trial& trial, double dt);
-  void land_on_event(double dt);
+  [[nodiscard]] bool land_on_event(double dt);
   void accept();
   void take_samples();
   void prepare(double dt);

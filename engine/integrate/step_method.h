@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 // Odeint's resizing of Eigen vectors must be known before its steppers.
 #include <boost/numeric/odeint/external/eigen/eigen_resize.hpp>
+#include <boost/numeric/odeint/algebra/default_operations.hpp>
 #include <boost/numeric/odeint/algebra/vector_space_algebra.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/util/resizer.hpp>
 
 #include "engine/dynamics/motion_system.h"
 
@@ -25,14 +27,19 @@ struct Trial {
   double error = 0.0;  ///< in units of the tolerance; 0 for methods without an estimate
 };
 
+/// An Odeint stepper on Eigen vectors. The state grows when contact elements need more bristles, so its stages are resized at each step
+/// (equal sizes allocate nothing); Odeint's default would resize them once.
+template <template <class, class, class, class, class, class, class> class Stepper>
+using EigenStepper = Stepper<Eigen::VectorXd, double, Eigen::VectorXd, double, boost::numeric::odeint::vector_space_algebra,
+                             boost::numeric::odeint::default_operations, boost::numeric::odeint::always_resizer>;
+
 /// The paper's integrator: the classical Runge-Kutta method of order 4.
 class Rk4 {
  public:
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
 
  private:
-  boost::numeric::odeint::runge_kutta4<Eigen::VectorXd, double, Eigen::VectorXd, double, boost::numeric::odeint::vector_space_algebra>
-      stepper_;
+  EigenStepper<boost::numeric::odeint::runge_kutta4> stepper_;
 };
 
 /// Dormand and Prince's method of order 5 with an error estimate of order 4. The last stage is the next step's first.
@@ -47,8 +54,7 @@ class Dopri5 {
 
   double relative_, absolute_;
   Eigen::VectorXd local_error_;
-  boost::numeric::odeint::runge_kutta_dopri5<Eigen::VectorXd, double, Eigen::VectorXd, double, boost::numeric::odeint::vector_space_algebra>
-      stepper_;
+  EigenStepper<boost::numeric::odeint::runge_kutta_dopri5> stepper_;
 };
 
 }  // namespace engine

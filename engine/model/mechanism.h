@@ -89,10 +89,4 @@ struct Mechanism {
   std::vector<NamedFrame> links;
 };
 
-/// True if the coordinate `ancestor` moves the frame `frame`.
-[[nodiscard]] inline bool moves(const Mechanism& mechanism, FrameIndex ancestor, FrameIndex frame) {
-  while (frame > ancestor) frame = mechanism.coordinates[static_cast<std::size_t>(frame)].parent;
-  return frame == ancestor;
-}
-
 }  // namespace engine

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "engine/model/mechanism.h"
 #include "engine/model/rpsup_parameters.h"
 

@@ -1,5 +1,6 @@
 // Contact of a whole journal: statics, closed forms, and the pruned ring of elements against all of its elements.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -12,6 +13,9 @@
 #include "engine/clearance/clearance_joint.h"
 #include "engine/clearance/radial_continuum.h"
 #include "engine/clearance/radial_elements.h"
+#include "engine/dynamics/loop_closure.h"
+#include "engine/dynamics/motion_system.h"
+#include "engine/model/rpsup.h"
 
 namespace engine {
 namespace {
@@ -242,6 +246,40 @@ TEST(RadialElements, AWiderWindowHoldsTheSameBristles) {
   rates.resize(static_cast<std::size_t>(wide.size()));
   ASSERT_TRUE(radial.calc(journal, wide.data(), rates.data(), after));
   EXPECT_EQ(before.force, after.force);
+}
+
+// What a missed element leaves behind must not reach the next evaluation.
+TEST(RadialElements, AMissLeavesTheNextEvaluationAlone) {
+  RpsupParameters parameters;
+  parameters.contact = ContactForm::kElements;
+  parameters.radial_elements = 720;
+  const Mechanism mechanism = build_rpsup(parameters).mechanism;
+  MotionSystem system(mechanism);
+  Evaluation at = system.make_evaluation();
+  ASSERT_TRUE(LoopClosure(mechanism).assemble(0.0, at));
+  const auto state = [&](double lift) {
+    Eigen::VectorXd q = at.q;
+    q[2] += lift;
+    Eigen::VectorXd qd = at.qd;
+    qd[2] = 0.1;
+    return system.make_state(q, qd);
+  };
+  const Eigen::VectorXd shallow = state(0.51e-3);  // 5 um deep
+  const Eigen::VectorXd deep = state(1e-3);        // 0.25 mm deep: half of the journal is outside
+  Evaluation scratch = system.make_evaluation();
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(shallow.size());
+  (void)system.calc_derivative(0.0, shallow, f, scratch);
+  Eigen::VectorXd y = shallow;
+  (void)system.prepare_step(scratch, 0.0, y);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(y.size());
+  ASSERT_EQ(system.calc_derivative(0.0, y, before, scratch), EvaluationStatus::kOk);
+  ASSERT_EQ(system.calc_derivative(0.0, deep, f, scratch), EvaluationStatus::kBristleMissing);
+  system.widen_bristles(y);
+  Eigen::VectorXd after = Eigen::VectorXd::Zero(y.size());
+  ASSERT_EQ(system.calc_derivative(0.0, y, after, scratch), EvaluationStatus::kOk);
+  const Eigen::Index mechanical = 2 * system.free_count();
+  EXPECT_GT(before.head(mechanical).norm(), 100.0);  // the contact accelerates
+  EXPECT_EQ(Eigen::VectorXd(after.head(mechanical)), Eigen::VectorXd(before.head(mechanical)));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // The normal law, its latch and LuGre friction, each against a closed form.
 
 #include <cmath>
-#include <utility>
 
 #include <gtest/gtest.h>
 

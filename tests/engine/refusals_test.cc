@@ -98,23 +98,13 @@ TEST(Runs, ALinkageThatLocksSaysWhen) {
   parameters.guide_offset_z = 0.48;  // reach left for r sin psi: 0.14 m of 0.2 m
   const double expected = lock_time(parameters);
   ASSERT_GT(expected, 0.1);
-  struct Case {
-    const char* name;
-    Coupler coupler;
-    Integrator integrator;
-  };
-  for (const Case& c : {Case{"solved", Coupler::kRigid, Integrator::kDopri5}, Case{"rk4", Coupler::kRigid, Integrator::kRk4}}) {
-    parameters.c_r = 0.0;
-    parameters.coupler = c.coupler;
-    RunOptions options;
-    options.integrator = c.integrator;
-    NoObserver observer;
-    const RunEnd end = simulate(build_rpsup(parameters).mechanism, options, observer);
-    EXPECT_TRUE(end.status == RunStatus::kLockUp || (c.integrator == Integrator::kRk4 && end.status == RunStatus::kNonFinite))
-        << c.name << " " << status_name(end.status);
-    EXPECT_NEAR(end.t, expected, 2e-3) << c.name;
-    EXPECT_GT(observer.samples, static_cast<int>(1000 * (expected - 2e-3))) << c.name;
-  }
+  parameters.c_r = 0.0;
+  NoObserver observer;
+  const RunEnd end = simulate(build_rpsup(parameters).mechanism, {}, observer);
+  EXPECT_EQ(end.status, RunStatus::kLockUp);
+  EXPECT_LE(end.t, expected);
+  EXPECT_NEAR(end.t, expected, 5e-4);  // two steps of the solution
+  EXPECT_EQ(observer.samples, static_cast<int>(1000.0 * end.t) + 1);  // what came before is kept
 }
 
 TEST(Runs, StopWhenAsked) {

@@ -10,7 +10,6 @@ using engine::rod_inertia;
 
 namespace {
 
-
 constexpr double kSteelDensity = 7800.0;  // [kg/m^3]
 
 struct Tube {

@@ -33,10 +33,16 @@ Matrix4d placement_transform(const engine::Placement& placement) {
   return T;
 }
 
+/// True if the coordinate `ancestor` moves the frame `frame`.
+bool moves(const engine::Mechanism& mechanism, int ancestor, int frame) {
+  while (frame > ancestor) frame = mechanism.coordinates[static_cast<std::size_t>(frame)].parent;
+  return frame == ancestor;
+}
+
 /// T of one frame, differentiated by coordinate m and coordinate n (-1: not).
 Matrix4d transform(const engine::Mechanism& mechanism, int frame, const Eigen::VectorXd& q, int m, int n) {
   Matrix4d T = Matrix4d::Identity();
-  if ((m >= 0 && !engine::moves(mechanism, m, frame)) || (n >= 0 && !engine::moves(mechanism, n, frame))) return Matrix4d::Zero();
+  if ((m >= 0 && !moves(mechanism, m, frame)) || (n >= 0 && !moves(mechanism, n, frame))) return Matrix4d::Zero();
   for (int k = frame; k >= 0; k = mechanism.coordinates[static_cast<std::size_t>(k)].parent) {
     const engine::Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(k)];
     const int order = (k == m ? 1 : 0) + (k == n ? 1 : 0);
