@@ -96,11 +96,9 @@ void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, cons
   };
   const RunRecord record = run_and_record({}, read_and_run, [&](double) { return stop.stop_requested() || job_stop.stop_requested(); });
   deliver(job, record, stop);
-  {
-    const std::lock_guard lock(claim_mutex_);
-    running_.erase(job.id);
-  }
-  wake();  // jobs of the same content may have waited for this one
+  // If another job has waited for this one, this thread is about to claim it: nobody need be woken.
+  const std::lock_guard lock(claim_mutex_);
+  running_.erase(job.id);
 }
 
 /// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered again. If the

@@ -71,8 +71,8 @@ std::optional<double> estimate_time_left_s(const SweepRow& row, int threads) {
 json job_json(const JobRow& row, Detail detail) {
   json job{{"id", row.id}, {"sweep_id", value_or_null(row.sweep_id)}, {"state", row.state},
            {"error", row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json()},
-           {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
-           {"run", row.run ? run_json(*row.run, row.attempts, row.reused) : json()}, {"links", job_links(row)}};
+           {"attempts", row.attempts}, {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)},
+           {"ended_at", time_or_null(row.ended_ms)}, {"run", row.run ? run_json(*row.run, row.attempts, row.reused) : json()}, {"links", job_links(row)}};
   if (row.replicate) job["replicate"] = *row.replicate;
   if (detail == Detail::kFull) {
     job["parameters"] = stored_json(row.parameters);

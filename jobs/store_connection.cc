@@ -44,7 +44,8 @@ SQLite::Database open_for_writing(const std::filesystem::path& store) {
 bool is_full(int sqlite_code) { return sqlite_code == SQLITE_FULL; }
 
 StoreLock::StoreLock(const std::filesystem::path& store) {
-  const std::string path = store.string() + ".lock";
+  // One lock for one file, whichever of its names is used.
+  const std::string path = std::filesystem::weakly_canonical(store).string() + ".lock";
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
   if (file_ < 0) throw system_error("cannot open " + path);
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {

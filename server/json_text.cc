@@ -78,20 +78,30 @@ std::string plain_message(const std::string& what) {
   return end == std::string::npos ? what : what.substr(end + 2);
 }
 
-}  // namespace
-
-nlohmann::ordered_json parse_json(std::string_view text) {
-  if (text.empty()) throw BadJson("there is no JSON: the text is empty");
+Json parse_strictly(std::string_view text) {
   Bounds bounds;
   const Json::parser_callback_t watch = [&bounds](int, Json::parse_event_t event, Json& parsed) {
     return bounds(event, parsed);
   };
   try {
-    return Json::parse(without_non_finite_words(text), watch);
+    return Json::parse(text.begin(), text.end(), watch);
   } catch (const Json::parse_error& error) {
     throw BadJson("not JSON at byte " + std::to_string(error.byte) + ": " + plain_message(error.what()));
   } catch (const Json::exception& error) {
     throw BadJson(plain_message(error.what()));
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json parse_json(std::string_view text) {
+  if (text.empty()) throw BadJson("there is no JSON: the text is empty");
+  try {
+    return parse_strictly(text);
+  } catch (const BadJson&) {
+    const std::string mended = without_non_finite_words(text);
+    if (mended == text) throw;
+    return parse_strictly(mended);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "jobs/errors.h"
 #include "jobs/service.h"
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
@@ -29,8 +30,12 @@ bool follow(jobs::Service& service, const std::string& id, const EndSignals& sig
 }
 
 int interrupt(jobs::Service& service, const std::string& id) {
-  // What is left would start again with the store, beside the sweep that the same command submits next time.
-  service.cancel_sweep(id);
+  try {
+    // What is left would start again with the store, beside the sweep that the same command submits next time.
+    service.cancel_sweep(id);
+  } catch (const jobs::WrongState&) {
+    // It has ended since the last look: nothing is left to cancel.
+  }
   service.stop();
   std::cerr << "rpsup: interrupted; the same command computes only what is missing\n";
   return kInterrupted;

@@ -1,5 +1,6 @@
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,38 @@ TEST(RunAndRecord, TurnsWhateverIsThrownIntoAFailure) {
   const jobs::RunRecord odd = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw 7; },
                                                    [](double) { return false; });
   EXPECT_EQ(odd.error_reason, "internal");
+}
+
+/// A run with that value for every metric.
+jobs::RunRecord record_of(double metric, const engine::Trajectory& trajectory) {
+  return jobs::run_and_record({}, [&](const jobs::JobSpec&, const engine::StopQuery&) {
+    engine::RunResult result;
+    result.metrics.assign(engine::metric_table().size(), metric);
+    result.trajectory = trajectory;
+    return result;
+  }, [](double) { return false; });
+}
+
+TEST(RunAndRecord, WritesCountsAsIntegersAndWhatIsNoNumberAsNull) {
+  const nlohmann::json counted = record_of(3.0, {}).metrics;
+  const nlohmann::json none = record_of(std::nan(""), {}).metrics;
+  int counts = 0;
+  for (const auto& info : engine::metric_table()) {
+    EXPECT_EQ(counted.at(info.key).is_number_integer(), info.integer) << info.key;
+    EXPECT_EQ(counted.at(info.key), 3) << info.key;
+    EXPECT_TRUE(none.at(info.key).is_null()) << info.key;
+    counts += info.integer ? 1 : 0;
+  }
+  EXPECT_GT(counts, 0);
+}
+
+TEST(RunAndRecord, KeepsWhatTheStoreKeeps) {
+  engine::Trajectory trajectory;
+  trajectory.channels = {{.key = "t_s", .help = ""}, {.key = "drawn", .help = "", .single_precision = true}};
+  trajectory.columns = {{0.1}, {0.1}};
+  const auto columns = record_of(1.0, trajectory).trajectory.columns;
+  EXPECT_EQ(columns[0][0], 0.1);
+  EXPECT_EQ(columns[1][0], 0.1F);
 }
 
 TEST(RunAndRecord, RefusesAResultThatLacksMetrics) {

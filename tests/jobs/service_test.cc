@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <future>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -194,6 +197,35 @@ TEST(Service, RunsWhatWaitedForACancelledJob) {
   EXPECT_EQ(finished(service, second).at("state"), "succeeded");
 }
 
+// The thread of a cancelled job may take a while to stop. A job that waited for it starts beside it, on a free thread.
+TEST(Service, WakesAFreeThreadForWhatWaitedForACancelledJob) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  std::promise<void> second_began;
+  auto second = second_began.get_future().share();
+  std::atomic<int> begun = 0;
+  std::atomic<bool> beside = false;
+  jobs::ServiceOptions options = options_of(store, engine, 2);
+  options.runner = [&, fake = engine.runner()](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
+    if (begun++ == 0) {
+      begun.notify_all();
+      beside = second.wait_for(5s) == std::future_status::ready;
+    } else {
+      second_began.set_value();
+    }
+    return fake(spec, stop);
+  };
+  jobs::Service service(options);
+  const std::string first = submit(service, "{}");
+  begun.wait(0);
+  const std::string waiting = submit(service, "{}");
+  std::this_thread::sleep_for(50ms);  // for the free thread to find that it has to wait
+  (void)service.cancel_sweep(first);
+  EXPECT_EQ(finished(service, waiting).at("state"), "succeeded");
+  service.stop();
+  EXPECT_TRUE(beside);
+}
+
 TEST(Service, LeavesASweepRunningWhenAJobFails) {
   const TemporaryStore store;
   FakeEngine engine;
@@ -300,6 +332,7 @@ TEST(Service, ListsInPagesNewestFirst) {
   } while (!cursor.empty() && pages < 10);
   EXPECT_EQ(pages, 3);
   EXPECT_EQ(listed, (std::vector<std::string>(ids.rbegin(), ids.rend())));
+  EXPECT_EQ(service.list_sweeps({.state = "", .limit = 5, .cursor = ""}).at("next_cursor"), "");
   const json failed = service.list_sweeps({.state = "failed", .limit = 10, .cursor = ""});
   ASSERT_EQ(failed.at("items").size(), 1U);
   EXPECT_EQ(failed.at("items")[0].at("id"), ids[1]);

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "jobs/expand.h"
+#include "jobs/resource_json.h"
 #include "jobs/store.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
@@ -148,7 +149,8 @@ TEST(Store, RefusesAFileThatWasCutOff) {
 
 TEST(Store, TurnsADirectoryOrAMissingFolderDown) {
   const TemporaryStore temporary;
-  EXPECT_THROW(jobs::Store store(temporary.file().parent_path()), jobs::StorageError);
+  std::filesystem::create_directory(temporary.file());
+  EXPECT_THROW(jobs::Store store(temporary.file()), jobs::StorageError);
   EXPECT_THROW(jobs::Store store(temporary.file() / "no" / "such" / "folder.db"), jobs::StorageError);
 }
 
@@ -291,6 +293,39 @@ TEST(Store, RenamesWhatAnOlderEngineWasToCompute) {
   execute_sql(temporary.file(), "UPDATE contents SET content_id = 'old', engine_version = '0.0.1'");
   { const jobs::Store store(temporary.file()); }
   EXPECT_EQ(query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"), name);
+}
+
+TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
+  const std::string sweep = add_sweep(store, R"({"sweep": {"coupler": ["rigid", "flexible"], "crank_velocity_rad_s": [5, 10, 12]}})");
+  auto costs = store.find_sweep(sweep).value().costs;
+  EXPECT_EQ(costs.at("rigid").computed, 0);
+  EXPECT_EQ(costs.at("rigid").queued, 2);
+  EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
+  (void)store.claim();
+  costs = store.find_sweep(sweep).value().costs;
+  EXPECT_EQ(costs.at("rigid").computed, 1);
+  EXPECT_EQ(costs.at("rigid").cpu_time_s, 2.0);
+  EXPECT_EQ(costs.at("rigid").running, 1);
+  EXPECT_EQ(costs.at("flexible").queued, 3);
+}
+
+TEST(TimeLeft, IsThatOfTheJobsThatAreLeftByKind) {
+  jobs::SweepRow row;
+  row.counts = {8, 1, 5, 0, 0};
+  row.costs["rigid"] = {.queued = 4, .running = 1, .computed = 2, .cpu_time_s = 6.0};
+  row.costs["flexible"] = {.queued = 4, .running = 0, .computed = 3, .cpu_time_s = 30.0};
+  // (4 + 1/2) * 3 s + 4 * 10 s
+  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 1).value(), 53.5);
+  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 2).value(), 53.5 / 2.0);
+  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 100).value(), 53.5 / 9.0);  // no more threads than jobs
+  row.costs["flexible"].computed = 0;
+  EXPECT_FALSE(jobs::estimate_time_left_s(row, 1).has_value());
+  row.counts = {0, 0, 14, 0, 0};
+  EXPECT_EQ(jobs::estimate_time_left_s(row, 1), 0.0);
 }
 
 TEST(SweepState, FollowsFromItsJobs) {

@@ -1,6 +1,7 @@
 # For the tests that drive the program itself. Sourced; expects the path of the program in $1.
 set -euo pipefail
 export LC_ALL=C
+export no_proxy=127.0.0.1 NO_PROXY=127.0.0.1
 # Options of the caller's environment are not part of a test.
 for variable in $(compgen -e RPSUP_ || true); do unset "$variable"; done
 

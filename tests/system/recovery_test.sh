@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 
 cat >sweep.json <<'JSON'
-{"name": "recovery", "parameters": {"duration_s": 0.1, "run_up_s": 0.05},
+{"name": "recovery", "parameters": {"duration_s": 0.4, "run_up_s": 0.05},
  "sweep": {"clearance_mm": [0.1, 0.25, 0.5], "coupler": ["rigid", "flexible"]}}
 JSON
 
@@ -44,4 +44,5 @@ results "$id" >killed.csv
 cmp one.csv killed.csv
 stop_service TERM
 expect_equal "$(sqlite3 killed.db 'pragma integrity_check; pragma foreign_key_check')" ok "the store after $kills kills"
+expect_equal "$(sqlite3 killed.db 'select count(*) from results')" 6 "results, one for each content"
 echo "recovery works"
