@@ -1,21 +1,11 @@
 #pragma once
 
-#include <string>
-
 #include "engine/integrate/observer.h"
+#include "engine/integrate/run_end.h"
 #include "engine/model/mechanism.h"
-#include "engine/run_options.h"
+#include "engine/model/run_options.h"
 
 namespace engine {
-
-/// How a run ended, and what it took.
-struct RunEnd {
-  RunStatus status = RunStatus::kSucceeded;
-  double t = 0.0;
-  std::string detail;    ///< of a failure, for the user
-  long steps = 0;        ///< accepted
-  long evaluations = 0;  ///< of the equations of motion, rejected steps' included
-};
 
 /// Runs a mechanism from its assembled position, at rest but for what the drives ask at t = 0.
 ///

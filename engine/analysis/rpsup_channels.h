@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/analysis/quantities.h"
 #include "engine/analysis/step_quadratic.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/model/rpsup.h"
-#include "engine/simulate_rpsup.h"
 
 namespace engine {
 

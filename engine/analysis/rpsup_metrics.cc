@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/simulate_rpsup.h"
+#include "engine/analysis/quantities.h"
 
 namespace engine {
 

@@ -5,8 +5,8 @@
 
 #include "engine/analysis/step_quadratic.h"
 #include "engine/dynamics/evaluation.h"
+#include "engine/integrate/run_end.h"
 #include "engine/model/rpsup.h"
-#include "engine/simulate.h"
 
 namespace engine {
 

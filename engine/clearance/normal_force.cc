@@ -1,5 +1,7 @@
 #include "engine/clearance/normal_force.h"
 
+#include <algorithm>
+
 namespace engine {
 
 namespace {

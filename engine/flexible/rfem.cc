@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <numbers>
 
-#include "engine/model/links.h"
+#include "engine/math/rod_inertia.h"
 
 namespace engine {
 
 namespace {
 
 RigidElement cut_element(const UniformRod& rod, double length) {
-  const LinkInertia part = rod_inertia(rod.mass * length / rod.length, length, rod.I_x * length / rod.length);
-  return {length, part.mass, part.inertia};
+  const double mass = rod.mass * length / rod.length;
+  return {length, mass, calc_rod_inertia(mass, length, rod.I_x * length / rod.length)};
 }
 
 }  // namespace

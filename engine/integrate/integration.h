@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "engine/integrate/observer.h"
+#include "engine/integrate/run_end.h"
 #include "engine/integrate/sample_times.h"
 #include "engine/integrate/step_control.h"
 #include "engine/integrate/step_method.h"
-#include "engine/simulate.h"
 
 namespace engine {
 

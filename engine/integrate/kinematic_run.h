@@ -2,8 +2,8 @@
 
 #include "engine/dynamics/loop_closure.h"
 #include "engine/integrate/observer.h"
-#include "engine/run_options.h"
-#include "engine/simulate.h"
+#include "engine/integrate/run_end.h"
+#include "engine/model/run_options.h"
 
 namespace engine {
 

@@ -1,5 +1,6 @@
 #include "engine/integrate/step_method.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace engine {

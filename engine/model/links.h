@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "engine/math/rod_inertia.h"
+
 namespace engine {
 
 /// Mass properties of one link. Moments are about the link's frame origin, along its frame's axes.
@@ -16,10 +18,9 @@ struct LinkInertia {
 enum class Link : std::size_t { k11, k12, k13, k21, k22 };
 inline constexpr std::size_t kLinkCount = 5;
 
-/// A uniform rod along x with its frame's origin at one end: I_y = I_z = m l^2 / 3 + I_x / 2.
+/// A link that is a uniform rod along x, its frame's origin at one end.
 [[nodiscard]] inline LinkInertia rod_inertia(double mass, double length, double I_x) {
-  const double transverse = mass * length * length / 3.0 + 0.5 * I_x;
-  return {mass, {I_x, transverse, transverse}};
+  return {mass, calc_rod_inertia(mass, length, I_x)};
 }
 
 }  // namespace engine

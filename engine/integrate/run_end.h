@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "engine/model/run_options.h"
+
+namespace engine {
+
+/// How a run ended, and what it took.
+struct RunEnd {
+  RunStatus status = RunStatus::kSucceeded;
+  double t = 0.0;
+  std::string detail;    ///< of a failure, for the user
+  long steps = 0;        ///< accepted
+  long evaluations = 0;  ///< of the equations of motion, rejected steps' included
+};
+
+}  // namespace engine
