@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "jobs/range.h"
@@ -23,6 +24,8 @@ std::string text_cell(std::string text) {
 
 std::string number_cell(double x) { return std::isfinite(x) ? number_text(x) : ""; }
 
+std::string number_cell(const std::optional<double>& x) { return x ? number_cell(*x) : ""; }
+
 std::string cell(const nlohmann::json& value) {
   if (value.is_null()) return "";
   if (value.is_number_float()) return number_cell(value.get<double>());
@@ -31,14 +34,28 @@ std::string cell(const nlohmann::json& value) {
   return value.dump();  // integers and booleans
 }
 
+constexpr std::array<const char*, 5> kReplicateColumns{"replicates_count", "replicates_mean", "replicates_spread", "replicates_min", "replicates_max"};
+
+/// Their cells, each after a comma: other columns stand before them.
+std::string replicate_cells(const ReplicateStatistics& set) {
+  std::string cells = "," + std::to_string(set.count);
+  for (const auto& value : {set.mean, set.spread, set.min, set.max}) cells += "," + number_cell(value);
+  return cells;
+}
+
 }  // namespace
 
 std::string to_csv(const ResultTable& table) {
   std::string csv;
   for (std::size_t i = 0; i < table.columns.size(); ++i) csv += (i > 0 ? "," : "") + text_cell(table.columns[i]);
+  if (!table.replicates.empty()) {
+    for (const char* column : kReplicateColumns) csv += std::string(",") + column;
+  }
   csv += kLineEnd;
-  for (const auto& row : table.rows) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const auto& row = table.rows[r];
     for (std::size_t i = 0; i < row.size(); ++i) csv += (i > 0 ? "," : "") + cell(row[i]);
+    if (!table.replicates.empty()) csv += replicate_cells(table.replicates.at(r));
     csv += kLineEnd;
   }
   return csv;

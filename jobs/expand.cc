@@ -95,20 +95,27 @@ class PointFaults {
   std::map<std::string, Entry> entries_;
 };
 
-PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, const std::vector<std::string>& swept) {
+/// The values of what is swept, at a point.
+std::string swept_text(const json& completed, const std::vector<std::string>& swept) {
+  json values = json::array();
+  for (const std::string& path : swept) values.push_back(value_at_path(completed, path));
+  return values.dump();
+}
+
+PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, std::string swept) {
   PlannedJob job;
   job.parameters = canonical_text(completed);
   job.content_id = content_id(job.parameters, kEngineVersion);
   job.coupler = completed.at("coupler").get<std::string>();
   job.replicate = replicate;
-  json values = json::array();
-  for (const std::string& path : swept) values.push_back(value_at_path(completed, path));
-  job.swept = values.dump();
+  job.swept = std::move(swept);
   return job;
 }
 
 /// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the point's checks hold for them.
 void add_jobs(const json& completed, const SweepRequest& sweep, SweepPlan& plan) {
+  // The point's values in all of them, the stiffness too where it is swept: their rows are told apart by `replicate` alone.
+  const std::string swept = swept_text(completed, plan.swept);
   json replicate = completed;
   for (std::uint64_t k = 0; k < sweep.replicates.count; ++k) {
     const double scale = completed.at(kStiffnessKey).get<double>() * replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
@@ -116,7 +123,7 @@ void add_jobs(const json& completed, const SweepRequest& sweep, SweepPlan& plan)
     if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty()) {
       throw InvalidRequest(std::vector<Fault>{{"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
     }
-    plan.jobs.push_back(make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, plan.swept));
+    plan.jobs.push_back(make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept));
   }
 }
 
@@ -147,6 +154,6 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
   return plan;
 }
 
-PlannedJob plan_job(const json& parameters) { return make_job(complete_parameters(parameters, ""), std::nullopt, {}); }
+PlannedJob plan_job(const json& parameters) { return make_job(complete_parameters(parameters, ""), std::nullopt, "[]"); }
 
 }  // namespace jobs

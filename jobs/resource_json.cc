@@ -52,6 +52,13 @@ double progress(const StateCounts& counts) {
   return static_cast<double>(total - left) / static_cast<double>(total);
 }
 
+/// What a row brings to its set. Only what has succeeded has metrics, and a peak may be null: the run ended before its window.
+ReplicateValue replicate_value(const ResultRow& row, const json& metrics) {
+  const auto peak = metrics.find(kReplicateMetric);
+  const bool has_value = peak != metrics.end() && peak->is_number();
+  return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)), .value = has_value ? std::optional(peak->get<double>()) : std::nullopt};
+}
+
 }  // namespace
 
 std::optional<double> estimate_time_left_s(const SweepRow& row, int threads) {
@@ -114,6 +121,8 @@ ResultTable result_table(const SweepRow& sweep, const std::vector<ResultRow>& ro
   table.columns.insert(table.columns.end(), swept.begin(), swept.end());
   for (const engine::QuantityInfo& metric : engine::metric_table()) table.columns.push_back(metric.key);
   table.rows.reserve(rows.size());
+  std::vector<ReplicateValue> peaks;
+  peaks.reserve(rows.size());
   for (const ResultRow& row : rows) {
     std::vector<json> cells{row.job_id, row.state};
     if (sweep.replicated) cells.push_back(value_or_null(row.replicate));
@@ -121,7 +130,10 @@ ResultTable result_table(const SweepRow& sweep, const std::vector<ResultRow>& ro
     const json metrics = row.metrics ? stored_json(*row.metrics) : json::object();
     for (const engine::QuantityInfo& metric : engine::metric_table()) cells.push_back(metrics.value(metric.key, json()));
     table.rows.push_back(std::move(cells));
+    peaks.push_back(replicate_value(row, metrics));
   }
+  const bool repeated = std::ranges::any_of(peaks, [](const ReplicateValue& peak) { return peak.replicate > 0; });
+  if (repeated) table.replicates = calc_statistics_by_row(peaks);
   return table;
 }
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/simulate_rpsup.h"
+#include "jobs/replicate_statistics.h"
 
 namespace jobs {
 
@@ -46,6 +47,7 @@ struct PageQuery {
 struct ResultTable {
   std::vector<std::string> columns;
   std::vector<std::vector<nlohmann::json>> rows;  ///< null where a job has no value
+  std::vector<ReplicateStatistics> replicates{};  ///< of each row's set, one a row; empty unless sets were run more than once
 };
 
 /// What is wanted of a trajectory.
@@ -123,6 +125,7 @@ struct Outcome {
 [[nodiscard]] Outcome run_job(const nlohmann::json& parameters, const engine::StopQuery& stop_requested);
 
 /// CSV of a table or a trajectory: RFC 4180, a header line, numbers that read back exactly, empty cells for null.
+/// The statistics of replicates are the last columns: replicates_count, _mean, _spread, _min, _max.
 [[nodiscard]] std::string to_csv(const ResultTable& table);
 [[nodiscard]] std::string to_csv(const engine::Trajectory& trajectory);
 

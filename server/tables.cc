@@ -1,5 +1,6 @@
 #include "server/tables.h"
 
+#include <optional>
 #include <utility>
 
 #include "server/json_text.h"
@@ -19,6 +20,26 @@ void append_cell_to(std::string& text, const nlohmann::json& cell) {
   } else {
     text += to_text(cell);
   }
+}
+
+void append_optional_to(std::string& text, const std::optional<double>& value) {
+  if (value) {
+    append_number_to(text, *value);
+  } else {
+    text += "null";
+  }
+}
+
+/// {"count", "mean", "spread", "min", "max", "of"}
+void append_replicates_to(std::string& text, const jobs::ReplicateStatistics& set) {
+  text += "{\"count\":" + std::to_string(set.count);
+  for (const auto& [key, value] : {std::pair{"mean", set.mean}, {"spread", set.spread}, {"min", set.min}, {"max", set.max}}) {
+    text += std::string(",\"") + key + "\":";
+    append_optional_to(text, value);
+  }
+  text += ",\"of\":";
+  append_string_to(text, std::string(jobs::kReplicateMetric));
+  text += '}';
 }
 
 /// `"key":` of every column, made once for all rows.
@@ -49,6 +70,10 @@ std::string to_json_rows(const jobs::ResultTable& table) {
       if (c > 0) text += ',';
       text += keys[c];
       append_cell_to(text, table.rows[r].at(c));
+    }
+    if (!table.replicates.empty()) {
+      text += ",\"replicates\":";
+      append_replicates_to(text, table.replicates.at(r));
     }
     text += '}';
   }

@@ -12,6 +12,14 @@ TEST(Csv, WritesNumbersThatReadBackAndEmptyCells) {
   EXPECT_EQ(jobs::to_csv(table), "job_id,x,n\r\njob_1,0.1,3\r\njob_2,0.3333333333333333,\r\njob_3,1e+300,-2\r\n");
 }
 
+TEST(Csv, EndsWithTheStatisticsOfReplicates) {
+  jobs::ResultTable table{{"job_id"}, {{"job_1"}, {"job_2"}}};
+  table.replicates = {{.count = 3, .mean = 2.0, .spread = 0.5, .min = 1.5, .max = 2.5}, {.count = 1, .mean = 7.0, .spread = {}, .min = 7.0, .max = 7.0}};
+  EXPECT_EQ(jobs::to_csv(table),
+            "job_id,replicates_count,replicates_mean,replicates_spread,replicates_min,replicates_max\r\n"
+            "job_1,3,2,0.5,1.5,2.5\r\njob_2,1,7,,7,7\r\n");
+}
+
 TEST(Csv, QuotesWhatWouldBreakTheTable) {
   const jobs::ResultTable table{{"links.1,3.mass_kg", "b\"c"}, {{"line\nbreak", "plain"}}};
   EXPECT_EQ(jobs::to_csv(table), "\"links.1,3.mass_kg\",\"b\"\"c\"\r\n\"line\nbreak\",plain\r\n");

@@ -142,6 +142,16 @@ TEST(PlanSweep, RunsReplicatesOfEachPointInnermost) {
   EXPECT_EQ(plan.jobs[0].content_id, plan_of(R"({"parameters": {"contact_stiffness_scale": 2, "clearance_mm": 0.25}})").jobs[0].content_id);
 }
 
+// Rows are grouped by what is swept: the perturbation must not make a group of every row, not even where stiffness is swept.
+TEST(PlanSweep, GivesReplicatesTheSweptValuesOfTheirPoint) {
+  const auto plan = plan_of(R"({"sweep": {"contact_stiffness_scale": [0.5, 2.0]}, "replicates": {"count": 2, "perturbation": 0.1}})");
+  ASSERT_EQ(plan.jobs.size(), 4U);
+  EXPECT_EQ(plan.jobs[0].swept, "[0.5]");
+  EXPECT_EQ(plan.jobs[1].swept, "[0.5]");
+  EXPECT_EQ(plan.jobs[3].swept, "[2.0]");
+  EXPECT_NE(plan.jobs[2].content_id, plan.jobs[3].content_id);
+}
+
 TEST(PlanJob, IsTheJobOfItsParameters) {
   const auto job = jobs::plan_job(json_of(R"({"coupler": "flexible"})"));
   EXPECT_EQ(job.content_id, plan_of(R"({"sweep": {"coupler": ["flexible"]}})").jobs[0].content_id);

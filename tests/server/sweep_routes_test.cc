@@ -1,9 +1,11 @@
 #include "server/sweep_routes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -110,6 +112,51 @@ TEST(GetResults, AreTheSameInBothForms) {
   EXPECT_EQ(std::count(csv.body.begin(), csv.body.end(), '\n'), 5);
   EXPECT_EQ(csv.body.substr(0, csv.body.find(',')), "job_id");
   EXPECT_NE(csv.body.find(rows[2].at("job_id").get<std::string>()), std::string::npos);
+}
+
+/// A run whose peak is 1000 times the stiffness scale. Perturbed runs at a clearance of 0.25 mm fail.
+engine::RunResult stiffness_run(const jobs::JobSpec& spec, const engine::StopQuery& stop_requested) {
+  engine::RunResult result = server_tests::known_run(spec, stop_requested);
+  const double scale = spec.parameters.contact_stiffness_scale;
+  result.metrics.at(0) = 1000.0 * scale;
+  if (scale != 1.0 && spec.parameters.c_r > 0.2e-3) result.status = engine::RunStatus::kNonFinite;
+  return result;
+}
+
+TEST(GetResults, CarryTheStatisticsOfReplicates) {
+  Bench bench(stiffness_run);
+  const std::string path = "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.25]}, "replicates": {"count": 3, "perturbation": 0.1}})") + "/results";
+  const json rows = json::parse(bench.call("GET", path).body);
+  ASSERT_EQ(rows.size(), 6U);
+  std::vector<double> peaks;
+  for (std::size_t i = 0; i < 3; ++i) peaks.push_back(rows[i].at("peak_slider_acceleration_m_s2"));
+  const json& first = rows[0].at("replicates");
+  EXPECT_EQ(first.size(), 6U);
+  EXPECT_EQ(first.at("of"), "peak_slider_acceleration_m_s2");
+  EXPECT_EQ(first.at("count"), 3);
+  EXPECT_EQ(first.at("min"), *std::min_element(peaks.begin(), peaks.end()));
+  EXPECT_EQ(first.at("max"), *std::max_element(peaks.begin(), peaks.end()));
+  EXPECT_NEAR(first.at("mean").get<double>(), (peaks[0] + peaks[1] + peaks[2]) / 3.0, 1e-9);
+  // Of three values a, b, c the sample variance is the mean of the squared differences of pairs, halved.
+  const double ab = peaks[0] - peaks[1], bc = peaks[1] - peaks[2], ca = peaks[2] - peaks[0];
+  EXPECT_GT(std::abs(ab), 1.0);
+  EXPECT_NEAR(first.at("spread").get<double>(), std::sqrt((ab * ab + bc * bc + ca * ca) / 6.0), 1e-9);
+  EXPECT_EQ(rows[2].at("replicates"), first);
+  EXPECT_EQ(rows[4].at("state"), "failed");
+  EXPECT_EQ(rows[4].at("replicates"), json::parse(R"({"count": 1, "mean": 1000, "spread": null, "min": 1000, "max": 1000, "of": "peak_slider_acceleration_m_s2"})"));
+
+  const std::string csv = bench.call("GET", path, "", {{"format", "csv"}}).body;
+  const std::string head = csv.substr(0, csv.find("\r\n"));
+  EXPECT_TRUE(head.ends_with("," + engine::metric_table().back().key + ",replicates_count,replicates_mean,replicates_spread,replicates_min,replicates_max")) << head;
+  EXPECT_TRUE(csv.ends_with(",1,1000,,1000,1000\r\n")) << csv;
+  EXPECT_NE(csv.find(",3," + first.at("mean").dump() + "," + first.at("spread").dump() + ","), std::string::npos) << csv;
+}
+
+TEST(GetResults, CarryNoStatisticsWithoutReplicates) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kSmallSweep) + "/results";
+  EXPECT_EQ(bench.call("GET", path).body.find("replicate"), std::string::npos);
+  EXPECT_EQ(bench.call("GET", path, "", {{"format", "csv"}}).body.find("replicate"), std::string::npos);
 }
 
 TEST(CancelSweep, EndsWhatRuns) {

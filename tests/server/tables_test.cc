@@ -41,6 +41,14 @@ TEST(JsonRows, HaveEveryColumnInEveryRow) {
                                   {"job_id": "j2", "clearance_mm": 0, "peak": null}])"));
 }
 
+TEST(JsonRows, EndWithTheStatisticsOfReplicates) {
+  jobs::ResultTable table{{"job_id"}, {{"j1"}, {"j2"}}};
+  table.replicates = {{.count = 2, .mean = 1.5, .spread = 0.5, .min = 1.0, .max = 2.0}, {.count = 0, .mean = {}, .spread = {}, .min = {}, .max = {}}};
+  EXPECT_EQ(server::to_json_rows(table),
+            "[\n{\"job_id\":\"j1\",\"replicates\":{\"count\":2,\"mean\":1.5,\"spread\":0.5,\"min\":1,\"max\":2,\"of\":\"peak_slider_acceleration_m_s2\"}},"
+            "\n{\"job_id\":\"j2\",\"replicates\":{\"count\":0,\"mean\":null,\"spread\":null,\"min\":null,\"max\":null,\"of\":\"peak_slider_acceleration_m_s2\"}}\n]\n");
+}
+
 TEST(JsonRows, AreAnEmptyArrayForNoRows) { EXPECT_EQ(json::parse(server::to_json_rows({{"a"}, {}})), json::array()); }
 
 TEST(JsonColumns, AreArraysByTheirKey) {
