@@ -7,12 +7,14 @@
 #include "server/commands/serve.h"
 #include "server/commands/simulate.h"
 #include "server/commands/sweep.h"
+#include "server/commands/validate.h"
 
 namespace {
 
 using server::commands::ServeOptions;
 using server::commands::SimulateOptions;
 using server::commands::SweepOptions;
+using server::commands::ValidateOptions;
 
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   CLI::App* const command = app.add_subcommand("simulate", "Compute one job and print it as JSON");
@@ -25,14 +27,18 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   return command;
 }
 
-void add_store_options(CLI::App& command, std::string& store, int& threads) {
-  command.add_option("--db", store, "SQLite file that keeps sweeps and results; made if missing")
-      ->required()
-      ->envname("RPSUP_DB");
+void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Jobs computed at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str()
       ->envname("RPSUP_THREADS");
+}
+
+void add_store_options(CLI::App& command, std::string& store, int& threads) {
+  command.add_option("--db", store, "SQLite file that keeps sweeps and results; made if missing")
+      ->required()
+      ->envname("RPSUP_DB");
+  add_threads_option(command, threads);
 }
 
 CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
@@ -62,6 +68,18 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   return command;
 }
 
+CLI::App* add_validate(CLI::App& app, ValidateOptions& options) {
+  CLI::App* const command = app.add_subcommand("validate", "Compare the engine with results that it did not compute itself");
+  command->add_option("--report", options.report, "Markdown file for the report; figures go into validation/figures beside it")
+      ->envname("RPSUP_REPORT");
+  command->add_option("--check", options.check, "Report whose numbers must be those of this run")->envname("RPSUP_CHECK");
+  command->add_option("--db", options.store, "SQLite file that keeps the study's jobs for the next time; a temporary one if left out")
+      ->envname("RPSUP_DB");
+  add_threads_option(*command, options.threads);
+  command->add_flag("--quick", options.quick, "Leave out the study and whatever else takes long");
+  return command;
+}
+
 void describe(CLI::App& app) {
   app.set_version_flag("--version", "rpsup " RPSUP_VERSION);
   // The library reads this file before the environment, so the name in the environment is its default.
@@ -74,7 +92,7 @@ void describe(CLI::App& app) {
   app.fallthrough();
   app.footer(
       "Each option can also be given in the environment (see the names above) or in the --config file.\n"
-      "Exit codes: 0 done, 1 a job failed, 2 bad input, 3 the machine failed (disk, port, store in use), 130 interrupted.");
+      "Exit codes: 0 done, 1 a job (or a comparison) failed, 2 bad input, 3 the machine failed (disk, port, store in use), 130 interrupted.");
 }
 
 }  // namespace
@@ -85,8 +103,10 @@ int main(int argc, char** argv) {
   SimulateOptions simulate_options;
   SweepOptions sweep_options;
   ServeOptions serve_options;
+  ValidateOptions validate_options;
   const CLI::App* const simulate = add_simulate(app, simulate_options);
   const CLI::App* const sweep = add_sweep(app, sweep_options);
+  const CLI::App* const validate = add_validate(app, validate_options);
   add_serve(app, serve_options);
   try {
     app.parse(argc, argv);
@@ -96,6 +116,7 @@ int main(int argc, char** argv) {
   return server::commands::run_guarded([&] {
     if (simulate->parsed()) return server::commands::simulate(simulate_options);
     if (sweep->parsed()) return server::commands::sweep(sweep_options);
+    if (validate->parsed()) return server::commands::validate(validate_options);
     return server::commands::serve(serve_options);
   });
 }

@@ -34,4 +34,6 @@ expect_refused server/routes.cc '#include <SQLiteCpp/SQLiteCpp.h>'
 expect_refused server/routes.cc '#include <sqlite3.h>'
 expect_refused server/routes.cc '#include <httplib.h>'
 expect_refused server/routes.cc '#include "../jobs/store.h"'
+expect_refused engine/simulate.h '#include "engine/validation/report.h"'
+expect_refused jobs/store.cc '#include "engine/validation/report.h"'
 echo "all planted faults are found"

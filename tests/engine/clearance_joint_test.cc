@@ -1,4 +1,5 @@
-// Contact of a whole journal: statics, closed forms, and the pruned ring of elements against all of its elements.
+// Contact of a whole journal: the pruned ring of elements against all of its elements, bristles that follow it. Statics of a tilted
+// journal, its faces, and the ring's limit: engine/validation/contact.
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "engine/clearance/axial_faces.h"
-#include "engine/clearance/clearance_joint.h"
+#include "engine/clearance/clearance_parameters.h"
 #include "engine/clearance/radial_continuum.h"
 #include "engine/clearance/radial_elements.h"
 #include "engine/dynamics/loop_closure.h"
@@ -48,22 +48,6 @@ TEST(RadialContinuum, PressesWithHertzsForceAgainstTheOffset) {
   EXPECT_NEAR(load.max_penetration, delta, 1e-15);
 }
 
-// Statics of a tilted journal: only the ring that the tilt brings to the bore presses, at its own arm.
-TEST(RadialContinuum, ATiltedJournalPressesAtTheRingThatTouches) {
-  const ClearanceParameters joint = joint_without_friction();
-  const RadialContinuum radial(joint);
-  const double tilt = 1e-3;
-  JournalMotion journal = journal_at(joint.c_r - 8e-6, 0.0);
-  journal.R_bj = Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()).toRotationMatrix();  // +z end goes to +x by 10 um
-  ContactLoad load;
-  std::vector<double> rates(4);
-  radial.calc(journal, std::vector<double>(4).data(), rates.data(), load);
-  const double delta = 0.01 * std::sin(tilt) - 8e-6;
-  const double force = 0.5 * 4.78e10 * std::pow(delta, 1.5);
-  EXPECT_NEAR(load.force.x(), -force, 1e-8 * force);
-  EXPECT_NEAR(load.moment.y(), -force * 0.01 * std::cos(tilt), 1e-8 * force * 0.01);
-}
-
 TEST(RadialContinuum, NothingTouchesInsideTheClearance) {
   const ClearanceParameters joint = joint_without_friction();
   ContactLoad load;
@@ -89,33 +73,6 @@ TEST(RadialContinuum, FrictionOpposesTheSlidingAndItsPowerIsLost) {
   EXPECT_NEAR(load.friction_power, f_n * 5.0 * v * v, 1e-8 * f_n);
   EXPECT_NEAR(rates[0], v, 1e-12);
   EXPECT_NEAR(rates[1], 0.0, 1e-12);
-}
-
-TEST(AxialFaces, TheClearanceDecidesWhenTheyTouch) {
-  ClearanceParameters joint = joint_without_friction();
-  joint.c_a = 5e-6;
-  const AxialFaces faces(joint);
-  ContactLoad load;
-  faces.calc(journal_at(0.0, 0.0, 4.9e-6), load);
-  EXPECT_EQ(load.force.norm(), 0.0);
-  faces.calc(journal_at(0.0, 0.0, 6e-6), load);
-  EXPECT_NEAR(load.force.z(), -1e8 * 1e-6, 1e-6);
-  ContactLoad other_side;
-  faces.calc(journal_at(0.0, 0.0, -6e-6), other_side);
-  EXPECT_NEAR(other_side.force.z(), 1e8 * 1e-6, 1e-6);
-}
-
-TEST(AxialFaces, ATiltedFacePressesBackWithTheSpringsOfItsRaisedHalf) {
-  const ClearanceParameters joint = joint_without_friction();
-  JournalMotion journal;
-  journal.R_bj = Eigen::AngleAxisd(1e-4, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  ContactLoad load;
-  AxialFaces(joint).calc(journal, load);
-  // Points of both faces at r_j sin(angle) above the middle: K_a / 8 each, three raised on each face (45, 90, 135 degrees).
-  const double r = joint.r_j();
-  const double sum_of_squares = 2.0 * (1.0 + 0.5 + 0.5);
-  EXPECT_NEAR(load.moment.x(), -1e8 / 8.0 * 1e-4 * r * r * sum_of_squares, 2e-4 * 1e8 * 1e-4 * r * r);
-  EXPECT_NEAR(load.force.z(), 0.0, 1e-9);
 }
 
 ClearanceParameters joint_of_elements(int n_ce) {
@@ -163,47 +120,6 @@ TEST(RadialElements, LookingNearTheContactOnlyMissesNoElement) {
     EXPECT_LT((load.force - all).norm(), 1e-8 * (1.0 + all.norm()));
   }
   EXPECT_GT(touching, 200);
-}
-
-/// Largest relative difference of the ring's force from Hertz's over directions between two elements.
-struct RingError {
-  double scatter;  ///< over the directions
-  double mean;
-};
-RingError calc_ring_error(int n_ce, double delta) {
-  const ClearanceParameters joint = joint_of_elements(n_ce);
-  double least = 1e9, most = 0.0, sum = 0.0;
-  for (int k = 0; k < 16; ++k) {
-    const double direction = 0.3 + 2.0 * std::numbers::pi / n_ce * k / 16.0;
-    const double distance = joint.c_r + delta;
-    const Eigen::Vector3d force = sum_all_elements(joint, journal_at(distance * std::cos(direction), distance * std::sin(direction)));
-    const double ratio = force.norm() / (joint.K * std::pow(delta, 1.5));
-    least = std::min(least, ratio);
-    most = std::max(most, ratio);
-    sum += ratio / 16.0;
-  }
-  return {most - least, sum - 1.0};
-}
-
-// A ring of elements is a sum for an integral whose integrand ends in a kink: what depends on where the elements stand falls
-// like n_ce^-2.
-TEST(RadialElements, TheirPlacesMatterLessAsTheyBecomeMore) {
-  for (const double delta : {1e-6, 5e-6}) {
-    const double coarse = calc_ring_error(180, delta).scatter;
-    const double fine = calc_ring_error(1440, delta).scatter;
-    EXPECT_LT(fine, coarse / 32.0) << delta;  // 8^2 = 64, with room for where the last element stands
-  }
-  EXPECT_LT(calc_ring_error(180, 5e-6).scatter, 0.006);
-}
-
-// In the limit the ring is Hertz's law but for terms of the order of delta / c_r: the stiffness is derived for a shallow arc.
-TEST(RadialElements, TendToHertzsLawForShallowContacts) {
-  const double deep = calc_ring_error(20'000, 5e-6).mean;
-  const double shallow = calc_ring_error(20'000, 0.5e-6).mean;
-  EXPECT_LT(std::abs(deep), 0.02);
-  // r_b is not r_j: a ring against a bore r_b / r_j times wider is off by c_r / (2 r_j) = 2.6 % for every depth.
-  EXPECT_NEAR(shallow, 0.026, 0.003);
-  EXPECT_NEAR(shallow - deep, 0.5 * (5e-6 - 0.5e-6) / 0.25e-3, 0.004);
 }
 
 TEST(RadialElements, BristlesFollowTheContactAroundTheJournal) {

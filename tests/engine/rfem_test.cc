@@ -1,3 +1,4 @@
+// How a rod is cut: masses, moments, dampers. Deflections and frequencies of the divided rod: engine/validation/flexibility.
 #include "engine/flexible/rfem.h"
 
 #include <cmath>
@@ -33,28 +34,6 @@ TEST_P(DividedRods, KeepMassAndMomentsOfTheWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Numbers, DividedRods, testing::Values(2, 3, 4, 10, 64));
-
-// n_sde springs in a row twist like the rod itself: GJ / l, with J = pi d^4 / 32.
-TEST(DividedRod, TwistsLikeTheRod) {
-  const DividedRod divided = divide_rod(kCoupler, 4);
-  EXPECT_NEAR(divided.sde.stiffness[2] / 3.0, 0.8e11 * std::numbers::pi * 1e-8 / 32.0 / 0.5, 1e-9);
-}
-
-// A clamped rod of n equal segments with a spring in the middle of each bends under a tip force by P l^3 / (3 EI) (1 - 1 / (4 n^2)).
-TEST(DividedRod, BendsLikeTheRod) {
-  for (const int n_rfe : {2, 4, 9}) {
-    const DividedRod divided = divide_rod(kCoupler, n_rfe);
-    double deflection = 0.0;  // under 1 N: each spring turns by its arm over its stiffness, and lifts the tip by its arm times that
-    double x = 0.0;
-    for (int s = 0; s + 1 < n_rfe; ++s) {
-      x += divided.elements[static_cast<std::size_t>(s)].length;
-      deflection += (0.5 - x) * (0.5 - x) / divided.sde.stiffness[1];
-    }
-    const double EI = 2.1e11 * std::numbers::pi * 1e-8 / 64.0;
-    const int n = n_rfe - 1;
-    EXPECT_NEAR(deflection, std::pow(0.5, 3) / (3.0 * EI) * (1.0 - 1.0 / (4.0 * n * n)), 1e-16);
-  }
-}
 
 // zeta = 0.01 at the first pinned-pinned frequency of a rod of 0.306 kg, pi / (2 l^2) sqrt(EI l / m) = 81.545 Hz: D = 2 zeta / omega_1 S.
 TEST(DividedRod, DampsTheFirstBendingMode) {

@@ -1,4 +1,4 @@
-// Whole runs of the linkage with clearance against results that this program did not compute.
+// Whole runs of the linkage with clearance: what must hold beside what the validation compares with other codes.
 
 #include <algorithm>
 #include <cmath>
@@ -7,71 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "engine/simulate_rpsup.h"
-#include "tests/support/rpsup_runs.h"
-#include "tests/support/steel_links.h"
+#include "engine/validation/support/runs.h"
 
 namespace engine {
 namespace {
 
-using support::column;
-using support::metric;
-
-struct ReferenceRow {
-  std::size_t ms;
-  double slider_position_m, slider_velocity_m_s, journal_x_mm, journal_y_mm;
-};
-
-// The same case by Simbody 3.7 (Merson's method, accuracy 1e-9): rigid, 0.25 mm, 10 rad/s, links as exact solids of steel.
-// First contact at 5.8 ms.
-constexpr ReferenceRow kSimbody[] = {
-    {1, 6.582575694720e-01, -7.056138884540e-08, -2.487872900e-06, 7.356948414e-03},
-    {3, 6.582575688582e-01, -6.372127550174e-07, -7.009224276e-05, 6.621254566e-02},
-    {5, 6.582575665448e-01, -1.770154980095e-06, -3.379942881e-04, 1.839237672e-01},
-    {7, 6.582576188169e-01, 4.715663390664e-05, -8.126849263e-04, 1.755962191e-01},
-    {10, 6.582577557981e-01, 4.386138517943e-05, -2.242413138e-03, 5.381317306e-02},
-    {50, 6.584363901057e-01, 1.278219521076e-02, -1.317697937e-01, 1.991671671e-01},
-};
-
-TEST(RigidCase, StartsLikeSimbody) {
-  RunOptions options;
-  options.duration = 0.05;
-  options.relative_tolerance = 1e-9;
-  options.absolute_tolerance = 1e-12;
-  RpsupParameters parameters;
-  parameters.links = support::steel_links();  // as that model has them
-  const RunResult run = simulate_rpsup(parameters, options, {});
-  ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
-  for (const ReferenceRow& row : kSimbody) {
-    // Before the contact both only round; after it each has its own way to find the onset.
-    const bool before = row.ms < 6;
-    EXPECT_NEAR(column(run, "slider_position_m")[row.ms], row.slider_position_m, before ? 2e-13 : 2e-11) << row.ms;
-    EXPECT_NEAR(column(run, "slider_velocity_m_s")[row.ms], row.slider_velocity_m_s, before ? 1e-9 : 2e-8) << row.ms;
-    EXPECT_NEAR(column(run, "journal_x_mm")[row.ms], row.journal_x_mm, before ? 1e-10 : 2e-8) << row.ms;
-    EXPECT_NEAR(column(run, "journal_y_mm")[row.ms], row.journal_y_mm, before ? 1e-10 : 1e-7) << row.ms;
-  }
-}
-
-// 772.6 m/s^2 at 3.6434 s: the peak of the first four seconds on which six independent multibody codes agree to four digits.
-struct PeakCase {
-  const char* name;
-  RunOptions options;
-};
-void PrintTo(const PeakCase& c, std::ostream* out) { *out << c.name; }
-
-class RigidPeak : public testing::TestWithParam<PeakCase> {};
-
-TEST_P(RigidPeak, IsThatOfSixOtherCodes) {
-  const RunResult run = simulate_rpsup({}, GetParam().options, {});
-  ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
-  EXPECT_NEAR(metric(run, "peak_slider_acceleration_m_s2"), 772.6, 0.002 * 772.6);
-  EXPECT_NEAR(metric(run, "peak_slider_acceleration_time_s"), 3.6434, 1e-4);
-  EXPECT_LT(metric(run, "energy_residual"), 1e-6);
-}
-
-INSTANTIATE_TEST_SUITE_P(Integrators, RigidPeak,
-                         testing::Values(PeakCase{"dopri5_default", {.duration = 4.0}},
-                                         PeakCase{"rk4_5us", {.duration = 4.0, .integrator = Integrator::kRk4, .step = 5e-6}}),
-                         [](const auto& c) { return c.param.name; });
+using validation::column;
+using validation::metric;
 
 TEST(RigidCase, DrivenByMultipliersItHasTheSamePeak) {
   RpsupParameters parameters;

@@ -1,8 +1,8 @@
-#include "tests/support/steel_links.h"
+#include "engine/validation/reference/steel_links.h"
 
 #include <numbers>
 
-namespace support {
+namespace engine::validation {
 
 using engine::kLinkCount;
 using engine::LinkInertia;
@@ -45,4 +45,4 @@ std::array<LinkInertia, kLinkCount> steel_links() {
           calc_tube_along_x(0.010, 0.0, 0.5), calc_box(0.020, 0.100, 0.050), calc_tube_along_z(0.020, 0.015, 0.1)};
 }
 
-}  // namespace support
+}  // namespace engine::validation

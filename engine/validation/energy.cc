@@ -1,0 +1,34 @@
+#include "engine/validation/chapters.h"
+#include "engine/validation/energy/parts.h"
+
+namespace engine::validation {
+
+namespace {
+
+constexpr const char* kText =
+    R"(The account: kinetic and potential energy (gravity, the coupler's springs, the elastic part of the contact), less the work of the drives,
+plus what impacts, friction and the coupler's dampers have taken, is constant. Work and losses are integrated beside the motion, each from
+its own force; error control does not look at them. What the account fails to close by is the metric `energy_residual`, over the work turned
+over, so it is a second opinion on every run.
+
+How fast it falls with the step says whether force, motion and account belong together. With an ideal joint it has the order of the method,
+4 and 5. With clearance the force sets in as the penetration to the power 1.5, which no method of high order likes inside a step: `dopri5`
+ends its steps there and keeps order 5; `rk4` does not, and keeps 2.5 of an onset on the bore, where the energy goes wrong as the force times
+the way, and 2 of one on a face, whose force is linear.
+
+The three losses are told apart by turning their causes off, by closed forms, and by integrals over samples of force and motion.)";
+
+}  // namespace
+
+Chapter energy_chapter() {
+  return {.title = "Energy",
+          .text = kText,
+          .parts = {{"orders_of_the_energy_residual", compute_residual_orders},
+                    {"orders_of_an_onset_inside_a_step", compute_onset_orders},
+                    {"each_loss_has_its_cause", compute_causes_of_loss},
+                    {"losses_in_closed_form", compute_closed_form_losses},
+                    {"losses_from_samples", compute_sampled_losses},
+                    {"the_whole_energy_account", compute_whole_account}}};
+}
+
+}  // namespace engine::validation

@@ -1,0 +1,20 @@
+#include "engine/validation/chapters.h"
+#include "engine/validation/flexibility/parts.h"
+
+namespace engine::validation {
+
+Chapter flexibility_chapter() {
+  return {
+      .title = "Flexible coupler",
+      .text =
+          "Rigid elements and springs as the engine builds them, taken out of the linkage: deflections, frequencies and their limits as the division\n"
+          "becomes finer. Then the linkage at rest, whose coupler sags and swings, and a beam spun up by its hub.",
+      .parts = {{"clamped_coupler_bends_like_the_rod", compute_tip_deflections},
+                {"three_segments_have_their_frequencies", compute_frequencies_of_three_segments},
+                {"frequencies_tend_to_those_of_the_rod", compute_frequency_limits},
+                {"torsion_tends_to_that_of_the_rod", compute_torsion},
+                {"coupler_sags_and_its_swing_decays", compute_sag_and_decay},
+                {"beam_spun_up_has_the_known_lag", compute_spin_up}}};
+}
+
+}  // namespace engine::validation

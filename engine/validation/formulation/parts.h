@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/model/mechanism.h"
+#include "engine/model/rpsup_parameters.h"
+#include "engine/validation/findings.h"
+#include "engine/validation/support/random.h"
+
+namespace engine::validation {
+
+/// A linkage whose equations of motion are looked at: the paper's, but with no two of its lengths alike and its guide off both axes.
+struct CouplerCase {
+  std::string name;
+  RpsupParameters parameters;
+};
+/// Rigid, and flexible with 2, 4 and 10 rigid elements.
+[[nodiscard]] std::vector<CouplerCase> coupler_cases();
+
+/// Angles over the whole turn but for each joint's second one (it stays 20 degrees off a right angle, where a joint of three angles is
+/// singular), slides of 0.3 m, rates of 10 rad/s and 2 m/s.
+struct ChainState {
+  Eigen::VectorXd q, qd;
+};
+[[nodiscard]] ChainState draw_state(const Mechanism& mechanism, Random& random);
+
+/// The mechanism's open chains: no cut joints, no drives.
+[[nodiscard]] Mechanism open_chains(Mechanism mechanism);
+
+/// Largest difference relative to the largest magnitude expected.
+[[nodiscard]] double relative_difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected);
+
+[[nodiscard]] Findings compute_trace_form();
+[[nodiscard]] Findings compute_energy_differences();
+[[nodiscard]] Findings compute_virtual_work();
+
+}  // namespace engine::validation

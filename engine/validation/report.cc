@@ -1,0 +1,242 @@
+#include "engine/validation/report.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace engine::validation {
+
+namespace {
+
+std::string format(const char* pattern, int digits, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, pattern, digits, value);
+  return text;
+}
+
+/// A number to a tenth of what the comparison resolves.
+std::string format_to(double value, double resolution) {
+  if (!std::isfinite(value)) return "";
+  const double magnitude = std::abs(value);
+  if (magnitude == 0.0) return "0";
+  const int digits = static_cast<int>(std::ceil(std::log10(std::max(magnitude / resolution, 1.0)))) + 2;
+  return format("%.*g", std::clamp(digits, 3, 13), value);
+}
+
+std::string format_difference(double value) { return value == 0.0 ? "0" : format("%.*g", 2, value); }
+
+/// A bar would end the cell.
+std::string cell(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '|' ? "\\|" : std::string(1, c);
+  return safe;
+}
+
+std::string row(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& text : cells) line += " " + cell(text) + " |";
+  return line;
+}
+
+std::string rule(std::size_t columns) {
+  std::string line = "|";
+  for (std::size_t k = 0; k < columns; ++k) line += "---|";
+  return line;
+}
+
+class ReportWriter {
+ public:
+  explicit ReportWriter(const std::string& figure_folder) : figure_folder_(figure_folder) {}
+
+  void add(const std::string& text, double relative = 0.0, double absolute = 0.0) { lines_.push_back({text, relative, absolute}); }
+
+  void add_chapter(const ComputedChapter& computed, std::size_t number) {
+    add("## " + std::to_string(number) + " " + computed.chapter.title);
+    add("");
+    if (!computed.chapter.text.empty()) {
+      add_paragraph(computed.chapter.text);
+      add("");
+    }
+    add_checks(computed);
+    for (const Findings& findings : computed.findings) {
+      for (const Table& table : findings.tables) add_table(table);
+      for (const Figure& figure : findings.figures) add_figure(figure);
+    }
+  }
+
+  void add_faults_chapter(std::size_t number) {
+    add("## " + std::to_string(number) + " Planted faults");
+    add("");
+    add("A proof that cannot fail proves nothing. `script/faults` plants a fault in a copy of the engine, one after the other (a sign, a factor");
+    add("2, a term left out, a frame exchanged), and runs the engine's light tests, of which the parts of the chapters above are most.");
+    add("`tests/faults/faults.txt` lists them; the table is what `script/faults --report engine/VALIDATION.md` has found.");
+    add("");
+    add(kFaultsBegin);
+    add(kFaultsEnd);
+  }
+
+  std::vector<ReportLine> take() { return std::move(lines_); }
+
+ private:
+  void add_paragraph(const std::string& text) {
+    std::size_t from = 0;
+    while (from <= text.size()) {
+      const std::size_t to = std::min(text.find('\n', from), text.size());
+      add(text.substr(from, to - from));
+      from = to + 1;
+    }
+  }
+
+  void add_checks(const ComputedChapter& computed) {
+    const bool any = std::any_of(computed.findings.begin(), computed.findings.end(), [](const Findings& f) { return !f.checks.empty(); });
+    if (!any) return;
+    const std::vector<std::string> head{"compared", "with", "found", "expected", "unit", "difference", "bound", "why this bound"};
+    add(row(head));
+    add(rule(head.size()));
+    for (const Findings& findings : computed.findings)
+      for (const Check& check : findings.checks) {
+        const std::string difference = format_difference(check.difference) + (check.holds() ? "" : " **FAILED**");
+        add(row({check.what, check.reference, format_to(check.found, 0.1 * check.bound), format_to(check.expected, 0.1 * check.bound),
+                 check.unit, difference, format("%.*g", 3, check.bound), check.why}),
+            1e-9, std::max(check.bound, 1e-300));
+      }
+    add("");
+  }
+
+  void add_table(const Table& table) {
+    add(table.caption, table.reproducible_to);
+    add("");
+    add(row(table.head));
+    add(rule(table.head.size()));
+    for (const auto& cells : table.rows) add(row(cells), table.reproducible_to);
+    add("");
+  }
+
+  void add_figure(const Figure& figure) {
+    add("![" + figure.caption + "](" + figure_folder_ + "/" + figure.file + ")");
+    add("");
+    add("*" + figure.caption + "*");
+    add("");
+  }
+
+  std::string figure_folder_;
+  std::vector<ReportLine> lines_;
+};
+
+/// A text cut into its numbers and what stands between them.
+struct Pieces {
+  std::vector<double> numbers;
+  std::string rest;  ///< a '#' for each number
+};
+
+bool begins_number(const std::string& text, std::size_t at) {
+  if (at > 0 && (std::isalnum(static_cast<unsigned char>(text[at - 1])) || text[at - 1] == '_' || text[at - 1] == '.')) return false;
+  const std::size_t digit = text[at] == '-' ? at + 1 : at;
+  return digit < text.size() && std::isdigit(static_cast<unsigned char>(text[digit]));
+}
+
+Pieces cut(const std::string& text) {
+  Pieces pieces;
+  for (std::size_t at = 0; at < text.size();) {
+    if (!begins_number(text, at)) {
+      pieces.rest += text[at++];
+      continue;
+    }
+    char* end = nullptr;
+    pieces.numbers.push_back(std::strtod(text.c_str() + at, &end));
+    pieces.rest += '#';
+    at = static_cast<std::size_t>(end - text.c_str());
+  }
+  return pieces;
+}
+
+bool says_the_same(const ReportLine& fresh, const std::string& written) {
+  if (fresh.text == written) return true;
+  if (fresh.relative == 0.0 && fresh.absolute == 0.0) return false;
+  const Pieces a = cut(fresh.text);
+  const Pieces b = cut(written);
+  if (a.rest != b.rest || a.numbers.size() != b.numbers.size()) return false;
+  for (std::size_t k = 0; k < a.numbers.size(); ++k) {
+    const double allowed = std::max(fresh.absolute, fresh.relative * std::max(std::abs(a.numbers[k]), std::abs(b.numbers[k])));
+    if (!(std::abs(a.numbers[k] - b.numbers[k]) <= allowed)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<ReportLine> write_report(const std::vector<ComputedChapter>& chapters, const std::string& figure_folder) {
+  ReportWriter report(figure_folder);
+  const Counts counts = count_checks(chapters);
+  report.add("# Why the numbers may be believed");
+  report.add("");
+  report.add("Each line below compares the engine with a result that it did not compute itself: a closed form, a published number, another");
+  report.add("code, or a second route that shares no line with the first. Every number and figure was written by `rpsup validate --report");
+  report.add("engine/VALIDATION.md`; each line is a test as well, and a test runs `rpsup validate --check engine/VALIDATION.md`, which");
+  report.add("computes all of it again and compares. A bound is what the difference may be, with its reason beside it: rounding,");
+  report.add("truncation, or the digits that were published.");
+  report.add("");
+  report.add(std::to_string(counts.checks) + " comparisons, " +
+             (counts.failed == 0 ? "all within their bounds." : std::to_string(counts.failed) + " **outside their bounds**."));
+  report.add("");
+  for (std::size_t k = 0; k < chapters.size(); ++k) report.add_chapter(chapters[k], k + 1);
+  report.add_faults_chapter(chapters.size() + 1);
+  return report.take();
+}
+
+WrittenReport take_faults(const std::vector<std::string>& written) {
+  WrittenReport report;
+  bool inside = false;
+  for (const std::string& line : written) {
+    if (line == kFaultsEnd) inside = false;
+    (inside ? report.faults : report.lines).push_back(line);
+    if (line == kFaultsBegin) inside = true;
+  }
+  return report;
+}
+
+std::string to_text(const std::vector<ReportLine>& lines, const std::vector<std::string>& faults) {
+  std::string text;
+  for (const ReportLine& line : lines) {
+    text += line.text + '\n';
+    if (line.text != kFaultsBegin) continue;
+    for (const std::string& fault : faults) text += fault + '\n';
+  }
+  return text;
+}
+
+Counts count_checks(const std::vector<ComputedChapter>& chapters) {
+  Counts counts;
+  for (const ComputedChapter& computed : chapters)
+    for (const Findings& findings : computed.findings)
+      for (const Check& check : findings.checks) {
+        ++counts.checks;
+        counts.failed += check.holds() ? 0 : 1;
+      }
+  return counts;
+}
+
+std::string describe(const Check& check) {
+  std::string text = (check.holds() ? "ok      " : "FAILED  ") + check.what + ": difference " + format_difference(check.difference);
+  if (check.unit != "1") text += " " + check.unit;
+  return text + ", bound " + format("%.*g", 3, check.bound);
+}
+
+std::vector<std::string> find_differences(const std::vector<ReportLine>& fresh, const std::vector<std::string>& written) {
+  std::vector<std::string> differences;
+  for (std::size_t k = 0; k < std::max(fresh.size(), written.size()); ++k) {
+    const std::string place = "line " + std::to_string(k + 1) + ": ";
+    if (k >= written.size()) {
+      differences.push_back(place + "missing: " + fresh[k].text);
+    } else if (k >= fresh.size()) {
+      differences.push_back(place + "no longer written: " + written[k]);
+    } else if (!says_the_same(fresh[k], written[k])) {
+      differences.push_back(place + "written: " + written[k] + "\n  fresh:   " + fresh[k].text);
+    }
+  }
+  return differences;
+}
+
+}  // namespace engine::validation

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/validation/findings.h"
+
+namespace engine::validation {
+
+/// A chapter with what its parts have found, in their order.
+struct ComputedChapter {
+  Chapter chapter;
+  std::vector<Findings> findings;
+};
+
+/// One line of the report and how far its numbers may lie from those of another run, on a machine that rounds otherwise.
+struct ReportLine {
+  std::string text;
+  double relative = 0.0;   ///< of each number, to itself
+  double absolute = 0.0;   ///< of each number; the bound of the line's comparison
+};
+
+/// The report as Markdown.
+/// @param figure_folder  where the figures are, seen from the report
+[[nodiscard]] std::vector<ReportLine> write_report(const std::vector<ComputedChapter>& chapters, const std::string& figure_folder);
+
+struct Counts {
+  std::size_t checks = 0;
+  std::size_t failed = 0;
+};
+[[nodiscard]] Counts count_checks(const std::vector<ComputedChapter>& chapters);
+
+/// One comparison in a line of plain text: what, the difference and its bound.
+[[nodiscard]] std::string describe(const Check& check);
+
+// The report's last chapter belongs to script/faults, which plants faults and notes which test finds each; its lines stand between these.
+inline constexpr const char* kFaultsBegin = "<!-- faults -->";
+inline constexpr const char* kFaultsEnd = "<!-- end of faults -->";
+
+/// A written report cut in two: what `rpsup validate` says, and the lines about planted faults.
+struct WrittenReport {
+  std::vector<std::string> lines;
+  std::vector<std::string> faults;
+};
+[[nodiscard]] WrittenReport take_faults(const std::vector<std::string>& written);
+
+/// The text of a report's file.
+[[nodiscard]] std::string to_text(const std::vector<ReportLine>& lines, const std::vector<std::string>& faults);
+
+/// Where a written report says something else than a fresh one.
+/// @param written  its lines, without those about faults
+/// @returns a sentence for each line that differs by more than it may; empty: none does
+[[nodiscard]] std::vector<std::string> find_differences(const std::vector<ReportLine>& fresh, const std::vector<std::string>& written);
+
+}  // namespace engine::validation

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace engine::validation {
+
+/// A number with so many significant digits, for a table's cell or a check's text.
+[[nodiscard]] inline std::string number(double value, int digits = 3) {
+  std::array<char, 40> text{};
+  (void)std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+}  // namespace engine::validation

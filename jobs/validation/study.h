@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/service.h"
+
+namespace jobs::validation {
+
+/// One case of the paper's study.
+struct StudyCase {
+  double clearance_mm = 0.0;
+  double crank_velocity_rad_s = 0.0;
+  std::string coupler;  ///< "rigid" or "flexible"
+};
+[[nodiscard]] std::string describe(const StudyCase& c);
+
+/// Results of a sweep, looked up by case.
+class StudyTable {
+ public:
+  explicit StudyTable(ResultTable results) : results_(std::move(results)) {}
+
+  /// Rows of a case, replicate 0 first. @param more  another column that must have this value; empty: none
+  [[nodiscard]] std::vector<std::size_t> find(const StudyCase& c, const std::string& more = "", double value = 0.0) const;
+  /// @throws std::out_of_range for a column or a value that is not there
+  [[nodiscard]] double number(std::size_t row, const std::string& column) const;
+  [[nodiscard]] std::string text(std::size_t row, const std::string& column) const;
+  [[nodiscard]] std::vector<double> numbers(const std::vector<std::size_t>& rows, const std::string& column) const;
+
+ private:
+  [[nodiscard]] const nlohmann::json& cell(std::size_t row, const std::string& column) const;
+
+  ResultTable results_;
+};
+
+inline constexpr double kClearances[] = {0.25, 0.5};              ///< [mm]
+inline constexpr double kCrankVelocities[] = {5.0, 10.0, 12.0, 15.0};  ///< [rad/s]
+inline constexpr const char* kCouplers[] = {"rigid", "flexible"};
+
+/// A parameter that the paper leaves open, and plausible values of it beside the default.
+struct OpenParameter {
+  std::string key;
+  std::string meaning;
+  std::vector<double> values;
+};
+[[nodiscard]] const std::vector<OpenParameter>& open_parameters();
+
+/// The cases with clearance whose peak is a property of the case: all with a rigid coupler, and the flexible one at 5 rad/s.
+[[nodiscard]] std::vector<StudyCase> converging_cases();
+
+/// The sweeps of the validation: the ideal joint; the joint with clearance, each case replicated; converging cases with tighter
+/// tolerances; one for each open parameter.
+[[nodiscard]] std::vector<nlohmann::ordered_json> study_requests();
+
+/// Reads channels of a job's trajectory from a time on.
+using TrajectoryReader = std::function<engine::Trajectory(const std::string& job_id, const std::vector<std::string>& channels, double from)>;
+
+struct Study {
+  StudyTable ideal;
+  StudyTable clearance;
+  StudyTable tighter;
+  std::vector<StudyTable> open;  ///< one for each of open_parameters()
+  TrajectoryReader read_trajectory;
+};
+
+/// @param results  one for each of study_requests()
+[[nodiscard]] Study make_study(std::vector<ResultTable> results, TrajectoryReader read_trajectory);
+
+}  // namespace jobs::validation

@@ -1,0 +1,102 @@
+// The report itself: what it writes, what it lets pass as the same, and its charts.
+
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/validation/chart.h"
+#include "engine/validation/findings.h"
+#include "engine/validation/report.h"
+
+namespace engine::validation {
+namespace {
+
+Check some_check(double found) { return compare("frequency of |x|", "closed form", found, 81.4994, 1e-3, "Hz", "four digits were published"); }
+
+std::vector<ComputedChapter> chapters_of(const Check& check) {
+  Table table{.caption = "A table", .head = {"n", "error"}, .rows = {{"4", "0.25"}}, .reproducible_to = 1e-3};
+  return {{{.title = "Waves", .text = "Two lines\nof text", .parts = {}}, {{.checks = {check}, .tables = {table}, .figures = {}}}}};
+}
+
+std::vector<std::string> texts_of(const std::vector<ReportLine>& lines) {
+  std::vector<std::string> texts;
+  for (const ReportLine& line : lines) texts.push_back(line.text);
+  return texts;
+}
+
+TEST(Check, HoldsUpToItsBoundAndNeverWithoutANumber) {
+  EXPECT_TRUE(some_check(81.4998).holds());
+  EXPECT_FALSE(some_check(81.5010).holds());
+  EXPECT_FALSE(some_check(std::numeric_limits<double>::quiet_NaN()).holds());
+  EXPECT_FALSE(limit("drift", "zero", std::numeric_limits<double>::quiet_NaN(), 1.0, "m", "").holds());
+  EXPECT_FALSE(limit("drift", "zero", -2.0, 1.0, "m", "").holds());
+}
+
+TEST(Report, SaysHowManyComparisonsFail) {
+  EXPECT_EQ(count_checks(chapters_of(some_check(81.4994))).failed, 0u);
+  EXPECT_EQ(count_checks(chapters_of(some_check(90.0))).failed, 1u);
+  std::string all;
+  for (const ReportLine& line : write_report(chapters_of(some_check(90.0)), "figures")) all += line.text + "\n";
+  EXPECT_NE(all.find("**FAILED**"), std::string::npos);
+  EXPECT_NE(all.find("| frequency of \\|x\\| | closed form | 90 | 81.4994 |"), std::string::npos) << all;
+}
+
+TEST(Report, OfTheSameRunHasNoDifferences) {
+  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
+  EXPECT_TRUE(find_differences(lines, texts_of(lines)).empty());
+}
+
+TEST(Report, AllowsANumberToMoveByItsBoundAndNoMore) {
+  // Both hold their bound of 1e-3, one on each side.
+  const auto lines = write_report(chapters_of(some_check(81.5003)), "figures");
+  EXPECT_TRUE(find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4995)), "figures"))).empty());
+  EXPECT_EQ(find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4985)), "figures"))).size(), 1u);
+}
+
+TEST(Report, FindsAnotherWordAnotherTableAndAMissingLine) {
+  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
+  auto written = texts_of(lines);
+  for (std::string& line : written)
+    if (line == "of text") line = "of other text";
+  EXPECT_EQ(find_differences(lines, written).size(), 1u);
+  written = texts_of(lines);
+  for (std::string& line : written)
+    if (line == "| 4 | 0.25 |") line = "| 4 | 0.26 |";
+  EXPECT_EQ(find_differences(lines, written).size(), 1u);
+  written = texts_of(lines);
+  written.pop_back();
+  EXPECT_EQ(find_differences(lines, written).size(), 1u);
+}
+
+TEST(Report, KeepsWhatIsSaidOfPlantedFaults) {
+  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
+  const std::vector<std::string> faults{"", "90 of 90 planted faults were found."};
+  std::vector<std::string> written;
+  std::istringstream text(to_text(lines, faults));
+  for (std::string line; std::getline(text, line);) written.push_back(line);
+  const WrittenReport report = take_faults(written);
+  EXPECT_EQ(report.faults, faults);
+  EXPECT_EQ(report.lines, texts_of(lines));
+}
+
+TEST(Chart, PutsPointsWhereTheAxesSay) {
+  // A box from x = 62 to 386 and y = 28 to 260: 1 to 100 on a logarithmic axis, 0 to 10 on a linear one.
+  const Chart chart{.title = "a < b", .x_label = "n", .y_label = "error", .x_scale = Scale::kLog, .x_min = 1.0, .x_max = 100.0, .y_min = 0.0,
+                    .y_max = 10.0, .series = {{.label = "one", .x = {1.0, 10.0, 100.0}, .y = {0.0, 5.0, 10.0}}}};
+  const std::string svg = draw({chart}, 1, 400, 300);
+  EXPECT_NE(svg.find("M62.0 260.0L224.0 144.0L386.0 28.0"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
+}
+
+TEST(Chart, BreaksALineWhereThereIsNoNumber) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Chart chart{.x_min = 0.0, .x_max = 4.0, .y_min = 0.0, .y_max = 1.0, .series = {{.x = {0.0, 1.0, 2.0, 3.0}, .y = {0.5, none, 0.5, 0.5}}}};
+  const std::string svg = draw({chart}, 1, 400, 300);
+  EXPECT_NE(svg.find("M62.0 144.0M224.0 144.0L305.0 144.0"), std::string::npos) << svg;
+}
+
+}  // namespace
+}  // namespace engine::validation
