@@ -74,9 +74,9 @@ CLI::App* add_validate(CLI::App& app, ValidateOptions& options) {
       ->envname("RPSUP_REPORT");
   command->add_option("--check", options.check, "Report whose numbers must be those of this run")->envname("RPSUP_CHECK");
   command->add_option("--db", options.store, "SQLite file that keeps the study's jobs for the next time; a temporary one if left out")
-      ->envname("RPSUP_DB");
+      ->envname("RPSUP_STUDY_DB");
   add_threads_option(*command, options.threads);
-  command->add_flag("--quick", options.quick, "Leave out the study and whatever else takes long");
+  command->add_flag("--quick", options.quick, "Leave out the study and whatever else takes long")->envname("RPSUP_QUICK");
   return command;
 }
 

@@ -43,7 +43,9 @@ class Axis {
   Axis(Scale scale, double least, double most, double first_pixel, double last_pixel)
       : scale_(scale), least_(least), most_(most), first_(first_pixel), last_(last_pixel) {}
 
-  [[nodiscard]] double pixel_of(double value) const { return first_ + (last_ - first_) * (transform(value) - transform(least_)) / (transform(most_) - transform(least_)); }
+  [[nodiscard]] double pixel_of(double value) const {
+    return first_ + (last_ - first_) * (transform(value) - transform(least_)) / (transform(most_) - transform(least_));
+  }
 
   [[nodiscard]] std::vector<double> ticks() const {
     std::vector<double> values;
@@ -55,7 +57,8 @@ class Axis {
       return values;
     }
     const double interval = find_interval((most_ - least_) / 5.0);
-    for (double k = std::ceil(least_ / interval - 1e-9); k * interval <= most_ + 1e-9 * interval; k += 1.0) values.push_back(k * interval);
+    for (double k = std::ceil(least_ / interval - 1e-9); k * interval <= most_ + 1e-9 * interval; k += 1.0)
+      values.push_back(k == 0.0 ? 0.0 : k * interval);  // no minus zero
     return values;
   }
 
@@ -146,12 +149,12 @@ class ChartDrawing {
     }
     svg += "<path d=\"M" + pixel(box_.left) + " " + pixel(box_.top) + "V" + pixel(box_.bottom) + "H" + pixel(right) + "\" stroke=\"#888\" fill=\"none\"/>\n";
     svg += draw_text({0.5 * (box_.left + right), box_.bottom + 32.0}, "middle", chart_.x_label);
-    svg += draw_text({box_.left - 48.0, middle_y}, "middle", chart_.y_label,
-                     " transform=\"rotate(-90 " + pixel(box_.left - 48.0) + " " + pixel(middle_y) + ")\"");
+    svg += draw_text({box_.left - 50.0, middle_y}, "middle", chart_.y_label,
+                     " transform=\"rotate(-90 " + pixel(box_.left - 50.0) + " " + pixel(middle_y) + ")\"");
     return svg;
   }
 
-  static std::string label(double tick) { return format("%.4g", std::abs(tick) < 1e-12 ? 0.0 : tick); }
+  static std::string label(double tick) { return format("%.4g", tick); }
 
   /// Points outside the axes are left out, and break the line.
   [[nodiscard]] std::string draw_series(const Series& series) const {

@@ -7,8 +7,8 @@ Chapter contact_chapter() {
   return {
       .title = "Contact",
       .text =
-          "The normal law in single impacts of a free mass, run by the engine's own integration with its location of contacts and its latches; the ring of\n"
-          "elements as a sum for an integral; tilted and shifted journals held still. A ring of elements is not the closed form\n"
+          "The normal law in single impacts of a free mass, run by the engine's own integration with its location of contacts and its latches;\n"
+          "the ring of elements as a sum for an integral; tilted and shifted journals held still. A ring of elements is not the closed form\n"
           "with other numbers: each element has the damping of its own onset and a bristle of its own, and the last tables show what that changes.",
       .parts = {{"hertz_stiffness_of_the_bore", compute_hertz_stiffness},
                 {"rebounds_obey_the_closed_form", compute_rebounds},

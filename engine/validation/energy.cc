@@ -12,9 +12,9 @@ its own force; error control does not look at them. What the account fails to cl
 over, so it is a second opinion on every run.
 
 How fast it falls with the step says whether force, motion and account belong together. With an ideal joint it has the order of the method,
-4 and 5. With clearance the force sets in as the penetration to the power 1.5, which no method of high order likes inside a step: `dopri5`
-ends its steps there and keeps order 5; `rk4` does not, and keeps 2.5 of an onset on the bore, where the energy goes wrong as the force times
-the way, and 2 of one on a face, whose force is linear.
+4 and 5. With clearance the force sets in as the penetration to the power 1.5: its higher derivatives jump there, and a step that contains
+the onset has not the method's order. `dopri5` ends its steps there and keeps order 5; `rk4` does not, and keeps 2.5 of an onset on the
+bore, where the energy goes wrong as force times displacement, and 2 of one on a face, whose force is linear.
 
 The three losses are told apart by turning their causes off, by closed forms, and by integrals over samples of force and motion.)";
 

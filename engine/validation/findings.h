@@ -34,8 +34,10 @@ struct Table {
   std::string caption{};
   std::vector<std::string> head{};
   std::vector<std::vector<std::string>> rows{};
-  /// By how much a number may move, relative to itself, on another machine: a table of a chaotic case says more than rounding.
+  /// By how much a number may move on another machine. Below 1: relative to itself. From 1 on: a factor, for residuals of rounding
+  /// (below 1e-6 all are alike) and for samples of chaotic cases.
   double reproducible_to = 1e-3;
+  std::vector<double> row_reproducible_to{};  ///< where rows differ in this: one a row, in place of the above
 };
 
 struct Figure {

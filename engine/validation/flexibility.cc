@@ -7,8 +7,8 @@ Chapter flexibility_chapter() {
   return {
       .title = "Flexible coupler",
       .text =
-          "Rigid elements and springs as the engine builds them, taken out of the linkage: deflections, frequencies and their limits as the division\n"
-          "becomes finer. Then the linkage at rest, whose coupler sags and swings, and a beam spun up by its hub.",
+          "Rigid elements and springs as the engine builds them, taken out of the linkage: deflections, frequencies and their limits as the\n"
+          "division becomes finer. Then the linkage at rest, whose coupler sags and swings, and a beam spun up by its hub.",
       .parts = {{"clamped_coupler_bends_like_the_rod", compute_tip_deflections},
                 {"three_segments_have_their_frequencies", compute_frequencies_of_three_segments},
                 {"frequencies_tend_to_those_of_the_rod", compute_frequency_limits},

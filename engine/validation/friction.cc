@@ -11,7 +11,8 @@ constexpr const char* kText =
 (F_s = 1.5 N, F_c = 1 N, sigma_0 = 1e5 N/m, sigma_1 = sqrt(1e5) N s/m, sigma_2 = 0.4 N s/m, v_s = 1e-3 m/s; the engine's mu_s, mu_k with a
 normal force of 1 N). The article shows its results as curves. The digits here are closed forms, or those of small programs that were
 written for one experiment each and share nothing with the engine. Stick-slip runs as a mechanism with a clearance joint: contact, friction,
-equations of motion and integrator together. In the other experiments the engine's law moves along a line askew to its two directions.
+equations of motion and integrator together; so do the contacts that begin with unbent bristles, and the linkage itself for its sliding
+speeds. In the other experiments the engine's law is integrated alone, along a line askew to its two directions.
 The break-away force is the largest friction force before it falls for the first time.
 
 **What the law does with energy.** With a constant normal force, the power of friction less the growth of the bristle's energy

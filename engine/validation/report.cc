@@ -21,8 +21,8 @@ std::string format_to(double value, double resolution) {
   if (!std::isfinite(value)) return "";
   const double magnitude = std::abs(value);
   if (magnitude == 0.0) return "0";
-  const int digits = static_cast<int>(std::ceil(std::log10(std::max(magnitude / resolution, 1.0)))) + 2;
-  return format("%.*g", std::clamp(digits, 3, 13), value);
+  const double digits = std::ceil(std::log10(std::max(magnitude / resolution, 1.0))) + 2.0;  // infinite for a bound of zero
+  return format("%.*g", static_cast<int>(std::clamp(digits, 3.0, 13.0)), value);
 }
 
 std::string format_difference(double value) { return value == 0.0 ? "0" : format("%.*g", 2, value); }
@@ -50,7 +50,7 @@ class ReportWriter {
  public:
   explicit ReportWriter(const std::string& figure_folder) : figure_folder_(figure_folder) {}
 
-  void add(const std::string& text, double relative = 0.0, double absolute = 0.0) { lines_.push_back({text, relative, absolute}); }
+  void add(const std::string& text, std::vector<Tolerance> cells = {}) { lines_.push_back({text, std::move(cells)}); }
 
   void add_chapter(const ComputedChapter& computed, std::size_t number) {
     add("## " + std::to_string(number) + " " + computed.chapter.title);
@@ -100,17 +100,20 @@ class ReportWriter {
         const std::string difference = format_difference(check.difference) + (check.holds() ? "" : " **FAILED**");
         add(row({check.what, check.reference, format_to(check.found, 0.1 * check.bound), format_to(check.expected, 0.1 * check.bound),
                  check.unit, difference, format("%.*g", 3, check.bound), check.why}),
-            1e-9, std::max(check.bound, 1e-300));
+            {{}, {}, {.absolute = check.bound}, {.absolute = check.bound}, {}, {.factor = 30.0, .floor = 0.1 * check.bound}, {.relative = 1e-3}, {}});
       }
     add("");
   }
 
   void add_table(const Table& table) {
-    add(table.caption, table.reproducible_to);
+    add(table.caption, {tolerance_of(table.reproducible_to)});
     add("");
     add(row(table.head));
     add(rule(table.head.size()));
-    for (const auto& cells : table.rows) add(row(cells), table.reproducible_to);
+    for (std::size_t k = 0; k < table.rows.size(); ++k) {
+      const double to = table.row_reproducible_to.empty() ? table.reproducible_to : table.row_reproducible_to.at(k);
+      add(row(table.rows[k]), std::vector<Tolerance>(table.rows[k].size(), tolerance_of(to)));
+    }
     add("");
   }
 
@@ -119,6 +122,11 @@ class ReportWriter {
     add("");
     add("*" + figure.caption + "*");
     add("");
+  }
+
+  static Tolerance tolerance_of(double reproducible_to) {
+    if (reproducible_to < 1.0) return {.relative = reproducible_to};
+    return {.factor = reproducible_to, .floor = 1e-6};
   }
 
   std::string figure_folder_;
@@ -152,20 +160,47 @@ Pieces cut(const std::string& text) {
   return pieces;
 }
 
-bool says_the_same(const ReportLine& fresh, const std::string& written) {
-  if (fresh.text == written) return true;
-  if (fresh.relative == 0.0 && fresh.absolute == 0.0) return false;
-  const Pieces a = cut(fresh.text);
+/// The cells of a row of a table; other text is one cell.
+std::vector<std::string> split_cells(const std::string& text) {
+  if (!text.starts_with("| ")) return {text};
+  std::vector<std::string> cells;
+  for (std::size_t from = 2; from < text.size();) {
+    const std::size_t to = std::min(text.find(" | ", from), text.size());
+    cells.push_back(text.substr(from, to - from));
+    from = to + 3;
+  }
+  return cells;
+}
+
+bool cells_agree(const std::string& fresh, const std::string& written, const Tolerance& tolerance) {
+  if (fresh == written) return true;
+  const Pieces a = cut(fresh);
   const Pieces b = cut(written);
   if (a.rest != b.rest || a.numbers.size() != b.numbers.size()) return false;
-  for (std::size_t k = 0; k < a.numbers.size(); ++k) {
-    const double allowed = std::max(fresh.absolute, fresh.relative * std::max(std::abs(a.numbers[k]), std::abs(b.numbers[k])));
-    if (!(std::abs(a.numbers[k] - b.numbers[k]) <= allowed)) return false;
-  }
+  for (std::size_t k = 0; k < a.numbers.size(); ++k)
+    if (!tolerance.allows(a.numbers[k], b.numbers[k])) return false;
+  return true;
+}
+
+bool says_the_same(const ReportLine& fresh, const std::string& written) {
+  if (fresh.text == written) return true;
+  const auto a = split_cells(fresh.text);
+  const auto b = split_cells(written);
+  if (a.size() != b.size() || a.size() != fresh.cells.size()) return false;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (!cells_agree(a[k], b[k], fresh.cells[k])) return false;
   return true;
 }
 
 }  // namespace
+
+bool Tolerance::allows(double a, double b) const {
+  if (a == b) return true;
+  const double most = std::max(std::abs(a), std::abs(b));
+  const double least = std::min(std::abs(a), std::abs(b));
+  if (std::abs(a - b) <= std::max(absolute, relative * most)) return true;
+  return most <= floor || (a * b > 0.0 && most <= factor * least);
+}
 
 std::vector<ReportLine> write_report(const std::vector<ComputedChapter>& chapters, const std::string& figure_folder) {
   ReportWriter report(figure_folder);
@@ -173,10 +208,10 @@ std::vector<ReportLine> write_report(const std::vector<ComputedChapter>& chapter
   report.add("# Why the numbers may be believed");
   report.add("");
   report.add("Each line below compares the engine with a result that it did not compute itself: a closed form, a published number, another");
-  report.add("code, or a second route that shares no line with the first. Every number and figure was written by `rpsup validate --report");
-  report.add("engine/VALIDATION.md`; each line is a test as well, and a test runs `rpsup validate --check engine/VALIDATION.md`, which");
-  report.add("computes all of it again and compares. A bound is what the difference may be, with its reason beside it: rounding,");
-  report.add("truncation, or the digits that were published.");
+  report.add("code; or, where the line says so, with what it finds by another route: from its energies, with another integrator, another way");
+  report.add("to enforce the drives, other tolerances. Every number and figure was written by `rpsup validate --report engine/VALIDATION.md`;");
+  report.add("each line is a test as well, and a test runs `rpsup validate --check engine/VALIDATION.md`, which computes all of it again and");
+  report.add("compares. A bound is what the difference may be, with its reason beside it: rounding, truncation, or the digits that are known.");
   report.add("");
   report.add(std::to_string(counts.checks) + " comparisons, " +
              (counts.failed == 0 ? "all within their bounds." : std::to_string(counts.failed) + " **outside their bounds**."));

@@ -14,11 +14,20 @@ struct ComputedChapter {
   std::vector<Findings> findings;
 };
 
-/// One line of the report and how far its numbers may lie from those of another run, on a machine that rounds otherwise.
+/// How far a number of the report may lie from that of another run, on a machine that rounds otherwise.
+struct Tolerance {
+  double absolute = 0.0;
+  double relative = 0.0;   ///< to the larger of the two
+  double factor = 1.0;     ///< larger over smaller, of one sign: for residuals of rounding, and for samples
+  double floor = 0.0;      ///< magnitudes below it agree
+
+  [[nodiscard]] bool allows(double a, double b) const;
+};
+
+/// One line of the report. Without tolerances it is the same on every machine; with them they are those of its cells, in order.
 struct ReportLine {
   std::string text;
-  double relative = 0.0;   ///< of each number, to itself
-  double absolute = 0.0;   ///< of each number; the bound of the line's comparison
+  std::vector<Tolerance> cells{};
 };
 
 /// The report as Markdown.

@@ -42,7 +42,6 @@ class TaskQueue {
     }
   }
 
-  [[nodiscard]] bool stopped() const { return stopped_; }
   void throw_what_failed() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -52,26 +51,27 @@ class TaskQueue {
     try {
       *task.result = task.part->compute();
       const std::lock_guard lock(mutex_);
-      if (!stopped_ && !done(*task.part, *task.result)) stop();
+      if (!failure_) done(*task.part, *task.result);
     } catch (...) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();
-      stop();
+      waiting_.clear();
     }
-  }
-
-  void stop() {
-    stopped_ = true;
-    waiting_.clear();
   }
 
   std::mutex mutex_;  // guards all that follows, and serialises done()
   std::vector<Task> waiting_;
-  bool stopped_ = false;
   std::exception_ptr failure_;
 };
 
 }  // namespace
+
+std::size_t count_parts(const std::vector<Chapter>& chapters, Cost most_costly) {
+  std::size_t count = 0;
+  for (const Chapter& chapter : chapters)
+    for (const Part& part : chapter.parts) count += part.cost <= most_costly ? 1 : 0;
+  return count;
+}
 
 std::vector<ComputedChapter> compute_chapters(const std::vector<Chapter>& chapters, Cost most_costly, int threads, const PartDone& done) {
   std::vector<ComputedChapter> computed;
@@ -86,7 +86,6 @@ std::vector<ComputedChapter> compute_chapters(const std::vector<Chapter>& chapte
     for (int k = 0; k < threads; ++k) pool.emplace_back([&] { queue.work(done); });
   }
   queue.throw_what_failed();
-  if (queue.stopped()) computed.clear();
   return computed;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -7,12 +8,15 @@
 
 namespace jobs::validation {
 
-/// Told what a part has found, as soon as it is done; one at a time, from any thread. Asked then whether to go on.
-using PartDone = std::function<bool(const engine::validation::Part&, const engine::validation::Findings&)>;
+/// Told what a part has found, as soon as it is done; one at a time, from any thread.
+using PartDone = std::function<void(const engine::validation::Part&, const engine::validation::Findings&)>;
+
+/// Parts that are no more costly.
+[[nodiscard]] std::size_t count_parts(const std::vector<engine::validation::Chapter>& chapters, engine::validation::Cost most_costly);
 
 /// Computes the parts of chapters on threads; the order of what comes back is that of the chapters, whatever the threads did.
 /// @param most_costly  heavier parts are left out
-/// @returns empty if done() asked to stop
+/// @throws what a part has thrown; parts that have not begun by then are left
 [[nodiscard]] std::vector<engine::validation::ComputedChapter> compute_chapters(const std::vector<engine::validation::Chapter>& chapters,
                                                                                 engine::validation::Cost most_costly, int threads,
                                                                                 const PartDone& done);

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <string>
 
 #include "jobs/validation/study_chapters.h"
@@ -18,6 +17,7 @@ void add_case(const StudyTable& table, const StudyCase& c, Findings& findings) {
                                                       "of the work turned over; what default tolerances are meant to keep"));
   findings.tables[0].rows.push_back({describe(c), to_text("%.4g", table.number(row, "impact_loss_j")), to_text("%.4g", table.number(row, "friction_work_j")),
                                      to_text("%.4g", table.number(row, "structural_loss_j")), to_text("%.1e", residual)});
+  findings.tables[0].row_reproducible_to.push_back(converges(c) ? 3.0 : kSampledReproducibleTo);
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ ComputedChapter energy_of_the_grid(const Study& study) {
   findings.tables.push_back({.caption = "What was lost in 5 s, and what the account leaves open.",
                              .head = {"case", "impact, J", "friction, J", "structure, J", "residual"},
                              .rows = {},
-                             .reproducible_to = 10.0});  // chaotic cases among them, and residuals of rounding
+                             .row_reproducible_to = {}});
   for (const std::string coupler : kCouplers) {
     for (const double velocity : kCrankVelocities) add_case(study.ideal, {0.0, velocity, coupler}, findings);
     for (const double clearance : kClearances)

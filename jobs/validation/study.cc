@@ -51,6 +51,7 @@ const std::vector<OpenParameter>& open_parameters() {
       {"rod_stroke_mm", "stroke of slider (1,2)", {25.0, 75.0}},
       {"guide_offset_z_m", "offset of the guide along the crank's axis", {0.1, 0.3}},
       {"guide_offset_y_m", "offset of the guide upwards", {0.05}},
+      {"contact_stiffness_scale", "stiffness of the contact", {0.5, 2.0}},
       {"coupler_damping_ratio", "damping of the coupler", {0.002, 0.05}},
       {"gravity_m_s2", "gravity", {0.0}},
   };
@@ -74,11 +75,14 @@ ordered_json tighter_request() {
 std::vector<StudyCase> converging_cases() {
   std::vector<StudyCase> cases;
   for (const double clearance : kClearances) {
-    for (const double velocity : kCrankVelocities) cases.push_back({clearance, velocity, "rigid"});
-    cases.push_back({clearance, 5.0, "flexible"});
+    for (const double velocity : kCrankVelocities)
+      for (const std::string coupler : kCouplers)
+        if (const StudyCase c{clearance, velocity, coupler}; converges(c)) cases.push_back(c);
   }
   return cases;
 }
+
+bool converges(const StudyCase& c) { return c.coupler == "rigid" || c.clearance_mm == 0.0 || c.crank_velocity_rad_s <= 5.0; }
 
 std::vector<ordered_json> study_requests() {
   const ordered_json replicates{{"count", 5}, {"perturbation", 1e-6}, {"seed", 1}};

@@ -51,6 +51,11 @@ struct OpenParameter {
 
 /// The cases with clearance whose peak is a property of the case: all with a rigid coupler, and the flexible one at 5 rad/s.
 [[nodiscard]] std::vector<StudyCase> converging_cases();
+[[nodiscard]] bool converges(const StudyCase& c);
+
+/// How far numbers may move on another machine (Table::reproducible_to): of cases that converge and of those that are samples.
+inline constexpr double kConvergedReproducibleTo = 1e-3;
+inline constexpr double kSampledReproducibleTo = 100.0;
 
 /// The sweeps of the validation: the ideal joint; the joint with clearance, each case replicated; converging cases with tighter
 /// tolerances; one for each open parameter.

@@ -6,7 +6,14 @@ EndSignals::EndSignals() {
   sigemptyset(&set_);
   sigaddset(&set_, SIGINT);
   sigaddset(&set_, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+  pthread_sigmask(SIG_BLOCK, &set_, &before_);
+}
+
+EndSignals::~EndSignals() {
+  while (arrived()) {
+    // Asked twice: the program has ended what it was asked to end.
+  }
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 void EndSignals::wait() const {

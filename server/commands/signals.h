@@ -4,10 +4,13 @@
 
 namespace server::commands {
 
-/// Takes SIGINT and SIGTERM out of the hands of every thread that is started from here on: they wait to be asked for.
+/// Takes SIGINT and SIGTERM out of the hands of every thread that is started while it lives: they wait to be asked for.
 class EndSignals {
  public:
   EndSignals();
+  ~EndSignals();  ///< from here on they end the program again
+  EndSignals(const EndSignals&) = delete;
+  EndSignals& operator=(const EndSignals&) = delete;
 
   /// Blocks until one of them comes.
   void wait() const;
@@ -16,7 +19,7 @@ class EndSignals {
   [[nodiscard]] bool arrived() const;
 
  private:
-  sigset_t set_{};
+  sigset_t set_{}, before_{};
 };
 
 }  // namespace server::commands

@@ -2,16 +2,20 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "engine/validation/chapters.h"
 #include "engine/validation/report.h"
+#include "jobs/errors.h"
 #include "jobs/service.h"
 #include "jobs/validation/compute.h"
 #include "jobs/validation/study_chapters.h"
@@ -31,8 +35,14 @@ using engine::validation::ReportLine;
 
 constexpr const char* kFigureFolder = "validation/figures";
 
-/// Ctrl-C, or the end of the service's life.
+/// A signal asked for the end.
 struct Interrupted {};
+
+/// A job of the study has failed: there is no report without it.
+class StudyFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// A folder that is gone when this is.
 class TemporaryFolder {
@@ -55,12 +65,18 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// Refuses before the computing what could not be written after it.
 void check_options(const ValidateOptions& options) {
   if (options.quick && !(options.report.empty() && options.check.empty()))
     throw BadInput("--quick leaves out part of the report: it goes with neither --report nor --check");
   if (options.report.empty()) return;
-  const auto folder = std::filesystem::absolute(options.report).parent_path();
-  if (!std::filesystem::is_directory(folder)) throw BadInput("--report " + options.report + ": there is no folder " + folder.string());
+  const auto report = std::filesystem::absolute(options.report);
+  if (!std::filesystem::is_directory(report.parent_path()))
+    throw BadInput("--report " + options.report + ": there is no folder " + report.parent_path().string());
+  if (options.report == "-" || std::filesystem::is_directory(report)) throw BadInput("--report " + options.report + ": must be a file's name");
+  std::error_code error;
+  std::filesystem::create_directories(report.parent_path() / kFigureFolder, error);
+  if (error || access(report.parent_path().c_str(), W_OK) != 0) throw CannotWrite("cannot write to " + report.parent_path().string());
 }
 
 std::vector<std::string> read_lines(const std::string& path) {
@@ -76,44 +92,95 @@ void print(const Findings& findings) {
   std::cout << std::flush;
 }
 
-std::vector<ComputedChapter> compute_engine_chapters(const ValidateOptions& options, const EndSignals& signals) {
-  auto chapters = jobs::validation::compute_chapters(engine::validation::engine_chapters(), options.quick ? Cost::kLight : Cost::kHeavy,
-                                                     options.threads, [&](const Part&, const Findings& findings) {
-                                                       print(findings);
-                                                       return !signals.arrived();
-                                                     });
-  if (chapters.empty()) throw Interrupted();
-  return chapters;
+std::vector<ComputedChapter> compute_engine_chapters(const ValidateOptions& options) {
+  const auto chapters = engine::validation::engine_chapters();
+  const Cost most_costly = options.quick ? Cost::kLight : Cost::kHeavy;
+  const std::size_t parts = jobs::validation::count_parts(chapters, most_costly);
+  std::size_t done = 0;
+  return jobs::validation::compute_chapters(chapters, most_costly, options.threads, [&](const Part& part, const Findings& findings) {
+    std::cerr << "part " << ++done << " of " << parts << ": " << part.name << std::endl;
+    print(findings);
+  });
 }
 
-void follow(jobs::Service& service, const std::string& id, const EndSignals& signals) {
-  ProgressView view(std::cerr, isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines);
-  while (!service.wait_for_sweep(id, std::chrono::milliseconds(200))) {
-    view.show(*service.find_sweep(id));
-    if (signals.arrived()) throw Interrupted();
+/// The sweeps of the study, one store with all of them.
+class StudyRun {
+ public:
+  StudyRun(const std::filesystem::path& store, int threads) : service_(make_options(store, threads)) {
+    for (const auto& request : jobs::validation::study_requests()) ids_.push_back(service_.submit_sweep(request).at("id").get<std::string>());
   }
-  view.show(*service.find_sweep(id));
-  view.finish();
-}
 
-std::vector<ComputedChapter> compute_study_chapters(const ValidateOptions& options, const std::filesystem::path& store, const EndSignals& signals) {
-  jobs::ServiceOptions service_options;
-  service_options.store = store;
-  service_options.threads = options.threads;
-  service_options.log = [](const std::string& message) { std::cerr << "rpsup: " << message << '\n'; };
-  jobs::Service service(service_options);
-  std::vector<std::string> ids;
-  for (const auto& request : jobs::validation::study_requests()) ids.push_back(service.submit_sweep(request).at("id").get<std::string>());
-  std::vector<jobs::ResultTable> results;
-  for (const std::string& id : ids) {
-    std::cerr << service.find_sweep(id)->at("name").get<std::string>() << '\n';
-    follow(service, id, signals);
-    results.push_back(*service.find_results(id));
+  /// Waits for the sweeps one after the other. @throws Interrupted
+  [[nodiscard]] std::vector<jobs::ResultTable> wait(const EndSignals& signals) {
+    std::vector<jobs::ResultTable> results;
+    for (const std::string& id : ids_) {
+      follow(id, signals);
+      results.push_back(*service_.find_results(id));
+    }
+    return results;
   }
-  const auto study = jobs::validation::make_study(
-      std::move(results), [&service](const std::string& job, const std::vector<std::string>& channels, double from) {
-        return *service.find_trajectory(job, {.channels = channels, .from = from, .to = {}});
-      });
+
+  [[nodiscard]] jobs::validation::TrajectoryReader trajectory_reader() const {
+    return [this](const std::string& job, const std::vector<std::string>& channels, double from) {
+      return *service_.find_trajectory(job, {.channels = channels, .from = from, .to = {}});
+    };
+  }
+
+ private:
+  static jobs::ServiceOptions make_options(const std::filesystem::path& store, int threads) {
+    jobs::ServiceOptions options;
+    options.store = store;
+    options.threads = threads;
+    options.log = [](const std::string& message) { std::cerr << "rpsup: " << message << '\n'; };
+    return options;
+  }
+
+  void follow(const std::string& id, const EndSignals& signals) {
+    std::cerr << service_.find_sweep(id)->at("name").get<std::string>() << std::endl;
+    ProgressView view(std::cerr, isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines);
+    while (!service_.wait_for_sweep(id, std::chrono::milliseconds(200))) {
+      view.show(*service_.find_sweep(id));
+      if (!signals.arrived()) continue;
+      view.finish();
+      cancel_all();
+      throw Interrupted();
+    }
+    const auto sweep = *service_.find_sweep(id);
+    view.show(sweep);
+    view.finish();
+    if (sweep.at("state") != "succeeded") throw StudyFailed("a job of \"" + sweep.at("name").get<std::string>() + "\" failed: " + find_error(id));
+  }
+
+  /// What is left would start again with the store.
+  void cancel_all() {
+    for (const std::string& id : ids_) {
+      try {
+        service_.cancel_sweep(id);
+      } catch (const jobs::WrongState&) {
+        // It has ended: nothing is left to cancel.
+      }
+    }
+    service_.stop();
+  }
+
+  [[nodiscard]] std::string find_error(const std::string& sweep) const {
+    const jobs::ResultTable results = *service_.find_results(sweep);
+    for (const auto& row : results.rows) {
+      const auto job = *service_.find_job(row.at(0).get<std::string>());
+      if (job.at("state") != "succeeded") return job.at("id").get<std::string>() + ", " + job.value("error", nlohmann::json()).dump();
+    }
+    return "";
+  }
+
+  jobs::Service service_;
+  std::vector<std::string> ids_;
+};
+
+std::vector<ComputedChapter> compute_study_chapters(const ValidateOptions& options) {
+  const EndSignals signals;  // before the pool's threads, which are to leave them alone
+  const TemporaryFolder temporary;
+  StudyRun run(options.store.empty() ? temporary.path() / "study.db" : std::filesystem::path(options.store), options.threads);
+  const auto study = jobs::validation::make_study(run.wait(signals), run.trajectory_reader());
   auto chapters = jobs::validation::study_chapters(study);
   for (const ComputedChapter& chapter : chapters)
     for (const Findings& findings : chapter.findings) print(findings);
@@ -121,20 +188,20 @@ std::vector<ComputedChapter> compute_study_chapters(const ValidateOptions& optio
 }
 
 std::vector<ComputedChapter> compute_all(const ValidateOptions& options) {
-  const EndSignals signals;
-  std::vector<ComputedChapter> chapters = compute_engine_chapters(options, signals);
-  if (options.quick) return chapters;
-  const TemporaryFolder temporary;
-  const std::filesystem::path store = options.store.empty() ? temporary.path() / "study.db" : std::filesystem::path(options.store);
-  for (ComputedChapter& chapter : compute_study_chapters(options, store, signals)) chapters.push_back(std::move(chapter));
+  if (options.quick) return compute_engine_chapters(options);
+  // First what can be refused: a store in use, say.
+  std::vector<ComputedChapter> study = compute_study_chapters(options);
+  std::vector<ComputedChapter> chapters = compute_engine_chapters(options);
+  std::move(study.begin(), study.end(), std::back_inserter(chapters));
   return chapters;
 }
 
 void write_files(const std::string& report, const std::vector<ReportLine>& lines, const std::vector<ComputedChapter>& chapters) {
   const auto before = std::filesystem::exists(report) ? read_lines(report) : std::vector<std::string>{};
-  write_text(report, engine::validation::to_text(lines, engine::validation::take_faults(before).faults));
+  // The old report stays whole until the new one is.
+  write_text(report + ".tmp", engine::validation::to_text(lines, engine::validation::take_faults(before).faults));
+  std::filesystem::rename(report + ".tmp", report);
   const auto folder = std::filesystem::absolute(report).parent_path() / kFigureFolder;
-  std::filesystem::create_directories(folder);
   for (const ComputedChapter& chapter : chapters)
     for (const Findings& findings : chapter.findings)
       for (const engine::validation::Figure& figure : findings.figures) write_text((folder / figure.file).string(), figure.svg);
@@ -158,6 +225,9 @@ int validate(const ValidateOptions& options) {
   } catch (const Interrupted&) {
     std::cerr << "rpsup: interrupted\n";
     return kInterrupted;
+  } catch (const StudyFailed& error) {
+    std::cerr << "rpsup: " << error.what() << '\n';
+    return kJobFailed;
   }
   const auto lines = engine::validation::write_report(chapters, kFigureFolder);
   if (!options.report.empty()) write_files(options.report, lines, chapters);

@@ -1,10 +1,9 @@
-// The normal law's limits, its latch and LuGre friction. Rebounds, depths and times of whole impacts: engine/validation/contact.
+// The normal law's limits and its latch. Rebounds, depths and times of whole impacts: engine/validation/contact; friction: engine/validation/friction.
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "engine/clearance/friction.h"
 #include "engine/clearance/normal_force.h"
 
 namespace engine {
@@ -37,35 +36,6 @@ TEST(OnsetLatch, HasAFloor) {
   OnsetLatch latch;
   EXPECT_TRUE(latch.advance({-1e-12, 1e-6}, {1e-12, 1e-6}, 2e-6, 1e-3));
   EXPECT_DOUBLE_EQ(latch.onset_rate(0.0, 1e-3), 1e-3);
-}
-
-TEST(LuGre, SlidesWithStribecksCoefficient) {
-  const LuGreParameters p{.mu_s = 0.1, .mu_k = 0.2, .sigma_0 = 100.0, .sigma_1 = 5.0, .sigma_2 = 0.3, .v_s = 1e-3};
-  for (const double speed : {1e-4, 1e-3, 2e-3, 0.5}) {
-    const Eigen::Vector2d v(0.6 * speed, -0.8 * speed);
-    const double g = 0.2 - 0.1 * std::exp(-speed * speed / 1e-6);
-    const BristleForce steady = calc_bristle_force(p, v, g / 100.0 * v / speed);
-    EXPECT_LT(steady.bristle_rate.norm(), 1e-15 + 1e-14 * speed);
-    EXPECT_NEAR(steady.force_ratio.norm(), g + 0.3 * speed, 1e-12);
-    EXPECT_GT(steady.force_ratio.dot(v), 0.0);
-  }
-}
-
-TEST(LuGre, ABristleAtRestIsASpring) {
-  const LuGreParameters p{};
-  const BristleForce f = calc_bristle_force(p, {0.0, 0.0}, {1e-4, -2e-4});
-  EXPECT_NEAR(f.force_ratio.x(), 0.01, 1e-16);
-  EXPECT_NEAR(f.force_ratio.y(), -0.02, 1e-16);
-  EXPECT_EQ(f.bristle_rate.norm(), 0.0);
-}
-
-TEST(LuGre, LimitsTheBristleToTheStribeckForce) {
-  const LuGreParameters p{};
-  Eigen::Vector2d z(0.0, 0.0);
-  const Eigen::Vector2d v(0.02, 0.0);
-  for (int step = 0; step < 200'000; ++step) z += 1e-5 * calc_bristle_force(p, v, z).bristle_rate;
-  // zd = v (1 - z sigma_0 / g): after 2 s, 20 time constants of g / (sigma_0 v) = 0.1 s, the bristle is at g / sigma_0.
-  EXPECT_NEAR(z.x(), 0.2 / 100.0, 1e-9);
 }
 
 TEST(PenetrationCubic, FindsRootAndTurn) {

@@ -17,7 +17,7 @@ namespace {
 Check some_check(double found) { return compare("frequency of |x|", "closed form", found, 81.4994, 1e-3, "Hz", "four digits were published"); }
 
 std::vector<ComputedChapter> chapters_of(const Check& check) {
-  Table table{.caption = "A table", .head = {"n", "error"}, .rows = {{"4", "0.25"}}, .reproducible_to = 1e-3};
+  Table table{.caption = "A table", .head = {"n", "error"}, .rows = {{"4", "0.25"}}};
   return {{{.title = "Waves", .text = "Two lines\nof text", .parts = {}}, {{.checks = {check}, .tables = {table}, .figures = {}}}}};
 }
 
@@ -54,6 +54,27 @@ TEST(Report, AllowsANumberToMoveByItsBoundAndNoMore) {
   const auto lines = write_report(chapters_of(some_check(81.5003)), "figures");
   EXPECT_TRUE(find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4995)), "figures"))).empty());
   EXPECT_EQ(find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4985)), "figures"))).size(), 1u);
+}
+
+TEST(Report, FindsALoosenedBoundAndAnotherNumberInTheWords) {
+  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
+  Check loosened = some_check(81.4998);
+  loosened.bound = 1e-2;
+  EXPECT_FALSE(find_differences(lines, texts_of(write_report(chapters_of(loosened), "figures"))).empty());
+  Check reworded = some_check(81.4998);
+  reworded.why = "five digits, 1.0001, were published";
+  const auto with_number = write_report(chapters_of(reworded), "figures");
+  reworded.why = "five digits, 1.0002, were published";
+  EXPECT_EQ(find_differences(with_number, texts_of(write_report(chapters_of(reworded), "figures"))).size(), 1u);
+}
+
+TEST(Report, ComparesResidualsByAFactorAndNotAtAllBelowRounding) {
+  const Tolerance residual{.factor = 10.0, .floor = 1e-6};
+  EXPECT_TRUE(residual.allows(3e-4, 2e-3));
+  EXPECT_FALSE(residual.allows(3e-4, 4e-3));
+  EXPECT_FALSE(residual.allows(3e-4, -3e-4));
+  EXPECT_TRUE(residual.allows(0.0, -3e-13));
+  EXPECT_FALSE(residual.allows(10.307, 1030.7));
 }
 
 TEST(Report, FindsAnotherWordAnotherTableAndAMissingLine) {

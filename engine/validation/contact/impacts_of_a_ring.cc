@@ -1,4 +1,4 @@
-// What a ring of elements does otherwise than the closed form: in a single impact, in steady sliding, in whole runs.
+// What a ring of elements does otherwise than the closed form in a single impact.
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/dynamics/motion_system.h"
-#include "engine/integrate/integration.h"
 #include "engine/validation/contact/parts.h"
 #include "engine/validation/contact/sliding_mass.h"
 #include "engine/validation/support/runs.h"
@@ -98,7 +96,7 @@ Findings compute_impacts_of_a_ring() {
   findings.tables.push_back(std::move(table));
   for (const double k_r : {0.9, 0.3})
     findings.checks.push_back(compare("rebound ratio of a ring of 1440 elements, k_r = " + number(k_r) + ", as the depth goes to zero",
-                                      "a shallow arc of elements without number, each with its own onset rate, by other steps",
+                                      "a shallow arc of infinitely many elements, each with its own onset rate, by other steps",
                                       shallow_ring_rebound(k_r), ring_rebound(0.75 * (1.0 - k_r * k_r)), 3e-6, "1",
                                       "second order in the depth, and 1440 elements: 1e-6 each"));
   return findings;

@@ -10,6 +10,7 @@
 #include "engine/validation/chart.h"
 #include "engine/validation/contact/parts.h"
 #include "engine/validation/contact/sliding_mass.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -83,12 +84,12 @@ double bernoulli_2(double x) {
 /// The largest that the same gives for the directions looked at.
 double estimate_error(const Arc& arc, int n_ce) {
   const double end = arc.half_angle() * n_ce / (2.0 * std::numbers::pi);
-  double largest = 0.0;
+  Largest largest;
   for (int k = 0; k < kDirections; ++k) {
     const double direction = static_cast<double>(k) / kDirections;
-    largest = std::max(largest, std::abs(bernoulli_2(end - direction) + bernoulli_2(end + direction)));
+    largest.take(bernoulli_2(end - direction) + bernoulli_2(end + direction));
   }
-  return 3.0 * largest * error_bound(arc, n_ce);
+  return 3.0 * largest.value() * error_bound(arc, n_ce);
 }
 
 /// Force of the engine's ring against the offset.
@@ -111,17 +112,23 @@ double ring_force(const Arc& arc, int n_ce, double direction) {
 
 /// The ring's force over Hertz's, for directions between two elements.
 struct Ratios {
-  double least = 1e300, most = 0.0, mean = 0.0;
+  std::vector<double> of{};
+  double mean = 0.0;
 
-  [[nodiscard]] double largest_error(double limit) const { return std::max(most / limit - 1.0, 1.0 - least / limit); }
+  [[nodiscard]] double least() const { return *std::min_element(of.begin(), of.end()); }
+  [[nodiscard]] double most() const { return *std::max_element(of.begin(), of.end()); }
+  [[nodiscard]] double largest_error(double limit) const {
+    Largest error;
+    for (const double ratio : of) error.take(ratio / limit - 1.0);
+    return error.value();
+  }
 };
 Ratios sample_directions(const Arc& arc, int n_ce) {
   const double hertz = arc.joint.K * std::pow(arc.depth, 1.5);
   Ratios ratios;
   for (int k = 0; k < kDirections; ++k) {
     const double ratio = ring_force(arc, n_ce, 2.0 * std::numbers::pi / n_ce * k / kDirections) / hertz;
-    ratios.least = std::min(ratios.least, ratio);
-    ratios.most = std::max(ratios.most, ratio);
+    ratios.of.push_back(ratio);
     ratios.mean += ratio / kDirections;
   }
   return ratios;
@@ -152,19 +159,19 @@ void add_depth(const Arc& arc, const char* colour, Findings& findings, Table& ta
   const std::string at = ", " + number(1e6 * arc.depth) + " um deep";
   const double limit_ratio = integrate_ring(arc) / (arc.joint.K * std::pow(arc.depth, 1.5));
   Series line{.label = number(1e6 * arc.depth) + " um", .x = {}, .y = {}, .colour = colour, .markers = true};
-  double over_bound = 0.0;
+  Largest over_bound;
   for (const int n_ce : kNumbers) {
     const Ratios ratios = sample_directions(arc, n_ce);
     const double error = ratios.largest_error(limit_ratio);
     line.x.push_back(n_ce);
     line.y.push_back(error);
-    over_bound = std::max(over_bound, error / error_bound(arc, n_ce));
-    table.rows.push_back({number(1e6 * arc.depth), std::to_string(n_ce), elements_in(arc, n_ce), number(ratios.least, 5), number(ratios.most, 5),
+    over_bound.take(error / error_bound(arc, n_ce));
+    table.rows.push_back({number(1e6 * arc.depth), std::to_string(n_ce), elements_in(arc, n_ce), number(ratios.least(), 5), number(ratios.most(), 5),
                           number(ratios.mean, 5), number(100.0 * error, 3), number(100.0 * estimate_error(arc, n_ce), 3)});
   }
   findings.checks.push_back(limit("largest error of rings of 36 to 720 elements, over its bound" + at,
-                                  "sum for an integral with two kinks: h^2 a / (8 delta), h = 2 pi / n_ce, a = e r_j / (e + r_j)", over_bound, 1.0,
-                                  "1", "the bound is that of the leading term, h^2"));
+                                  "sum for an integral with two kinks: h^2 a / (8 delta), h = 2 pi / n_ce, a = e r_j / (e + r_j)", over_bound.value(),
+                                  1.0, "1", "the bound is that of the leading term, h^2"));
   findings.checks.push_back(compare("largest error of 720 elements, over its estimate" + at,
                                     "h^2 a / (8 delta) times the largest 3 (B_2 + B_2) of the arc's two ends between elements",
                                     line.y.back() / estimate_error(arc, kNumbers[std::size(kNumbers) - 1]), 1.0, 0.05, "1",
@@ -192,8 +199,8 @@ Findings compute_ring_of_elements() {
       .caption =
           "Force of the engine's ring of elements over Hertz's K delta^1.5 (two levels, c_r = 0.25 mm, r_b = 5 mm) for 64 directions between two "
           "elements. The error is against the integral over the ring, n_ce to infinity. It falls like n_ce^-2, and from one n_ce "
-          "to the next by more or less, as the ends of the arc lie between elements; where no element or a single one is in the arc, it is no error of "
-          "a sum any more.",
+          "to the next by more or less, as the ends of the arc lie between elements; where no element or a single one is in the arc, it is no "
+          "error of a sum any more.",
       .head = {"depth [um]", "n_ce", "elements that touch", "least", "most", "mean", "largest error [%]", "its estimate [%]"},
       .rows = {}};
   Chart chart{.title = "Ring of elements: error of the force",
@@ -208,8 +215,9 @@ Findings compute_ring_of_elements() {
   chart.series.push_back(std::move(slope));
 
   Table limits{.caption =
-                   "What is left with infinitely many elements: the integral over the ring, over Hertz's force. The paper's element stiffness is "
-                   "derived for a shallow arc of the bore's own curvature, so the ratio tends to sqrt(r_b / r_j) = 1.0260, and falls with the depth.",
+                   "What is left with infinitely many elements: the integral over the ring, over Hertz's force. The paper's element stiffness "
+                   "is derived for a shallow arc of the bore's own curvature, so the ratio tends to sqrt(r_b / r_j) = 1.0260, and falls with the "
+                   "depth.",
                .head = {"depth [um]", "integral", "expansion in delta / c_r and c_r / r_j", "half of the arc [degrees]"},
                .rows = {}};
   for (const double depth : {0.01e-6, 0.5e-6, 1e-6, 5e-6, 20e-6}) {

@@ -7,13 +7,14 @@
 
 #include "engine/dynamics/motion_system.h"
 #include "engine/integrate/integration.h"
+#include "engine/validation/support/quiet_observer.h"
 
 namespace engine::validation {
 
 namespace {
 
 /// Watches one impact.
-class ImpactObserver : public Observer {
+class ImpactObserver : public QuietObserver {
  public:
   explicit ImpactObserver(double c_r) : c_r_(c_r) {}
 
@@ -32,9 +33,6 @@ class ImpactObserver : public Observer {
     impact.speed = -end.qd[0];
     impact.loss = end.energy.impact_loss;
   }
-  void on_sample(const Evaluation&) override {}
-  void on_onsets(int) override {}
-  bool stop_requested(double) override { return false; }
 
   Impact impact;
   bool parted = false;

@@ -13,6 +13,7 @@
 #include "engine/integrate/integration.h"
 #include "engine/validation/contact/parts.h"
 #include "engine/validation/contact/sliding_mass.h"
+#include "engine/validation/support/quiet_observer.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -26,12 +27,9 @@ constexpr int kElements = 720;
 constexpr double kPitch = 2.0 * std::numbers::pi / kElements;
 
 /// Takes the drive's work at each sample.
-class WorkObserver : public Observer {
+class WorkObserver : public QuietObserver {
  public:
-  void on_step(const Evaluation&, const Evaluation&) override {}
   void on_sample(const Evaluation& at) override { work.push_back(at.energy.drive_work[0]); }
-  void on_onsets(int) override {}
-  bool stop_requested(double) override { return false; }
   std::vector<double> work;
 };
 
@@ -63,7 +61,7 @@ double simulate_torque(RadialForm form, double sigma_0) {
   return (observer.work[to] - observer.work[from]) / (static_cast<double>(to - from) * kPitch);
 }
 
-/// Torque of a ring of elements without number. One that has slid by s since it came into contact has the bristle
+/// Torque of a ring of infinitely many elements. One that has slid by s since it came into contact has the bristle
 /// z = g / sigma_0 (1 - exp(-sigma_0 s / g)), so the friction ratio g + (sigma_1 v - g) exp(-sigma_0 s / g).
 double integrate_torque(double sigma_0) {
   const ClearanceParameters joint = one_ring();
@@ -94,7 +92,7 @@ Findings compute_turning_journal() {
           "Mean torque of a journal that turns at 4 rad/s, pressed 4 um into the bore, c_r = 0.25 mm, over that of Coulomb's friction with mu_k = "
           "0.2. A ring of the closed form keeps its bristle; an element's begins anew each time it comes into contact, and has left "
           "the contact before it is bent. Where bristles bend fast (sigma_0 = 10,000 1/m) there is no difference but the ring's normal force.",
-      .head = {"sigma_0 [1/m]", "continuum", "720 elements", "elements without number"},
+      .head = {"sigma_0 [1/m]", "continuum", "720 elements", "infinitely many elements"},
       .rows = {}};
   const ClearanceParameters joint = one_ring();
   const double coulomb = kMuK * joint.K * std::pow(kDepth, 1.5) * joint.r_j();

@@ -67,8 +67,8 @@ Check compare_friction(double v) {
   const double passed = 1.0 - std::exp(-3.0);
   const double expected = v * (g * (duration - tau * passed) + law.sigma_1 * v * tau * passed + law.sigma_2 * v * duration);
   return compare("friction loss of a journal pulled along its axis at " + number(v) + " m/s under 1 N, for three of the bristle's time constants",
-                 "closed form: integral of F v, F = g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g)", last.energy.friction_loss, expected,
-                 1e-9 * expected, "J", "tolerance of the integration, 1e-10");
+                 "closed form: integral of F v, F = g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g)", last.energy.friction_loss,
+                 expected, 1e-9 * expected, "J", "tolerance of the integration, 1e-10");
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ Findings compute_whole_account() {
   losses.series.push_back({.label = "friction", .x = record.t, .y = in_millijoule(record.friction), .colour = kBlue});
   losses.series.push_back({.label = "structure", .x = record.t, .y = in_millijoule(record.structural), .colour = kGreen});
   findings.tables.push_back(std::move(table));
-  findings.figures.push_back({"energy_account.svg", "The account of one run: flexible, 0.25 mm, 10 rad/s. The losses are what work and energy differ by.",
+  findings.figures.push_back({"energy_account.svg",
+                              "The account of one run: flexible, 0.25 mm, 10 rad/s. The losses are what work and energy differ by.",
                               draw({energies, losses}, 2)});
   return findings;
 }

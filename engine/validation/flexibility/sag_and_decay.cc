@@ -108,9 +108,9 @@ Findings compute_sag_and_decay() {
   const double undivided = euler_bernoulli_frequency(rod, kBendingModes[0]);
   Table table{
       .caption =
-          "The coupler in the linkage, from straight, swings about its sag in its pinned-pinned mode; frequency and damping ratio from the turning points of its "
-          "deflection. Damping is set for the undivided rod's frequency, so its ratio is zeta omega / omega_1. The swing of 0.16 mm at 9.81 m/s^2 is not "
-          "quite linear: under a tenth of gravity the damping ratio's difference is a hundredth.",
+          "The coupler in the linkage, from straight, swings about its sag in its pinned-pinned mode; frequency and damping ratio from the "
+          "turning points of its deflection. Damping is set for the undivided rod's frequency, so its ratio is zeta omega / omega_1. The swing of "
+          "0.16 mm at 9.81 m/s^2 is not quite linear: under a tenth of gravity the damping ratio's difference is a hundredth.",
       .head = {"zeta asked for", "gravity [m/s^2]", "frequency found [Hz]", "expected", "zeta found", "expected"},
       .rows = {}};
   struct Case {
@@ -124,8 +124,9 @@ Findings compute_sag_and_decay() {
     const double expected_ratio = zeta * divided / undivided;
     const double expected_frequency = divided * std::sqrt(1.0 - expected_ratio * expected_ratio);
     const std::string at = ", zeta = " + number(zeta) + ", gravity " + number(gravity) + " m/s^2";
-    const std::string why = gravity > 1.0 ? "the swing is not quite linear: the difference goes with its square, see the next lines"
-                                          : "what is left of it in a swing of 0.016 mm, and turning points from samples 0.05 ms apart";
+    const std::string why = gravity > 1.0
+                                ? "the swing of 0.16 mm is not quite linear: the difference goes with its square, 1/100 under a tenth of gravity"
+                                : "what its square leaves in a swing of 0.016 mm, and turning points from samples 0.05 ms apart";
     findings.checks.push_back(compare("frequency of the coupler swinging in the linkage" + at,
                                       "eigenvalue of three segments (bars), times sqrt(1 - zeta^2)", found.frequency, expected_frequency,
                                       0.1 * bound * expected_frequency, "Hz", why));

@@ -1,13 +1,13 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
+#include <string>
+#include <vector>
 
 #include "engine/dynamics/motion_system.h"
 #include "engine/dynamics/tree_dynamics.h"
 #include "engine/model/rpsup.h"
 #include "engine/validation/formulation/parts.h"
 #include "engine/validation/support/differences.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -113,7 +113,7 @@ Mechanism without_springs(Mechanism chains) {
 
 /// M, h, g and the whole of Lagrange's equations: differences relative to the largest entry.
 struct Differences {
-  double mass = 0.0, coriolis = 0.0, gravity = 0.0, motion = 0.0;
+  Largest mass, coriolis, gravity, motion;
 };
 
 Differences compare_slopes(const RpsupParameters& parameters) {
@@ -128,7 +128,6 @@ Differences compare_slopes(const RpsupParameters& parameters) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(frames.size()));
   Random random(23);
   Differences worst;
-  const auto take = [](double& most, double difference) { most = difference <= most ? most : difference; };
   for (int k = 0; k < kStates; ++k) {
     const ChainState state = draw_state(chains, random);
     const Eigen::MatrixXd M = calc_mass_matrix(scalars, state.q);
@@ -137,19 +136,19 @@ Differences compare_slopes(const RpsupParameters& parameters) {
 
     calc_frame_motions(weightless, state.q, state.qd, zero, frames);
     weightless_tree.calc(frames);
-    take(worst.coriolis, relative_difference(weightless_tree.bias(), h));
+    worst.coriolis.take(relative_difference(weightless_tree.bias(), h));
     calc_frame_motions(chains, state.q, zero, zero, frames);
     tree.calc(frames);
-    take(worst.gravity, relative_difference(tree.bias(), g));
+    worst.gravity.take(relative_difference(tree.bias(), g));
     const Eigen::MatrixXd lower = tree.M().triangularView<Eigen::Lower>();
     const Eigen::MatrixXd lower_M = M.triangularView<Eigen::Lower>();
-    take(worst.mass, relative_difference(lower, lower_M));
+    worst.mass.take(relative_difference(lower, lower_M));
 
     const Eigen::VectorXd& qdd = scalars.accelerations(state.q, state.qd);
     const double largest_term = (M.cwiseAbs() * qdd.cwiseAbs()).maxCoeff();
     const Eigen::VectorXd inertia = M * qdd;
     const Eigen::VectorXd residual = inertia + h + calc_potential_slope(scalars, state.q) + calc_dissipation_slope(scalars, state);
-    take(worst.motion, residual.cwiseAbs().maxCoeff() / largest_term);
+    worst.motion.take(residual.allFinite() ? residual.cwiseAbs().maxCoeff() / largest_term : std::nan(""));
   }
   return worst;
 }
@@ -165,16 +164,17 @@ Findings compute_energy_differences() {
     const auto add = [&](const std::string& what, const std::string& reference, double difference, double bound, const std::string& why) {
       findings.checks.push_back(limit(what + at, reference, difference, bound, "1", why));
     };
-    add("mass matrix M", "second derivatives of the engine's kinetic energy T by the rates (exact, for T is quadratic in them)", worst.mass, 1e-13,
-        "rounding of T, relative to the largest entry of M");
-    add("Coriolis and centrifugal terms h", "d/dt dT/dqd - dT/dq of the engine's kinetic energy T" + central, worst.coriolis, 1e-10,
+    add("mass matrix M", "second derivatives of the engine's kinetic energy T by the rates (exact, for T is quadratic in them)",
+        worst.mass.value(), 1e-13, "rounding of T, relative to the largest entry of M");
+    add("Coriolis and centrifugal terms h", "d/dt dT/dqd - dT/dq of the engine's kinetic energy T" + central, worst.coriolis.value(), 1e-10,
         "T rounds at 2e-16; over the step and times the sum of the rates (up to 200 rad/s) that is near 1e-11 of h. Truncation, with no frequency "
         "above 2: (2 x 0.03)^8 2 / 630 = 5e-13 of the momenta, times the same sum");
-    add("gravity terms g", "dV/dq of the engine's potential energy V without springs" + central, worst.gravity, 1e-12,
+    add("gravity terms g", "dV/dq of the engine's potential energy V without springs" + central, worst.gravity.value(), 1e-12,
         "V rounds at 2e-16, over the step 2e-14; truncation 0.03^8 / 630 = 1e-15");
     add("accelerations of the free chains, M qdd + h + g + s_f = 0",
-        "Lagrange's equations with the engine's T, V and half of its lost power R" + central, worst.motion, 1e-11,
-        "as for h, but relative to the largest row of |M| |qdd|");
+        "Lagrange's equations with the engine's T, V and half of its lost power R" + central, worst.motion.value(), 1e-11,
+        "rounding of T over the step and times the sum of the rates, and truncation of the same size, relative to the largest row "
+        "of |M| |qdd|");
   }
   return findings;
 }

@@ -30,11 +30,14 @@ struct ChainState {
 /// The mechanism's open chains: no cut joints, no drives.
 [[nodiscard]] Mechanism open_chains(Mechanism mechanism);
 
-/// Largest difference relative to the largest magnitude expected.
+/// Largest difference relative to the largest magnitude expected. NaN where any entry is not finite.
 [[nodiscard]] double relative_difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected);
 
+/// M, h, g, energies, s_f and accelerations of the engine equal those of 4x4 matrices and traces.
 [[nodiscard]] Findings compute_trace_form();
+/// Slopes of the engine's own energies give the same terms, as Lagrange's equations demand.
 [[nodiscard]] Findings compute_energy_differences();
+/// Contact forces, and the multipliers of an ideal joint, enter the equations of motion by the work of their points.
 [[nodiscard]] Findings compute_virtual_work();
 
 }  // namespace engine::validation

@@ -1,16 +1,18 @@
 #include "engine/validation/reference/trace_form.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/dynamics/motion_system.h"
 #include "engine/dynamics/tree_dynamics.h"
 #include "engine/model/rpsup.h"
 #include "engine/validation/formulation/parts.h"
 #include "engine/validation/reference/paper_linkage.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -46,7 +48,6 @@ constexpr std::array<Quantity, kQuantities> kCompared{{
     {"power lost in the dampers", "2 R", "twice R of Eq. (8.2)", kRounding},
 }};
 constexpr std::size_t kOfRigid = kSprings;  // the quantities from here on belong to a flexible coupler
-using Differences = std::array<double, kQuantities>;
 
 /// The engine's recursions at one state after the other.
 class Engine {
@@ -105,11 +106,9 @@ Mechanism with_heavy_bodies(Mechanism chains) {
   return chains;
 }
 
-/// Largest differences over many states. Not-a-number stays.
+/// Largest differences over many states.
 class Worst {
  public:
-  Worst() { largest_.fill(0.0); }
-
   /// Vectors and matrices count relative to their largest entry at the state.
   void take(Index quantity, const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
     take_difference(quantity, relative_difference(found, expected), 1.0);
@@ -117,14 +116,13 @@ class Worst {
   /// Scalars count relative to the largest that any state has.
   void take(Index quantity, double found, double expected) { take_difference(quantity, std::abs(found - expected), std::abs(expected)); }
   void take_difference(Index quantity, double difference, double scale) {
-    differences_[quantity] = difference <= differences_[quantity] ? differences_[quantity] : difference;
-    largest_[quantity] = std::max(largest_[quantity], scale);
+    differences_[quantity].take(difference);
+    largest_[quantity].take(scale);
   }
-  [[nodiscard]] double relative(std::size_t quantity) const { return differences_[quantity] / largest_[quantity]; }
+  [[nodiscard]] double relative(std::size_t quantity) const { return differences_[quantity].value() / largest_[quantity].value(); }
 
  private:
-  Differences differences_{};
-  Differences largest_;
+  std::array<Largest, kQuantities> differences_, largest_;
 };
 
 /// M, h, g, energies and accelerations of the chains at the same states in both forms.
@@ -144,7 +142,7 @@ void compare_chains(const RpsupParameters& parameters, Worst& worst) {
     const Evaluation& at = engine.evaluate(state);
     const Eigen::VectorXd residual = paper.M * at.qdd + paper.h + paper.g + elastic.s_f;
     const Eigen::VectorXd terms = paper.M.cwiseAbs() * at.qdd.cwiseAbs();
-    worst.take_difference(kMotion, residual.cwiseAbs().maxCoeff() / terms.maxCoeff(), 1.0);
+    worst.take_difference(kMotion, residual.allFinite() ? residual.cwiseAbs().maxCoeff() / terms.maxCoeff() : std::nan(""), 1.0);
     worst.take(kKinetic, at.energy.kinetic, paper.kinetic_energy);
     worst.take(kPotential, at.energy.potential, paper.potential_energy + elastic.energy);
     worst.take(kDissipation, engine.structural_power(), 2.0 * elastic.rayleigh);

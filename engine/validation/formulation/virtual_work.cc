@@ -1,8 +1,10 @@
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "engine/dynamics/loop_closure.h"
 #include "engine/dynamics/motion_system.h"
@@ -12,6 +14,7 @@
 #include "engine/validation/reference/paper_linkage.h"
 #include "engine/validation/reference/trace_form.h"
 #include "engine/validation/support/differences.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -25,6 +28,7 @@ using Eigen::VectorXd;
 
 constexpr int kStates = 10;
 constexpr double kStep = 0.03;  // [rad] and [m], of the differences
+constexpr double kMultiplierBound = 1e-11;  // that of the trace form's terms
 
 /// Poses of bearing and journal in the paper's chains, with their derivatives by the coordinates.
 class JointPoses {
@@ -106,8 +110,52 @@ VectorXd calc_virtual_work(const JointPoses& poses, const Evaluation& at) {
   return work;
 }
 
+/// Phi_q of the ideal joint, 5 rows: p_j - p_b, z_b . x_j, z_b . y_j, by the trace form's derivatives.
+Eigen::MatrixXd calc_joint_slopes(const JointPoses& poses, const VectorXd& q) {
+  const FrameTransforms b = poses.bearing(q);
+  const FrameTransforms j = poses.journal(q);
+  Eigen::MatrixXd slopes(5, q.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    slopes.col(i).head<3>() = (j.T_i[k] - b.T_i[k]).topRightCorner<3, 1>();
+    for (const int axis : {0, 1}) slopes(3 + axis, i) = b.T_i[k].col(2).dot(j.T.col(axis)) + b.T.col(2).dot(j.T_i[k].col(axis));
+  }
+  return slopes;
+}
+
+/// Of an ideal joint, near its assembled state.
+struct MultiplierDifferences {
+  Largest terms;      ///< of M qdd + h + g + s_f - drives from any Phi_q^T lambda, relative
+  Largest reaction;   ///< of the engine's reaction from lambda's force, relative
+};
+
+MultiplierDifferences compare_multipliers(RpsupParameters parameters) {
+  parameters.c_r = 0.0;
+  const Mechanism mechanism = build_rpsup(parameters).mechanism;
+  const JointPoses poses(parameters);
+  MotionSystem system(mechanism);
+  Evaluation assembled = system.make_evaluation();
+  if (!LoopClosure(mechanism).assemble(0.0, assembled)) throw std::runtime_error("the ideal linkage of the virtual-work part cannot be assembled");
+  Evaluation at = system.make_evaluation();
+  Random random(13);
+  MultiplierDifferences worst;
+  for (int k = 0; k < kStates; ++k) {
+    const VectorXd q = assembled.q + random.symmetric_vector(assembled.q.size(), 1e-3);
+    const VectorXd y = system.make_state(q, random.symmetric_vector(q.size(), 1.0));
+    VectorXd rates = VectorXd::Zero(y.size());
+    if (system.calc_derivative(0.01, y, rates, at) != EvaluationStatus::kOk)
+      throw std::runtime_error("a state of an ideal joint cannot be evaluated");
+    const VectorXd needed = calc_needed_contact_forces(parameters, poses.chains(), mechanism, at);
+    const Eigen::MatrixXd slopes_t = calc_joint_slopes(poses, at.q).transpose();
+    const VectorXd lambda = slopes_t.colPivHouseholderQr().solve(needed);
+    worst.terms.take(relative_difference(needed, slopes_t * lambda));
+    worst.reaction.take(relative_difference(at.joints[0].reaction_W, lambda.head<3>()));
+  }
+  return worst;
+}
+
 struct Differences {
-  double virtual_work = 0.0, paper = 0.0;
+  Largest virtual_work, paper;
 };
 
 Differences compare_contact_forces(const RpsupParameters& parameters) {
@@ -117,15 +165,14 @@ Differences compare_contact_forces(const RpsupParameters& parameters) {
   Evaluation at = system.make_evaluation();
   Random random(11);
   Differences worst;
-  const auto take = [](double& most, double difference) { most = difference <= most ? most : difference; };
   for (int k = 0; k < kStates; ++k) {
     const VectorXd y = draw_touching_state(mechanism, system, random);
     VectorXd rates = VectorXd::Zero(y.size());
     if (system.calc_derivative(0.01, y, rates, at) != EvaluationStatus::kOk) throw std::runtime_error("a touching state cannot be evaluated");
     if (!(at.joints[0].load.radial_normal_sum > 100.0)) throw std::runtime_error("a touching state does not touch");
     const VectorXd needed = calc_needed_contact_forces(parameters, poses.chains(), mechanism, at);
-    take(worst.virtual_work, relative_difference(needed, calc_virtual_work(poses, at)));
-    take(worst.paper, relative_difference(needed, calc_paper_contact_forces(parameters, poses, at)));
+    worst.virtual_work.take(relative_difference(needed, calc_virtual_work(poses, at)));
+    worst.paper.take(relative_difference(needed, calc_paper_contact_forces(parameters, poses, at)));
   }
   return worst;
 }
@@ -135,20 +182,36 @@ Differences compare_contact_forces(const RpsupParameters& parameters) {
 Findings compute_virtual_work() {
   Findings findings;
   for (CouplerCase c : coupler_cases()) {
+    std::string faces;
+    if (c.parameters.coupler == Coupler::kFlexible && c.parameters.rigid_elements == 4) {
+      c.parameters.axial_levels = 2;
+      c.parameters.axial_elements = 5;
+      faces = ", faces with 2 circles of 5 points";
+    }
     for (const DriveEnforcement drive : {DriveEnforcement::kPrescribed, DriveEnforcement::kBaumgarte}) {
       c.parameters.drive = drive;
       const Differences worst = compare_contact_forces(c.parameters);
-      const std::string at = std::string(", ") + c.name + (drive == DriveEnforcement::kPrescribed ? ", drives prescribed" : ", drives by multipliers") +
-                             ", 10 states in contact";
+      const std::string of = ", " + c.name + (drive == DriveEnforcement::kPrescribed ? ", drives prescribed" : ", drives by multipliers");
+      const std::string at = of + faces + ", 10 states in contact";
       findings.checks.push_back(limit("c = M qdd + h + g + s_f less drive torque and force" + at,
                                       "virtual work of the contact force and moment at each coordinate, central differences of order 8 over " +
                                           number(kStep) + " rad or m of the trace form's poses",
-                                      worst.virtual_work, 1e-11, "1", "relative to the largest entry of c; poses round at 2e-16, over the step 2e-14"));
+                                      worst.virtual_work.value(), 1e-11, "1", 
+                                      "relative to the largest entry of c; poses round at 2e-16, over the step 2e-14"));
       findings.checks.push_back(limit("c = M qdd + h + g + s_f less drive torque and force, with the contacts found anew" + at,
                                       "Eq. (12) with the forces of Eqs. (10), (11), some hundred N and more, and the "
                                       "trace form's derivatives of the contact points",
-                                      worst.paper, 1e-10, "1",
-                                      "relative to the largest entry of c; positions near 1 m round at 2e-16 m, and penetrations of 1e-5 m with them"));
+                                      worst.paper.value(), 1e-10, "1",
+                                      "relative to the largest entry of c; positions near 1 m round at 2e-16 m, and penetrations of 1e-5 m "
+                                      "with them"));
+      const MultiplierDifferences ideal = compare_multipliers(c.parameters);
+      const std::string at_ideal = of + ", ideal joint, 10 states near the assembled one";
+      findings.checks.push_back(limit("M qdd + h + g + s_f less drive torque and force" + at_ideal,
+                                      "Phi_q^T lambda with the trace form's slopes Phi_q of the joint's five rows and the lambda nearest to it",
+                                      ideal.terms.value(), kMultiplierBound, "1",
+                                      "relative to the largest entry: rounding, and a system of the joint's and drives' multipliers"));
+      findings.checks.push_back(limit("reaction of the joint" + at_ideal, "the same lambda's force", ideal.reaction.value(), kMultiplierBound, "1",
+                                      "relative to its largest component: rounding, and a system of the joint's and drives' multipliers"));
     }
   }
   return findings;

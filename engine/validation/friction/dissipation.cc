@@ -62,7 +62,7 @@ Findings compute_dissipation() {
   findings.checks.push_back(compare("largest sliding speed at which no bristle, however bent, gives energy back: defaults", closed,
                                     find_limit({}), 4.0 * 0.2 / 5.0, 1e-12, "m/s", why));
   const double sigma_1 = std::sqrt(1e5);
-  findings.checks.push_back(compare("the same with the values of the article", closed, find_limit(published_law()),
+  findings.checks.push_back(compare("largest sliding speed at which no bristle, however bent, gives energy back: values of the article", closed, find_limit(published_law()),
                                     4.0 * (sigma_1 + 0.4) / 1e5, 1e-12, "m/s", why));
   for (const double parts : {1.0 - 1e-6, 1.0 + 1e-6}) {
     const double v = 0.16 * parts;

@@ -66,7 +66,8 @@ Findings compute_fresh_bristles() {
     const double expected = kContacts * integrate_contact(sliding);
     findings.checks.push_back(compare("friction loss of 1 kg that bounces three times between the sides of the bore, drawn along it at " + number(sliding) + " m/s",
                                       "three times one contact that begins with an unbent bristle: its equations written out, Fehlberg 7(8)",
-                                      run_contacts(sliding), expected, 1e-7 * expected, "J", "tolerance of the integration, 1e-10, over some thousand steps"));
+                                      run_contacts(sliding), expected, 1e-7 * expected, "J",
+                                      "tolerance of the integration, 1e-10, over some thousand steps"));
   }
   return findings;
 }

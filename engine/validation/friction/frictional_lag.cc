@@ -106,7 +106,8 @@ Findings compute_frictional_lag() {
                                       expected, 1e-5 * expected, "N m/s", "quadratic in the amplitude: 1e-6 times a factor of a few"));
   }
   findings.tables.push_back(std::move(table));
-  findings.figures.push_back({"friction_lag.svg", "Friction lags behind the velocity: it is larger on the way up, the more so the faster the velocity swings.",
+  findings.figures.push_back({"friction_lag.svg",
+                              "Friction lags behind the velocity: it is larger on the way up, the more so the faster the velocity swings.",
                               draw({chart}, 1)});
   return findings;
 }

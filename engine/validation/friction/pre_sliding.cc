@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -8,6 +7,7 @@
 #include "engine/validation/chart.h"
 #include "engine/validation/friction/parts.h"
 #include "engine/validation/friction/published_law.h"
+#include "engine/validation/support/largest.h"
 
 namespace engine::validation {
 
@@ -75,13 +75,13 @@ class Experiment {
 
 /// Largest distance in force of a recorded branch from the static curve through its first point.
 double find_distance(const Record& branch, double x_from, double force_from, double direction) {
-  double worst = 0.0;
+  Largest worst;
   for (std::size_t k = 0; k < branch.x.size(); ++k) {
     const double decay = std::exp(-direction * (branch.x[k] - x_from) * kStiffness / kBreak);
     const double expected = direction * kBreak + (force_from - direction * kBreak) * decay;
-    worst = std::max(worst, std::abs(branch.friction[k] - expected));
+    worst.take(branch.friction[k] - expected);
   }
-  return worst;
+  return worst.value();
 }
 
 Figure draw_loop(const Record& load, const Record& down, const Record& up) {

@@ -15,10 +15,9 @@
 
 namespace engine::validation {
 
-/// Where the law was first published, with its experiments.
-inline constexpr const char* kArticle = "Canudas de Wit, Olsson, Åström, Lischinsky, IEEE Trans. Automatic Control 40(3), 1995";
-
-/// Its values, with a normal force of 1 N: F_s = 1.5 N, F_c = 1 N, sigma_0 = 1e5 N/m, sigma_1 = sqrt(1e5) N s/m, sigma_2 = 0.4 N s/m.
+/// The values of the article that introduced the law (Canudas de Wit, Olsson, Åström, Lischinsky, IEEE Trans. Automatic Control
+/// 40(3), 1995), with a normal force of 1 N: F_s = 1.5 N, F_c = 1 N, sigma_0 = 1e5 N/m, sigma_1 = sqrt(1e5) N s/m,
+/// sigma_2 = 0.4 N s/m.
 [[nodiscard]] inline LuGreParameters published_law() {
   return {.mu_s = 1.5, .mu_k = 1.0, .sigma_0 = 1e5, .sigma_1 = std::sqrt(1e5), .sigma_2 = 0.4, .v_s = 1e-3};
 }

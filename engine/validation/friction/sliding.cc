@@ -11,6 +11,7 @@
 #include "engine/validation/chart.h"
 #include "engine/validation/friction/parts.h"
 #include "engine/validation/friction/published_law.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/random.h"
 
 namespace engine::validation {
@@ -50,7 +51,7 @@ constexpr std::array<double, 7> kSpeeds{1e-4, 3e-4, 1e-3, 2e-3, 5e-3, 0.05, 0.5}
 
 /// Bristles bend, then slip: F(t) = g (1 - e) + sigma_1 v e + sigma_2 v with e = exp(-t / tau), tau = g / (sigma_0 v).
 Check compare_transient(const LawCase& c) {
-  double worst = 0.0;
+  Largest worst;
   for (const double v : kSpeeds) {
     const double g = stribeck(c.law, v);
     for (const double parts : {0.1, 1.0, 3.0}) {
@@ -58,31 +59,32 @@ Check compare_transient(const LawCase& c) {
       const double expected = g * (1.0 - e) + c.law.sigma_1 * v * e + c.law.sigma_2 * v;
       double across = 0.0;
       const double found = slide(c.law, v, parts * g / (c.law.sigma_0 * v), across);
-      worst = std::max({worst, std::abs(found - expected) / expected, std::abs(across) / expected});
+      worst.take((found - expected) / expected);
+      worst.take(across / expected);
     }
   }
   return limit("force after 0.1, 1 and 3 time constants of sliding at 0.1 mm/s to 0.5 m/s, " + c.name,
-               "closed form: g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g), and none across the motion", worst, 1e-11, "1",
+               "closed form: g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g), and none across the motion", worst.value(), 1e-11, "1",
                "tolerance of the integration, 1e-13, over its steps");
 }
 
 Check compare_steady(const LawCase& c) {
-  double worst = 0.0;
+  Largest worst;
   for (const double v : kSpeeds) {
     const double g = stribeck(c.law, v);
     double across = 0.0;
     const double found = slide(c.law, v, 40.0 * g / (c.law.sigma_0 * v), across);
-    worst = std::max(worst, std::abs(found - g - c.law.sigma_2 * v) / g);
+    worst.take((found - g - c.law.sigma_2 * v) / g);
   }
   return limit("steady force when sliding at 0.1 mm/s to 0.5 m/s, " + c.name,
-               "Stribeck's curve: mu_k + (mu_s - mu_k) exp(-(v / v_s)^2) + sigma_2 v", worst, 1e-11, "1",
+               "Stribeck's curve: mu_k + (mu_s - mu_k) exp(-(v / v_s)^2) + sigma_2 v", worst.value(), 1e-11, "1",
                "after 40 time constants 4e-18 is missing; tolerance of the integration");
 }
 
 /// Both vectors turned, the force has turned with them.
 Check compare_turned() {
   Random random(41);
-  double worst = 0.0;
+  Largest worst;
   for (int k = 0; k < 200; ++k) {
     const LuGreParameters law{};
     const Eigen::Vector2d v(random.symmetric(3e-3), random.symmetric(3e-3));
@@ -90,23 +92,24 @@ Check compare_turned() {
     const Eigen::Rotation2Dd turn(random.symmetric(3.14));
     const BristleForce straight = calc_bristle_force(law, v, z);
     const BristleForce turned = calc_bristle_force(law, turn * v, turn * z);
-    worst = std::max({worst, (turned.force_ratio - turn * straight.force_ratio).norm() / 0.2,
-                      (turned.bristle_rate - turn * straight.bristle_rate).norm() / 3e-3});
+    worst.take((turned.force_ratio - turn * straight.force_ratio).norm() / 0.2);
+    worst.take((turned.bristle_rate - turn * straight.bristle_rate).norm() / 3e-3);
   }
   return limit("force and bristle rate for 200 random velocities and bristles, both turned by the same angle", "the law knows no direction",
-               worst, 2e-15, "1", "rounding of products near 1");
+               worst.value(), 2e-15, "1", "rounding of products near 1");
 }
 
 /// A bristle at rest is a spring, however its direction.
 Check compare_at_rest() {
   Random random(42);
-  double worst = 0.0;
+  Largest worst;
   for (int k = 0; k < 50; ++k) {
     const Eigen::Vector2d z(random.symmetric(2e-3), random.symmetric(2e-3));
     const BristleForce f = calc_bristle_force({}, {0.0, 0.0}, z);
-    worst = std::max({worst, (f.force_ratio - 100.0 * z).norm(), f.bristle_rate.norm()});
+    worst.take((f.force_ratio - 100.0 * z).norm());
+    worst.take(f.bristle_rate.norm());
   }
-  return limit("a bristle that does not slide: force and rate", "sigma_0 z and 0", worst, 0.0, "1", "one product");
+  return limit("a bristle that does not slide: force and rate", "sigma_0 z and 0", worst.value(), 0.0, "1", "one product");
 }
 
 Figure draw_stribeck() {

@@ -62,7 +62,7 @@ Findings compute_stick_slip() {
   findings.checks.push_back(compare(
       "stick-slip (1 kg, spring 2 N/m pulled at 0.1 m/s from rest), the whole engine: position after 25 s",
       "a program of its own for this experiment: the law for one direction, 80-bit numbers, Fehlberg 7(8) at 1e-15",
-      record.position.back(), 1.9088391992, 1e-10, "m", "the digits given; dopri5 at a tolerance of 1e-10"));
+      record.position.back(), 1.9088391992, 1e-10, "m", "the reference is known to ten decimals; dopri5 at a tolerance of 1e-10"));
   findings.checks.push_back(limit("stick-slip: normal force on the sliding journal", "1 N, the weight of the mass", record.normal_off, 1e-9, "N",
                                   "penetration of 0.46 mm as the difference of lengths near 1 mm: rounding times K"));
   findings.figures.push_back(draw_stick_slip(record));

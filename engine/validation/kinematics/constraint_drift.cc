@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/model/rpsup.h"
 #include "engine/validation/kinematics/parts.h"
@@ -10,6 +13,7 @@
 #include "engine/validation/reference/ideal_linkage.h"
 #include "engine/validation/reference/paper_linkage.h"
 #include "engine/validation/reference/trace_form.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -63,24 +67,25 @@ class Opening {
 
 /// What a run shows.
 struct Drift {
-  double position = 0.0, velocity = 0.0;        ///< largest |Phi|, [m], [1]; |Phi_d|
-  double opening = 0.0;                         ///< gamma
-  double coordinates = 0.0, rates = 0.0;        ///< largest sum of their magnitudes
+  Largest position, velocity;    ///< |Phi|, [m], [1]; |Phi_d|
+  Largest opening;               ///< gamma
+  Largest coordinates, rates;    ///< sums of their magnitudes
 };
 
 Drift measure(const RpsupParameters& p, const RunOptions& options) {
   const Opening opening(p);
   Drift drift;
   double next_look = 0.0;
-  const auto take = [](double& most, double value) { most = value <= most ? most : value; };
-  integrate(build_rpsup(p).mechanism, options, [](Evaluation&) {}, [&](const Evaluation& at, const Constraints& constraints) {
-    take(drift.position, constraints.Phi.cwiseAbs().maxCoeff());
-    take(drift.velocity, constraints.Phi_d.cwiseAbs().maxCoeff());
+  const Mechanism mechanism = build_rpsup(p).mechanism;
+  integrate(mechanism, options, [](Evaluation&) {}, [&](const Evaluation& at) {
+    const Violation violation = read_violation(mechanism, at);
+    for (const double row : violation.Phi) drift.position.take(row);
+    for (const double row : violation.Phi_d) drift.velocity.take(row);
     if (at.t < next_look) return;
     next_look += 1e-3;
-    take(drift.opening, opening.calc(at));
-    take(drift.coordinates, at.q.lpNorm<1>());
-    take(drift.rates, at.qd.lpNorm<1>());
+    drift.opening.take(opening.calc(at));
+    drift.coordinates.take(at.q.lpNorm<1>());
+    drift.rates.take(at.qd.lpNorm<1>());
   });
   return drift;
 }
@@ -101,8 +106,8 @@ struct Bound {
 Bound calc_bound(const RpsupParameters& p, double h, const Drift& drift) {
   const double beta = p.baumgarte_beta;
   const double rounding = 4.0 * 0.5 * std::numeric_limits<double>::epsilon();
-  const double e_q = std::pow(beta, 3) * drift.opening * std::pow(h, 5) / 48.0 + rounding * drift.coordinates;
-  const double e_v = std::pow(beta, 4) * drift.opening * std::pow(h, 5) / 32.0 + rounding * drift.rates;
+  const double e_q = std::pow(beta, 3) * drift.opening.value() * std::pow(h, 5) / 48.0 + rounding * drift.coordinates.value();
+  const double e_v = std::pow(beta, 4) * drift.opening.value() * std::pow(h, 5) / 32.0 + rounding * drift.rates.value();
   return {(2.0 * beta * e_q + e_v) / (h * beta * beta), (e_q + 2.0 / std::exp(1.0) / beta * e_v) / h};
 }
 
@@ -117,7 +122,13 @@ Findings measure_all(const std::vector<Run>& runs, RpsupParameters p, double dur
   const std::string span = number(duration) + " s, crank at " + number(p.crank_velocity) + " rad/s after " + number(p.run_up) + " s";
   Table table{.caption = "Largest violation of the constraints of ideal joint and drives over " + span +
                          ", alpha = beta = 100 1/s. Lengths in m, angles in rad.",
-              .head = {"run", "|Phi|", "bound", "|dPhi/dt| [1/s]", "bound", "gamma [m/s^2, 1/s^2]"}, .rows = {}, .reproducible_to = 10.0};
+              .head = {"run", "|Phi|", "bound", "|dPhi/dt| [1/s]", "bound"},
+              .rows = {},
+              .reproducible_to = 10.0};
+  Table openings{.caption = "Largest acceleration gamma with which the constraints would open at constant rates, over " + span +
+                             ", each millisecond.",
+                 .head = {"run", "gamma [m/s^2, 1/s^2]"},
+                 .rows = {}};
   for (const Run& run : runs) {
     p.coupler = run.coupler;
     p.drive = run.drive;
@@ -132,14 +143,15 @@ Findings measure_all(const std::vector<Run>& runs, RpsupParameters p, double dur
     const std::string at = ", " + name_of(run) + ", " + span;
     const std::string why = fixed ? "what stabilisation leaves of rk4's errors and of rounding in a step, e_q and e_v: "
                                   : "that of rk4 with 1 ms, the longest step of this method of order 5: ";
-    findings.checks.push_back(limit("largest |Phi|" + at, "the loop is closed", drift.position, bound.position, "m or rad",
+    findings.checks.push_back(limit("largest |Phi|" + at, "the loop is closed", drift.position.value(), bound.position, "m or rad",
                                     why + "(2 alpha e_q + e_v) / (h beta^2)"));
-    findings.checks.push_back(limit("largest |dPhi/dt|" + at, "the loop stays closed", drift.velocity, bound.velocity, "m/s or rad/s",
+    findings.checks.push_back(limit("largest |dPhi/dt|" + at, "the loop stays closed", drift.velocity.value(), bound.velocity, "m/s or rad/s",
                                     why + "(e_q + 2 e_v / (e alpha)) / h"));
-    table.rows.push_back({name_of(run), number(drift.position, 2), number(bound.position, 2), number(drift.velocity, 2), number(bound.velocity, 2),
-                          number(drift.opening)});
+    table.rows.push_back({name_of(run), number(drift.position.value(), 2), number(bound.position, 2), number(drift.velocity.value(), 2),
+                          number(bound.velocity, 2)});
+    openings.rows.push_back({name_of(run), number(drift.opening.value())});
   }
-  findings.tables.push_back(std::move(table));
+  findings.tables = {std::move(table), std::move(openings)};
   return findings;
 }
 
@@ -156,8 +168,10 @@ void add_order(const RpsupParameters& p, Findings& findings) {
   const Drift fine = drift_at(5e-4);
   const std::string what = ": order in the step, rigid coupler, drives by multipliers, rk4 with steps of 1 ms and 0.5 ms";
   const std::string why = "higher orders of h beta = 0.1 count some per cent, a tenth of an order";
-  findings.checks.push_back(compare("drift |Phi|" + what, "order of rk4", std::log2(coarse.position / fine.position), 4.0, 0.15, "1", why));
-  findings.checks.push_back(compare("drift |dPhi/dt|" + what, "order of rk4", std::log2(coarse.velocity / fine.velocity), 4.0, 0.15, "1", why));
+  findings.checks.push_back(compare("drift |Phi|" + what, "order of rk4",
+                                    std::log2(coarse.position.value() / fine.position.value()), 4.0, 0.15, "1", why));
+  findings.checks.push_back(compare("drift |dPhi/dt|" + what, "order of rk4",
+                                    std::log2(coarse.velocity.value() / fine.velocity.value()), 4.0, 0.15, "1", why));
 }
 
 }  // namespace

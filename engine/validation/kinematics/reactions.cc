@@ -2,11 +2,15 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "engine/validation/kinematics/parts.h"
 #include "engine/validation/reference/ideal_linkage.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/runs.h"
 #include "engine/validation/support/text.h"
 
@@ -63,19 +67,18 @@ std::vector<Compared> compared_channels() {
 }
 
 struct Difference {
-  double largest = 0.0, worst = 0.0;
+  Largest largest, worst;
   void take(double found, double expected) {
-    const double difference = std::abs(found - expected);
-    worst = difference <= worst ? worst : difference;
-    largest = std::max(largest, std::abs(expected));
+    worst.take(found - expected);
+    largest.take(expected);
   }
-  [[nodiscard]] double relative() const { return worst / largest; }
+  [[nodiscard]] double relative() const { return worst.value() / largest.value(); }
 };
 
 /// Origins and axes of all links.
 double compare_poses(const RunResult& run, const RpsupParameters& p) {
   const char* names[] = {"1_1", "1_2", "1_3", "2_1", "2_2"};
-  Difference difference;
+  Largest difference;
   const std::vector<double>& t = column(run, "t_s");
   for (std::size_t link = 0; link < kLinkCount; ++link) {
     const auto of = [&](const char* part) -> const std::vector<double>& { return column(run, std::string("pose_") + names[link] + "_" + part); };
@@ -85,10 +88,11 @@ double compare_poses(const RunResult& run, const RpsupParameters& p) {
       Eigen::Matrix4d found = Eigen::Matrix4d::Identity();
       found.topLeftCorner<3, 3>() = Eigen::Quaterniond(qw[k], qx[k], qy[k], qz[k]).toRotationMatrix();
       found.topRightCorner<3, 1>() = Eigen::Vector3d(x[k], y[k], z[k]);
-      difference.take((found - T).cwiseAbs().maxCoeff(), 0.0);
+      const Eigen::Matrix4d off = found - T;
+      for (const double entry : off.reshaped()) difference.take(entry);
     }
   }
-  return difference.worst;
+  return difference.value();
 }
 
 /// The drives' power against the rate at which the links' energy grows.
@@ -103,23 +107,24 @@ Difference compare_power(const RunResult& run, const RpsupParameters& p) {
   return difference;
 }
 
-void add_run(const Run& r, Findings& findings, Table& table) {
+void add_run(const Run& r, Findings& findings, Table& differences, Table& magnitudes) {
   const RunResult run = run_rpsup(r.parameters, r.options);
   const std::vector<double>& t = column(run, "t_s");
   std::vector<IdealForces> expected;
   for (const double at : t) expected.push_back(calc_ideal_forces(r.parameters, at));
   const std::string at = ", ideal rigid linkage, " + r.name;
-  std::vector<std::string> row{r.name};
-  const auto add = [&](const std::string& what, const std::string& reference, const Difference& difference, const char* unit,
-                       double bound = 0.0, const char* why = "") {
+  std::vector<std::string> row{r.name}, sizes{r.name};
+  const auto add = [&](const std::string& what, const std::string& reference, const Difference& difference, double bound = 0.0,
+                       const char* why = "") {
     findings.checks.push_back(limit(what + at, reference, difference.relative(), std::max(r.bound, bound), "1", r.bound < bound ? why : r.why));
-    row.push_back(number(difference.relative(), 2) + " of " + number(difference.largest) + " " + unit);
+    row.push_back(number(difference.relative(), 2));
+    sizes.push_back(number(difference.largest.value(), 6));
   };
   for (const Compared& channel : compared_channels()) {
     const std::vector<double>& found = column(run, channel.key);
     Difference difference;
     for (std::size_t k = 0; k < t.size(); ++k) difference.take(found[k], channel.expected(expected[k]));
-    add(channel.name, "Newton's and Euler's laws for each link of the closed form, derivatives by Taylor arithmetic", difference, channel.unit);
+    add(channel.name, "Newton's and Euler's laws for each link of the closed form, derivatives by Taylor arithmetic", difference);
   }
   const std::vector<double>& work = column(run, "drive_work_j");
   Difference done;
@@ -127,14 +132,15 @@ void add_run(const Run& r, Findings& findings, Table& table) {
     const auto energy = [&](const IdealForces& f) { return f.kinetic_energy + f.potential_energy; };
     done.take(work[k], energy(expected[k]) - energy(expected[0]));
   }
-  add("work of the drives since t = 0", "kinetic and potential energy in the closed form, less the first", done, "J", 1e-10,
+  add("work of the drives since t = 0", "kinetic and potential energy in the closed form, less the first", done, 1e-10,
       "Simpson's rule over pairs of steps of 0.25 ms; relative to the largest over the run");
   add("power of the drives, torque x rate + force x rate", "rate of the links' kinetic and potential energy in the closed form",
-      compare_power(run, r.parameters), "W");
+      compare_power(run, r.parameters));
   findings.checks.push_back(limit("poses of all five links" + at, "closed form: coupler from S joint to guide, its z axis normal to the cross link's",
                                   compare_poses(run, r.parameters), 1e-11, "m or 1",
                                   "positions solved or kept to 1e-12 m, of links of 0.2 m and more"));
-  table.rows.push_back(std::move(row));
+  differences.rows.push_back(std::move(row));
+  magnitudes.rows.push_back(std::move(sizes));
 }
 
 /// At rest the crank holds the weight of the chain at its arms: the rods (1,1) and (1,2) half way, the coupler's half at the S joint.
@@ -159,14 +165,23 @@ void add_statics(Findings& findings) {
 
 Findings compute_reactions() {
   Findings findings;
-  Table table{.caption = "Forces and energies of the ideal rigid linkage: largest difference relative to the largest value of the run.",
-              .head = {"case"}, .rows = {}, .reproducible_to = 10.0};
-  for (const Compared& channel : compared_channels()) table.head.push_back(channel.name);
-  table.head.push_back("work of the drives");
-  table.head.push_back("power of the drives");
+  Table differences{.caption = "Forces and energies of the ideal rigid linkage: largest difference relative to the largest value of the run.",
+                    .head = {"case"},
+                    .rows = {},
+                    .reproducible_to = 10.0};
+  Table magnitudes{.caption = "Forces and energies of the ideal rigid linkage: largest magnitude over the run, in the closed form.",
+                   .head = {"case"},
+                   .rows = {}};
+  const auto add_column = [&](const std::string& name, const std::string& unit) {
+    differences.head.push_back(name);
+    magnitudes.head.push_back(name + " [" + unit + "]");
+  };
+  for (const Compared& channel : compared_channels()) add_column(channel.name, channel.unit);
+  add_column("work of the drives", "J");
+  add_column("power of the drives", "W");
   add_statics(findings);
-  for (const Run& run : make_runs()) add_run(run, findings, table);
-  findings.tables.push_back(std::move(table));
+  for (const Run& run : make_runs()) add_run(run, findings, differences, magnitudes);
+  findings.tables = {std::move(differences), std::move(magnitudes)};
   return findings;
 }
 

@@ -3,26 +3,31 @@
 #include <functional>
 #include <utility>
 
-#include "engine/dynamics/constraints.h"
+#include <Eigen/Core>
+
 #include "engine/model/mechanism.h"
 #include "engine/model/run_options.h"
 #include "engine/validation/support/quiet_observer.h"
 
 namespace engine::validation {
 
-/// Calls a function at each end of a step, with the constraints as they are there.
+/// Phi and its rate, of an ideal joint (5 rows) and both drives (2 rows).
+struct Violation {
+  Eigen::VectorXd Phi, Phi_d;
+};
+
+/// Read off poses, velocities and coordinates, without the engine's class of constraints.
+[[nodiscard]] Violation read_violation(const Mechanism& mechanism, const Evaluation& at);
+
+/// Calls a function at each end of a step.
 class ConstraintObserver : public QuietObserver {
  public:
-  using Visit = std::function<void(const Evaluation&, const Constraints&)>;
-  ConstraintObserver(const Mechanism& mechanism, Visit visit) : constraints_(mechanism), visit_(std::move(visit)) {}
+  using Visit = std::function<void(const Evaluation&)>;
+  explicit ConstraintObserver(Visit visit) : visit_(std::move(visit)) {}
 
-  void on_step(const Evaluation& /*start*/, const Evaluation& end) override {
-    constraints_.calc(end.frames, end.q, end.qd, end.t);
-    visit_(end, constraints_);
-  }
+  void on_step(const Evaluation& /*start*/, const Evaluation& end) override { visit_(end); }
 
  private:
-  Constraints constraints_;
   Visit visit_;
 };
 

@@ -1,12 +1,14 @@
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "engine/dynamics/loop_closure.h"
 #include "engine/model/rpsup.h"
 #include "engine/validation/chart.h"
 #include "engine/validation/kinematics/parts.h"
 #include "engine/validation/kinematics/stabilisation.h"
+#include "engine/validation/support/largest.h"
 #include "engine/validation/support/random.h"
 #include "engine/validation/support/text.h"
 
@@ -41,22 +43,6 @@ struct History {
   std::vector<Eigen::VectorXd> rows;   ///< Phi at the steps' ends
 };
 
-/// Joint and drive rows read off poses and coordinates, without the engine's class of constraints.
-Eigen::VectorXd read_violation(const Mechanism& mechanism, const Evaluation& at) {
-  const CutJoint& joint = mechanism.cut_joints[0];
-  const FrameMotion& coupler = at.frames[static_cast<std::size_t>(joint.bearing_frame)];
-  const FrameMotion& cross_link = at.frames[static_cast<std::size_t>(joint.journal_frame)];
-  Eigen::VectorXd rows(7);
-  rows.head<3>() = cross_link.p - (coupler.p + coupler.R * joint.bearing.p);
-  rows[3] = coupler.R.col(2).dot(cross_link.R.col(0));
-  rows[4] = coupler.R.col(2).dot(cross_link.R.col(1));
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const Drive& drive = mechanism.drives[static_cast<std::size_t>(k)];
-    rows[5 + k] = at.q[drive.coordinate] - calc_driven_motion(drive.law, at.t).q;
-  }
-  return rows;
-}
-
 History record(const Stabilisation& s) {
   RpsupParameters p;
   p.coupler = s.coupler;
@@ -75,14 +61,13 @@ History record(const Stabilisation& s) {
       start.qd[i] += random.symmetric(0.1);
     }
     calc_frame_motions(mechanism, start.q, start.qd, Eigen::VectorXd::Zero(start.q.size()), start.frames);
-    Constraints constraints(mechanism);
-    constraints.calc(start.frames, start.q, start.qd, 0.0);
-    history.Phi = read_violation(mechanism, start);
-    history.Phi_d = constraints.Phi_d;
+    const Violation violation = read_violation(mechanism, start);
+    history.Phi = violation.Phi;
+    history.Phi_d = violation.Phi_d;
   };
-  integrate(mechanism, {.duration = 0.1, .integrator = Integrator::kRk4, .step = s.step}, disturb, [&](const Evaluation& at, const Constraints&) {
+  integrate(mechanism, {.duration = 0.1, .integrator = Integrator::kRk4, .step = s.step}, disturb, [&](const Evaluation& at) {
     history.t.push_back(at.t);
-    history.rows.push_back(read_violation(mechanism, at));
+    history.rows.push_back(read_violation(mechanism, at).Phi);
   });
   return history;
 }
@@ -116,21 +101,20 @@ Findings compute_violation_decay() {
   for (const Stabilisation& s : {Stabilisation{Coupler::kRigid, 100.0, 100.0, 1e-4}, Stabilisation{Coupler::kRigid, 20.0, 100.0, 1e-4},
                                  Stabilisation{Coupler::kRigid, 150.0, 60.0, 1e-4}, Stabilisation{Coupler::kFlexible, 100.0, 100.0, 2e-5}}) {
     const History history = record(s);
-    double worst = 0.0;
+    Largest worst;
     for (std::size_t k = 0; k < history.t.size(); ++k)
-      for (Eigen::Index row = 0; row < history.Phi.size(); ++row) {
-        const double difference = std::abs(history.rows[k][row] - calc_law(s, history.Phi[row], history.Phi_d[row], history.t[k]));
-        worst = difference <= worst ? worst : difference;
-      }
+      for (Eigen::Index row = 0; row < history.Phi.size(); ++row)
+        worst.take(history.rows[k][row] - calc_law(s, history.Phi[row], history.Phi_d[row], history.t[k]));
     const double largest = history.Phi.cwiseAbs().maxCoeff();
     const std::string of = std::string(s.coupler == Coupler::kRigid ? "rigid" : "flexible") + " coupler, alpha = " + number(s.alpha) +
                            " 1/s, beta = " + number(s.beta) + " 1/s";
     findings.checks.push_back(limit("violation of joint and drives over 0.1 s from a disturbed start, " + of,
-                                    "solution of Phi_dd + 2 alpha Phi_d + beta^2 Phi = 0", worst / largest, 1e-8, "1",
+                                    "solution of Phi_dd + 2 alpha Phi_d + beta^2 Phi = 0", worst.value() / largest, 1e-8, "1",
                                     "drift of rk4 with steps of " + number(s.step) + " s, at most 5e-12 m or rad, relative to the first violation"));
     if (s.coupler == Coupler::kRigid) charts.push_back(draw_decay(s, history));
   }
-  findings.figures.push_back({"violation_decay.svg", "A violated joint closes as the stabilisation's equation says (rigid coupler, drives by multipliers).",
+  findings.figures.push_back({"violation_decay.svg",
+                              "A violated joint closes as the stabilisation's equation says (rigid coupler, drives by multipliers).",
                               draw(charts, 3, 400, 280)});
   return findings;
 }
