@@ -6,7 +6,7 @@
 
 namespace engine::validation {
 
-// One file a chapter, of the same name.
+// Each in the chapter.cc of its folder.
 [[nodiscard]] Chapter formulation_chapter();
 [[nodiscard]] Chapter kinematics_chapter();
 [[nodiscard]] Chapter energy_chapter();
