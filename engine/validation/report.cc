@@ -71,7 +71,7 @@ class ReportWriter {
     add("");
     add("A proof that cannot fail proves nothing. `script/faults` plants a fault in a copy of the engine, one after the other (a sign, a factor");
     add("2, a term left out, a frame exchanged), and runs the engine's light tests, of which the parts of the chapters above are most.");
-    add("`tests/faults/faults.txt` lists them; the table is what `script/faults --report engine/VALIDATION.md` has found.");
+    add("`tests/faults/faults.txt` lists them; the table names the first test that failed with each. `script/faults --report engine/VALIDATION.md` runs all and replaces it.");
     add("");
     add(kFaultsBegin);
     add(kFaultsEnd);
