@@ -1,5 +1,9 @@
 #include "engine/clearance/clearance_joint.h"
 
+#include "engine/clearance/continuum_law.h"
+#include "engine/clearance/elements_law.h"
+#include "engine/clearance/faces_law.h"
+
 namespace engine {
 
 namespace {
@@ -18,11 +22,16 @@ int ClearanceJoint::bristle_count() const {
 }
 
 bool ClearanceJoint::calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const {
-  load = ContactLoad{};
-  faces_.calc(journal, load);
-  if (const auto* elements = std::get_if<RadialElements>(&radial_)) return elements->calc(journal, bristles, bristle_rates, load);
-  std::get<RadialContinuum>(radial_).calc(journal, bristles, bristle_rates, load);
-  return true;
+  const RelativeMotion<double, double> motion = to_relative_motion(journal);
+  JointLoad<double> sum;
+  bool complete = true;
+  add_faces(faces_, motion, sum);
+  if (const RadialElements* points = elements())
+    complete = add_elements(*points, motion, bristles, bristle_rates, sum);
+  else
+    add_continuum(*continuum(), motion, bristles, bristle_rates, sum);
+  load = to_contact_load(sum);
+  return complete;
 }
 
 void ClearanceJoint::add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 
-#include "engine/clearance/clearance_parameters.h"
+#include "engine/clearance/contact_law.h"
 
 namespace engine {
 
@@ -14,20 +12,14 @@ struct BristleForce {
   Eigen::Vector2d bristle_rate;  ///< zd, [m/s]
 };
 
-/// Stribeck's curve g(|v|) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2). Beyond (v / v_s)^2 = 40 the exponential is below rounding.
-[[nodiscard]] inline double calc_stribeck(const LuGreParameters& p, double speed) {
-  const double ratio = speed / p.v_s;
-  const double squared = ratio * ratio;
-  return squared > 40.0 ? p.mu_k : p.mu_k + (p.mu_s - p.mu_k) * std::exp(-squared);
-}
-
 /// LuGre friction with a vector bristle z, Eqs. (11.2) and (13.1): zd = v - sigma_0 |v| z / g(|v|).
 /// @param v  tangential velocity of the journal's material point relative to the bearing's, [m/s]
 /// @param z  bristle deflection, [m]
 [[nodiscard]] inline BristleForce calc_bristle_force(const LuGreParameters& p, const Eigen::Vector2d& v, const Eigen::Vector2d& z) {
-  const double speed = v.norm();
-  const Eigen::Vector2d rate = v - (p.sigma_0 * speed / calc_stribeck(p, speed)) * z;
-  return {p.sigma_0 * z + p.sigma_1 * rate + p.sigma_2 * v, rate};
+  const double decay = calc_bristle_decay(p, v.norm());
+  const BristleLaw<double> along_t = calc_bristle_law(p, decay, v[0], z[0]);
+  const BristleLaw<double> along_z = calc_bristle_law(p, decay, v[1], z[1]);
+  return {{along_t.force_ratio, along_z.force_ratio}, {along_t.rate, along_z.rate}};
 }
 
 }  // namespace engine

@@ -1,8 +1,9 @@
 #pragma once
 
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+
+#include "engine/clearance/contact_law.h"
 
 namespace engine {
 
@@ -27,11 +28,20 @@ struct ContactLoad {
   double elastic_energy = 0.0;                       ///< [J]
   double impact_power = 0.0;                         ///< lost in the normal law, [W]
   double friction_power = 0.0;                       ///< [W]
-
-  void add_force(const Eigen::Vector3d& r, const Eigen::Vector3d& f) {
-    force += f;
-    moment += r.cross(f);
-  }
 };
+
+/// The same as the contact laws take it.
+[[nodiscard]] inline RelativeMotion<double, double> to_relative_motion(const JournalMotion& journal) {
+  const auto vector = [](const auto& v) { return Vec3<double>{v[0], v[1], v[2]}; };
+  return {{vector(journal.R_bj.col(0)), vector(journal.R_bj.col(1)), vector(journal.R_bj.col(2))},
+          vector(journal.p_bj), vector(journal.v), vector(journal.w)};
+}
+
+/// What the contact laws give, as observers take it.
+[[nodiscard]] inline ContactLoad to_contact_load(const JointLoad<double>& load) {
+  const auto vector = [](const Vec3<double>& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
+  return {vector(load.force), vector(load.moment), load.radial_normal_sum, load.friction_sum,
+          load.max_penetration, load.elastic_energy, load.impact_power, load.friction_power};
+}
 
 }  // namespace engine

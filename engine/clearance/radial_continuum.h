@@ -2,22 +2,22 @@
 
 #include <vector>
 
-#include "engine/clearance/radial_contact.h"
+#include "engine/clearance/clearance_parameters.h"
+#include "engine/clearance/journal_motion.h"
+#include "engine/clearance/normal_force.h"
 
 namespace engine {
 
-/// Radial contact in closed form: each ring of the journal against the bore, one force a ring.
-///
-///     e offset of the ring's centre from the bearing axis,  delta = |e| - c_r,  n = e / |e|,  f_e = K / n_r delta^1.5
+/// Radial contact in closed form: what each ring of the journal remembers of its contact with the bore. The law: continuum_law.h.
 class RadialContinuum {
  public:
   explicit RadialContinuum(const ClearanceParameters& joint);
 
+  [[nodiscard]] const ClearanceParameters& parameters() const { return joint_; }
+  /// One a ring.
+  [[nodiscard]] const OnsetLatch* latches() const { return latches_.data(); }
   /// Bristle components in the state: two a ring.
   [[nodiscard]] int bristle_count() const { return 2 * joint_.n_r; }
-
-  /// Adds the contact's load. @param bristles, bristle_rates  bristle_count() entries; rates are set, 0 out of contact.
-  void calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const;
 
   /// Appends the penetration of each ring.
   void add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const;
@@ -26,8 +26,6 @@ class RadialContinuum {
   ContactChange advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles);
 
  private:
-  [[nodiscard]] Penetration calc_penetration(const JournalMotion& journal, int ring) const;
-
   ClearanceParameters joint_;
   std::vector<OnsetLatch> latches_;
 };

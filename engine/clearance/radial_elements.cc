@@ -5,24 +5,16 @@
 #include <cstddef>
 #include <numbers>
 
+#include "engine/clearance/elements_law.h"
+
 namespace engine {
 
 namespace {
 
-/// Half the arc of the journal that can lie outside the bore when its centre is at distance e: |e + r_j u|^2 > r_b^2.
-/// @returns < 0 if none can
-double calc_half_arc(const ClearanceParameters& joint, double distance, double distance_in_ring_plane) {
-  const double r_j = joint.r_j();
-  const double needed = joint.c_r * (2.0 * r_j + joint.c_r) - distance * distance;  // r_b^2 - r_j^2 - e^2
-  if (needed >= 2.0 * r_j * distance_in_ring_plane) return -1.0;
-  if (needed <= -2.0 * r_j * distance_in_ring_plane) return std::numbers::pi;
-  return std::acos(needed / (2.0 * r_j * distance_in_ring_plane));
-}
-
 /// A window that holds contacts of 20 micrometres depth, more than any metal joint of this size survives, with two elements to spare.
 int calc_first_window(const ClearanceParameters& joint) {
   const double distance = joint.c_r + 20e-6;
-  const double half = calc_half_arc(joint, distance, distance) * joint.n_ce / (2.0 * std::numbers::pi);
+  const double half = calc_half_arc(joint, distance * distance, distance) * joint.n_ce / (2.0 * std::numbers::pi);
   return std::min(joint.n_ce, 2 * static_cast<int>(std::ceil(half)) + 5);
 }
 
@@ -41,62 +33,23 @@ RadialElements::RadialElements(const ClearanceParameters& joint)
   }
 }
 
-RadialElements::Ring RadialElements::calc_ring(const JournalMotion& journal, int ring) const {
-  Ring result;
-  result.axial = ring_position(joint_, ring) * journal.R_bj.col(2);
-  const Eigen::Vector3d centre = journal.p_bj + result.axial;
-  const Eigen::Vector3d offset(centre.x(), centre.y(), 0.0);
-  const Eigen::Vector3d offset_j = journal.R_bj.transpose() * offset;
-  result.direction = std::atan2(offset_j.y(), offset_j.x());
-  result.half_arc = calc_half_arc(joint_, offset.norm(), offset_j.head<2>().norm());
-  return result;
+Penetration RadialElements::calc_penetration(const RelativeMotion<double, double>& journal, int ring, int k) const {
+  const ElementPlace<double> element = place_element(*this, journal, calc_ring_position(joint_, ring) * journal.R.z, k);
+  return {element.delta, calc_element_rate(journal, element)};
 }
 
-RadialElements::Element RadialElements::calc_element(const JournalMotion& journal, const Ring& ring, int k) const {
-  const auto i = static_cast<std::size_t>(k);
-  Element element;
-  element.r = ring.axial + joint_.r_j() * (cosine_[i] * journal.R_bj.col(0) + sine_[i] * journal.R_bj.col(1));
-  const Eigen::Vector3d point = journal.p_bj + element.r;
-  const double rho = std::hypot(point.x(), point.y());
-  element.n = Eigen::Vector3d(point.x(), point.y(), 0.0) / rho;
-  element.penetration = {rho - joint_.r_b, element.n.dot(journal.calc_velocity(element.r))};
-  return element;
-}
-
-bool RadialElements::calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const {
-  std::fill_n(bristle_rates, bristle_count(), 0.0);
-  bool inside = true;
-  for (int i = 0; i < joint_.n_r; ++i) {
-    const Ring ring = calc_ring(journal, i);
-    if (ring.half_arc < 0.0) continue;
-    const int low = static_cast<int>(std::ceil((ring.direction - ring.half_arc) / spacing_));
-    const int high = std::min(low + joint_.n_ce - 1, static_cast<int>(std::floor((ring.direction + ring.half_arc) / spacing_)));
-    for (int unwrapped = low; unwrapped <= high; ++unwrapped) {
-      const int k = wrap(unwrapped);
-      const Element element = calc_element(journal, ring, k);
-      const auto& [delta, rate] = element.penetration;
-      if (!(delta > 0.0)) continue;
-      const int slot = wrap(k - first_[static_cast<std::size_t>(i)]);
-      inside = inside && slot < window_;
-      const int at = slot < window_ ? 2 * (i * window_ + slot) : -1;
-      const double onset = latch(i, k).onset_rate(rate, joint_.minimum_onset_rate);
-      const NormalForce normal = calc_normal_force(element_stiffness_ * delta, rate, onset, joint_.chi);
-      add_radial_touch(joint_, journal, {element.r, element.n, normal, rate}, at < 0 ? nullptr : bristles + at,
-                       at < 0 ? nullptr : bristle_rates + at, load);
-      load.elastic_energy += 0.5 * normal.elastic * delta;
-      load.max_penetration = std::max(load.max_penetration, delta);
-    }
-  }
-  return inside;
+/// The element, as an angle, that lies in the direction of the ring's offset.
+double RadialElements::find_direction(const RelativeMotion<double, double>& journal, int ring) const {
+  return calc_offset_direction(journal, calc_ring_position(joint_, ring) * journal.R.z);
 }
 
 void RadialElements::add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const {
+  const RelativeMotion<double, double> motion = to_relative_motion(journal);
   for (int i = 0; i < joint_.n_r; ++i) {
-    const Ring ring = calc_ring(journal, i);
-    const int nearest = static_cast<int>(std::lround(ring.direction / spacing_));
-    Penetration deepest = calc_element(journal, ring, wrap(nearest)).penetration;
+    const int nearest = static_cast<int>(std::lround(find_direction(motion, i) / spacing_));
+    Penetration deepest = calc_penetration(motion, i, wrap(nearest));
     for (const int k : {nearest - 1, nearest + 1}) {  // in a tilted journal the deepest may be beside the nearest
-      const Penetration other = calc_element(journal, ring, wrap(k)).penetration;
+      const Penetration other = calc_penetration(motion, i, wrap(k));
       if (other.delta > deepest.delta) deepest = other;
     }
     rings.push_back(deepest);
@@ -104,19 +57,19 @@ void RadialElements::add_penetrations(const JournalMotion& journal, std::vector<
 }
 
 ContactChange RadialElements::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
+  const RelativeMotion<double, double> motion_start = to_relative_motion(start);
+  const RelativeMotion<double, double> motion_end = to_relative_motion(end);
   ContactChange change;
   for (int i = 0; i < joint_.n_r; ++i) {
-    const Ring ring_start = calc_ring(start, i);
-    const Ring ring_end = calc_ring(end, i);
     bool was_on = false;
     bool is_on = false;
     for (int slot = 0; slot < window_; ++slot) {
       const int k = element_of(i, slot);
       OnsetLatch& onset = latch(i, k);
       was_on = was_on || onset.in_contact();
-      const Penetration at_end = calc_element(end, ring_end, k).penetration;
+      const Penetration at_end = calc_penetration(motion_end, i, k);
       if (onset.in_contact() || at_end.delta > 0.0)
-        change.any |= onset.advance(calc_element(start, ring_start, k).penetration, at_end, dt, joint_.minimum_onset_rate);
+        change.any |= onset.advance(calc_penetration(motion_start, i, k), at_end, dt, joint_.minimum_onset_rate);
       is_on = is_on || onset.in_contact();
       double* bristle = bristles + 2 * (i * window_ + slot);
       if (!onset.in_contact()) bristle[0] = bristle[1] = 0.0;
@@ -129,10 +82,10 @@ ContactChange RadialElements::advance(const JournalMotion& start, const JournalM
 bool RadialElements::follow(const JournalMotion& journal, double dt, double* bristles) {
   if (window_ == joint_.n_ce) return false;
   bool moved = false;
-  JournalMotion later = journal;
-  later.p_bj += dt * journal.v;
+  RelativeMotion<double, double> later = to_relative_motion(journal);
+  later.p += dt * later.v;
   for (int i = 0; i < joint_.n_r; ++i) {
-    const int wanted = static_cast<int>(std::lround(calc_ring(later, i).direction / spacing_)) - window_ / 2;
+    const int wanted = static_cast<int>(std::lround(find_direction(later, i) / spacing_)) - window_ / 2;
     int shift = wrap(wanted - first_[static_cast<std::size_t>(i)]);
     if (shift > joint_.n_ce / 2) shift -= joint_.n_ce;
     if (std::abs(shift) <= window_ / 8) continue;

@@ -1,26 +1,20 @@
 #pragma once
 
+#include <limits>
+#include <memory>
+#include <string_view>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "engine/clearance/clearance_joint.h"
-#include "engine/dynamics/constraints.h"
+#include "engine/dynamics/equations.h"
 #include "engine/dynamics/evaluation.h"
-#include "engine/dynamics/tree_dynamics.h"
-#include "engine/math/tree_ltdl.h"
+#include "engine/dynamics/shifted_jacobian.h"
+#include "engine/dynamics/tree_model.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
-
-/// What came of an evaluation of the equations of motion.
-enum class EvaluationStatus {
-  kOk,
-  kBristleMissing,  ///< an element touched that has no place in the state: widen_bristles() and step again
-  kLocked,          ///< the constraints' matrix is singular
-  kNonFinite,       ///< no number, or a mass matrix that is not positive definite
-};
 
 /// The mechanism as a first-order system dy/dt = f(t, y), Eqs. (13.1) and (13.2).
 ///
@@ -29,23 +23,35 @@ enum class EvaluationStatus {
 /// f depends on which contacts are on: that memory changes between steps only, by accept_step().
 class MotionSystem {
  public:
-  explicit MotionSystem(const Mechanism& mechanism);
+  /// @param instruction_set  one of instruction_sets(), the best one if empty; results are the same to the last bit
+  explicit MotionSystem(const Mechanism& mechanism, std::string_view instruction_set = {});
 
   /// State at t = 0 for given coordinates (of all the mechanism).
   [[nodiscard]] Eigen::VectorXd make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const;
   /// An Evaluation with room for everything, so that evaluating allocates nothing.
   [[nodiscard]] Evaluation make_evaluation() const;
 
-  /// Computes dy/dt and everything on the way to it. Allocates nothing.
+  /// Computes dy/dt. Allocates nothing.
+  [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
+  /// Computes dy/dt and tells everything found on the way to it. Allocates nothing.
   [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at);
+
+  /// Computes the exact Jacobian J = df/dy and df/dt at (t, y), with the contacts as they are. Both are valid until the next call.
+  [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y);
+  /// df/dt of the last linearise(), one for each entry of y.
+  [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }
+  /// Factors (shift 1 - J). False if it is singular.
+  [[nodiscard]] bool factor(double shift) { return jacobian_.factor(shift); }
+  /// x <- (shift 1 - J)^-1 x after factor().
+  void solve_in_place(Eigen::VectorXd& x) { jacobian_.solve_in_place(x); }
 
   /// Kinetic and potential energy of an evaluation.
   void calc_energies(Evaluation& at) const;
 
   /// Entries of y that error control looks at: all but work and losses.
   [[nodiscard]] Eigen::Index controlled_size() const { return 2 * free_count() + bristles_; }
-  [[nodiscard]] Eigen::Index free_count() const { return static_cast<Eigen::Index>(free_.size()); }
-  [[nodiscard]] const std::vector<FrameIndex>& free_coordinates() const { return free_; }
+  [[nodiscard]] Eigen::Index free_count() const { return static_cast<Eigen::Index>(model_.free.size()); }
+  [[nodiscard]] const std::vector<FrameIndex>& free_coordinates() const { return model_.free; }
 
   /// Appends the penetration of every ring of every joint with clearance.
   void add_penetrations(const Evaluation& at, std::vector<Penetration>& rings) const;
@@ -57,30 +63,21 @@ class MotionSystem {
   void widen_bristles(Eigen::VectorXd& y);
 
  private:
-  void read_state(double t, const Eigen::VectorXd& y, Evaluation& at) const;
-  [[nodiscard]] bool calc_contacts(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at);
-  void add_contact_load(const CutJoint& joint, const FrameMotion& j, const Eigen::Vector3d& force_W,
-                        const Eigen::Vector3d& moment_W, const std::vector<FrameMotion>& frames);
-  [[nodiscard]] EvaluationStatus solve_accelerations(Evaluation& at);
-  [[nodiscard]] EvaluationStatus solve_multipliers(const Evaluation& at);
-  void calc_drive_forces(Evaluation& at) const;
-  void calc_rates(Eigen::VectorXd& dydt, const Evaluation& at) const;
+  [[nodiscard]] bool move_drives(double t);
+  void make_room();
 
   const Mechanism& mechanism_;
-  std::vector<FrameIndex> free_, driven_;
+  TreeModel model_;
+  std::string_view instruction_set_;
   std::vector<ClearanceJoint> clearance_joints_;
   std::vector<std::size_t> clearance_joint_of_;  ///< index into cut_joints
   Eigen::Index bristles_ = 0;
 
-  TreeDynamics tree_;
-  TreeLtdl free_mass_;
-  Constraints constraints_;
-  Eigen::VectorXd free_force_;      ///< right-hand side, then accelerations, of the free coordinates
-  Eigen::MatrixXd free_Phi_q_t_;    ///< Phi_q of the free coordinates, transposed
-  Eigen::MatrixXd response_;        ///< M^-1 Phi_q^T
-  Eigen::MatrixXd A_;               ///< Phi_q M^-1 Phi_q^T
-  Eigen::LLT<Eigen::MatrixXd> A_llt_;
-  Eigen::VectorXd lambda_;
+  double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
+  std::vector<DrivenMotion> drives_;
+  std::unique_ptr<Equations> equations_;
+  ShiftedJacobian jacobian_;
+  Eigen::VectorXd time_derivative_;
 };
 
 }  // namespace engine

@@ -9,6 +9,7 @@ struct DrivenMotion {
   double q = 0.0;
   double qd = 0.0;
   double qdd = 0.0;
+  double qddd = 0.0;  ///< what linearising by time needs
 };
 
 /// From rest to the velocity `omega` by the cycloidal law in `run_up` seconds, then on with it.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/clearance/radial_contact.h"
+#include "engine/clearance/contact_law.h"
 #include "engine/model/rpsup.h"
 #include "engine/simulate.h"
 #include "engine/validation/friction/parts.h"
@@ -43,7 +43,7 @@ class SlidingRecord : public QuietObserver {
 
  private:
   void take_ring(const JournalMotion& journal, int ring, double dt) {
-    const Eigen::Vector3d axial = ring_position(joint_, ring) * journal.R_bj.col(2);
+    const Eigen::Vector3d axial = calc_ring_position(joint_, ring) * journal.R_bj.col(2);
     const Eigen::Vector3d centre = journal.p_bj + axial;
     const double distance = std::hypot(centre.x(), centre.y());
     if (!(distance > joint_.c_r)) return;

@@ -1,0 +1,138 @@
+#pragma once
+
+#include "engine/clearance/clearance_parameters.h"
+#include "engine/math/dual.h"
+#include "engine/math/vec3.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// The journal as seen from the bearing: frame {j} in frame {b}, all in {b}. z is both parts' axis.
+/// P: what depends on positions; V: what depends on velocities as well.
+template <typename P, typename V>
+struct RelativeMotion {
+  Mat3<P> R;        ///< R_bj
+  Vec3<P> p;        ///< journal centre, [m]
+  Vec3<V> v, w;     ///< of the journal centre and of the journal relative to {b}
+
+  /// Velocity of the journal's material point at r from its centre, less that of the bearing's at the same place.
+  [[nodiscard]] RPSUP_INLINE Vec3<V> calc_velocity(const Vec3<P>& r) const { return v + cross(w, r); }
+};
+
+/// What all contacts of one joint do together. Force and moment act on the journal, about its centre, in {b}.
+template <typename V>
+struct JointLoad {
+  Vec3<V> force, moment;
+  V impact_power{};                  ///< lost in the normal law, [W]
+  V friction_power{};                ///< [W]
+  double radial_normal_sum = 0.0;    ///< [N]
+  double friction_sum = 0.0;         ///< magnitudes, [N]
+  double max_penetration = 0.0;      ///< of radial contacts, [m]
+  double elastic_energy = 0.0;       ///< [J]
+
+  template <typename P>
+  RPSUP_INLINE void add_force(const Vec3<P>& r, const Vec3<V>& f) {
+    force += f;
+    moment += cross(r, f);
+  }
+};
+
+template <typename V>
+struct NormalLaw {
+  V total;                           ///< f_n, [N], >= 0
+  V loss_power;                      ///< what the contact takes from the motion for good, [W]
+};
+
+/// The onset rate that serves in the normal law: the latched one (> 0), or in a contact that has just begun the current one.
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V choose_onset_rate(double latched, const V& rate, double minimum) {
+  if (latched > 0.0) return V(latched);
+  return value_of(rate) > minimum ? rate : V(minimum);
+}
+
+/// Lankarani and Nikravesh's damping on a given elastic force, Eq. (11.1): f_n = f_e (1 + chi rate / rate_onset), never negative.
+///
+/// With chi = 3/4 (1 - k_r^2) the rebound is not k_r times the impact velocity: k_r = 0.9 returns 0.9132.
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE NormalLaw<V> calc_normal_law(const P& elastic, const V& rate, const V& onset_rate, double chi) {
+  const V total = elastic * (1.0 + chi * rate / onset_rate);
+  if (value_of(total) < 0.0) return {V(0.0), -(elastic * rate)};
+  return {total, (total - elastic) * rate};
+}
+
+/// Stribeck's curve g(|v|) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2). Beyond (v / v_s)^2 = 40 the exponential is below rounding.
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_stribeck_curve(const LuGreParameters& p, const V& speed) {
+  const V ratio = speed / p.v_s;
+  const V squared = ratio * ratio;
+  if (value_of(squared) > 40.0) return V(p.mu_k);
+  return p.mu_k + (p.mu_s - p.mu_k) * exp(-squared);
+}
+
+/// How fast a bristle that slides lets go: sigma_0 |v| / g(|v|), [1/s].
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_bristle_decay(const LuGreParameters& p, const V& speed) {
+  return p.sigma_0 * speed / calc_stribeck_curve(p, speed);
+}
+
+/// What LuGre's law, Eq. (11.2), gives for one component of the sliding velocity.
+template <typename V>
+struct BristleLaw {
+  V force_ratio;                     ///< sigma_0 z + sigma_1 zd + sigma_2 v, [1]; it acts against v
+  V rate;                            ///< zd = v - sigma_0 |v| z / g(|v|), [m/s]
+};
+
+template <typename V>
+[[nodiscard]] RPSUP_INLINE BristleLaw<V> calc_bristle_law(const LuGreParameters& p, const V& decay, const V& v, const V& z) {
+  const V rate = v - decay * z;
+  return {p.sigma_0 * z + p.sigma_1 * rate + p.sigma_2 * v, rate};
+}
+
+/// One place where journal and bore touch: r from the journal centre, (n_x, n_y, 0) the outward normal of the bore, both in {b}.
+template <typename P, typename V>
+struct Touch {
+  Vec3<P> r;
+  P n_x, n_y;
+  NormalLaw<V> normal;
+};
+
+/// Adds normal force and friction of one touch to the load. The bristle has two components, along t = e_b x n and along the axis.
+/// @param bristle        may be null: no bristle to read or move
+/// @param bristle_rate   where its rate goes
+template <typename P, typename V>
+RPSUP_INLINE void add_touch(const ClearanceParameters& joint, const RelativeMotion<P, V>& journal, const Touch<P, V>& touch, const V* bristle,
+                            V* bristle_rate, JointLoad<V>& load) {
+  const V& f_n = touch.normal.total;
+  Vec3<V> force{-(f_n * touch.n_x), -(f_n * touch.n_y), V(0.0)};
+  load.radial_normal_sum += value_of(f_n);
+  load.impact_power += touch.normal.loss_power;
+  if (joint.friction) {
+    const LuGreParameters& law = *joint.friction;
+    const Vec3<V> velocity = journal.calc_velocity(touch.r);
+    const V v_t = velocity.y * touch.n_x - velocity.x * touch.n_y;
+    const V& v_z = velocity.z;
+    const V decay = calc_bristle_decay(law, sqrt(v_t * v_t + v_z * v_z));
+    const BristleLaw<V> along_t = calc_bristle_law(law, decay, v_t, bristle ? bristle[0] : V(0.0));
+    const BristleLaw<V> along_z = calc_bristle_law(law, decay, v_z, bristle ? bristle[1] : V(0.0));
+    const V f_t = f_n * along_t.force_ratio;
+    const V f_z = f_n * along_z.force_ratio;
+    force.x += f_t * touch.n_y;
+    force.y -= f_t * touch.n_x;
+    force.z -= f_z;
+    load.friction_sum += std::sqrt(value_of(f_t) * value_of(f_t) + value_of(f_z) * value_of(f_z));
+    load.friction_power += f_t * v_t + f_z * v_z;
+    if (bristle_rate) {
+      bristle_rate[0] = along_t.rate;
+      bristle_rate[1] = along_z.rate;
+    }
+  }
+  load.add_force(touch.r, force);
+}
+
+/// Axial position of a ring on the journal: evenly spaced over the length, a single one in the middle.
+[[nodiscard]] RPSUP_INLINE double calc_ring_position(const ClearanceParameters& joint, int ring) {
+  return joint.n_r == 1 ? 0.0 : joint.L_b * (static_cast<double>(ring) / (joint.n_r - 1) - 0.5);
+}
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

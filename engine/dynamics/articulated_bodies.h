@@ -1,0 +1,283 @@
+#pragma once
+
+#include "engine/dynamics/body_force.h"
+#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/frame_recursion.h"
+#include "engine/math/buffer.h"
+#include "engine/math/vec3.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// Angular acceleration of a frame and linear acceleration of its origin, in W.
+template <typename T>
+struct SpatialAcceleration {
+  Vec3<T> angular, linear;
+};
+
+/// The equations of motion of the open chains solved body by body, in a time that grows with their number: M qdd = tau - bias without M.
+///
+/// A body and all that it carries answer an acceleration (alpha, a) of its frame with the force and moment about the frame's origin
+///
+///     F = A a + C alpha + f,    N = C^T a + J alpha + n
+///
+/// of which what the joint leaves free is eliminated on the way to the root, and found on the way back. Of a spherical joint nothing but a
+/// force passes: A alone is left, a matrix of three. All accelerations here are what the free coordinates add to those of the frames.
+/// Source: R. Featherstone, Rigid Body Dynamics Algorithms, chapter 7.
+///
+/// P: scalar of positions and inertias.
+template <typename P>
+class ArticulatedBodies {
+ public:
+  explicit ArticulatedBodies(const TreeModel& model) : model_(model), answers_(model.joints.size()), eliminated_(model.joints.size()) {}
+
+  /// Computes the articulated inertias. False if one is not positive definite.
+  template <typename V>
+  [[nodiscard]] RPSUP_INLINE bool factor(const Frame<P, V>* frames, const JointAxes<P>* axes) {
+    bool definite = true;
+    for (int i = static_cast<int>(model_.joints.size()) - 1; i >= 0; --i) {
+      const TreeJoint& joint = model_.joints[static_cast<std::size_t>(i)];
+      if (!joint.moves) continue;
+      Answer& answer = answers_[static_cast<std::size_t>(i)];
+      add_body(joint, frames[i].R, answer);
+      definite = eliminate(joint, frames[i].R, axes[i], answer, eliminated_[static_cast<std::size_t>(i)]) && definite;
+      if (joint.parent_moves) carry(joint, answer, axes[i].r, answers_[static_cast<std::size_t>(joint.parent)]);
+    }
+    return definite;
+  }
+
+  /// Room for solve().
+  template <typename T>
+  struct Scratch {
+    explicit Scratch(const TreeModel& model) : forces(model.joints.size()), own(model.joints.size()), accelerations(model.joints.size()) {}
+    Buffer<SpatialForce<T>> forces;                ///< in: needed to move each joint's body as it is, less loads; out: what each joint transmits
+    Buffer<Vec3<T>> own;                           ///< a joint's answer to what is known before its parent moves
+    Buffer<SpatialAcceleration<T>> accelerations;  ///< of each joint's body
+  };
+
+  /// Solves for the free coordinates' accelerations with the matrices of factor().
+  /// @param tau  generalised force on each coordinate
+  /// @param qdd  one a coordinate; only free ones are written
+  template <typename T>
+  RPSUP_INLINE void solve(const JointAxes<P>* axes, const T* tau, Scratch<T>& scratch, T* qdd) const {
+    const auto count = static_cast<int>(model_.joints.size());
+    for (int i = count - 1; i >= 0; --i) {
+      const TreeJoint& joint = model_.joints[static_cast<std::size_t>(i)];
+      SpatialForce<T>& force = scratch.forces[static_cast<std::size_t>(i)];
+      if (!joint.driven) transmit(joint, axes[i], eliminated_[static_cast<std::size_t>(i)], tau + joint.first, scratch.own[static_cast<std::size_t>(i)], force);
+      if (joint.parent < 0) continue;
+      SpatialForce<T>& parent = scratch.forces[static_cast<std::size_t>(joint.parent)];
+      parent.force += force.force;
+      parent.moment += force.moment + cross(axes[i].r, force.force);
+    }
+    for (int i = 0; i < count; ++i) {
+      const TreeJoint& joint = model_.joints[static_cast<std::size_t>(i)];
+      if (joint.moves) accelerate(joint, i, axes[i], scratch, qdd + joint.first);
+    }
+  }
+
+  /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.
+  template <typename T>
+  [[nodiscard]] RPSUP_INLINE T calc_drive_force(int index, const JointAxes<P>& axes, const Scratch<T>& scratch) const {
+    const auto k = static_cast<std::size_t>(index);
+    const TreeJoint& joint = model_.joints[k];
+    SpatialForce<T> force = scratch.forces[k];
+    if (joint.parent_moves) {
+      const SpatialAcceleration<T>& a = scratch.accelerations[k];
+      force.force += answers_[k].A * a.linear + answers_[k].C * a.angular;
+      force.moment += transpose_times(answers_[k].C, a.linear) + answers_[k].J * a.angular;
+    }
+    return dot(axes.axis[0], joint.kind == TreeJoint::Kind::kTranslation ? force.force : force.moment);
+  }
+
+ private:
+  /// What a joint's body, and all that it carries, answers to an acceleration.
+  struct Answer {
+    Sym3<P> A;
+    Mat3<P> C;
+    Sym3<P> J;
+  };
+  /// What eliminating a joint's coordinates left behind.
+  struct Eliminated {
+    Mat3<P> C;             ///< spherical
+    Sym3<P> J_inverse;     ///< spherical
+    Vec3<P> U_a, U_alpha;  ///< single: force and moment of a unit acceleration of the coordinate
+    P D_inverse;           ///< single
+  };
+
+  /// C of a body alone: alpha x mc.
+  [[nodiscard]] RPSUP_INLINE static Mat3<P> cross_matrix(const Vec3<P>& mc) {
+    return {{P(0.0), -mc.z, mc.y}, {mc.z, P(0.0), -mc.x}, {-mc.y, mc.x, P(0.0)}};
+  }
+
+  /// Adds the body to what its children have left, or puts it there where none has.
+  RPSUP_INLINE void add_body(const TreeJoint& joint, const Mat3<P>& R, Answer& answer) const {
+    if (!joint.carries_moving) answer = Answer{};
+    answer.A.xx += joint.mass;
+    answer.A.yy += joint.mass;
+    answer.A.zz += joint.mass;
+    if (!answers_turning(joint)) return;
+    if (!joint.com_at_origin) answer.C += cross_matrix(rotate_constant(R, joint.mc, joint.com_along_x));
+    if (joint.inertia != TreeJoint::Inertia::kNone) answer.J += calc_inertia(joint, R);
+  }
+
+  /// Whether the free coordinates can turn a joint's body.
+  [[nodiscard]] RPSUP_INLINE static bool answers_turning(const TreeJoint& joint) {
+    return joint.parent_answers_turning || (!joint.driven && joint.kind != TreeJoint::Kind::kTranslation);
+  }
+
+  RPSUP_INLINE bool eliminate(const TreeJoint& joint, const Mat3<P>& R, const JointAxes<P>& axes, Answer& answer, Eliminated& eliminated) const {
+    if (joint.driven) return true;
+    if (joint.kind != TreeJoint::Kind::kSpherical) return eliminate_single(joint, axes.axis[0], answer, eliminated);
+    if (joint.is_bare_rod()) {
+      const double across = 1.0 / joint.I[4];
+      eliminated.J_inverse = {};
+      add_outer(eliminated.J_inverse, 1.0 / joint.I[0] - across, R.x);
+      eliminated.J_inverse.xx += across;
+      eliminated.J_inverse.yy += across;
+      eliminated.J_inverse.zz += across;
+    } else {
+      const Sym3Inverse<P> inverse = invert(answer.J);
+      if (!(value_of(inverse.determinant) > 0.0)) return false;
+      eliminated.J_inverse = inverse.matrix;
+    }
+    eliminated.C = answer.C;
+    if (joint.parent_moves) subtract_turning(eliminated, answer.A);
+    return true;
+  }
+
+  /// A <- A - C J^-1 C^T: all three rotations at once, whatever their axes.
+  RPSUP_INLINE void subtract_turning(const Eliminated& e, Sym3<P>& A) const {
+    const Vec3<P> row_x{e.C.x.x, e.C.y.x, e.C.z.x}, row_y{e.C.x.y, e.C.y.y, e.C.z.y}, row_z{e.C.x.z, e.C.y.z, e.C.z.z};
+    const Vec3<P> x = e.J_inverse * row_x, y = e.J_inverse * row_y, z = e.J_inverse * row_z;
+    A.xx -= dot(row_x, x);
+    A.yy -= dot(row_y, y);
+    A.zz -= dot(row_z, z);
+    A.xy -= dot(row_x, y);
+    A.xz -= dot(row_x, z);
+    A.yz -= dot(row_y, z);
+  }
+
+  RPSUP_INLINE bool eliminate_single(const TreeJoint& joint, const Vec3<P>& axis, Answer& answer, Eliminated& e) const {
+    const bool slides = joint.kind == TreeJoint::Kind::kTranslation;
+    const bool turning = answers_turning(joint);
+    e.U_a = slides ? answer.A * axis : answer.C * axis;
+    if (turning) e.U_alpha = slides ? transpose_times(answer.C, axis) : answer.J * axis;
+    const P D = dot(axis, slides ? e.U_a : e.U_alpha);
+    e.D_inverse = 1.0 / D;
+    if (joint.parent_moves) {
+      const P minus = -e.D_inverse;
+      add_outer(answer.A, minus, e.U_a);
+      if (joint.parent_answers_turning) {
+        add_outer(answer.J, minus, e.U_alpha);
+        const Vec3<P> scaled = minus * e.U_a;
+        answer.C += Mat3<P>{e.U_alpha.x * scaled, e.U_alpha.y * scaled, e.U_alpha.z * scaled};
+      }
+    }
+    return value_of(D) > 0.0;
+  }
+
+  /// Adds what is left of a joint to its parent, whose origin sees the joint's at r.
+  RPSUP_INLINE void carry(const TreeJoint& joint, const Answer& answer, const Vec3<P>& r, Answer& parent) {
+    const TreeJoint& carrier = model_.joints[static_cast<std::size_t>(joint.parent)];
+    if (!has_answer(joint)) parent = Answer{};
+    parent.A += answer.A;
+    if (!answers_turning(carrier)) return;
+    const Mat3<P> B = times_cross(answer.A, r);
+    parent.C.x -= B.x;
+    parent.C.y -= B.y;
+    parent.C.z -= B.z;
+    subtract_cross(r, B, parent.J);
+    if (joint.kind == TreeJoint::Kind::kSpherical) return;
+    parent.C += answer.C;
+    parent.J += answer.J;
+    add_cross_both(r, answer.C, parent.J);
+  }
+
+  /// Whether a later joint has been carried to the same parent before.
+  [[nodiscard]] RPSUP_INLINE bool has_answer(const TreeJoint& joint) const { return !joint.last_child; }
+
+  /// A [r]x
+  [[nodiscard]] RPSUP_INLINE static Mat3<P> times_cross(const Sym3<P>& A, const Vec3<P>& r) {
+    return {{A.xy * r.z - A.xz * r.y, A.yy * r.z - A.yz * r.y, A.yz * r.z - A.zz * r.y},
+            {A.xz * r.x - A.xx * r.z, A.yz * r.x - A.xy * r.z, A.zz * r.x - A.xz * r.z},
+            {A.xx * r.y - A.xy * r.x, A.xy * r.y - A.yy * r.x, A.xz * r.y - A.yz * r.x}};
+  }
+
+  /// J <- J - [r]x B, which is symmetric.
+  RPSUP_INLINE static void subtract_cross(const Vec3<P>& r, const Mat3<P>& B, Sym3<P>& J) {
+    J.xx -= r.y * B.x.z - r.z * B.x.y;
+    J.yy -= r.z * B.y.x - r.x * B.y.z;
+    J.zz -= r.x * B.z.y - r.y * B.z.x;
+    J.xy -= r.y * B.y.z - r.z * B.y.y;
+    J.xz -= r.y * B.z.z - r.z * B.z.y;
+    J.yz -= r.z * B.z.x - r.x * B.z.z;
+  }
+
+  /// J <- J + [r]x C + its transpose
+  RPSUP_INLINE static void add_cross_both(const Vec3<P>& r, const Mat3<P>& C, Sym3<P>& J) {
+    const Vec3<P> x = cross(r, C.x), y = cross(r, C.y), z = cross(r, C.z);
+    J.xx += 2.0 * x.x;
+    J.yy += 2.0 * y.y;
+    J.zz += 2.0 * z.z;
+    J.xy += y.x + x.y;
+    J.xz += z.x + x.z;
+    J.yz += z.y + y.z;
+  }
+
+  /// The force and moment that a joint passes on before its parent accelerates.
+  template <typename T>
+  RPSUP_INLINE void transmit(const TreeJoint& joint, const JointAxes<P>& axes, const Eliminated& e, const T* tau, Vec3<T>& own,
+                             SpatialForce<T>& force) const {
+    if (joint.kind == TreeJoint::Kind::kSpherical) {
+      const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
+      own = e.J_inverse * (moment - force.moment);
+      force.force += e.C * own;
+      force.moment = moment;
+      return;
+    }
+    own.x = e.D_inverse * (tau[0] - dot(axes.axis[0], joint.kind == TreeJoint::Kind::kTranslation ? force.force : force.moment));
+    force.force += own.x * e.U_a;
+    if (answers_turning(joint)) force.moment += own.x * e.U_alpha;
+  }
+
+  /// A joint's acceleration, after its parent's.
+  template <typename T>
+  RPSUP_INLINE void accelerate(const TreeJoint& joint, int index, const JointAxes<P>& axes, Scratch<T>& scratch, T* qdd) const {
+    const auto k = static_cast<std::size_t>(index);
+    const Eliminated& e = eliminated_[k];
+    SpatialAcceleration<T> own;
+    if (joint.parent_moves) {
+      own = scratch.accelerations[static_cast<std::size_t>(joint.parent)];
+      if (joint.parent_answers_turning) own.linear += cross(own.angular, axes.r);
+    }
+    if (joint.kind == TreeJoint::Kind::kSpherical) {
+      Vec3<T> alpha = scratch.own[k];
+      if (joint.parent_moves) alpha -= e.J_inverse * transpose_times(e.C, own.linear);
+      const Vec3<T> relative = alpha - own.angular;
+      qdd[0] = dot(axes.dual.x, relative);
+      qdd[1] = dot(axes.dual.y, relative);
+      qdd[2] = dot(axes.dual.z, relative);
+      own.angular = alpha;
+    } else if (!joint.driven) {
+      T acceleration = scratch.own[k].x;
+      if (joint.parent_moves) {
+        acceleration -= e.D_inverse * dot(e.U_a, own.linear);
+        if (joint.parent_answers_turning) acceleration -= e.D_inverse * dot(e.U_alpha, own.angular);
+      }
+      qdd[0] = acceleration;
+      if (joint.kind == TreeJoint::Kind::kTranslation)
+        own.linear += acceleration * axes.axis[0];
+      else
+        own.angular += acceleration * axes.axis[0];
+    }
+    if (joint.carries_moving || joint.driven) scratch.accelerations[k] = own;
+  }
+
+  const TreeModel& model_;
+  Buffer<Answer> answers_;
+  Buffer<Eliminated> eliminated_;
+};
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

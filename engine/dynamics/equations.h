@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/clearance/clearance_joint.h"
+#include "engine/dynamics/evaluation.h"
+#include "engine/dynamics/tree_model.h"
+#include "engine/model/drive_law.h"
+
+namespace engine {
+
+/// What came of an evaluation of the equations of motion.
+enum class EvaluationStatus {
+  kOk,
+  kBristleMissing,  ///< an element touched that has no place in the state: widen_bristles() and step again
+  kLocked,          ///< the constraints' matrix is singular
+  kNonFinite,       ///< no number, or a mass matrix that is not positive definite
+};
+
+/// Derivatives of the outputs (accelerations of the free coordinates, rates of the acting bristles, rates of work and loss) by the free
+/// coordinates, their rates, time and the acting bristles. Matrices row after row; an owner gives the room.
+struct Linearisation {
+  int outputs = 0;
+  int bristle_count = 0;         ///< bristles that act
+  int* bristles = nullptr;       ///< which ones, by their place among all
+  double* by_q = nullptr;        ///< outputs x free coordinates
+  double* by_v = nullptr;        ///< outputs x free coordinates
+  double* by_t = nullptr;        ///< outputs
+  double* by_bristle = nullptr;  ///< outputs x all bristles, of which the first bristle_count columns are set
+};
+
+/// The equations of motion, compiled for one instruction set: one call evaluates everything.
+class Equations {
+ public:
+  virtual ~Equations() = default;
+  Equations(const Equations&) = delete;
+  Equations& operator=(const Equations&) = delete;
+
+  /// @param y      state as MotionSystem describes it
+  /// @param drives        motion of each drive at the time of y
+  /// @param drives_moved  whether it is another one than in the last call
+  [[nodiscard]] virtual EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) = 0;
+
+  /// What evaluate() last found, for observers.
+  virtual void read_out(Evaluation& at) const = 0;
+
+  /// All derivatives at y, exact to rounding.
+  [[nodiscard]] virtual EvaluationStatus linearise(const double* y, const DrivenMotion* drives, bool drives_moved, Linearisation& result) = 0;
+
+ protected:
+  Equations() = default;
+};
+
+/// Names of the instruction sets that this program was compiled for and this machine has; the best one is last.
+[[nodiscard]] std::vector<std::string_view> instruction_sets();
+
+/// @param instruction_set  one of instruction_sets(); results are the same to the last bit
+/// @param model, joints    must outlive the equations; `joints` are the mechanism's joints with clearance, with what they remember
+[[nodiscard]] std::unique_ptr<Equations> make_equations(std::string_view instruction_set, const TreeModel& model,
+                                                        const std::vector<ClearanceJoint>& joints);
+
+}  // namespace engine

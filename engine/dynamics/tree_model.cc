@@ -1,0 +1,153 @@
+#include "engine/dynamics/tree_model.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace engine {
+
+namespace {
+
+std::array<double, 9> columns_of(const Eigen::Matrix3d& m) {
+  std::array<double, 9> columns{};
+  Eigen::Map<Eigen::Matrix3d>(columns.data()) = m;
+  return columns;
+}
+
+std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+bool is_along_x(const Eigen::Vector3d& v) { return v.y() == 0.0 && v.z() == 0.0; }
+
+TreePlacement make_placement(const Placement& placement) {
+  return {!is_unturned(placement), !placement.p.isZero(0.0), is_along_x(placement.p), columns_of(placement.R), array_of(placement.p)};
+}
+
+TreeJoint::Inertia kind_of_inertia(const Coordinate& c) {
+  if (c.mass == 0.0) return TreeJoint::Inertia::kNone;
+  const Eigen::Matrix3d& I = c.inertia;
+  if (!I.isDiagonal(0.0)) return TreeJoint::Inertia::kFull;
+  return I(1, 1) == I(2, 2) ? TreeJoint::Inertia::kAxisymmetric : TreeJoint::Inertia::kDiagonal;
+}
+
+void set_body(const Coordinate& c, TreeJoint& joint) {
+  joint.inertia = kind_of_inertia(c);
+  joint.mass = c.mass;
+  joint.mc = array_of(c.mass * c.com);
+  joint.com_at_origin = c.com.isZero(0.0);
+  joint.com_along_x = is_along_x(c.com);
+  joint.I = columns_of(c.inertia);
+}
+
+/// Finds the joints among a mechanism's coordinates.
+class JointFinder {
+ public:
+  explicit JointFinder(const Mechanism& mechanism) : mechanism_(mechanism), joint_of_(mechanism.coordinates.size(), -1) {}
+
+  std::vector<TreeJoint> find() {
+    for (int i = 0; i < static_cast<int>(mechanism_.coordinates.size()); i += joints_.back().count()) add_joint(i);
+    for (std::size_t i = joints_.size(); i-- > 0;) {
+      TreeJoint& joint = joints_[i];
+      if (joint.parent < 0 || !joint.moves) continue;
+      bool& carries_moving = joints_[static_cast<std::size_t>(joint.parent)].carries_moving;
+      joint.last_child = !carries_moving;
+      carries_moving = true;
+    }
+    return joints_;
+  }
+
+  [[nodiscard]] int joint_of(FrameIndex frame) const { return frame == kGround ? -1 : joint_of_[static_cast<std::size_t>(frame)]; }
+
+ private:
+  [[nodiscard]] const Coordinate& coordinate(int i) const { return mechanism_.coordinates[static_cast<std::size_t>(i)]; }
+
+  void add_joint(int i) {
+    const Coordinate& c = coordinate(i);
+    TreeJoint joint;
+    joint.first = i;
+    joint.kind = is_spherical(i) ? TreeJoint::Kind::kSpherical
+                                 : c.motion == Motion::kRotation ? TreeJoint::Kind::kRotation : TreeJoint::Kind::kTranslation;
+    joint.axis = static_cast<int>(c.axis);
+    joint.placement = make_placement(c.placement);
+    joint.driven = is_eliminated(i);
+    joint.parent = joint_of(c.parent);
+    const bool rotates = joint.kind != TreeJoint::Kind::kTranslation;
+    if (joint.parent >= 0) {
+      const TreeJoint& parent = joints_[static_cast<std::size_t>(joint.parent)];
+      joint.parent_turns = parent.turns;
+      joint.parent_moves = parent.moves;
+      joint.parent_answers_turning = parent.parent_answers_turning || (!parent.driven && parent.kind != TreeJoint::Kind::kTranslation);
+    }
+    joint.turns = joint.parent_turns || rotates;
+    joint.moves = joint.parent_moves || !joint.driven;
+    for (int k = 0; k < joint.count(); ++k) {
+      joint.stiffness[static_cast<std::size_t>(k)] = coordinate(i + k).stiffness;
+      joint.damping[static_cast<std::size_t>(k)] = coordinate(i + k).damping;
+      joint.sprung = joint.sprung || coordinate(i + k).stiffness != 0.0 || coordinate(i + k).damping != 0.0;
+      joint_of_[static_cast<std::size_t>(i + k)] = static_cast<int>(joints_.size());
+    }
+    set_body(coordinate(i + joint.count() - 1), joint);
+    joints_.push_back(joint);
+  }
+
+  [[nodiscard]] bool is_eliminated(int i) const {
+    return mechanism_.drive_rows == DriveRows::kEliminated &&
+           std::any_of(mechanism_.drives.begin(), mechanism_.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
+  }
+
+  [[nodiscard]] bool is_free_rotation(int i, Axis axis) const {
+    return coordinate(i).motion == Motion::kRotation && coordinate(i).axis == axis && !is_eliminated(i);
+  }
+
+  /// Three free rotations about z, y, x of one point, with nothing else on the two frames between.
+  [[nodiscard]] bool is_spherical(int i) const {
+    if (i + 2 >= static_cast<int>(mechanism_.coordinates.size())) return false;
+    if (!is_free_rotation(i, Axis::kZ) || !is_free_rotation(i + 1, Axis::kY) || !is_free_rotation(i + 2, Axis::kX)) return false;
+    for (const int k : {i + 1, i + 2})
+      if (coordinate(k).parent != k - 1 || !is_inside_joint(coordinate(k)) || !is_unturned(coordinate(k).placement) || !is_empty(k - 1)) return false;
+    return true;
+  }
+
+  [[nodiscard]] bool is_empty(int i) const {
+    if (coordinate(i).mass != 0.0) return false;
+    for (const CutJoint& joint : mechanism_.cut_joints)
+      if (joint.bearing_frame == i || joint.journal_frame == i) return false;
+    return std::count_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), [i](const Coordinate& c) { return c.parent == i; }) == 1;
+  }
+
+  const Mechanism& mechanism_;
+  std::vector<TreeJoint> joints_;
+  std::vector<int> joint_of_;
+};
+
+}  // namespace
+
+TreeModel::TreeModel(const Mechanism& mechanism)
+    : coordinates(static_cast<int>(mechanism.coordinates.size())),
+      drive_rows(mechanism.drive_rows == DriveRows::kMultipliers),
+      alpha(mechanism.baumgarte_alpha),
+      beta(mechanism.baumgarte_beta),
+      gravity(array_of(mechanism.gravity_W)) {
+  JointFinder finder(mechanism);
+  joints = finder.find();
+  for (const Drive& drive : mechanism.drives) {
+    drives.push_back(drive.coordinate);
+    drive_joints.push_back(finder.joint_of(drive.coordinate));
+  }
+  for (const TreeJoint& joint : joints)
+    for (int k = 0; k < joint.count() && !joint.driven; ++k) free.push_back(joint.first + k);
+  int clearances = 0;
+  for (const CutJoint& joint : mechanism.cut_joints) {
+    TreeCutJoint cut{.bearing_joint = finder.joint_of(joint.bearing_frame), .journal_joint = finder.joint_of(joint.journal_frame),
+                     .bearing = make_placement(joint.bearing), .journal = make_placement(joint.journal)};
+    if (joint.clearance) {
+      cut.clearance = clearances++;
+    } else {
+      cut.first_row = rows;
+      rows += 5;
+    }
+    cut_joints.push_back(cut);
+  }
+  first_drive_row = rows;
+  if (drive_rows) rows += static_cast<int>(drives.size());
+}
+
+}  // namespace engine

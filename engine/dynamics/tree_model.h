@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// A frame fixed to another one, with what is zero marked.
+struct TreePlacement {
+  bool turned = false;                ///< R is no identity
+  bool shifted = false;               ///< p is not zero
+  bool along_x = false;               ///< p = (x, 0, 0)
+  std::array<double, 9> R{};          ///< column after column
+  std::array<double, 3> p{};          ///< [m]
+};
+
+/// A joint and the body that it carries: one coordinate, or the three rotations z, y, x of a spherical joint taken together.
+/// What does not move, turn or weigh is marked, and left out where it is computed.
+struct TreeJoint {
+  enum class Kind { kTranslation, kRotation, kSpherical };
+  enum class Inertia { kNone, kAxisymmetric, kDiagonal, kFull };  ///< kAxisymmetric: about the frame's x
+
+  Kind kind = Kind::kRotation;
+  int first = 0;                      ///< its coordinate, or the first of its three
+  int axis = 0;                       ///< of a single coordinate: 0, 1, 2 for x, y, z
+  int parent = -1;                    ///< joint that carries it
+  TreePlacement placement;            ///< in the parent's frame
+  bool driven = false;                ///< its motion is given: the coordinate is eliminated
+  bool parent_turns = false;          ///< its parent's frame may rotate
+  bool turns = false;                 ///< its own frame may
+  bool moves = false;                 ///< it, or a joint that carries it, is free
+  bool parent_moves = false;
+  bool parent_answers_turning = false;  ///< a joint that carries it is a free rotation
+  bool carries_moving = false;        ///< it carries joints that move
+  bool last_child = false;            ///< of those that its parent carries and that move
+  bool sprung = false;                ///< a spring or damper acts on it
+  std::array<double, 3> stiffness{}, damping{};  ///< of its coordinates
+
+  Inertia inertia = Inertia::kNone;
+  double mass = 0.0;                  ///< [kg]
+  std::array<double, 3> mc{};         ///< mass times centre of mass, [kg m]
+  bool com_at_origin = true;
+  bool com_along_x = true;
+  std::array<double, 9> I{};          ///< about the frame's origin, [kg m^2]
+
+  [[nodiscard]] int count() const { return kind == Kind::kSpherical ? 3 : 1; }
+  /// A rod that carries nothing which moves: its inertia has an inverse in closed form.
+  [[nodiscard]] bool is_bare_rod() const { return inertia == Inertia::kAxisymmetric && com_along_x && !carries_moving; }
+};
+
+/// A joint at which a loop is cut. Its bearing and journal sit on the bodies of two joints of the tree, -1: on the ground.
+struct TreeCutJoint {
+  int bearing_joint = -1, journal_joint = -1;
+  TreePlacement bearing, journal;
+  int clearance = -1;                 ///< index among the joints with clearance; -1: ideal
+  int first_row = -1;                 ///< of its five constraint rows; -1: it has clearance
+};
+
+/// A mechanism made ready for evaluation.
+struct TreeModel {
+  explicit TreeModel(const Mechanism& mechanism);
+
+  int coordinates = 0;
+  std::vector<TreeJoint> joints;      ///< each behind the one that carries it
+  std::vector<TreeCutJoint> cut_joints;
+  std::vector<int> free;              ///< free coordinates
+  std::vector<int> drives;            ///< coordinate of each drive
+  std::vector<int> drive_joints;      ///< joint of each drive
+  bool drive_rows = false;            ///< drives are constraint rows
+  int rows = 0;                       ///< constraint rows
+  int first_drive_row = 0;
+  double alpha = 0.0, beta = 0.0;     ///< Baumgarte's, [1/s]
+  std::array<double, 3> gravity{};    ///< [m/s^2]
+};
+
+}  // namespace engine

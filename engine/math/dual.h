@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/math/instruction_set.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// A number with its derivatives in eight directions: forward differentiation, exact to rounding. What is computed with these is
+/// computed together with its derivatives, from the same lines of code.
+struct Dual {
+  static constexpr int kDirections = 8;
+  using Lanes = double __attribute__((vector_size(64), aligned(8)));
+
+  double value;
+  Lanes d;
+
+  Dual() = default;
+  RPSUP_INLINE Dual(double constant) : value(constant), d{} {}  // NOLINT: a constant is a Dual
+  RPSUP_INLINE Dual(double v, const Lanes& lanes) : value(v), d(lanes) {}
+
+  [[nodiscard]] double derivative(int direction) const { return d[direction]; }
+  void set_derivative(int direction, double derivative) { d[direction] = derivative; }
+
+  RPSUP_INLINE Dual& operator+=(const Dual& b) {
+    value += b.value;
+    d += b.d;
+    return *this;
+  }
+  RPSUP_INLINE Dual& operator+=(double b) {
+    value += b;
+    return *this;
+  }
+  RPSUP_INLINE Dual& operator-=(const Dual& b) {
+    value -= b.value;
+    d -= b.d;
+    return *this;
+  }
+  RPSUP_INLINE Dual& operator-=(double b) {
+    value -= b;
+    return *this;
+  }
+};
+
+[[nodiscard]] RPSUP_INLINE Dual operator-(const Dual& a) { return {-a.value, -a.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.d + b.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.d - b.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator*(const Dual& a, const Dual& b) {
+  return {a.value * b.value, a.value * b.d + b.value * a.d};
+}
+[[nodiscard]] RPSUP_INLINE Dual operator+(const Dual& a, double b) { return {a.value + b, a.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator+(double a, const Dual& b) { return {a + b.value, b.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator-(const Dual& a, double b) { return {a.value - b, a.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator-(double a, const Dual& b) { return {a - b.value, -b.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator*(double a, const Dual& b) { return {a * b.value, a * b.d}; }
+[[nodiscard]] RPSUP_INLINE Dual operator*(const Dual& a, double b) { return b * a; }
+
+/// f(a) with the derivative f'(a).
+[[nodiscard]] RPSUP_INLINE Dual chain(const Dual& a, double f, double df) { return {f, df * a.d}; }
+
+[[nodiscard]] RPSUP_INLINE Dual operator/(const Dual& a, const Dual& b) {
+  const double inverse = 1.0 / b.value;
+  const double quotient = a.value * inverse;
+  return {quotient, inverse * (a.d - quotient * b.d)};
+}
+[[nodiscard]] RPSUP_INLINE Dual operator/(double a, const Dual& b) { return chain(b, a / b.value, -a / (b.value * b.value)); }
+[[nodiscard]] RPSUP_INLINE Dual operator/(const Dual& a, double b) { return (1.0 / b) * a; }
+
+[[nodiscard]] RPSUP_INLINE Dual sqrt(const Dual& a) {
+  const double root = std::sqrt(a.value);
+  return chain(a, root, root > 0.0 ? 0.5 / root : 0.0);
+}
+[[nodiscard]] RPSUP_INLINE Dual exp(const Dual& a) {
+  const double e = std::exp(a.value);
+  return chain(a, e, e);
+}
+
+[[nodiscard]] RPSUP_INLINE double sqrt(double a) { return std::sqrt(a); }
+[[nodiscard]] RPSUP_INLINE double exp(double a) { return std::exp(a); }
+
+/// The number alone: for decisions, which have no derivative.
+[[nodiscard]] RPSUP_INLINE double value_of(double a) { return a; }
+[[nodiscard]] RPSUP_INLINE double value_of(const Dual& a) { return a.value; }
+
+/// The derivative that comes with a value and, where it is a plain number, none.
+[[nodiscard]] RPSUP_INLINE double differentiate(double, double f, double) { return f; }
+[[nodiscard]] RPSUP_INLINE Dual differentiate(const Dual& a, double f, double df) { return chain(a, f, df); }
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

@@ -1,0 +1,127 @@
+// The Jacobian of the equations of motion against differences of themselves, and the instruction sets against each other.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/dynamics/loop_closure.h"
+#include "engine/dynamics/motion_system.h"
+#include "engine/model/rpsup.h"
+
+namespace engine {
+namespace {
+
+struct Case {
+  std::string name;
+  RpsupParameters parameters;
+  double offset;    ///< of the slider from where the loop closes, [m]: how deep the journal is pressed into the bearing
+  double step;      ///< of the differences, [m] or [rad]: far below the penetration, or far above rounding where nothing touches
+};
+
+std::vector<Case> all_cases() {
+  RpsupParameters rigid;
+  rigid.v_s = 1.0;  // Stribeck's curve then bends over the whole range of the rates below
+  RpsupParameters flexible = rigid;
+  flexible.coupler = Coupler::kFlexible;
+  RpsupParameters elements = rigid;
+  elements.contact = ContactForm::kElements;
+  RpsupParameters rows = flexible;
+  rows.drive = DriveEnforcement::kBaumgarte;
+  RpsupParameters ideal = flexible;
+  ideal.c_r = 0.0;
+  RpsupParameters all_rows = rows;
+  all_rows.c_r = 0.0;
+  constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
+  return {{"rigid", rigid, kPressed, kFine}, {"flexible", flexible, kPressed, kFine}, {"elements", elements, kPressed, kFine},
+          {"drive_rows", rows, kPressed, kFine}, {"ideal_flexible", ideal, 1e-6, kCoarse}, {"ideal_drive_rows", all_rows, 1e-6, kCoarse}};
+}
+
+/// A mechanism in motion, its bristles bent.
+class Moving {
+ public:
+  Moving(const Case& c, std::string_view instruction_set) : rpsup_(build_rpsup(c.parameters)), system_(rpsup_.mechanism, instruction_set) {
+    Evaluation at = system_.make_evaluation();
+    LoopClosure closure(rpsup_.mechanism);
+    EXPECT_TRUE(closure.assemble(kTime, at));
+    at.q[rpsup_.layout.slider] += c.offset;
+    for (Eigen::Index i = 0; i < at.qd.size(); ++i) at.qd[i] += 0.1 * static_cast<double>(i % 3 - 1) + 0.02;
+    for (const FrameIndex i : system_.free_coordinates())
+      if (rpsup_.mechanism.coordinates[static_cast<std::size_t>(i)].stiffness != 0.0) at.q[i] += 1e-3 * (i % 4 - 1.5);
+    y = system_.make_state(at.q, at.qd);
+    f = Eigen::VectorXd::Zero(y.size());
+    (void)system_.calc_derivative(kTime, y, f, at);
+    (void)system_.prepare_step(at, 0.0, y);
+    evaluate(kTime, y, f);
+    for (Eigen::Index b = 2 * system_.free_count(); b < system_.controlled_size(); ++b)
+      if (f[b] != 0.0) y[b] = 1e-4 * static_cast<double>(1 + b % 3);  // only what touches has a bristle
+    evaluate(kTime, y, f);
+  }
+
+  void evaluate(double t, const Eigen::VectorXd& state, Eigen::VectorXd& rates) {
+    EXPECT_EQ(system_.calc_derivative(t, state, rates), EvaluationStatus::kOk);
+  }
+
+  /// The state's derivative by one direction from four points, of order 4. @param direction  an entry of y, or -1 for time
+  Eigen::VectorXd differ(Eigen::Index direction, double step) {
+    const auto at = [&](double shift) {
+      Eigen::VectorXd moved = y;
+      if (direction >= 0) moved[direction] += shift;
+      Eigen::VectorXd rates = f;
+      evaluate(direction < 0 ? kTime + shift : kTime, moved, rates);
+      return rates;
+    };
+    return (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step);
+  }
+
+  static constexpr double kTime = 0.7;
+  Rpsup rpsup_;
+  MotionSystem system_;
+  Eigen::VectorXd y, f;
+};
+
+class Linearisation : public testing::TestWithParam<Case> {};
+
+TEST_P(Linearisation, IsTheDerivativeInEveryDirection) {
+  Moving moving(GetParam(), {});
+  MotionSystem& system = moving.system_;
+  ASSERT_EQ(system.linearise(Moving::kTime, moving.y), EvaluationStatus::kOk);
+  const Eigen::VectorXd by_time = moving.differ(-1, 10.0 * GetParam().step);
+  EXPECT_LT((system.time_derivative() - by_time).cwiseAbs().maxCoeff(), 2e-6 * by_time.cwiseAbs().maxCoeff());
+  // (shift 1 - J) is known by its inverse only: what it makes of its own columns, taken by differences, is a unit vector.
+  constexpr double kShift = 3e4;
+  ASSERT_TRUE(system.factor(kShift));
+  for (Eigen::Index j = 0; j < moving.y.size(); ++j) {
+    const double step = j < system.free_count() ? GetParam().step : j < 2 * system.free_count() ? 1e-5 : 1e-7;
+    Eigen::VectorXd x = -moving.differ(j, step);
+    x[j] += kShift;
+    const double scale = x.cwiseAbs().maxCoeff() / kShift;
+    system.solve_in_place(x);
+    x[j] -= 1.0;
+    EXPECT_LT(x.cwiseAbs().maxCoeff(), 2e-6 * std::max(1.0, scale)) << "column " << j;
+  }
+}
+
+TEST_P(Linearisation, AndTheRatesAreTheSameBytesWithEveryInstructionSet) {
+  Moving first(GetParam(), instruction_sets().front());
+  for (const std::string_view set : instruction_sets()) {
+    Moving other(GetParam(), set);
+    EXPECT_EQ((first.f - other.f).cwiseAbs().maxCoeff(), 0.0) << set;
+    ASSERT_EQ(first.system_.linearise(Moving::kTime, first.y), EvaluationStatus::kOk);
+    ASSERT_EQ(other.system_.linearise(Moving::kTime, other.y), EvaluationStatus::kOk);
+    EXPECT_EQ((first.system_.time_derivative() - other.system_.time_derivative()).cwiseAbs().maxCoeff(), 0.0) << set;
+    Eigen::VectorXd x = first.f;
+    Eigen::VectorXd y = first.f;
+    ASSERT_TRUE(first.system_.factor(1e5) && other.system_.factor(1e5));
+    first.system_.solve_in_place(x);
+    other.system_.solve_in_place(y);
+    EXPECT_EQ((x - y).cwiseAbs().maxCoeff(), 0.0) << set;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, testing::ValuesIn(all_cases()), [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace engine
