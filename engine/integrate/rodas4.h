@@ -1,0 +1,156 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include <Eigen/Core>
+// Odeint's resizing of Eigen vectors must be known before its steppers.
+#include <boost/numeric/odeint/external/eigen/eigen_resize.hpp>
+#include <boost/numeric/odeint/algebra/default_operations.hpp>
+#include <boost/numeric/odeint/algebra/vector_space_algebra.hpp>
+#include <boost/numeric/odeint/stepper/stepper_categories.hpp>
+#include <boost/numeric/odeint/util/resizer.hpp>
+#include <boost/numeric/odeint/util/state_wrapper.hpp>
+#include <boost/numeric/odeint/util/unwrap_reference.hpp>
+
+namespace engine {
+
+/// Coefficients of RODAS4 in the form that needs no product with the Jacobian, stage i = 1 ... 6, J and f_t at (t, y):
+///
+///     (1 / (gamma dt) - J) U_i = f(t + c_i dt, y + sum_j<i a_ij U_j) + sum_j<i (C_ij / dt) U_j + d_i dt f_t
+///
+/// Stages 5, 6 and the result end at t + dt, each the last one plus its own U: a_6 = (a_5, 1), m = (a_6, 1), and the embedded result
+/// of order 3 is the sixth argument, so that U_6 is the estimate of the error.
+/// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.7, with the digits of their code RODAS.
+struct Rodas4Coefficients {
+  static constexpr std::size_t kStages = 6;
+  using Row = std::array<double, kStages - 1>;
+
+  static constexpr double gamma = 0.25;
+  static constexpr std::array<double, kStages> c{0.0, 0.386, 0.21, 0.63, 1.0, 1.0};
+  static constexpr std::array<double, kStages> d{0.25, -0.1043, 0.1035, -0.3620000000000023e-1, 0.0, 0.0};
+  static constexpr std::array<Row, kStages> a{{
+      {},
+      {1.544},
+      {0.9466785280815826, 0.2557011698983284},
+      {3.314825187068521, 2.896124015972201, 0.9986419139977817},
+      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
+      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0},
+  }};
+  static constexpr std::array<Row, kStages> C{{
+      {},
+      {-5.668800000000000},
+      {-2.430093356833875, -0.2063599157091915},
+      {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
+      {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
+      {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054},
+  }};
+};
+
+/// RODAS4, the L-stable and stiffly accurate Rosenbrock method of order 4 with an error estimate of order 3: an Odeint error stepper on Eigen
+/// vectors. Each step takes one Jacobian, one factorisation, six solutions and, with f at its start given, five evaluations of f.
+///
+/// Its systems are Odeint's with the linear algebra of an implicit method, "linearly implicit systems":
+///
+///     system(y, dydt, t)              dydt <- f(t, y)
+///     system.linearise(y, t)          sees to it that what follows is about J = df/dy and df/dt at (t, y)
+///     system.time_derivative()        df/dt there
+///     system.factor(shift)            factors shift 1 - J; false if it is singular
+///     system.solve_in_place(x)        x <- (shift 1 - J)^-1 x
+///
+/// linearise() is called at each step's start: a system that knows the step to be a repeated one, from the same (t, y), need do nothing.
+/// Where the matrix is singular, the result and its error are not numbers.
+class Rodas4Stepper {
+ public:
+  using state_type = Eigen::VectorXd;
+  using deriv_type = Eigen::VectorXd;
+  using value_type = double;
+  using time_type = double;
+  using order_type = unsigned short;
+  using algebra_type = boost::numeric::odeint::vector_space_algebra;
+  using operations_type = boost::numeric::odeint::default_operations;
+  using resizer_type = boost::numeric::odeint::always_resizer;
+  using wrapped_state_type = boost::numeric::odeint::state_wrapper<state_type>;
+  using wrapped_deriv_type = boost::numeric::odeint::state_wrapper<deriv_type>;
+  using stepper_category = boost::numeric::odeint::error_stepper_tag;
+
+  static constexpr order_type order_value = 4;
+  static constexpr order_type stepper_order_value = 4;
+  static constexpr order_type error_order_value = 3;
+
+  [[nodiscard]] order_type order() const { return order_value; }
+  [[nodiscard]] order_type stepper_order() const { return stepper_order_value; }
+  [[nodiscard]] order_type error_order() const { return error_order_value; }
+
+  [[nodiscard]] algebra_type& algebra() { return algebra_; }
+
+  /// Room for states like y. Equal sizes allocate nothing.
+  void adjust_size(const state_type& y) {
+    for (state_type& U : U_) U.resize(y.size());
+    start_f_.resize(y.size());
+    stage_.resize(y.size());
+    error_.resize(y.size());
+  }
+
+  template <class System>
+  void do_step(System system, state_type& y, time_type t, time_type dt) {
+    do_step(system, y, t, dt, error_);
+  }
+
+  template <class System>
+  void do_step(System system, state_type& y, time_type t, time_type dt, state_type& error) {
+    do_step(system, y, t, y, dt, error);
+  }
+
+  template <class System>
+  void do_step(System system, const state_type& y, time_type t, state_type& end, time_type dt) {
+    do_step(system, y, t, end, dt, error_);
+  }
+
+  template <class System>
+  void do_step(System system, const state_type& y, time_type t, state_type& end, time_type dt, state_type& error) {
+    typename boost::numeric::odeint::unwrap_reference<System>::type& f = system;
+    adjust_size(y);
+    f(y, start_f_, t);
+    do_step(system, y, start_f_, t, end, dt, error);
+  }
+
+  /// @param dydt   f(t, y)
+  /// @param end    the state at t + dt; may be y itself
+  /// @param error  the result's difference from that of order 3
+  template <class System>
+  void do_step(System system, const state_type& y, const deriv_type& dydt, time_type t, state_type& end, time_type dt, state_type& error) {
+    using K = Rodas4Coefficients;
+    typename boost::numeric::odeint::unwrap_reference<System>::type& f = system;
+    adjust_size(y);
+    f.linearise(y, t);
+    if (!f.factor(1.0 / (K::gamma * dt))) {
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      error.setConstant(y.size(), kNone);
+      end.setConstant(y.size(), kNone);
+      return;
+    }
+    for (std::size_t i = 0; i < K::kStages; ++i) {
+      stage_ = y;
+      for (std::size_t j = 0; j < i; ++j) stage_ += K::a[i][j] * U_[j];
+      if (i == 0)
+        U_[i] = dydt;
+      else
+        f(stage_, U_[i], t + K::c[i] * dt);
+      if (K::d[i] != 0.0) U_[i] += K::d[i] * dt * f.time_derivative();
+      for (std::size_t j = 0; j < i; ++j) U_[i] += K::C[i][j] / dt * U_[j];
+      f.solve_in_place(U_[i]);
+    }
+    error = U_[K::kStages - 1];
+    end = stage_ + error;
+  }
+
+ private:
+  algebra_type algebra_;         ///< what Odeint measures errors with
+  std::array<state_type, Rodas4Coefficients::kStages> U_;
+  state_type stage_;             ///< argument of the stage at hand
+  state_type start_f_, error_;   ///< for callers that do without
+};
+
+}  // namespace engine

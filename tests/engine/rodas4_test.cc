@@ -1,0 +1,272 @@
+// RODAS4's coefficients by the order conditions, its order, its stability and its place among Odeint's steppers.
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <boost/numeric/odeint/external/eigen/eigen_algebra.hpp>
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/integrate/integrate_const.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/controlled_step_result.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/integrate/rodas4.h"
+
+namespace engine {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+using K = Rodas4Coefficients;
+using Tableau = Eigen::Matrix<double, K::kStages, K::kStages>;
+using Column = Eigen::Matrix<double, K::kStages, 1>;
+
+/// The method in the form of the order conditions, from its own: Gamma = (1 / gamma - C)^-1, alpha = a Gamma, b = m Gamma.
+struct ClassicalForm {
+  Tableau Gamma, alpha, beta;
+  Column b, b_embedded;
+};
+
+ClassicalForm make_classical_form() {
+  Tableau a = Tableau::Zero();
+  Tableau C = Tableau::Zero();
+  for (std::size_t i = 0; i < K::kStages; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::a[i][j];
+      C(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::C[i][j];
+    }
+  ClassicalForm form;
+  form.Gamma = (Tableau::Identity() / K::gamma - C).inverse();
+  form.alpha = a * form.Gamma;
+  form.beta = form.alpha + form.Gamma;
+  Column m = a.row(K::kStages - 1).transpose();
+  form.b_embedded = form.Gamma.transpose() * m;
+  m[K::kStages - 1] = 1.0;
+  form.b = form.Gamma.transpose() * m;
+  return form;
+}
+
+/// Sums over trees. Source: Hairer and Wanner, section IV.7, table 7.1, with beta_ij including the diagonal gamma.
+void expect_order_3(const ClassicalForm& m, const Column& b) {
+  const Column ones = Column::Ones();
+  const Column alpha = m.alpha * ones;
+  const Column beta = m.beta * ones;
+  EXPECT_NEAR(b.sum(), 1.0, 1e-13);
+  EXPECT_NEAR(b.dot(beta), 1.0 / 2.0, 1e-13);
+  EXPECT_NEAR(b.dot(alpha.cwiseAbs2()), 1.0 / 3.0, 1e-13);
+  EXPECT_NEAR(b.dot(m.beta * beta), 1.0 / 6.0, 1e-13);
+}
+
+TEST(Rodas4Coefficients, MeetTheConditionsOfOrder4) {
+  const ClassicalForm m = make_classical_form();
+  const Column ones = Column::Ones();
+  const Column alpha = m.alpha * ones;
+  const Column beta = m.beta * ones;
+  expect_order_3(m, m.b);
+  EXPECT_NEAR(m.b.dot(alpha.cwiseProduct(alpha.cwiseAbs2())), 1.0 / 4.0, 1e-13);
+  EXPECT_NEAR(m.b.dot(alpha.cwiseProduct(m.alpha * beta)), 1.0 / 8.0, 1e-13);
+  EXPECT_NEAR(m.b.dot(m.beta * alpha.cwiseAbs2()), 1.0 / 12.0, 1e-13);
+  EXPECT_NEAR(m.b.dot(m.beta * (m.beta * beta)), 1.0 / 24.0, 1e-13);
+}
+
+TEST(Rodas4Coefficients, HaveAnEmbeddedMethodOfOrder3Only) {
+  const ClassicalForm m = make_classical_form();
+  expect_order_3(m, m.b_embedded);
+  const Column alpha = m.alpha * Column::Ones();
+  EXPECT_GT(std::abs(m.b_embedded.dot(alpha.cwiseProduct(alpha.cwiseAbs2())) - 1.0 / 4.0), 1e-3);
+}
+
+// c and d are the row sums of alpha and Gamma: they are what a time that is one more entry of y would get.
+TEST(Rodas4Coefficients, TreatTimeAsAnotherEntryOfTheState) {
+  const ClassicalForm m = make_classical_form();
+  for (std::size_t i = 0; i < K::kStages; ++i) {
+    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), K::c[i], 1e-13) << i;
+    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), K::d[i], 1e-13) << i;
+  }
+}
+
+/// Dense linear algebra for a system given by f, J and df/dt.
+struct System {
+  std::function<Eigen::VectorXd(double, const Eigen::VectorXd&)> f;
+  std::function<Eigen::MatrixXd(double, const Eigen::VectorXd&)> calc_J;
+  std::function<Eigen::VectorXd(double, const Eigen::VectorXd&)> calc_f_t;
+  int evaluations = 0;
+  Eigen::MatrixXd J;
+  Eigen::VectorXd f_t;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+
+  void operator()(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
+    ++evaluations;
+    dydt = f(t, y);
+  }
+  void linearise(const Eigen::VectorXd& y, double t) {
+    J = calc_J(t, y);
+    f_t = calc_f_t(t, y);
+  }
+  [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return f_t; }
+  [[nodiscard]] bool factor(double shift) {
+    lu.compute(shift * Eigen::MatrixXd::Identity(J.rows(), J.cols()) - J);
+    return lu.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
+  }
+  void solve_in_place(Eigen::VectorXd& x) const { x = lu.solve(x); }
+};
+
+/// The solution that the system below is made for.
+Eigen::VectorXd exact(double t) { return Eigen::Vector2d(std::exp(std::sin(t)), 1.0 / (2.0 + std::cos(t))); }
+
+/// u' = cos(t) u + (u v)^2 - g^2, v' = sin(t) v^2 + sin(u v) - sin(g), with g(t) the exact u v.
+System make_nonlinear_system() {
+  System s;
+  const auto g = [](double t) { return exact(t).prod(); };
+  const auto g_t = [g](double t) { return g(t) * (std::cos(t) + std::sin(t) / (2.0 + std::cos(t))); };
+  s.f = [g](double t, const Eigen::VectorXd& y) {
+    const double p = y[0] * y[1];
+    return Eigen::Vector2d(std::cos(t) * y[0] + p * p - g(t) * g(t), std::sin(t) * y[1] * y[1] + std::sin(p) - std::sin(g(t)));
+  };
+  s.calc_J = [](double t, const Eigen::VectorXd& y) {
+    const double p = y[0] * y[1];
+    Eigen::Matrix2d J;
+    J << std::cos(t) + 2.0 * p * y[1], 2.0 * p * y[0], std::cos(p) * y[1], 2.0 * std::sin(t) * y[1] + std::cos(p) * y[0];
+    return J;
+  };
+  s.calc_f_t = [g, g_t](double t, const Eigen::VectorXd& y) {
+    return Eigen::Vector2d(-std::sin(t) * y[0] - 2.0 * g(t) * g_t(t), std::cos(t) * y[1] * y[1] - std::cos(g(t)) * g_t(t));
+  };
+  return s;
+}
+
+/// Error after [0, 1] in so many equal steps.
+double calc_global_error(int steps) {
+  System system = make_nonlinear_system();
+  Rodas4Stepper stepper;
+  Eigen::VectorXd y = exact(0.0);
+  for (int k = 0; k < steps; ++k) stepper.do_step(std::ref(system), y, static_cast<double>(k) / steps, 1.0 / steps);
+  return (y - exact(1.0)).norm();
+}
+
+TEST(Rodas4Stepper, IsOfOrder4) {
+  // The next term of the error is a part dt of it.
+  const double order = std::log2(calc_global_error(64) / calc_global_error(128));
+  EXPECT_NEAR(order, 4.0, 0.15);
+}
+
+/// Error estimate and error of one step from t = 0.3.
+struct Local {
+  double estimate, error;
+};
+Local calc_local(double dt) {
+  System system = make_nonlinear_system();
+  Rodas4Stepper stepper;
+  Eigen::VectorXd end, estimate;
+  stepper.do_step(std::ref(system), exact(0.3), 0.3, end, dt, estimate);
+  return {estimate.norm(), (end - exact(0.3 + dt)).norm()};
+}
+
+TEST(Rodas4Stepper, EstimatesTheErrorOfAnEmbeddedMethodOfOrder3) {
+  const Local coarse = calc_local(0.02);
+  const Local fine = calc_local(0.01);
+  EXPECT_NEAR(std::log2(coarse.estimate / fine.estimate), 4.0, 0.15);
+  EXPECT_NEAR(std::log2(coarse.error / fine.error), 5.0, 0.25);
+}
+
+TEST(Rodas4Stepper, TakesFiveEvaluationsIfTheFirstIsGiven) {
+  System system = make_nonlinear_system();
+  Rodas4Stepper stepper;
+  const Eigen::VectorXd y = exact(0.0);
+  Eigen::VectorXd dydt, end, error;
+  system(y, dydt, 0.0);
+  system.evaluations = 0;
+  stepper.do_step(std::ref(system), y, dydt, 0.0, end, 0.1, error);
+  EXPECT_EQ(system.evaluations, 5);
+  Eigen::VectorXd in_place = y;
+  stepper.do_step(std::ref(system), in_place, 0.0, 0.1);
+  EXPECT_EQ(in_place, end);
+}
+
+System make_linear_system(double lambda) {
+  System s;
+  s.f = [lambda](double, const Eigen::VectorXd& y) { return Eigen::VectorXd(lambda * y); };
+  s.calc_J = [lambda](double, const Eigen::VectorXd& y) { return Eigen::MatrixXd(lambda * Eigen::MatrixXd::Identity(y.size(), y.size())); };
+  s.calc_f_t = [](double, const Eigen::VectorXd& y) { return Eigen::VectorXd(Eigen::VectorXd::Zero(y.size())); };
+  return s;
+}
+
+/// R(z) of a step of 1 of y' = z y, for complex z as a rotation.
+double calc_growth(double re, double im) {
+  Eigen::Matrix2d A;
+  A << re, -im, im, re;
+  System s = make_linear_system(0.0);
+  s.f = [A](double, const Eigen::VectorXd& y) { return Eigen::VectorXd(A * y); };
+  s.calc_J = [A](double, const Eigen::VectorXd&) { return A; };
+  Rodas4Stepper stepper;
+  Eigen::VectorXd y = Eigen::Vector2d(1.0, 0.0);
+  stepper.do_step(std::ref(s), y, 0.0, 1.0);
+  return y.norm();
+}
+
+TEST(Rodas4Stepper, IsLStable) {
+  EXPECT_LT(calc_growth(-1e10, 0.0), 1e-8);
+  EXPECT_LT(calc_growth(0.0, 1e8), 1e-6);
+  // On the imaginary axis |R| <= 1: that and the poles on the right make the method A-stable.
+  for (double w = 1e-2; w < 1e6; w *= 1.2) EXPECT_LE(calc_growth(0.0, w), 1.0 + 1e-12) << w;
+}
+
+TEST(Rodas4Stepper, FollowsASlowSolutionOfAStiffSystemInBigSteps) {
+  static constexpr double kRate = -1e8;
+  System s;
+  s.f = [](double t, const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, kRate * (y[0] - std::cos(t))); };
+  s.calc_J = [](double, const Eigen::VectorXd&) { return Eigen::MatrixXd::Constant(1, 1, kRate); };
+  s.calc_f_t = [](double t, const Eigen::VectorXd&) { return Eigen::VectorXd::Constant(1, -kRate * std::sin(t)); };
+  Rodas4Stepper stepper;
+  Eigen::VectorXd y = Eigen::VectorXd::Constant(1, 2.0);  // far from the solution: one step forgets it
+  for (int k = 0; k < 20; ++k) {
+    stepper.do_step(std::ref(s), y, 0.1 * k, 0.1);
+    EXPECT_NEAR(y[0], std::cos(0.1 * (k + 1)), 1e-6) << k;
+  }
+}
+
+TEST(Rodas4Stepper, ReportsASingularMatrixAsNoNumber) {
+  System s = make_linear_system(4.0);  // 1 / (gamma dt) - J = 4 - 4
+  Rodas4Stepper stepper;
+  Eigen::VectorXd y = Eigen::VectorXd::Ones(1);
+  Eigen::VectorXd error;
+  stepper.do_step(std::ref(s), y, 0.0, 1.0, error);
+  EXPECT_TRUE(std::isnan(y[0]));
+  EXPECT_TRUE(std::isnan(error[0]));
+}
+
+TEST(Rodas4Stepper, IsDrivenByOdeintsLoopOfEqualSteps) {
+  System system = make_nonlinear_system();
+  Eigen::VectorXd ours = exact(0.0);
+  Rodas4Stepper stepper;
+  for (int k = 0; k < 16; ++k) stepper.do_step(std::ref(system), ours, 0.0625 * k, 0.0625);
+  Eigen::VectorXd y = exact(0.0);
+  std::vector<double> times;
+  const std::size_t steps = odeint::integrate_const(Rodas4Stepper(), std::ref(system), y, 0.0, 1.0, 0.0625,
+                                                    [&](const Eigen::VectorXd&, double t) { times.push_back(t); });
+  EXPECT_EQ(steps, 16u);
+  EXPECT_EQ(times.size(), 17u);
+  EXPECT_EQ(y, ours);
+}
+
+// Odeint's controller wants to know that it may give f at the start of the step; it calls that an explicit error stepper.
+TEST(Rodas4Stepper, IsDrivenByOdeintsErrorControl) {
+  using Checker = odeint::default_error_checker<double, Rodas4Stepper::algebra_type, Rodas4Stepper::operations_type>;
+  using Controlled = odeint::controlled_runge_kutta<Rodas4Stepper, Checker, odeint::default_step_adjuster<double, double>,
+                                                    Rodas4Stepper::resizer_type, odeint::explicit_error_stepper_tag>;
+  std::vector<double> errors;
+  for (const double tolerance : {1e-6, 1e-9}) {
+    System system = make_nonlinear_system();
+    Eigen::VectorXd y = exact(0.0);
+    const std::size_t steps = odeint::integrate_adaptive(Controlled(Checker(tolerance, tolerance)), std::ref(system), y, 0.0, 2.0, 1e-3);
+    EXPECT_GT(steps, 3u);
+    errors.push_back((y - exact(2.0)).norm());
+    EXPECT_LT(errors.back(), 100.0 * tolerance);
+  }
+  EXPECT_LT(errors[1], 0.02 * errors[0]);
+}
+
+}  // namespace
+}  // namespace engine
