@@ -82,8 +82,11 @@ void add_run_rows(Rows& rows) {
   rows.push_back(number({"output_rate_hz", "output_rate", "Hz", kChosen, "Samples of the trajectory per second; at most 2,000,000 in a run"},
                         above(0, 100'000), &O::output_rate));
   rows.push_back(choice<engine::Integrator O::*, engine::Integrator>(
-      {"integrator", "integrator", "", kChosen, "dopri5: error-controlled Dormand-Prince 5(4); rk4: classical Runge-Kutta, fixed step (the paper's)"},
-      &O::integrator, {{"dopri5", engine::Integrator::kDopri5}, {"rk4", engine::Integrator::kRk4}}));
+      {"integrator", "integrator", "", kChosen,
+       "dopri5: error-controlled Dormand-Prince 5(4); rodas4: error-controlled Rosenbrock 4(3), L-stable; rk4: classical Runge-Kutta, fixed step "
+       "(the paper's)"},
+      &O::integrator,
+      {{"dopri5", engine::Integrator::kDopri5}, {"rodas4", engine::Integrator::kRodas4}, {"rk4", engine::Integrator::kRk4}}));
   rows.push_back(number({"step_s", "step", "s", kChosen, "Step of rk4"}, between(1e-8, 1e-3), &O::step));
   rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen, "Of the error-controlled integrators"},
                         between(1e-13, 1e-2), &O::relative_tolerance));

@@ -27,7 +27,8 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       observer_(observer),
       system_(mechanism),
       dopri5_(options.relative_tolerance, options.absolute_tolerance),
-      control_(5.0),
+      rodas4_(options.relative_tolerance, options.absolute_tolerance),
+      control_(options.integrator == Integrator::kRodas4 ? 4.0 : 5.0),
       samples_(options.output_rate, options.duration) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
@@ -70,6 +71,7 @@ void Integration::prepare(double dt) {
 }
 
 void Integration::evaluate_again(StepEnd& end) {
+  rodas4_.begin_step();
   ++run_end_.evaluations;
   (void)system_.calc_derivative(end.t, end.y, end.f, end.at);  // where it could be evaluated before, it can be now
   system_.calc_energies(end.at);
@@ -100,8 +102,8 @@ void Integration::fail(RunStatus status, std::string detail) {
 bool Integration::try_fixed_step() {
   const double t_end = std::min(static_cast<double>(fixed_steps_ + 1) * options_.step, options_.duration);
   prepare(t_end - start_.t);
-  run_end_.evaluations += 4;
   const Trial trial = rk4_.try_step(system_, start_, t_end - start_.t, end_);
+  run_end_.evaluations += trial.evaluations;
   if (trial.status == EvaluationStatus::kBristleMissing) {
     widen_bristles();
     return false;
@@ -128,8 +130,10 @@ bool Integration::try_controlled_step() {
 }
 
 Trial Integration::try_step(double dt) {
-  run_end_.evaluations += 6;
-  return dopri5_.try_step(system_, start_, dt, end_);
+  const Trial trial = options_.integrator == Integrator::kRodas4 ? rodas4_.try_step(system_, start_, dt, end_)
+                                                                 : dopri5_.try_step(system_, start_, dt, end_);
+  run_end_.evaluations += trial.evaluations;
+  return trial;
 }
 
 /// Sees to it that the next try does better where this one failed.
@@ -161,7 +165,7 @@ bool Integration::land_on_event(double dt) {
     const std::optional<double> until = ContactEvents::find_first(rings_start_, rings_end_, dt);
     if (!until || *until < shortest_step(start_.t)) return true;
     const Trial trial = try_step(*until);
-    if (trial.status != EvaluationStatus::kOk) return is_accepted(trial, *until);
+    if (!is_accepted(trial, *until)) return false;
     dt = *until;
   }
   return true;
@@ -176,6 +180,7 @@ void Integration::accept() {
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
+  rodas4_.begin_step();
 }
 
 /// Samples up to the end of the step, with the contacts as they were in it.

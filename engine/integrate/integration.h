@@ -39,6 +39,7 @@ class Integration {
   MotionSystem system_;
   Rk4 rk4_;
   Dopri5 dopri5_;
+  Rodas4 rodas4_;
   StepControl control_;
   SampleTimes samples_;
   StepEnd start_, end_;

@@ -2,56 +2,108 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace engine {
 
 namespace {
 
-/// The equations of motion as Odeint calls them. After a failed evaluation the remaining stages are not evaluated.
-class OdeintSystem {
+/// The equations of motion as Odeint calls them, for the stages of one step. After a failed evaluation the others are left out.
+class StageSystem {
  public:
-  OdeintSystem(MotionSystem& system, Evaluation& at, EvaluationStatus& status) : system_(system), at_(at), status_(status) {}
+  StageSystem(MotionSystem& system, Trial& trial) : system_(system), trial_(trial) {}
 
-  void operator()(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) const {
-    if (status_ == EvaluationStatus::kOk) status_ = system_.calc_derivative(t, y, dydt, at_);
+  void operator()(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
+    if (trial_.status != EvaluationStatus::kOk) return;
+    ++trial_.evaluations;
+    trial_.status = system_.calc_derivative(t, y, dydt);
+  }
+
+ protected:
+  MotionSystem& system_;
+  Trial& trial_;
+};
+
+/// Dopri5's stages; the last of them is at the step's end, and all that is evaluated there is kept.
+class Dopri5System : public StageSystem {
+ public:
+  Dopri5System(MotionSystem& system, Trial& trial, Evaluation& at_end) : StageSystem(system, trial), at_end_(at_end) {}
+
+  void operator()(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
+    constexpr int kStages = 6;  // and the first, which the step before has evaluated
+    if (trial_.status != EvaluationStatus::kOk || trial_.evaluations + 1 < kStages) return StageSystem::operator()(y, dydt, t);
+    ++trial_.evaluations;
+    trial_.status = system_.calc_derivative(t, y, dydt, at_end_);
   }
 
  private:
-  MotionSystem& system_;
-  Evaluation& at_;
-  EvaluationStatus& status_;
+  Evaluation& at_end_;
 };
+
+/// Rodas4's stages with their linear algebra.
+class Rodas4System : public StageSystem {
+ public:
+  Rodas4System(MotionSystem& system, Trial& trial, bool& linearised) : StageSystem(system, trial), linearised_(linearised) {}
+
+  void linearise(const Eigen::VectorXd& y, double t) {
+    if (!linearised_) trial_.status = system_.linearise(t, y);
+    linearised_ = trial_.status == EvaluationStatus::kOk;
+  }
+  [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return system_.time_derivative(); }
+  [[nodiscard]] bool factor(double shift) { return linearised_ && system_.factor(shift); }
+  void solve_in_place(Eigen::VectorXd& x) const { system_.solve_in_place(x); }
+
+ private:
+  bool& linearised_;
+};
+
+/// What is at the end of a step that no stage has evaluated.
+void evaluate_end(MotionSystem& system, StepEnd& end, Trial& trial) {
+  ++trial.evaluations;
+  trial.status = system.calc_derivative(end.t, end.y, end.f, end.at);
+}
 
 }  // namespace
 
+double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < controlled; ++i) {
+    const double scale = absolute + relative * std::max(std::abs(y0[i]), std::abs(y1[i]));
+    const double ratio = error[i] / scale;
+    sum += ratio * ratio;
+  }
+  return std::sqrt(sum / static_cast<double>(controlled));
+}
+
 Trial Rk4::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
-  const OdeintSystem rhs(system, end.at, trial.status);
+  StageSystem rhs(system, trial);
   end.t = start.t + dt;
-  stepper_.do_step(rhs, start.y, start.f, start.t, end.y, dt);
-  if (trial.status == EvaluationStatus::kOk) rhs(end.y, end.f, end.t);
+  stepper_.do_step(std::ref(rhs), start.y, start.f, start.t, end.y, dt);
+  if (trial.status == EvaluationStatus::kOk) evaluate_end(system, end, trial);
   return trial;
 }
 
 Trial Dopri5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
-  const OdeintSystem rhs(system, end.at, trial.status);
+  Dopri5System rhs(system, trial, end.at);
   end.t = start.t + dt;
   local_error_.resize(start.y.size());
-  stepper_.do_step(rhs, start.y, start.f, start.t, end.y, end.f, dt, local_error_);
-  if (trial.status == EvaluationStatus::kOk) trial.error = calc_error(start.y, end.y, system.controlled_size());
+  stepper_.do_step(std::ref(rhs), start.y, start.f, start.t, end.y, end.f, dt, local_error_);
+  if (trial.status == EvaluationStatus::kOk) trial.error = tolerance_.measure(local_error_, start.y, end.y, system.controlled_size());
   return trial;
 }
 
-/// Root mean square over the controlled entries, each in units of its tolerance.
-double Dopri5::calc_error(const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < controlled; ++i) {
-    const double scale = absolute_ + relative_ * std::max(std::abs(y0[i]), std::abs(y1[i]));
-    const double ratio = local_error_[i] / scale;
-    sum += ratio * ratio;
-  }
-  return std::sqrt(sum / static_cast<double>(controlled));
+Trial Rodas4::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
+  Trial trial;
+  Rodas4System rhs(system, trial, linearised_);
+  end.t = start.t + dt;
+  end.f.resize(start.y.size());
+  stepper_.do_step(std::ref(rhs), start.y, start.f, start.t, end.y, dt, local_error_);
+  if (trial.status != EvaluationStatus::kOk) return trial;
+  trial.error = tolerance_.measure(local_error_, start.y, end.y, system.controlled_size());
+  if (trial.error <= 1.0) evaluate_end(system, end, trial);
+  return trial;
 }
 
 }  // namespace engine

@@ -10,6 +10,7 @@
 #include <boost/numeric/odeint/util/resizer.hpp>
 
 #include "engine/dynamics/motion_system.h"
+#include "engine/integrate/rodas4.h"
 
 namespace engine {
 
@@ -22,9 +23,11 @@ struct StepEnd {
 };
 
 /// A step tried: whether the equations could be evaluated all the way, and the estimate of its local error.
+/// Its end is evaluated only if the error is within the tolerance.
 struct Trial {
   EvaluationStatus status = EvaluationStatus::kOk;
-  double error = 0.0;  ///< in units of the tolerance; 0 for methods without an estimate
+  double error = 0.0;   ///< in units of the tolerance; 0 for methods without an estimate
+  int evaluations = 0;  ///< of the equations of motion
 };
 
 /// An Odeint stepper on Eigen vectors. The state grows when contact elements need more bristles, so its stages are resized at each step
@@ -32,6 +35,14 @@ struct Trial {
 template <template <class, class, class, class, class, class, class> class Stepper>
 using EigenStepper = Stepper<Eigen::VectorXd, double, Eigen::VectorXd, double, boost::numeric::odeint::vector_space_algebra,
                              boost::numeric::odeint::default_operations, boost::numeric::odeint::always_resizer>;
+
+/// How large a local error may be.
+struct Tolerance {
+  double relative, absolute;
+
+  /// Root mean square over the first `controlled` entries of an error, each in units of its tolerance.
+  [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const;
+};
 
 /// The paper's integrator: the classical Runge-Kutta method of order 4.
 class Rk4 {
@@ -45,16 +56,30 @@ class Rk4 {
 /// Dormand and Prince's method of order 5 with an error estimate of order 4. The last stage is the next step's first.
 class Dopri5 {
  public:
-  Dopri5(double relative_tolerance, double absolute_tolerance) : relative_(relative_tolerance), absolute_(absolute_tolerance) {}
+  Dopri5(double relative_tolerance, double absolute_tolerance) : tolerance_{relative_tolerance, absolute_tolerance} {}
 
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
 
  private:
-  [[nodiscard]] double calc_error(const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const;
-
-  double relative_, absolute_;
+  Tolerance tolerance_;
   Eigen::VectorXd local_error_;
   EigenStepper<boost::numeric::odeint::runge_kutta_dopri5> stepper_;
+};
+
+/// RODAS4: implicit, so that stiff contacts and links do not bound its steps. Tries from one start share its Jacobian.
+class Rodas4 {
+ public:
+  Rodas4(double relative_tolerance, double absolute_tolerance) : tolerance_{relative_tolerance, absolute_tolerance} {}
+
+  /// The next try is from another start, or by other equations of motion, than the last.
+  void begin_step() { linearised_ = false; }
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
+
+ private:
+  Tolerance tolerance_;
+  bool linearised_ = false;  ///< the system holds the Jacobian of the step's start
+  Eigen::VectorXd local_error_;
+  Rodas4Stepper stepper_;
 };
 
 }  // namespace engine

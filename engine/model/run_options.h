@@ -4,7 +4,7 @@
 
 namespace engine {
 
-enum class Integrator { kDopri5, kRk4 };
+enum class Integrator { kDopri5, kRodas4, kRk4 };
 
 /// How a run is integrated and what is kept of it.
 struct RunOptions {
