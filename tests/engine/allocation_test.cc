@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <functional>
 #include <new>
 
 #include <gtest/gtest.h>
@@ -66,6 +67,34 @@ RpsupParameters with(Coupler coupler, ContactForm contact, double c_r, DriveEnfo
   p.c_r = c_r;
   p.drive = drive;
   return p;
+}
+
+/// y' = -y, entry by entry.
+struct DecaySystem {
+  Eigen::VectorXd f_t;
+  double shift = 0.0;
+  void operator()(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double) { dydt = -y; }
+  void linearise(const Eigen::VectorXd& y, double) { f_t.setZero(y.size()); }
+  [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return f_t; }
+  [[nodiscard]] bool factor(double s) {
+    shift = s;
+    return true;
+  }
+  void solve_in_place(Eigen::VectorXd& x) const { x /= shift + 1.0; }
+};
+
+TEST(Rodas4Stepper, AllocatesNothingAfterItsFirstStep) {
+  DecaySystem system;
+  Rodas4Stepper stepper;
+  Eigen::VectorXd y = Eigen::VectorXd::Ones(40);
+  Eigen::VectorXd dydt = -y;
+  Eigen::VectorXd end = y;
+  Eigen::VectorXd error = y;
+  stepper.do_step(std::ref(system), y, dydt, 0.0, end, 0.1, error);
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) stepper.do_step(std::ref(system), y, dydt, 0.0, end, 0.1, error);
+  for (int i = 0; i < 100; ++i) stepper.do_step(std::ref(system), y, 0.0, 0.1);
+  EXPECT_EQ(allocations - before, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -65,6 +65,52 @@ TEST(Integration, SamplesBetweenStepsLieOnTheSolution) {
   }
 }
 
+// One Jacobian serves all tries of a step, and a rejected try is not evaluated at its end.
+TEST(Rodas4, AgreesWithDopri5AsCloselyAsItsTolerance) {
+  LastState exact;
+  const RunOptions tight{.duration = 0.4, .relative_tolerance = 1e-12, .absolute_tolerance = 1e-12};
+  ASSERT_EQ(simulate(make_pendulum(), tight, exact).status, RunStatus::kSucceeded);
+  for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+    LastState observer;
+    const RunOptions options{.duration = 0.4, .integrator = Integrator::kRodas4, .relative_tolerance = tolerance, .absolute_tolerance = tolerance};
+    const RunEnd end = simulate(make_pendulum(), options, observer);
+    ASSERT_EQ(end.status, RunStatus::kSucceeded);
+    // Five stages and the end; one more at t = 0.
+    EXPECT_GE(end.evaluations, 6 * end.steps + 1);
+    EXPECT_LE(end.evaluations, 6 * end.steps + 1 + 5 * (end.steps / 4));
+    ASSERT_EQ(observer.sampled_q.size(), exact.sampled_q.size());
+    // The longest step of 1 ms decides at the loose end: below 1e-9.
+    for (std::size_t k = 0; k < exact.sampled_q.size(); ++k) EXPECT_NEAR(observer.sampled_q[k], exact.sampled_q[k], tolerance) << tolerance;
+  }
+}
+
+TEST(Rodas4, StepsFromTheSameStartGiveTheSame) {
+  const Mechanism mechanism = make_pendulum();
+  MotionSystem system(mechanism);
+  StepEnd start, end, again;
+  start.y = system.make_state(Eigen::Vector2d(1.0, -0.5), Eigen::Vector2d(3.0, -2.0));
+  start.f = Eigen::VectorXd::Zero(start.y.size());
+  start.at = end.at = again.at = system.make_evaluation();
+  ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
+  Rodas4 method(1e-6, 1e-6);
+  ASSERT_EQ(method.try_step(system, start, 1e-3, end).evaluations, 6);
+  const Trial rejected = method.try_step(system, start, 0.5, again);
+  EXPECT_GT(rejected.error, 1.0);
+  EXPECT_EQ(rejected.evaluations, 5);
+  ASSERT_EQ(method.try_step(system, start, 1e-3, again).status, EvaluationStatus::kOk);
+  EXPECT_EQ(again.y, end.y);
+  EXPECT_EQ(again.f, end.f);
+
+  // Another start is one for which begin_step() is called: its own Jacobian then, the same as a new method's.
+  method.begin_step();
+  StepEnd next;
+  next.at = start.at;
+  next.f = start.f;
+  ASSERT_EQ(method.try_step(system, end, 0.02, next).status, EvaluationStatus::kOk);
+  ASSERT_EQ(Rodas4(1e-6, 1e-6).try_step(system, end, 0.02, again).status, EvaluationStatus::kOk);
+  EXPECT_EQ(again.y, next.y);
+}
+
 TEST(Interpolation, IsExactForAQuinticMotion) {
   // q = t^5 - t^3 + 2 over [0, 2]: q, qd, qdd at both ends give it back.
   const auto q = [](double t) { return std::pow(t, 5) - std::pow(t, 3) + 2.0; };
