@@ -32,7 +32,7 @@ class IdealPeakSearch {
     // Onwards from the start: the branch on which the linkage is assembled is known there.
     if (!closure_.assemble(0.0, last_) || !solve(0.0, last_, last_)) return std::nullopt;
     determinant_ = closure_.determinant();
-    wanted_ = kFirst * calc_longest(std::numeric_limits<double>::infinity());
+    wanted_ = kFirst * calc_longest();
     if (!advance(from)) return std::nullopt;
     searches_ = true;
     take(last_);
@@ -47,6 +47,7 @@ class IdealPeakSearch {
       piece_start_ = last_.t;
       piece_end_ = to;
       for (const Drive& drive : ideal_.mechanism.drives) piece_end_ = std::min(piece_end_, find_next_corner(drive.law, last_.t));
+      if (to - piece_end_ <= 1e-12 * to) piece_end_ = to;
       scale_ = 0.0;
       while (last_.t < piece_end_)
         if (!take_interval()) return false;
@@ -57,8 +58,9 @@ class IdealPeakSearch {
   /// One more interval of the piece. False if the linkage locks in it, however short, or if the search is to stop.
   [[nodiscard]] bool take_interval() {
     constexpr double kShortest = 1e-9;      // of the longest: what cannot be followed with it is locked
-    constexpr double kShortSmooth = 1e-6;   // of the longest: not divided for smoothness' sake
-    const double longest = calc_longest(piece_end_ - last_.t);
+    constexpr double kShortSmooth = 1e-6;   // of what the drives allow: not divided for smoothness' sake
+    const double followed = calc_longest();
+    const double longest = std::min(followed, piece_end_ - last_.t);
     double dt = std::min(wanted_, longest);
     for (;; dt *= 0.5) {
       if (dt < kShortest * longest || stopped_) return false;
@@ -66,7 +68,7 @@ class IdealPeakSearch {
       const double end = rest <= dt ? piece_end_ : rest < 2.0 * dt ? last_.t + 0.5 * rest : last_.t + dt;
       if (!(end > last_.t)) return false;
       if (!solve(end, last_, next_) || !keeps_branch(determinant_, closure_.determinant())) continue;
-      if (!searches_ || is_smooth() || dt < kShortSmooth * longest) break;
+      if (!searches_ || is_smooth() || dt < kShortSmooth * followed) break;
     }
     wanted_ = 1.5 * dt;
     determinant_ = closure_.determinant();
@@ -75,8 +77,9 @@ class IdealPeakSearch {
     return true;
   }
 
-  /// The longest interval from the last node on, of those up to the limit given.
-  [[nodiscard]] double calc_longest(double longest) const {
+  /// The longest interval from the last node on that the drives allow.
+  [[nodiscard]] double calc_longest() const {
+    double longest = std::numeric_limits<double>::infinity();
     for (const Drive& drive : ideal_.mechanism.drives) longest = std::min(longest, kOfTimeScale * calc_time_scale(drive.law, last_.t));
     return longest;
   }

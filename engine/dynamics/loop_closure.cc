@@ -19,7 +19,7 @@ Mechanism make_ideal(Mechanism mechanism) {
   return mechanism;
 }
 
-std::vector<FrameIndex> unknown_coordinates(const Mechanism& mechanism) {
+std::vector<FrameIndex> find_unknown_coordinates(const Mechanism& mechanism) {
   std::vector<FrameIndex> unknown;
   for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) {
     const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
@@ -31,7 +31,7 @@ std::vector<FrameIndex> unknown_coordinates(const Mechanism& mechanism) {
 }  // namespace
 
 LoopClosure::LoopClosure(const Mechanism& mechanism)
-    : ideal_(make_ideal(mechanism)), unknown_(unknown_coordinates(ideal_)), constraints_(ideal_), tree_(ideal_) {
+    : ideal_(make_ideal(mechanism)), unknown_(find_unknown_coordinates(ideal_)), constraints_(ideal_), tree_(ideal_) {
   J_.setZero(constraints_.count(), static_cast<Eigen::Index>(unknown_.size()));
   step_.setZero(J_.cols());
   lambda_.setZero(J_.rows());

@@ -20,6 +20,9 @@ class LoopClosure {
   /// True if the drives alone decide the motion: as many constraint rows as unknown coordinates, and no spring among the coordinates.
   [[nodiscard]] bool is_determined() const;
 
+  /// The coordinates that the loops decide.
+  [[nodiscard]] const std::vector<FrameIndex>& unknown_coordinates() const { return unknown_; }
+
   /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, and solves for the velocities.
   /// @returns false if they do not close; residual() then says by how much
   [[nodiscard]] bool assemble(double t, Evaluation& at);

@@ -23,6 +23,9 @@ Cycloid calc_cycloid(double u) {
   return {u - s / kTwoPi, 1.0 - c, kTwoPi * s};
 }
 
+/// A corner found before, but for rounding, is not the next one.
+double beyond(double t) { return t + 1e-12 * std::abs(t); }
+
 }  // namespace
 
 DrivenMotion calc_driven_motion(const RunUp& law, double t) {
@@ -47,15 +50,14 @@ DrivenMotion calc_driven_motion(const DriveLaw& law, double t) {
   return std::visit([t](const auto& l) { return calc_driven_motion(l, t); }, law);
 }
 
-double find_next_corner(const RunUp& law, double t) { return t < law.run_up ? law.run_up : kNever; }
+double find_next_corner(const RunUp& law, double t) { return beyond(t) < law.run_up ? law.run_up : kNever; }
 
 double find_next_corner(const RiseReturnPause& law, double t) {
   if (law.stroke == 0.0) return kNever;
   const double cycle = 2.0 * law.stroke_time + law.pause;
-  const double beyond = t + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t);  // a corner found before is not the next one
   for (double start = std::floor(t / cycle) * cycle;; start += cycle)
     for (const double corner : {start, start + law.stroke_time, start + 2.0 * law.stroke_time})
-      if (corner > beyond) return corner;
+      if (corner > beyond(t)) return corner;
 }
 
 double find_next_corner(const DriveLaw& law, double t) {
