@@ -95,17 +95,19 @@ class KinematicRun {
 
   /// Solves the instants of the next panel, in shorter steps where those do not do. False if the shortest do not: the mechanism locks.
   [[nodiscard]] bool solve_panel() {
-    constexpr double kShortest = 1e-7;        // of the longest step: what cannot be followed with it is locked
+    constexpr double kShortest = 1e-7;        // of the first step tried: what cannot be followed with it is locked
     constexpr double kEasy = 1.0 / 32.0;      // twice the step misses sixteen times as much
-    constexpr double kShortResolved = 1e-3;   // of the longest step: not divided for smoothness' sake
+    constexpr double kShortResolved = 1e-3;   // of what the drives allow: not divided for smoothness' sake
     double limit = options_.duration;
     for (const Drive& drive : mechanism_.drives) limit = std::min(limit, find_next_corner(drive.law, nodes_[0].t));
+    if (options_.duration - limit < kSameInstant * limit) limit = options_.duration;
     const double followed = calc_longest();
-    const double longest = std::min(followed, (limit - nodes_[0].t) / kSteps);
-    for (double step = std::min(wanted_, longest); step >= kShortest * longest; step *= 0.5) {
+    const double first = std::min({wanted_, followed, 2.0 * (limit - nodes_[0].t)});
+    for (double step = first; step >= kShortest * first; step *= 0.5) {
       place_nodes(limit, step);
       if (!solve_nodes() || !(is_resolved() || step < kShortResolved * followed)) continue;
-      wanted_ = missed_ < kEasy * kResolved ? 2.0 * step : step;
+      if (step < first) wanted_ = step;
+      if (missed_ < kEasy * kResolved) wanted_ = std::max(wanted_, 2.0 * step);
       return true;
     }
     return false;
@@ -116,7 +118,7 @@ class KinematicRun {
   void place_nodes(double limit, double step) {
     constexpr double kSliver = 0.125;  // of a step: so short a rest before or after the grid is taken along
     const double start = nodes_[0].t;
-    int level = std::ilogb(kPerSecond * std::min(step, limit - start));
+    int level = std::ilogb(kPerSecond * step);
     const double place = std::ldexp(kPerSecond * start, -level);
     double tick = std::round(place);
     double stop = 0.0;
@@ -129,6 +131,7 @@ class KinematicRun {
       tick = std::ldexp(tick, halvings);
       for (std::size_t k = 0; k <= kSteps; ++k) times_[k] = calc_instant(tick + static_cast<double>(k), level);
       stop = whole >= 1.0 ? times_[kSteps] : limit;
+      if (std::abs(limit - stop) < kSameInstant * limit && limit == options_.duration) times_[kSteps] = limit;
       if (stop != limit && (limit - stop > kSliver * length || limit - stop < kSameInstant * limit)) return;
       stop = limit;
     } else {
