@@ -145,11 +145,12 @@ void LoopClosure::solve_forces(Evaluation& at) {
   // By its factors: solving with the transposed decomposition would allocate.
   J_lu_.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(step_);
   J_lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(step_);
-  lambda_.noalias() = J_lu_.permutationP().transpose() * step_;
-  for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = lambda_.segment<3>(constraints_.row_of_joint(k));
+  Eigen::VectorXd& lambda = lambda_;
+  lambda.noalias() = J_lu_.permutationP().transpose() * step_;
+  for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = lambda.segment<3>(constraints_.row_of_joint(k));
   for (std::size_t k = 0; k < ideal_.drives.size(); ++k) {
     const FrameIndex d = ideal_.drives[k].coordinate;
-    at.drive_force[static_cast<Eigen::Index>(k)] = tree_.bias()[d] - constraints_.Phi_q.col(d).dot(lambda_);
+    at.drive_force[static_cast<Eigen::Index>(k)] = tree_.bias()[d] - constraints_.Phi_q.col(d).dot(lambda);
   }
 }
 

@@ -95,15 +95,17 @@ class KinematicRun {
 
   /// Solves the instants of the next panel, in shorter steps where those do not do. False if the shortest do not: the mechanism locks.
   [[nodiscard]] bool solve_panel() {
-    constexpr double kShortest = 1e-7;        // of the first step tried: what cannot be followed with it is locked
+    constexpr double kShortest = 1e-9;        // of the longest step: what cannot be followed with it is locked
     constexpr double kEasy = 1.0 / 32.0;      // twice the step misses sixteen times as much
     constexpr double kShortResolved = 1e-3;   // of what the drives allow: not divided for smoothness' sake
     double limit = options_.duration;
     for (const Drive& drive : mechanism_.drives) limit = std::min(limit, find_next_corner(drive.law, nodes_[0].t));
     if (options_.duration - limit < kSameInstant * limit) limit = options_.duration;
     const double followed = calc_longest();
-    const double first = std::min({wanted_, followed, 2.0 * (limit - nodes_[0].t)});
-    for (double step = first; step >= kShortest * first; step *= 0.5) {
+    const double longest = std::min(followed, 2.0 * (limit - nodes_[0].t));
+    const double first = std::min(wanted_, longest);
+    const double shortest = std::max(kShortest * longest, kSameInstant * nodes_[0].t);
+    for (double step = first; step >= shortest; step *= 0.5) {
       place_nodes(limit, step);
       if (!solve_nodes() || !(is_resolved() || step < kShortResolved * followed)) continue;
       if (step < first) wanted_ = step;

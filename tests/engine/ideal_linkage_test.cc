@@ -13,6 +13,7 @@
 #include "engine/analysis/ideal_peak.h"
 #include "engine/model/drive_law.h"
 #include "engine/model/rpsup.h"
+#include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
 #include "engine/validation/reference/ideal_linkage.h"
 #include "engine/validation/support/runs.h"
@@ -77,7 +78,7 @@ RpsupParameters draw_linkage(Random& random, double spare, double& duration) {
   duration = p.run_up + random.by_magnitude(0.1, 20.0) / speed;
   p.coupler_length = 0.0;
   double farthest = 0.0;
-  for (int k = 0; k <= 10000; ++k) farthest = std::max(farthest, -calc_reach_squared(p, duration * k / 10000.0));
+  for (int k = 0; k <= 100000; ++k) farthest = std::max(farthest, -calc_reach_squared(p, duration * k / 100000.0));
   p.coupler_length = std::sqrt(farthest * (1.0 + spare * spare));
   p.links[static_cast<std::size_t>(Link::k13)] = rod_inertia(0.306, p.coupler_length, 3.829e-6);
   return p;
@@ -193,9 +194,9 @@ TEST(IdealLinkage, TakesDurationsBesideTheGrid) {
 // The coupler comes upright but for a hair each half turn, and there the other way to close the loop is near.
 TEST(IdealLinkage, KeepsToItsBranchNearLockUp) {
   Random random(3);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 25; ++i) {
     double duration = 0.0;
-    const RpsupParameters p = draw_linkage(random, 0.02, duration);
+    const RpsupParameters p = draw_linkage(random, 2e-3, duration);
     const RunResult run = simulate_rpsup(p, {.duration = duration, .output_rate = 200.0 / duration}, {});
     ASSERT_EQ(run.status, RunStatus::kSucceeded) << "case " << i << ": " << run.detail;
     const std::vector<double>& t = column(run, "t_s");
@@ -214,6 +215,31 @@ TEST(IdealLinkage, EnergyAndWorkOfASampleBelongTogether) {
   double worst = 0.0;
   for (const double residual : column(run, "energy_residual")) worst = std::max(worst, std::abs(residual));
   EXPECT_LT(worst, 1e-10);  // quartics through five instants, of the power
+}
+
+class NoObserver : public Observer {
+ public:
+  void on_step(const Evaluation&, const Evaluation&) override {}
+  void on_sample(const Evaluation&) override {}
+  void on_onsets(int) override {}
+  bool stop_requested(double) override { return false; }
+};
+
+// r sin(psi) reaches what the coupler can at psi = asin(sqrt(l^2 - z_g^2) / r), and psi = omega t.
+TEST(IdealLinkage, EndsWhereItLocks) {
+  RpsupParameters p;
+  p.c_r = 0.0;
+  p.run_up = 0.0;
+  p.rod_stroke = 0.0;
+  p.coupler_length = 0.25;
+  const double locked = std::asin(std::sqrt(0.25 * 0.25 - 0.2 * 0.2) / p.rod_length) / p.crank_velocity;
+  NoObserver observer;
+  const RunEnd end = simulate(build_rpsup(p).mechanism, {.duration = 1.0}, observer);
+  EXPECT_EQ(end.status, RunStatus::kLockUp);
+  EXPECT_NEAR(end.t, locked, 1e-6);
+  EXPECT_LE(end.t, locked);
+  EXPECT_LT(end.evaluations, 10000);
+  EXPECT_FALSE(find_ideal_peak(p, 0.0, 1.0, {}));
 }
 
 }  // namespace
