@@ -165,7 +165,8 @@ class KinematicRun {
     double of_accelerations = 0.0;
     acceleration_scale_ = std::max(0.5 * acceleration_scale_, kNegligible);
     for (std::size_t j = 0; j < unknown.size(); ++j) {
-      acceleration_scale_ = std::max(acceleration_scale_, take_course(accelerations_[j], [i = unknown[j]](const Evaluation& at) { return at.qdd[i]; }));
+      const double largest = take_course(accelerations_[j], [i = unknown[j]](const Evaluation& at) { return at.qdd[i]; });
+      acceleration_scale_ = std::max(acceleration_scale_, largest);
       of_accelerations = std::max(of_accelerations, std::abs(accelerations_[j].course.fourth_difference()));
     }
     double of_powers = 0.0;
