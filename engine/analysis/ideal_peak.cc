@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <boost/math/tools/minima.hpp>
+#include <limits>
+#include <utility>
 
 #include "engine/dynamics/loop_closure.h"
 #include "engine/dynamics/motion_system.h"
@@ -13,70 +13,152 @@ namespace engine {
 
 namespace {
 
-constexpr double kInterval = 1e-3;   // [s] between the samples among which the extremes are looked for
-constexpr double kContender = 0.99;  // a sampled extreme above this part of the largest so far may be the true one
+constexpr double kOfTimeScale = 0.1;   // an interval's part of the drives' time scale
+constexpr double kFirst = 1e-3;        // of the longest interval: the first one of a run
+constexpr double kSmooth = 0.01;       // part of an interval's accelerations by which the trapezoid may miss their mean
+constexpr double kContender = 0.99;    // a quadratic's extreme above this part of the largest so far may be the true one
+constexpr double kNegligible = 1e-9;   // [m/s^2]: accelerations that gravity's rounding may spoil
 constexpr long kSolvesBetweenQueries = 1024;
 
+/// Goes through the motion in intervals so short that a quadratic tells the acceleration inside; locates its extremes where they contend.
 class IdealPeakSearch {
  public:
   IdealPeakSearch(const RpsupParameters& parameters, const std::function<bool(double)>& stop_requested)
       : ideal_(build_ideal_rpsup(parameters)), closure_(ideal_.mechanism), stop_requested_(stop_requested) {
-    at_ = MotionSystem(ideal_.mechanism).make_evaluation();
+    last_ = next_ = probe_ = MotionSystem(ideal_.mechanism).make_evaluation();
   }
 
   std::optional<Peak> find(double from, double to) {
     // Onwards from the start: the branch on which the linkage is assembled is known there.
-    if (!closure_.assemble(0.0, at_) || !advance(0.0, from)) return std::nullopt;
-    const auto intervals = std::max(2L, static_cast<long>(std::ceil((to - from) / kInterval)));
-    const auto time_of = [&](long k) { return from + (to - from) * static_cast<double>(std::clamp(k, 0L, intervals)) / static_cast<double>(intervals); };
-    double before = 0.0;  // the magnitudes and the position at the last two samples
-    double last = 0.0;
-    Eigen::VectorXd q_last;
-    for (long k = 0; k <= intervals + 1; ++k) {
-      if (k <= intervals && !solve(time_of(k))) return std::nullopt;
-      const double now = k <= intervals ? std::abs(at_.qdd[ideal_.layout.slider]) : 0.0;
-      peak_.take(now, time_of(k));
-      if (k > 0 && last >= before && last >= now && last >= kContender * peak_.magnitude) {
-        const Eigen::VectorXd q_now = at_.q;
-        refine(q_last, time_of(k - 2), time_of(k));
-        at_.q = q_now;
-      }
-      before = last;
-      last = now;
-      q_last = at_.q;
-    }
+    if (!closure_.assemble(0.0, last_) || !solve(0.0, last_, last_)) return std::nullopt;
+    determinant_ = closure_.determinant();
+    wanted_ = kFirst * calc_longest();
+    if (!advance(from)) return std::nullopt;
+    searches_ = true;
+    take(last_);
+    if (!advance(to)) return std::nullopt;
     return peak_;
   }
 
  private:
-  [[nodiscard]] bool solve(double t) {
-    if (++solves_ % kSolvesBetweenQueries == 0 && stop_requested_ && stop_requested_(t)) return false;
-    return closure_.solve(t, at_);
-  }
-
-  [[nodiscard]] bool advance(double from, double to) {
-    const auto intervals = static_cast<long>(std::ceil((to - from) / kInterval));
-    for (long k = 1; k <= intervals; ++k)
-      if (!solve(from + (to - from) * static_cast<double>(k) / static_cast<double>(intervals))) return false;
+  /// From the last node to the time given, piece by piece of the drives' laws.
+  [[nodiscard]] bool advance(double to) {
+    while (last_.t < to) {
+      piece_start_ = last_.t;
+      piece_end_ = to;
+      for (const Drive& drive : ideal_.mechanism.drives) piece_end_ = std::min(piece_end_, find_next_corner(drive.law, last_.t));
+      if (to - piece_end_ <= 1e-12 * to) piece_end_ = to;
+      scale_ = 0.0;
+      while (last_.t < piece_end_)
+        if (!take_interval()) return false;
+    }
     return true;
   }
 
-  /// Brent's search for the extreme in an interval that holds one.
-  void refine(const Eigen::VectorXd& q_nearby, double from, double to) {
-    constexpr int kBits = 26;  // of the time; the value is then right to twice as many
-    const auto negative_magnitude = [&](double t) {
-      at_.q = q_nearby;
-      return closure_.solve(t, at_) ? -std::abs(at_.qdd[ideal_.layout.slider]) : 0.0;
-    };
-    const auto [t, value] = boost::math::tools::brent_find_minima(negative_magnitude, from, to, kBits);
-    peak_.take(value, t);
+  /// One more interval of the piece. False if the linkage locks in it, however short, or if the search is to stop.
+  [[nodiscard]] bool take_interval() {
+    constexpr double kShortest = 1e-9;      // of the longest: what cannot be followed with it is locked
+    constexpr double kShortSmooth = 1e-6;   // of what the drives allow: not divided for smoothness' sake
+    const double followed = calc_longest();
+    const double longest = std::min(followed, piece_end_ - last_.t);
+    double dt = std::min(wanted_, longest);
+    for (;; dt *= 0.5) {
+      if (dt < kShortest * longest || stopped_) return false;
+      const double rest = piece_end_ - last_.t;
+      const double end = rest <= dt ? piece_end_ : rest < 2.0 * dt ? last_.t + 0.5 * rest : last_.t + dt;
+      if (!(end > last_.t)) return false;
+      if (!solve(end, last_, next_) || !keeps_branch(determinant_, closure_.determinant())) continue;
+      if (!searches_ || is_smooth() || dt < kShortSmooth * followed) break;
+    }
+    wanted_ = 1.5 * dt;
+    determinant_ = closure_.determinant();
+    if (searches_) search_interval();
+    std::swap(last_, next_);
+    return true;
+  }
+
+  /// The longest interval from the last node on that the drives allow.
+  [[nodiscard]] double calc_longest() const {
+    double longest = std::numeric_limits<double>::infinity();
+    for (const Drive& drive : ideal_.mechanism.drives) longest = std::min(longest, kOfTimeScale * calc_time_scale(drive.law, last_.t));
+    return longest;
+  }
+
+  /// Position, velocity and acceleration at t, from those of an instant nearby; both evaluations may be one.
+  [[nodiscard]] bool solve(double t, const Evaluation& nearby, Evaluation& at) {
+    if (++solves_ % kSolvesBetweenQueries == 0 && stop_requested_ && stop_requested_(t)) stopped_ = true;
+    if (stopped_) return false;
+    at.t = nearby.t;
+    at.q = nearby.q;
+    at.qd = nearby.qd;
+    at.qdd = nearby.qdd;
+    return closure_.solve_motion(t, at);
+  }
+
+  [[nodiscard]] double velocity(const Evaluation& at) const { return at.qd[ideal_.layout.slider]; }
+  [[nodiscard]] double acceleration(const Evaluation& at) const { return at.qdd[ideal_.layout.slider]; }
+  void take(const Evaluation& at) { peak_.take(acceleration(at), at.t); }
+
+  /// Near lock-up the slider turns about in far less time than the drives take: what happens between two instants shows in the change of
+  /// velocity. Measured by the accelerations near by, not by the peak: the next peak may be as high and as narrow as the last.
+  [[nodiscard]] bool is_smooth() {
+    const double a0 = acceleration(last_);
+    const double a1 = acceleration(next_);
+    const double scale = std::max({std::abs(a0), std::abs(a1), 0.8 * scale_, kNegligible});
+    const double missed = (velocity(next_) - velocity(last_)) / (next_.t - last_.t) - 0.5 * (a0 + a1);
+    if (!(std::abs(missed) <= kSmooth * scale)) return false;
+    scale_ = scale;
+    return true;
+  }
+
+  void search_interval() {
+    constexpr double kMargin = 0.1;  // an extreme near an interval's end may show from the other side only, and there just outside
+    const double dt = next_.t - last_.t;
+    const StepQuadratic a(acceleration(last_), acceleration(next_), velocity(next_) - velocity(last_), dt);
+    take(next_);
+    const double turn = a.find_turn(-kMargin, 1.0 + kMargin);
+    const double t = last_.t + turn * dt;
+    if (turn == -kMargin || std::abs(a.value(turn)) < kContender * peak_.magnitude || std::abs(t - located_) < kMargin * dt) return;
+    locate(t, dt);
+  }
+
+  /// Extreme near t, as that of the parabola through three instants close together, and again from there if it lies beyond them.
+  void locate(double t, double dt) {
+    constexpr int kMaxTries = 8;
+    constexpr double kOfInterval = 1.0 / 64.0;
+    const double apart = std::min(kOfInterval * dt, 0.25 * (piece_end_ - piece_start_));
+    for (int i = 0; i < kMaxTries; ++i) {
+      t = std::clamp(t, piece_start_ + apart, piece_end_ - apart);
+      const double before = probe(t - apart);
+      const double middle = probe(t);
+      const double after = probe(t + apart);
+      const double places = 0.5 * (before - after) / (before - 2.0 * middle + after);
+      if (!std::isfinite(places)) return;
+      t = std::clamp(t + apart * std::clamp(places, -0.5 / kOfInterval, 0.5 / kOfInterval), piece_start_, piece_end_);
+      if (std::abs(places) > 1.0) continue;
+      probe(t);
+      located_ = t;
+      return;
+    }
+  }
+
+  double probe(double t) {
+    if (!solve(t, t - last_.t < next_.t - t ? last_ : next_, probe_)) return std::nan("");
+    take(probe_);
+    return acceleration(probe_);
   }
 
   Rpsup ideal_;
   LoopClosure closure_;
   const std::function<bool(double)>& stop_requested_;
-  Evaluation at_;
+  Evaluation last_, next_, probe_;  ///< the interval's ends; an instant near by
+  double piece_start_ = 0.0, piece_end_ = 0.0;
+  double wanted_ = 0.0;       ///< the next interval, [s]
+  double determinant_ = 0.0;  ///< at the last node
+  double scale_ = 0.0;        ///< of the accelerations in the last intervals, [m/s^2]
+  double located_ = -1.0;     ///< the last extreme, [s]
   Peak peak_;
+  bool searches_ = false, stopped_ = false;
   long solves_ = 0;
 };
 

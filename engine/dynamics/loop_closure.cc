@@ -19,7 +19,7 @@ Mechanism make_ideal(Mechanism mechanism) {
   return mechanism;
 }
 
-std::vector<FrameIndex> unknown_coordinates(const Mechanism& mechanism) {
+std::vector<FrameIndex> find_unknown_coordinates(const Mechanism& mechanism) {
   std::vector<FrameIndex> unknown;
   for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) {
     const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
@@ -31,8 +31,10 @@ std::vector<FrameIndex> unknown_coordinates(const Mechanism& mechanism) {
 }  // namespace
 
 LoopClosure::LoopClosure(const Mechanism& mechanism)
-    : ideal_(make_ideal(mechanism)), unknown_(unknown_coordinates(ideal_)), constraints_(ideal_), tree_(ideal_) {
+    : ideal_(make_ideal(mechanism)), unknown_(find_unknown_coordinates(ideal_)), constraints_(ideal_), tree_(ideal_) {
   J_.setZero(constraints_.count(), static_cast<Eigen::Index>(unknown_.size()));
+  step_.setZero(J_.cols());
+  lambda_.setZero(J_.rows());
 }
 
 bool LoopClosure::is_determined() const {
@@ -77,44 +79,74 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
 }
 
 bool LoopClosure::solve(double t, Evaluation& at) {
+  if (!solve_motion(t, at)) return false;
+  solve_forces(at);
+  return true;
+}
+
+bool LoopClosure::solve_motion(double t, Evaluation& at) {
+  predict(t, at);
   set_drives(t, at);
   if (!close_position(at)) return false;
-  solve_velocity(at);
-  solve_forces(at);
+  correct_rates(at);
+  step_.noalias() = J_lu_.solve(constraints_.bias);
+  take_step(at.qdd);
   return at.qdd.allFinite();
 }
 
-/// Newton from the present position, which is near: a loop that does not close in a few full steps has reached its end.
+/// Taylor's series of the unknown coordinates and their rates; their accelerations are asked for anew.
+void LoopClosure::predict(double t, Evaluation& at) const {
+  const double dt = t - at.t;
+  for (const FrameIndex i : unknown_) {
+    at.q[i] += dt * (at.qd[i] + 0.5 * dt * at.qdd[i]);
+    at.qd[i] += dt * at.qdd[i];
+    at.qdd[i] = 0.0;
+  }
+}
+
+void LoopClosure::take_step(Eigen::VectorXd& coordinates) const {
+  for (std::size_t k = 0; k < unknown_.size(); ++k) coordinates[unknown_[k]] -= step_[static_cast<Eigen::Index>(k)];
+}
+
+/// Newton from the predicted position. Only steps that contract from the first one on show that the solution is near.
 bool LoopClosure::close_position(Evaluation& at) {
   constexpr int kMaxNear = 12;
+  constexpr double kContraction = 0.25;
+  double last = kMaxStep;
   for (int iteration = 0; iteration < kMaxNear; ++iteration) {
-    for (const FrameIndex i : unknown_) at.qd[i] = at.qdd[i] = 0.0;
     calc_rows(at);
     J_lu_.compute(J_);
     if (residual() < kClosed) return true;
-    const Eigen::VectorXd step = J_lu_.solve(constraints_.Phi);
-    if (!(step.cwiseAbs().maxCoeff() < kMaxStep)) return false;
-    for (std::size_t k = 0; k < unknown_.size(); ++k) at.q[unknown_[k]] -= step[static_cast<Eigen::Index>(k)];
+    step_.noalias() = J_lu_.solve(constraints_.Phi);
+    const double size = step_.cwiseAbs().maxCoeff();
+    if (!(size < kContraction * last)) return false;
+    last = size;
+    take_step(at.q);
+    // The rates along, so that the rows of the next pass are already nearly theirs.
+    step_.noalias() = J_lu_.solve(constraints_.Phi_d);
+    take_step(at.qd);
   }
   return false;
 }
 
-/// With the unknown rates at zero, Phi_d is what the drives alone do to the loop.
-void LoopClosure::solve_velocity(Evaluation& at) {
-  const Eigen::VectorXd rates = -J_lu_.solve(constraints_.Phi_d);
-  for (std::size_t k = 0; k < unknown_.size(); ++k) at.qd[unknown_[k]] = rates[static_cast<Eigen::Index>(k)];
-  calc_rows(at);
-  const Eigen::VectorXd accelerations = -J_lu_.solve(constraints_.bias);
-  for (std::size_t k = 0; k < unknown_.size(); ++k) at.qdd[unknown_[k]] = accelerations[static_cast<Eigen::Index>(k)];
+/// Phi_d is linear in the rates: one step. The bias is not, so the rows are computed again, but for rates that were already right.
+void LoopClosure::correct_rates(Evaluation& at) {
+  constexpr double kRight = 1e-13;  // of the largest rate
+  step_.noalias() = J_lu_.solve(constraints_.Phi_d);
+  take_step(at.qd);
+  if (!(step_.cwiseAbs().maxCoeff() <= kRight * at.qd.cwiseAbs().maxCoeff())) calc_rows(at);
 }
 
 /// With all accelerations known the recursion gives every generalised force; those of the unknown coordinates are the reactions' doing.
 void LoopClosure::solve_forces(Evaluation& at) {
   calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
   tree_.calc(at.frames);
-  Eigen::VectorXd needed(static_cast<Eigen::Index>(unknown_.size()));
-  for (std::size_t k = 0; k < unknown_.size(); ++k) needed[static_cast<Eigen::Index>(k)] = tree_.bias()[unknown_[k]];
-  const Eigen::VectorXd lambda = J_lu_.transpose().solve(needed);
+  for (std::size_t k = 0; k < unknown_.size(); ++k) step_[static_cast<Eigen::Index>(k)] = tree_.bias()[unknown_[k]];
+  // By its factors: solving with the transposed decomposition would allocate.
+  J_lu_.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(step_);
+  J_lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(step_);
+  Eigen::VectorXd& lambda = lambda_;
+  lambda.noalias() = J_lu_.permutationP().transpose() * step_;
   for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = lambda.segment<3>(constraints_.row_of_joint(k));
   for (std::size_t k = 0; k < ideal_.drives.size(); ++k) {
     const FrameIndex d = ideal_.drives[k].coordinate;

@@ -20,23 +20,37 @@ class LoopClosure {
   /// True if the drives alone decide the motion: as many constraint rows as unknown coordinates, and no spring among the coordinates.
   [[nodiscard]] bool is_determined() const;
 
+  /// The coordinates that the loops decide.
+  [[nodiscard]] const std::vector<FrameIndex>& unknown_coordinates() const { return unknown_; }
+
   /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, and solves for the velocities.
   /// @returns false if they do not close; residual() then says by how much
   [[nodiscard]] bool assemble(double t, Evaluation& at);
 
-  /// Position, velocity, acceleration, joint reactions and drive forces at time t of a determined mechanism, starting from a position nearby.
-  /// @returns false if the loops do not close there: the mechanism locks
+  /// Position, velocity, acceleration, joint reactions and drive forces at time t of a determined mechanism: solve_motion, then solve_forces.
   [[nodiscard]] bool solve(double t, Evaluation& at);
+
+  /// Position, velocity and acceleration at time t of a determined mechanism. Starts from where the motion that `at` holds leads in the
+  /// time from at.t to t; no more of it than q, qd, qdd and t is read. Allocates nothing.
+  /// @returns false if the loops do not close near there: the mechanism locks, or `at` is too far away. Its q, qd and qdd are then of no use
+  [[nodiscard]] bool solve_motion(double t, Evaluation& at);
+
+  /// Joint reactions and drive forces of the motion that solve_motion found last, and the frames' motions. Allocates nothing.
+  void solve_forces(Evaluation& at);
+
+  /// Determinant of Phi_q of the unknown coordinates at the position that solve_motion found last, see keeps_branch.
+  [[nodiscard]] double determinant() const { return J_lu_.determinant(); }
 
   /// Largest entry of Phi after the last attempt, [m] or [1].
   [[nodiscard]] double residual() const { return constraints_.Phi.size() ? constraints_.Phi.cwiseAbs().maxCoeff() : 0.0; }
 
  private:
+  void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;
   void calc_rows(Evaluation& at);
   [[nodiscard]] bool close_position(Evaluation& at);
-  void solve_velocity(Evaluation& at);
-  void solve_forces(Evaluation& at);
+  void correct_rates(Evaluation& at);
+  void take_step(Eigen::VectorXd& coordinates) const;
 
   Mechanism ideal_;
   std::vector<FrameIndex> unknown_;
@@ -44,6 +58,15 @@ class LoopClosure {
   TreeDynamics tree_;
   Eigen::MatrixXd J_;  ///< Phi_q of the unknown coordinates
   Eigen::PartialPivLU<Eigen::MatrixXd> J_lu_;
+  Eigen::VectorXd step_, lambda_;  ///< of the unknown coordinates; of the rows
 };
+
+/// True if a step between positions with these determinants cannot have led from one way of closing the loops to another. The two ways
+/// meet where the determinant vanishes, and where it stays away from zero by more than it changes they do not. Its sign alone does not
+/// tell: that of a flat linkage vanishes as a square.
+[[nodiscard]] inline bool keeps_branch(double from, double to) {
+  const double ratio = to / from;
+  return ratio > 1.0 / 3.0 && ratio < 3.0;
+}
 
 }  // namespace engine

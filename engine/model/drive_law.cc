@@ -1,6 +1,8 @@
 #include "engine/model/drive_law.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace engine {
@@ -8,6 +10,7 @@ namespace engine {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// C(u) = u - sin(2 pi u) / (2 pi) and its derivatives by u.
 struct Cycloid {
@@ -19,6 +22,9 @@ Cycloid calc_cycloid(double u) {
   const double c = std::cos(kTwoPi * u);
   return {u - s / kTwoPi, 1.0 - c, kTwoPi * s, kTwoPi * kTwoPi * c};
 }
+
+/// A corner found before, but for rounding, is not the next one.
+double beyond(double t) { return t + 1e-12 * std::abs(t); }
 
 }  // namespace
 
@@ -44,6 +50,36 @@ DrivenMotion calc_driven_motion(const RiseReturnPause& law, double t) {
 
 DrivenMotion calc_driven_motion(const DriveLaw& law, double t) {
   return std::visit([t](const auto& l) { return calc_driven_motion(l, t); }, law);
+}
+
+double find_next_corner(const RunUp& law, double t) { return beyond(t) < law.run_up ? law.run_up : kNever; }
+
+double find_next_corner(const RiseReturnPause& law, double t) {
+  if (law.stroke == 0.0) return kNever;
+  const double cycle = 2.0 * law.stroke_time + law.pause;
+  for (double start = std::floor(t / cycle) * cycle;; start += cycle)
+    for (const double corner : {start, start + law.stroke_time, start + 2.0 * law.stroke_time})
+      if (corner > beyond(t)) return corner;
+}
+
+double find_next_corner(const DriveLaw& law, double t) {
+  return std::visit([t](const auto& l) { return find_next_corner(l, t); }, law);
+}
+
+double calc_time_scale(const RunUp& law, double t) {
+  if (law.omega == 0.0) return kNever;
+  if (t >= law.run_up) return 1.0 / std::abs(law.omega);
+  const double of_law = law.run_up / kTwoPi;
+  return std::min(of_law, 1.0 / std::abs(calc_driven_motion(law, t + 0.1 * of_law).qd));  // the speed only grows
+}
+
+double calc_time_scale(const RiseReturnPause& law, double t) {
+  const double in_cycle = std::fmod(t, 2.0 * law.stroke_time + law.pause);
+  return law.stroke == 0.0 || in_cycle >= 2.0 * law.stroke_time ? kNever : law.stroke_time / kTwoPi;
+}
+
+double calc_time_scale(const DriveLaw& law, double t) {
+  return std::visit([t](const auto& l) { return calc_time_scale(l, t); }, law);
 }
 
 }  // namespace engine

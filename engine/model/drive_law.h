@@ -33,4 +33,16 @@ using DriveLaw = std::variant<RunUp, RiseReturnPause>;
 [[nodiscard]] DrivenMotion calc_driven_motion(const RiseReturnPause& law, double t);
 [[nodiscard]] DrivenMotion calc_driven_motion(const DriveLaw& law, double t);
 
+/// First instant after t at which one piece of the law meets the next: the acceleration has a kink there, and derivatives of any order
+/// only in between. Infinite if none follows, [s]
+[[nodiscard]] double find_next_corner(const RunUp& law, double t);
+[[nodiscard]] double find_next_corner(const RiseReturnPause& law, double t);
+[[nodiscard]] double find_next_corner(const DriveLaw& law, double t);
+
+/// Time in which the drive moves on by about one radian, of its own angle or of its law's sine, from t on; infinite at rest, [s].
+/// It holds for a tenth of itself.
+[[nodiscard]] double calc_time_scale(const RunUp& law, double t);
+[[nodiscard]] double calc_time_scale(const RiseReturnPause& law, double t);
+[[nodiscard]] double calc_time_scale(const DriveLaw& law, double t);
+
 }  // namespace engine

@@ -60,6 +60,16 @@ TEST_P(RightHandSide, AllocatesNothing) {
   EXPECT_EQ(allocations - before, 0);
 }
 
+TEST(LoopClosure, AllocatesNothing) {
+  const Mechanism mechanism = build_ideal_rpsup({}).mechanism;
+  LoopClosure closure(mechanism);
+  Evaluation at = MotionSystem(mechanism).make_evaluation();
+  ASSERT_TRUE(closure.assemble(0.0, at));
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(closure.solve(1e-3 * i, at));
+  EXPECT_EQ(allocations - before, 0);
+}
+
 RpsupParameters with(Coupler coupler, ContactForm contact, double c_r, DriveEnforcement drive) {
   RpsupParameters p;
   p.coupler = coupler;
