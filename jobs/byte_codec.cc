@@ -1,5 +1,6 @@
 #include "jobs/byte_codec.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -31,17 +32,19 @@ std::span<const std::byte> ByteReader::take(std::size_t size) {
 
 void ByteReader::copy(void* to, std::size_t size) { std::memcpy(to, take(size).data(), size); }
 
-std::string compress(std::string_view bytes) {
-  constexpr int kLevel = 1;
-  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
-  if (!context) throw std::bad_alloc();
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kLevel);
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-  std::string frame(ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t size = ZSTD_compress2(context.get(), frame.data(), frame.size(), bytes.data(), bytes.size());
+Compressor::Compressor() : context_(ZSTD_createCCtx(), &ZSTD_freeCCtx) {
+  if (!context_) throw std::bad_alloc();
+  ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
+}
+
+std::size_t Compressor::append_frame(std::string_view bytes, Effort effort, std::string& to) {
+  // Negative levels are zstd's fast ones: the lower, the faster.
+  ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, effort == Effort::kFull ? 1 : -100);
+  frame_.resize(std::max(frame_.size(), ZSTD_compressBound(bytes.size())));
+  const std::size_t size = ZSTD_compress2(context_.get(), frame_.data(), frame_.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(size) != 0) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
-  frame.resize(size);
-  return frame;
+  to.append(frame_, 0, size);
+  return size;
 }
 
 std::string decompress(std::span<const std::byte> frame, std::size_t at_most) {

@@ -3,9 +3,12 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+
+struct ZSTD_CCtx_s;
 
 namespace jobs {
 
@@ -45,8 +48,23 @@ class ByteReader {
   std::span<const std::byte> rest_;
 };
 
-/// One zstd frame, level 1, with a checksum and its size.
-[[nodiscard]] std::string compress(std::string_view bytes);
+/// How hard to look for what repeats.
+enum class Effort {
+  kFull,   ///< level 1
+  kLittle  ///< of bytes that are packed already: long runs are found, the checksum is what matters
+};
+
+/// Makes zstd frames, each with a checksum and its size.
+class Compressor {
+ public:
+  Compressor();
+  /// Appends a frame. Returns its size.
+  std::size_t append_frame(std::string_view bytes, Effort effort, std::string& to);
+
+ private:
+  std::unique_ptr<ZSTD_CCtx_s, std::size_t (*)(ZSTD_CCtx_s*)> context_;
+  std::string frame_;  // room for one, so that none need be made for each
+};
 
 /// @param at_most  bytes that the frame may hold; one that says more is damaged
 [[nodiscard]] std::string decompress(std::span<const std::byte> frame, std::size_t at_most);

@@ -1,7 +1,7 @@
 #include <array>
+#include <charconv>
 #include <cmath>
 
-#include "jobs/range.h"
 #include "jobs/service.h"
 
 namespace jobs {
@@ -22,25 +22,27 @@ std::string text_cell(std::string text) {
   return quoted + "\"";
 }
 
-std::string number_cell(double x) { return std::isfinite(x) ? number_text(x) : ""; }
+void append_number_cell(std::string& csv, double x) {
+  if (!std::isfinite(x)) return;
+  std::array<char, 32> digits;  // the longest double takes 24 characters
+  csv.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr);
+}
 
-std::string number_cell(const std::optional<double>& x) { return x ? number_cell(*x) : ""; }
-
-std::string cell(const nlohmann::json& value) {
-  if (value.is_null()) return "";
-  if (value.is_number_float()) return number_cell(value.get<double>());
-  if (value.is_string()) return text_cell(value.get<std::string>());
-  if (value.is_structured()) return text_cell(value.dump());
-  return value.dump();  // integers and booleans
+void append_cell(std::string& csv, const nlohmann::json& value) {
+  if (value.is_null()) return;
+  if (value.is_number_float()) return append_number_cell(csv, value.get<double>());
+  csv += value.is_string() ? text_cell(value.get<std::string>()) : value.is_structured() ? text_cell(value.dump()) : value.dump();
 }
 
 constexpr std::array<const char*, 5> kReplicateColumns{"replicates_count", "replicates_mean", "replicates_spread", "replicates_min", "replicates_max"};
 
 /// Their cells, each after a comma: other columns stand before them.
-std::string replicate_cells(const ReplicateStatistics& set) {
-  std::string cells = "," + std::to_string(set.count);
-  for (const auto& value : {set.mean, set.spread, set.min, set.max}) cells += "," + number_cell(value);
-  return cells;
+void append_replicate_cells(std::string& csv, const ReplicateStatistics& set) {
+  csv += "," + std::to_string(set.count);
+  for (const auto& value : {set.mean, set.spread, set.min, set.max}) {
+    csv += ',';
+    if (value) append_number_cell(csv, *value);
+  }
 }
 
 }  // namespace
@@ -54,8 +56,11 @@ std::string to_csv(const ResultTable& table) {
   csv += kLineEnd;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& row = table.rows[r];
-    for (std::size_t i = 0; i < row.size(); ++i) csv += (i > 0 ? "," : "") + cell(row[i]);
-    if (!table.replicates.empty()) csv += replicate_cells(table.replicates.at(r));
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i > 0) csv += ',';
+      append_cell(csv, row[i]);
+    }
+    if (!table.replicates.empty()) append_replicate_cells(csv, table.replicates.at(r));
     csv += kLineEnd;
   }
   return csv;
@@ -67,7 +72,10 @@ std::string to_csv(const engine::Trajectory& trajectory) {
   csv += kLineEnd;
   const std::size_t samples = trajectory.columns.empty() ? 0 : trajectory.columns.front().size();
   for (std::size_t k = 0; k < samples; ++k) {
-    for (std::size_t i = 0; i < trajectory.columns.size(); ++i) csv += (i > 0 ? "," : "") + number_cell(trajectory.columns[i][k]);
+    for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
+      if (i > 0) csv += ',';
+      append_number_cell(csv, trajectory.columns[i][k]);
+    }
     csv += kLineEnd;
   }
   return csv;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include <malloc.h>
 #include <nlohmann/json.hpp>
 #include <pthread.h>
 #include <sys/resource.h>
@@ -23,10 +24,22 @@ void lower_priority() {
   ::pthread_setname_np(::pthread_self(), "rpsup-solver");
 }
 
+/// What a job frees at its end, the next one takes again: the allocator is not to give it back in between, page by page. For the
+/// whole process, since the allocator knows no other way.
+/// @param threads  that compute jobs
+void keep_freed_memory(int threads) {
+  constexpr int kKeep = 16 << 20;     // bytes an arena; a job of default output takes some 5 MB
+  constexpr int kLargest = 4 << 20;   // what is larger comes from the system, and goes back at once
+  ::mallopt(M_ARENA_MAX, threads + 2);  // else each thread that answers users would keep as much
+  ::mallopt(M_TRIM_THRESHOLD, kKeep);
+  ::mallopt(M_MMAP_THRESHOLD, kLargest);
+}
+
 }  // namespace
 
 LocalPool::LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log)
     : source_(std::move(source)), runner_(std::move(runner)), log_(std::move(log)) {
+  keep_freed_memory(threads);
   for (int i = 0; i < threads; ++i) {
     threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
   }

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numeric>
+#include <string_view>
 
+#include "jobs/flat_json.h"
 #include "jobs/machine.h"
 #include "jobs/program_info.h"
 #include "jobs/time_text.h"
@@ -52,27 +56,70 @@ double progress(const StateCounts& counts) {
   return static_cast<double>(total - left) / static_cast<double>(total);
 }
 
+/// Where the metrics stand in a row of a table, by their keys.
+using MetricColumns = std::map<std::string, std::size_t, std::less<>>;
+
+MetricColumns metric_columns(std::size_t first) {
+  MetricColumns columns;
+  for (const engine::QuantityInfo& metric : engine::metric_table()) columns.emplace(metric.key, first++);
+  return columns;
+}
+
+/// Puts the metrics of a result into the cells of its row. False if the text is not as simple as it should be.
+bool put_flat_metrics(std::string_view text, const MetricColumns& columns, std::vector<json>& cells) {
+  FlatJson flat(text);
+  if (!flat.open('{')) return false;
+  auto expected = columns.begin();  // the text has them in the same order, unless another program wrote it
+  for (std::string_view key; flat.next_key(key);) {
+    auto value = flat.value();
+    if (!value) return false;
+    if (expected == columns.end() || expected->first != key) expected = columns.find(key);
+    if (expected == columns.end()) continue;
+    cells[expected->second] = std::move(*value);
+    ++expected;
+  }
+  return flat.close('}');
+}
+
+void put_metrics(const std::string& text, const MetricColumns& columns, std::vector<json>& cells) {
+  if (put_flat_metrics(text, columns, cells)) return;
+  const json metrics = stored_json(text);
+  for (const auto& [key, column] : columns) cells[column] = metrics.value(key, json());
+}
+
+/// Appends the values of what is swept.
+void append_swept(const std::string& text, std::vector<json>& cells) {
+  FlatJson flat(text);
+  const std::size_t before = cells.size();
+  if (flat.open('[')) {
+    for (json value; flat.next_value(value);) cells.push_back(std::move(value));
+    if (flat.close(']')) return;
+  }
+  cells.resize(before);
+  for (json& value : stored_json(text)) cells.push_back(std::move(value));
+}
+
 /// What a row brings to its set. Only what has succeeded has metrics, and a peak may be null: the run ended before its window.
-ReplicateValue replicate_value(const ResultRow& row, const json& metrics) {
-  const auto peak = metrics.find(kReplicateMetric);
-  const bool has_value = peak != metrics.end() && peak->is_number();
-  return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)), .value = has_value ? std::optional(peak->get<double>()) : std::nullopt};
+ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
+  return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)), .value = peak.is_number() ? std::optional(peak.get<double>()) : std::nullopt};
 }
 
 }  // namespace
 
 std::optional<double> estimate_time_left_s(const SweepRow& row, int threads) {
   if (has_ended(row.counts)) return 0.0;
-  double cpu_time_s = 0.0;
-  std::int64_t left = 0;
+  // By passing time: the solvers give way to other programs, so that their CPU time says too little.
+  double thread_time_s = 0.0;
+  double longest_s = 0.0;
   for (const auto& [kind, cost] : row.costs) {
     if (cost.queued + cost.running == 0) continue;
     if (cost.computed == 0) return std::nullopt;
-    const double each_s = cost.cpu_time_s / static_cast<double>(cost.computed);
-    cpu_time_s += each_s * (static_cast<double>(cost.queued) + 0.5 * static_cast<double>(cost.running));
-    left += cost.queued + cost.running;
+    const double each_s = cost.wall_time_s / static_cast<double>(cost.computed);
+    thread_time_s += each_s * (static_cast<double>(cost.queued) + 0.5 * static_cast<double>(cost.running));
+    longest_s = std::max(longest_s, cost.queued > 0 ? each_s : 0.5 * each_s);
   }
-  return cpu_time_s / static_cast<double>(std::clamp<std::int64_t>(left, 1, threads));
+  // However many threads there are, the last job takes its time.
+  return std::max(longest_s, thread_time_s / static_cast<double>(threads));
 }
 
 json job_json(const JobRow& row, Detail detail) {
@@ -119,20 +166,25 @@ ResultTable result_table(const SweepRow& sweep, const std::vector<ResultRow>& ro
   ResultTable table{.columns = {"job_id", "state"}, .rows = {}};
   if (sweep.replicated) table.columns.emplace_back("replicate");
   table.columns.insert(table.columns.end(), swept.begin(), swept.end());
+  const MetricColumns metrics = metric_columns(table.columns.size());
   for (const engine::QuantityInfo& metric : engine::metric_table()) table.columns.push_back(metric.key);
+  const std::size_t peak = metrics.at(std::string(kReplicateMetric));
   table.rows.reserve(rows.size());
   std::vector<ReplicateValue> peaks;
   peaks.reserve(rows.size());
   for (const ResultRow& row : rows) {
-    std::vector<json> cells{row.job_id, row.state};
+    std::vector<json> cells;
+    cells.reserve(table.columns.size());
+    cells.emplace_back(row.job_id);
+    cells.emplace_back(row.state);
     if (sweep.replicated) cells.push_back(value_or_null(row.replicate));
-    for (json& value : stored_json(row.swept)) cells.push_back(std::move(value));
-    const json metrics = row.metrics ? stored_json(*row.metrics) : json::object();
-    for (const engine::QuantityInfo& metric : engine::metric_table()) cells.push_back(metrics.value(metric.key, json()));
+    append_swept(row.swept, cells);
+    cells.resize(table.columns.size());
+    if (row.metrics) put_metrics(*row.metrics, metrics, cells);
+    peaks.push_back(replicate_value(row, cells[peak]));
     table.rows.push_back(std::move(cells));
-    peaks.push_back(replicate_value(row, metrics));
   }
-  const bool repeated = std::ranges::any_of(peaks, [](const ReplicateValue& peak) { return peak.replicate > 0; });
+  const bool repeated = std::ranges::any_of(peaks, [](const ReplicateValue& value) { return value.replicate > 0; });
   if (repeated) table.replicates = calc_statistics_by_row(peaks);
   return table;
 }

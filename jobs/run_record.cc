@@ -34,7 +34,10 @@ json metrics_json(const std::vector<double>& values) {
 }
 
 void take_result(engine::RunResult result, RunRecord& record) {
-  record.trajectory = rounded_to_stored(std::move(result.trajectory));
+  record.trajectory = std::move(result.trajectory);
+  check_is_table(record.trajectory);
+  // Single precision resolves a column to 6e-8 of itself; the metrics keep all their digits.
+  for (engine::QuantityInfo& channel : record.trajectory.channels) channel.single_precision = channel.key != "t_s";
   if (result.status == engine::RunStatus::kSucceeded) {
     record.metrics = metrics_json(result.metrics);
     return;

@@ -18,7 +18,7 @@ struct RunRecord {
   std::string error_reason;        ///< of a failure: engine::status_name, or "internal"
   std::string error_detail;
   std::optional<double> error_t_s; ///< simulated time reached; empty if unknown
-  engine::Trajectory trajectory;   ///< as far as the run came, with the precision that is kept
+  engine::Trajectory trajectory;   ///< as far as the run came; all channels but the time marked as of single precision
   double wall_time_s = 0.0;
   double cpu_time_s = 0.0;
 };

@@ -85,24 +85,30 @@ class Service::Impl {
  public:
   explicit Impl(ServiceOptions options)
       : options_(with_defaults(std::move(options))),
-        store_(options_.store),
-        pool_({.claim = [this] { return store_.claim(); },
-               .record = [this](const ClaimedJob& job, const RunRecord& run) { record(job, run); },
-               .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
-              options_.runner, options_.threads, options_.log) {}
+        store_(options_.store) {
+    if (options_.start == Start::kAtOnce) start();
+  }
+
+  void start() {
+    if (pool_) return;
+    pool_.emplace(JobSource{.claim = [this] { return store_.claim(); },
+                            .record = [this](const ClaimedJob& job, const RunRecord& run) { record(job, run); },
+                            .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
+                  options_.runner, options_.threads, options_.log);
+  }
 
   json submit_sweep(const nlohmann::ordered_json& request) {
     check_open();
     const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
     const std::string id = store_.add_sweep(plan, request.dump(), options_.max_queued_jobs);
-    pool_.wake();
+    wake();
     return find_sweep(id).value();
   }
 
   json submit_job(const json& parameters) {
     check_open();
     const std::string id = store_.add_job(plan_job(parameters), options_.max_queued_jobs);
-    pool_.wake();
+    wake();
     return find_job(id).value();
   }
 
@@ -168,9 +174,9 @@ class Service::Impl {
       std::unique_lock lock(change_mutex_);
       const std::uint64_t seen = changes_;
       lock.unlock();
-      const auto sweep = store_.find_sweep(id);
-      if (!sweep) return false;
-      if (has_ended(sweep->counts)) return true;
+      const auto ended = store_.has_sweep_ended(id);
+      if (!ended) return false;
+      if (*ended) return true;
       lock.lock();
       if (!changed_.wait_until(lock, until, [&] { return changes_ != seen; })) return false;
     }
@@ -178,12 +184,16 @@ class Service::Impl {
 
   void stop() {
     stopped_ = true;
-    pool_.stop();
+    if (pool_) pool_->stop();
   }
 
  private:
   void check_open() const {
     if (stopped_) throw WrongState("the service has been stopped and takes nothing new");
+  }
+
+  void wake() {
+    if (pool_) pool_->wake();
   }
 
   void record(const ClaimedJob& job, const RunRecord& run) {
@@ -195,8 +205,10 @@ class Service::Impl {
   bool apply(const Cancellation& cancellation, const char* why_not) {
     if (cancellation.outcome == CancelOutcome::kMissing) return false;
     if (cancellation.outcome == CancelOutcome::kEnded) throw WrongState(why_not);
-    for (const std::string& job : cancellation.running) pool_.stop_job(job);
-    pool_.wake();  // jobs of the same content may have waited
+    for (const std::string& job : cancellation.running) {
+      if (pool_) pool_->stop_job(job);
+    }
+    wake();  // jobs of the same content may have waited
     tell_change();
     return true;
   }
@@ -215,12 +227,13 @@ class Service::Impl {
   mutable std::condition_variable changed_;
   std::uint64_t changes_ = 0;  ///< how often a sweep may have ended
   Store store_;
-  LocalPool pool_;  // ends before the store it works for
+  std::optional<LocalPool> pool_;  // ends before the store it works for; empty before start()
 };
 
 Service::Service(ServiceOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 Service::~Service() { stop(); }
 
+void Service::start() { impl_->start(); }
 json Service::submit_sweep(const nlohmann::ordered_json& request) { return impl_->submit_sweep(request); }
 json Service::submit_job(const json& parameters) { return impl_->submit_job(parameters); }
 std::optional<json> Service::find_sweep(const std::string& id) const { return impl_->find_sweep(id); }
@@ -241,7 +254,7 @@ Outcome run_job(const json& parameters, const engine::StopQuery& stop_requested)
   const json completed = complete_parameters(parameters, "");
   const std::int64_t started_ms = now_unix_ms();
   RunRecord record = run_and_record(to_job_spec(completed), engine_runner(), stop_requested);
-  return {.job = unstored_job_json(completed, record, started_ms, now_unix_ms()), .trajectory = std::move(record.trajectory)};
+  return {.job = unstored_job_json(completed, record, started_ms, now_unix_ms()), .trajectory = rounded_to_stored(std::move(record.trajectory))};
 }
 
 }  // namespace jobs

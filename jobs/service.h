@@ -25,11 +25,15 @@ struct JobSpec {
 /// Computes one job; tests put their own in the place of engine::simulate_rpsup.
 using Runner = std::function<engine::RunResult(const JobSpec&, const engine::StopQuery&)>;
 
+/// When a service begins to compute.
+enum class Start { kAtOnce, kWhenTold };
+
 struct ServiceOptions {
   std::filesystem::path store;  ///< the SQLite file; made if it does not exist
   int threads = 2;              ///< jobs computed at a time, >= 1
   std::size_t max_sweep_jobs = 10'000;
   std::size_t max_queued_jobs = 100'000;
+  Start start = Start::kAtOnce;
   Runner runner;                ///< empty: the engine
   /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not throw.
   std::function<void(const std::string&)> log;
@@ -64,11 +68,15 @@ struct TrajectoryQuery {
 /// are the pointers), WrongState, StorageError.
 class Service {
  public:
-  /// Opens the store (its lock is held until destruction), queues again what a former process left running, starts the pool.
+  /// Opens the store (its lock is held until destruction), queues again what a former process left running, and starts the pool if
+  /// that is to be done at once.
   explicit Service(ServiceOptions options);
   ~Service();  ///< stop()
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
+
+  /// Starts the pool if it has not been started. Not beside calls of other members.
+  void start();
 
   /// Stores a sweep and its jobs, or nothing at all. When it returns, the sweep survives a crash.
   /// @param request  order-preserving, since the axes multiply in the order in which they were written, the last one

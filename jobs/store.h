@@ -28,7 +28,7 @@ using StateCounts = std::array<std::int64_t, kJobStates.size()>;
 struct CostOfKind {
   std::int64_t queued = 0, running = 0;
   std::int64_t computed = 0;   ///< ended jobs that were computed, not reused
-  double cpu_time_s = 0.0;     ///< of those together
+  double wall_time_s = 0.0;    ///< of those together, each on one thread
 };
 
 struct SweepRow {
@@ -111,6 +111,8 @@ class Store {
   [[nodiscard]] DeleteOutcome delete_sweep(const std::string& id);
 
   [[nodiscard]] std::optional<SweepRow> find_sweep(const std::string& id) const;
+  /// Whether no job of the sweep is left to compute; empty if there is no such sweep. Costs the same for sweeps of any size.
+  [[nodiscard]] std::optional<bool> has_sweep_ended(const std::string& id) const;
   [[nodiscard]] std::optional<JobRow> find_job(const std::string& id) const;
   /// Newest first. @param state empty: all  @param before  an id; empty: the newest
   [[nodiscard]] std::vector<SweepRow> list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -46,6 +47,33 @@ enum class Durability {
   kSurvivesPowerLoss,  ///< of what has been promised to a user
 };
 
+/// The statements of a connection that are run again and again, each prepared once.
+class Statements {
+ public:
+  explicit Statements(SQLite::Database& database) : database_(database) {}
+
+  /// A statement that is being run, with null for every parameter at first. Done with at the end of its scope: one that waits
+  /// for its next row would keep the log from being moved into the file.
+  class Use {
+   public:
+    explicit Use(SQLite::Statement& statement) : statement_(statement) { statement_.clearBindings(); }
+    ~Use() { statement_.tryReset(); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    SQLite::Statement* operator->() const { return &statement_; }
+
+   private:
+    SQLite::Statement& statement_;
+  };
+
+  /// @param sql  a literal: it is told from others by its address
+  [[nodiscard]] Use use(const char* sql) { return Use(prepared_.try_emplace(sql, database_, sql).first->second); }
+
+ private:
+  SQLite::Database& database_;
+  std::map<const char*, SQLite::Statement> prepared_;
+};
+
 /// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before 3.51.3 a
 /// checkpoint beside another connection's commit can damage a store, so no second connection may do either.
 class Writer {
@@ -58,29 +86,41 @@ class Writer {
   /// Runs work(database) in one transaction: all of it, or nothing if it throws.
   template <typename Work>
   auto write(Durability durability, Work&& work) {
-    const std::lock_guard lock(mutex_);
-    return with_storage_errors([&] {
-      set_durability(durability);
-      SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
-      if constexpr (std::is_void_v<decltype(work(database_))>) {
-        work(database_);
-        transaction.commit();
-      } else {
-        auto result = work(database_);
-        transaction.commit();
-        return result;
-      }
-    });
+    return write_with(durability, std::forward<Work>(work), database_);
+  }
+
+  /// The same for work(statements), which is done often.
+  template <typename Work>
+  auto write_often(Durability durability, Work&& work) {
+    return write_with(durability, std::forward<Work>(work), statements_);
   }
 
   /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their turn.
   void release_free_pages();
 
  private:
+  template <typename Work, typename With>
+  auto write_with(Durability durability, Work&& work, With& with) {
+    const std::lock_guard lock(mutex_);
+    return with_storage_errors([&] {
+      set_durability(durability);
+      SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+      if constexpr (std::is_void_v<decltype(work(with))>) {
+        work(with);
+        transaction.commit();
+      } else {
+        auto result = work(with);
+        transaction.commit();
+        return result;
+      }
+    });
+  }
+
   void set_durability(Durability durability);
 
   std::mutex mutex_;  // guards the rest
   SQLite::Database database_;
+  Statements statements_{database_};
   Durability durability_ = Durability::kSurvivesPowerLoss;
 };
 

@@ -29,12 +29,12 @@ void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow&
 
 void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
   SQLite::Statement cost(database,
-                         "SELECT j.coupler, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT NULL), total(r.cpu_time_s) "
+                         "SELECT j.coupler, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT NULL), total(r.wall_time_s) "
                          "FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 WHERE j.sweep = ? GROUP BY j.coupler");
   cost.bind(1, sweep);
   while (cost.executeStep()) {
     row.costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(), .running = cost.getColumn(2).getInt64(),
-                                                .computed = cost.getColumn(3).getInt64(), .cpu_time_s = cost.getColumn(4).getDouble()};
+                                                .computed = cost.getColumn(3).getInt64(), .wall_time_s = cost.getColumn(4).getDouble()};
   }
 }
 
@@ -96,6 +96,16 @@ std::optional<SweepRow> Store::find_sweep(const std::string& id) const {
     find.bind(1, id);
     if (!find.executeStep()) return std::nullopt;
     return read_sweep(database, find);
+  });
+}
+
+std::optional<bool> Store::has_sweep_ended(const std::string& id) const {
+  return readers_.read([&](const SQLite::Database& database) -> std::optional<bool> {
+    SQLite::Statement find(database,
+                           "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') "
+                           "OR EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') FROM sweeps s WHERE s.id = ?");
+    find.bind(1, id);
+    return find.executeStep() ? std::optional(find.getColumn(0).getInt() == 0) : std::nullopt;
   });
 }
 

@@ -4,18 +4,22 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <optional>
 
 #include "jobs/byte_codec.h"
+#include "jobs/single_column.h"
 
 namespace jobs {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kOldestVersion = 1;  // has no packed singles and no copies
+constexpr std::uint8_t kVersion = 2;
 constexpr std::size_t kLargestHeader = 1U << 20U;
 constexpr std::uint64_t kMostSamples = 10'000'000;
 
-enum class Encoding : std::uint8_t { kUniformTime, kDouble, kSingle };
+// kSingle is of the oldest version: floats, shuffled like doubles.
+enum class Encoding : std::uint8_t { kUniformTime, kDouble, kSingle, kPackedSingle, kCopy };
 enum Flags : std::uint8_t { kInteger = 1, kSinglePrecision = 2 };
 
 /// t_k = k / rate but for the last one, which may fall between two.
@@ -46,42 +50,49 @@ std::optional<UniformTime> find_uniform_time(const std::vector<double>& column) 
 
 std::size_t count_samples(const engine::Trajectory& trajectory) { return trajectory.columns.empty() ? 0 : trajectory.columns.front().size(); }
 
-void check_is_table(const engine::Trajectory& trajectory) {
-  const std::size_t samples = count_samples(trajectory);
-  const bool is_table = trajectory.columns.size() == trajectory.channels.size() &&
-                        std::ranges::all_of(trajectory.columns, [&](const auto& column) { return column.size() == samples; });
-  if (!is_table) throw std::invalid_argument("a trajectory must have one column for each channel, all of one length");
-}
-
 template <typename T>
 std::string_view bytes_of(const std::vector<T>& items) {
   return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
 }
 
+/// A column as it is stored, before it is made a frame.
 struct Block {
-  Encoding encoding;
+  Encoding encoding = Encoding::kDouble;
   std::string bytes;
+  std::size_t copied = 0;  ///< kCopy: the channel that has the same column
 };
 
-Block encode_column(const engine::QuantityInfo& channel, const std::vector<double>& column) {
-  if (channel.single_precision) {
-    const std::vector<float> singles(column.begin(), column.end());
-    return {Encoding::kSingle, compress(shuffle(bytes_of(singles), sizeof(float)))};
-  }
+Block encode_column(const engine::QuantityInfo& channel, const std::vector<double>& column, SinglePacker& packer) {
+  if (channel.single_precision) return {Encoding::kPackedSingle, std::string(packer.pack(column))};
   if (const auto time = channel.key == "t_s" ? find_uniform_time(column) : std::nullopt) {
     ByteWriter writer;
     writer.number(time->rate);
     writer.number(time->last);
-    return {Encoding::kUniformTime, compress(writer.bytes())};
+    return {Encoding::kUniformTime, writer.bytes()};
   }
-  return {Encoding::kDouble, compress(shuffle(bytes_of(column), sizeof(double)))};
+  return {Encoding::kDouble, shuffle(bytes_of(column), sizeof(double))};
+}
+
+/// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a copy of it.
+std::vector<Block> encode_columns(const engine::Trajectory& trajectory) {
+  SinglePacker packer;
+  std::vector<Block> blocks;
+  blocks.reserve(trajectory.columns.size());
+  for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
+    Block block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
+    const auto is_same = [&](const Block& other) { return other.encoding == block.encoding && other.bytes == block.bytes; };
+    const auto same = std::ranges::find_if(blocks, is_same);
+    if (same != blocks.end()) block = {Encoding::kCopy, {}, static_cast<std::size_t>(same - blocks.begin())};
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
 }
 
 /// What the header says of a channel.
 struct Entry {
   engine::QuantityInfo info;
   Encoding encoding = Encoding::kDouble;
-  std::span<const std::byte> block;
+  std::span<const std::byte> block;  ///< a frame; of a copy, that of its original
 };
 
 struct Contents {
@@ -89,7 +100,8 @@ struct Contents {
   std::vector<Entry> entries;
 };
 
-Entry read_entry(ByteReader& header, ByteReader& blob) {
+/// @param before  the channels that a copy may be of
+Entry read_entry(ByteReader& header, ByteReader& blob, std::span<const Entry> before) {
   Entry entry;
   entry.info.key = header.text();
   entry.info.help = header.text();
@@ -97,22 +109,31 @@ Entry read_entry(ByteReader& header, ByteReader& blob) {
   entry.info.integer = (flags & kInteger) != 0;
   entry.info.single_precision = (flags & kSinglePrecision) != 0;
   const auto encoding = header.number<std::uint8_t>();
-  if (encoding > static_cast<std::uint8_t>(Encoding::kSingle)) throw DamagedTrajectory("the trajectory has a block of an unknown kind");
+  if (encoding > static_cast<std::uint8_t>(Encoding::kCopy)) throw DamagedTrajectory("the trajectory has a block of an unknown kind");
   entry.encoding = static_cast<Encoding>(encoding);
-  entry.block = blob.take(header.number<std::uint32_t>());
+  const auto number = header.number<std::uint32_t>();
+  if (entry.encoding != Encoding::kCopy) {
+    entry.block = blob.take(number);
+  } else if (number < before.size()) {
+    entry.encoding = before[number].encoding;
+    entry.block = before[number].block;
+  } else {
+    throw DamagedTrajectory("the trajectory has a copy of a channel that it does not have");
+  }
   return entry;
 }
 
 Contents read_contents(std::span<const std::byte> bytes) {
   ByteReader blob(bytes);
-  if (blob.number<std::uint8_t>() != kVersion) throw DamagedTrajectory("the trajectory is of an unknown version");
+  const auto version = blob.number<std::uint8_t>();
+  if (version < kOldestVersion || version > kVersion) throw DamagedTrajectory("the trajectory is of an unknown version");
   const std::string header_bytes = decompress(blob.take(blob.number<std::uint32_t>()), kLargestHeader);
   ByteReader header(std::as_bytes(std::span(header_bytes)));
   const auto samples = header.number<std::uint64_t>();
   if (samples > kMostSamples) throw DamagedTrajectory("the trajectory is too long");
   Contents contents{.samples = static_cast<std::size_t>(samples), .entries = {}};
   const auto channels = header.number<std::uint32_t>();
-  for (std::uint32_t i = 0; i < channels; ++i) contents.entries.push_back(read_entry(header, blob));
+  for (std::uint32_t i = 0; i < channels; ++i) contents.entries.push_back(read_entry(header, blob, contents.entries));
   if (!blob.at_end() || !header.at_end()) throw DamagedTrajectory("the trajectory has bytes after its end");
   return contents;
 }
@@ -130,7 +151,9 @@ std::vector<double> decode_column(const Entry& entry, std::size_t samples) {
   switch (entry.encoding) {
     case Encoding::kSingle: return decode_items<float>(entry.block, samples);
     case Encoding::kDouble: return decode_items<double>(entry.block, samples);
-    case Encoding::kUniformTime: break;
+    case Encoding::kPackedSingle: return unpack_singles(decompress(entry.block, largest_packed_size(samples)), samples);
+    case Encoding::kUniformTime:
+    case Encoding::kCopy: break;  // an entry has the encoding of what it copies
   }
   const std::string bytes = decompress(entry.block, sizeof(UniformTime));
   ByteReader reader(std::as_bytes(std::span(bytes)));
@@ -140,6 +163,13 @@ std::vector<double> decode_column(const Entry& entry, std::size_t samples) {
 }
 
 }  // namespace
+
+void check_is_table(const engine::Trajectory& trajectory) {
+  const std::size_t samples = count_samples(trajectory);
+  const bool is_table = trajectory.columns.size() == trajectory.channels.size() &&
+                        std::ranges::all_of(trajectory.columns, [&](const auto& column) { return column.size() == samples; });
+  if (!is_table) throw std::invalid_argument("a trajectory must have one column for each channel, all of one length");
+}
 
 engine::Trajectory rounded_to_stored(engine::Trajectory trajectory) {
   check_is_table(trajectory);
@@ -152,26 +182,32 @@ engine::Trajectory rounded_to_stored(engine::Trajectory trajectory) {
 
 std::string encode_trajectory(const engine::Trajectory& trajectory) {
   check_is_table(trajectory);
-  const std::size_t samples = count_samples(trajectory);
+  Compressor compressor;
   ByteWriter header;
-  header.number(std::uint64_t{samples});
+  header.number(std::uint64_t{count_samples(trajectory)});
   header.number(static_cast<std::uint32_t>(trajectory.channels.size()));
-  std::string blocks;
-  for (std::size_t i = 0; i < trajectory.channels.size(); ++i) {
+  const std::vector<Block> blocks = encode_columns(trajectory);
+  std::string frames;
+  const auto add_room = [](std::size_t sum, const Block& block) { return sum + block.bytes.size() + 32; };
+  frames.reserve(std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, add_room));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
     const engine::QuantityInfo& channel = trajectory.channels[i];
-    const Block block = encode_column(channel, trajectory.columns[i]);
+    const Effort effort = blocks[i].encoding == Encoding::kPackedSingle ? Effort::kLittle : Effort::kFull;
     header.text(channel.key);
     header.text(channel.help);
     header.number(static_cast<std::uint8_t>((channel.integer ? kInteger : 0) | (channel.single_precision ? kSinglePrecision : 0)));
-    header.number(static_cast<std::uint8_t>(block.encoding));
-    header.number(static_cast<std::uint32_t>(block.bytes.size()));
-    blocks += block.bytes;
+    header.number(static_cast<std::uint8_t>(blocks[i].encoding));
+    header.number(static_cast<std::uint32_t>(blocks[i].encoding == Encoding::kCopy ? blocks[i].copied
+                                                                                  : compressor.append_frame(blocks[i].bytes, effort, frames)));
   }
-  const std::string packed_header = compress(header.bytes());
+  std::string packed_header;
+  compressor.append_frame(header.bytes(), Effort::kFull, packed_header);
   ByteWriter blob;
   blob.number(kVersion);
   blob.number(static_cast<std::uint32_t>(packed_header.size()));
-  return blob.bytes() + packed_header + blocks;
+  std::string bytes = blob.bytes();
+  bytes.reserve(bytes.size() + packed_header.size() + frames.size());
+  return bytes.append(packed_header).append(frames);
 }
 
 engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<const std::string> keys) {

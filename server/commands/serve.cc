@@ -70,6 +70,7 @@ int serve(const ServeOptions& options) {
   jobs::ServiceOptions service_options;
   service_options.store = options.store;
   service_options.threads = options.threads;
+  service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
   jobs::Service service(service_options);
   Routes routes(service);
@@ -79,6 +80,7 @@ int serve(const ServeOptions& options) {
     throw std::runtime_error("cannot listen on " + url(address, options.port) + ": another program has this port, "
                              "or it is not this user's to take; --port 0 takes any free one");
   }
+  service.start();  // not before it is sure that there will be a server
   spdlog::info("store {}, {} threads", options.store, options.threads);
   std::cout << "rpsup listens on " << url(address, port) << std::endl;
   serve_until_signal(http, routes, service, signals);

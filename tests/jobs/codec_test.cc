@@ -67,6 +67,89 @@ RC_GTEST_PROP(TrajectoryCodec, GivesBackAnyBits, (const std::vector<std::vector<
   for (std::size_t i = 0; i < run.columns.size(); ++i) RC_ASSERT(bits_of(back.columns[i]) == bits_of(run.columns[i]));
 }
 
+/// A channel of single precision. @param samples  as bits of floats
+void expect_singles_back(const std::vector<std::uint32_t>& samples) {
+  engine::Trajectory run;
+  run.channels = {{.key = "t_s", .help = "", .single_precision = true}};
+  run.columns.resize(1);
+  for (const std::uint32_t bits : samples) run.columns[0].push_back(static_cast<double>(std::bit_cast<float>(bits)));
+  const engine::Trajectory back = jobs::decode_trajectory(bytes_of(jobs::encode_trajectory(run)), {});
+  RC_ASSERT(bits_of(back.columns.at(0)) == bits_of(jobs::rounded_to_stored(run).columns[0]));
+}
+
+RC_GTEST_PROP(TrajectoryCodec, GivesBackAnySingles, (const std::vector<std::uint32_t>& samples)) {
+  expect_singles_back(samples);
+  // Blocks of every width, and every number of samples in the last one.
+  std::vector<std::uint32_t> narrow;
+  for (std::size_t k = 0; k < samples.size(); ++k) narrow.push_back(0x3f800000U + (samples[k] * 0x9e3779b9U >> (k / 16 % 33 < 32 ? k / 16 % 33 : 0)));
+  expect_singles_back(narrow);
+}
+
+TEST(TrajectoryCodec, GivesBackSmoothSinglesOfEveryOrder) {
+  for (int power = 0; power <= 6; ++power) {
+    for (const int samples : {1, 2, 15, 16, 17, 1000}) {
+      engine::Trajectory run;
+      run.channels = {{.key = "t_s", .help = ""}, {.key = "x", .help = "", .single_precision = true}};
+      run.columns.resize(2);
+      for (int k = 0; k < samples; ++k) {
+        run.columns[0].push_back(k / 1000.0);
+        run.columns[1].push_back(std::pow(1e-2 * k - 2.0, power));  // through zero, with a change of sign
+      }
+      const engine::Trajectory back = jobs::decode_trajectory(bytes_of(jobs::encode_trajectory(run)), {});
+      EXPECT_EQ(bits_of(back.columns[1]), bits_of(jobs::rounded_to_stored(run).columns[1])) << power << ' ' << samples;
+    }
+  }
+}
+
+TEST(TrajectoryCodec, StoresASmoothColumnInLessThanTwoBytesASample) {
+  engine::Trajectory run;
+  run.channels = {{.key = "t_s", .help = ""}, {.key = "x", .help = "", .single_precision = true}};
+  run.columns.resize(2);
+  for (int k = 0; k < 5000; ++k) {
+    run.columns[0].push_back(k / 1000.0);
+    run.columns[1].push_back(std::sin(10.0 * k / 1000.0));
+  }
+  EXPECT_LT(jobs::encode_trajectory(run).size(), 5000U * 2U);
+}
+
+TEST(TrajectoryCodec, StoresAColumnThatIsAnotherOnesOnlyOnce) {
+  const auto of = [](int copies) {
+    engine::Trajectory run;
+    for (int i = 0; i < copies; ++i) {
+      run.channels.push_back({.key = "c" + std::to_string(i), .help = "", .single_precision = i % 2 == 0});
+      run.columns.emplace_back();
+      for (int k = 0; k < 1000; ++k) run.columns.back().push_back(std::sin(0.37 * k * k));
+    }
+    return run;
+  };
+  const std::string two = jobs::encode_trajectory(of(2));
+  const std::string four = jobs::encode_trajectory(of(4));
+  EXPECT_LT(four.size(), two.size() + 100U);
+  const std::vector<std::string> wanted{"c3", "c2"};
+  const engine::Trajectory back = jobs::decode_trajectory(bytes_of(four), wanted);
+  EXPECT_EQ(back.channels[0].key, "c3");
+  EXPECT_EQ(back.columns[0], of(4).columns[3]);
+  EXPECT_EQ(back.columns[1], jobs::rounded_to_stored(of(4)).columns[2]);
+}
+
+// What a store of the first version of the program holds.
+TEST(TrajectoryCodec, ReadsBlobsOfVersionOne) {
+  const std::string hex =
+      "014f00000028b52ffd244d15020022c40d1590471d8076896ca55a1f657777a7e4f908b2cdca143f50ca4bd6d1464c7557b008db69dd3f683f5f84c3e857ef0c223f88909b"
+      "ff6c0202004253c00160014c3f505128b52ffd24108100000000000000408f40fca9f1d24d62603fad47fa3f28b52ffd24186d0000380000f008003f40010033c002e8e3fb"
+      "2f28b52ffd2418850000509a555599b9d5e53f3f3f0100ca8e0846a64d2728b52ffd240c610000cdababccaaaaccaa2a3d3e3f9f4a290c";
+  std::string blob;
+  for (std::size_t i = 0; i < hex.size(); i += 2) blob += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  const engine::Trajectory back = jobs::decode_trajectory(bytes_of(blob), {});
+  ASSERT_EQ(back.channels.size(), 4U);
+  EXPECT_EQ(back.channels[3].key, "b");
+  EXPECT_TRUE(back.channels[3].single_precision);
+  EXPECT_EQ(back.columns[0], (std::vector<double>{0.0, 0.001, 0.002}));
+  EXPECT_EQ(back.columns[1], (std::vector<double>{0.0, 1.0, 3.0}));
+  EXPECT_EQ(back.columns[2], (std::vector<double>{0.1, 1.0 / 3.0, 2.0 / 3.0}));
+  EXPECT_EQ(back.columns[3], (std::vector<double>{0.1F, 1.0F / 3.0F, 2.0F / 3.0F}));
+}
+
 TEST(TrajectoryCodec, UnpacksOnlyWhatIsWanted) {
   const std::string blob = jobs::encode_trajectory(sampled_run());
   const std::vector<std::string> wanted{"count", "t_s", "no_such_channel"};

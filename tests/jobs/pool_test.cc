@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/local_pool.h"
+#include "jobs/trajectory_codec.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
 
@@ -129,13 +130,23 @@ TEST(RunAndRecord, WritesCountsAsIntegersAndWhatIsNoNumberAsNull) {
   EXPECT_GT(counts, 0);
 }
 
-TEST(RunAndRecord, KeepsWhatTheStoreKeeps) {
+TEST(RunAndRecord, KeepsEveryChannelButTheTimeWithSinglePrecision) {
   engine::Trajectory trajectory;
-  trajectory.channels = {{.key = "t_s", .help = ""}, {.key = "drawn", .help = "", .single_precision = true}};
-  trajectory.columns = {{0.1}, {0.1}};
-  const auto columns = record_of(1.0, trajectory).trajectory.columns;
-  EXPECT_EQ(columns[0][0], 0.1);
-  EXPECT_EQ(columns[1][0], 0.1F);
+  trajectory.channels = {{.key = "t_s", .help = ""}, {.key = "measured", .help = ""}, {.key = "drawn", .help = "", .single_precision = true}};
+  trajectory.columns = {{0.1}, {0.1}, {0.1}};
+  const std::string blob = jobs::encode_trajectory(record_of(1.0, trajectory).trajectory);
+  const auto kept = jobs::decode_trajectory(std::as_bytes(std::span(blob)), {});
+  EXPECT_EQ(kept.columns[0][0], 0.1);
+  EXPECT_EQ(kept.columns[1][0], 0.1F);
+  EXPECT_EQ(kept.columns[2][0], 0.1F);
+}
+
+TEST(RunAndRecord, RefusesATrajectoryThatIsNoTable) {
+  engine::Trajectory trajectory;
+  trajectory.channels = {{.key = "t_s", .help = ""}};
+  const jobs::RunRecord record = record_of(1.0, trajectory);
+  EXPECT_EQ(record.end, jobs::RunRecord::End::kFailed);
+  EXPECT_EQ(record.error_reason, "internal");
 }
 
 TEST(RunAndRecord, RefusesAResultThatLacksMetrics) {

@@ -392,5 +392,32 @@ TEST(Service, StoresNothingOfAFaultyRequest) {
   EXPECT_EQ(service.list_jobs({}).at("items").size(), 0U);
 }
 
+TEST(Service, ComputesNothingBeforeItIsTold) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::ServiceOptions options = options_of(store, engine, 2);
+  options.start = jobs::Start::kWhenTold;
+  jobs::Service service(options);
+  const std::string id = service.submit_sweep(json::parse(R"({"sweep": {"crank_velocity_rad_s": [5, 6, 7]}})")).at("id");
+  EXPECT_FALSE(service.wait_for_sweep(id, std::chrono::milliseconds(50)));
+  EXPECT_TRUE(engine.begun_speeds().empty());
+  service.start();
+  service.start();  // once more changes nothing
+  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(20)));
+  EXPECT_EQ(engine.begun_speeds().size(), 3U);
+}
+
+TEST(Service, CancelsAndEndsWithoutHavingComputed) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::ServiceOptions options = options_of(store, engine, 2);
+  options.start = jobs::Start::kWhenTold;
+  jobs::Service service(options);
+  const std::string id = service.submit_sweep(json::parse(R"({"sweep": {"crank_velocity_rad_s": [5, 6, 7]}})")).at("id");
+  EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
+  service.stop();
+  EXPECT_TRUE(engine.begun_speeds().empty());
+}
+
 }  // namespace
 }  // namespace jobs_tests

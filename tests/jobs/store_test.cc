@@ -23,7 +23,7 @@ jobs::RunRecord success(double metric) {
   record.metrics = {{"peak", metric}};
   record.trajectory.channels = {{.key = "t_s", .help = ""}};
   record.trajectory.columns = {{0.0, metric}};
-  record.cpu_time_s = 2.0;
+  record.wall_time_s = 2.0;
   return record;
 }
 
@@ -308,20 +308,34 @@ TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
   (void)store.claim();
   costs = store.find_sweep(sweep).value().costs;
   EXPECT_EQ(costs.at("rigid").computed, 1);
-  EXPECT_EQ(costs.at("rigid").cpu_time_s, 2.0);
+  EXPECT_EQ(costs.at("rigid").wall_time_s, 2.0);
   EXPECT_EQ(costs.at("rigid").running, 1);
   EXPECT_EQ(costs.at("flexible").queued, 3);
+}
+
+TEST(Store, KnowsWhetherASweepHasEnded) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  EXPECT_FALSE(store.has_sweep_ended("sweep_none").has_value());
+  const std::string sweep = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5, 6]}})");
+  EXPECT_EQ(store.has_sweep_ended(sweep), false);  // all queued
+  EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
+  EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one queued
+  const auto last = store.claim().value();
+  EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one running
+  EXPECT_TRUE(store.record(last, failure()));
+  EXPECT_EQ(store.has_sweep_ended(sweep), true);
 }
 
 TEST(TimeLeft, IsThatOfTheJobsThatAreLeftByKind) {
   jobs::SweepRow row;
   row.counts = {8, 1, 5, 0, 0};
-  row.costs["rigid"] = {.queued = 4, .running = 1, .computed = 2, .cpu_time_s = 6.0};
-  row.costs["flexible"] = {.queued = 4, .running = 0, .computed = 3, .cpu_time_s = 30.0};
+  row.costs["rigid"] = {.queued = 4, .running = 1, .computed = 2, .wall_time_s = 6.0};
+  row.costs["flexible"] = {.queued = 4, .running = 0, .computed = 3, .wall_time_s = 30.0};
   // (4 + 1/2) * 3 s + 4 * 10 s
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 1).value(), 53.5);
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 2).value(), 53.5 / 2.0);
-  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 100).value(), 53.5 / 9.0);  // no more threads than jobs
+  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 100).value(), 10.0);  // a flexible one takes its time on whatever thread
   row.costs["flexible"].computed = 0;
   EXPECT_FALSE(jobs::estimate_time_left_s(row, 1).has_value());
   row.counts = {0, 0, 14, 0, 0};

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jobs {
+
+/// Packs columns of numbers with the 24 bits of a float, for columns that are smooth most of the time:
+///
+///     order byte | first value, 4 bytes | width byte of each block | bits of each block
+///
+/// The bits of a float, read as an integer whose order is that of the numbers, change little from sample to sample, and its
+/// differences of the third order less still. A block is 16 of these differences, each with as many bits as the largest of them
+/// takes. The order, 0 to 4, is the one that is best on a part of the blocks; before the first value stands the first value.
+/// Unpacking gives static_cast<float>(x) for every x, bit by bit.
+class SinglePacker {
+ public:
+  /// @returns bytes that are good until the next call
+  [[nodiscard]] std::string_view pack(std::span<const double> column);
+
+ private:
+  // Room that every column needs.
+  std::vector<std::uint32_t> values_;
+  std::string packed_;
+};
+
+/// @throws DamagedTrajectory if the bytes are not those of a column of that many samples
+[[nodiscard]] std::vector<double> unpack_singles(std::string_view packed, std::size_t samples);
+
+/// How long a packed column may be.
+[[nodiscard]] std::size_t largest_packed_size(std::size_t samples);
+
+}  // namespace jobs
