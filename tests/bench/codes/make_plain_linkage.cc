@@ -9,9 +9,9 @@ namespace bench {
 
 namespace {
 
-PlainCoordinate take_coordinate(const engine::Mechanism& mechanism, engine::FrameIndex i, double start) {
+PlainCoordinate take_coordinate(const engine::Mechanism& mechanism, engine::FrameIndex i, const Coordinates& at) {
   const engine::Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
-  PlainCoordinate plain{c.name, c.motion == engine::Motion::kTranslation, static_cast<int>(c.axis), c.stiffness, c.damping, {}, start};
+  PlainCoordinate plain{c.name, c.motion == engine::Motion::kTranslation, static_cast<int>(c.axis), c.stiffness, c.damping, {}, at.q[i], at.qd[i]};
   for (const engine::Drive& drive : mechanism.drives)
     if (drive.coordinate == i)
       plain.drive = [law = drive.law](double t) {
@@ -22,7 +22,7 @@ PlainCoordinate take_coordinate(const engine::Mechanism& mechanism, engine::Fram
 }
 
 /// A frame without mass is inside a joint and belongs to the body after it.
-PlainLinkage take_tree(const engine::Rpsup& rpsup, const Eigen::VectorXd& q) {
+PlainLinkage take_tree(const engine::Rpsup& rpsup, const Coordinates& at) {
   const engine::Mechanism& mechanism = rpsup.mechanism;
   PlainLinkage plain;
   plain.gravity_W = mechanism.gravity_W;
@@ -35,7 +35,7 @@ PlainLinkage take_tree(const engine::Rpsup& rpsup, const Eigen::VectorXd& q) {
       body.parent = c.parent == engine::kGround ? -1 : body_of[static_cast<std::size_t>(c.parent)];
       body.p_PJ = c.placement.p;
     }
-    body.joint.push_back(take_coordinate(mechanism, static_cast<engine::FrameIndex>(i), q[static_cast<Eigen::Index>(i)]));
+    body.joint.push_back(take_coordinate(mechanism, static_cast<engine::FrameIndex>(i), at));
     body_of.push_back(static_cast<int>(plain.bodies.size()));
     if (c.mass == 0.0) continue;
     if (!c.inertia.isDiagonal(0.0)) throw std::invalid_argument("a body's axes are not its principal ones");
@@ -64,7 +64,7 @@ PlainLinkage make_plain_linkage(const engine::RpsupParameters& parameters) {
 
 PlainLinkage make_plain_linkage_in_contact(const engine::RpsupParameters& parameters) {
   const engine::Rpsup rpsup = engine::build_rpsup(parameters);
-  return take_tree(rpsup, assemble_in_contact(rpsup));
+  return take_tree(rpsup, assemble_in_contact(parameters, rpsup));
 }
 
 }  // namespace bench

@@ -96,6 +96,7 @@ class MujocoLinkage {
   void take_coordinate(const PlainCoordinate& c) {
     const int dof = dof_of(c);
     data_->qpos[dof] = c.start;
+    data_->qvel[dof] = c.start_rate;
     if (c.drive) driven_.push_back({dof, c.drive});
   }
 

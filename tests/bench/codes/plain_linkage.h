@@ -23,7 +23,7 @@ struct PlainCoordinate {
   int axis = 0;                               ///< x, y, z: 0, 1, 2
   double stiffness = 0.0, damping = 0.0;
   std::function<PlainDriven(double)> drive;   ///< empty: free
-  double start = 0.0;                         ///< at t = 0
+  double start = 0.0, start_rate = 0.0;       ///< at t = 0
 };
 
 /// A body and the joint that carries it. Its frame is parallel to its parent's while its coordinates are zero.

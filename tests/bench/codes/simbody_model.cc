@@ -64,8 +64,11 @@ void SimbodyModel::add_forces(const PlainCoordinate& c, SimTK::MobilizedBody& bo
 
 void SimbodyModel::place(SimTK::State& state) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (std::size_t k = 0; k < plain_.bodies[i].joint.size(); ++k)
-      bodies_[i].setOneQ(state, static_cast<int>(k), sign_of(static_cast<int>(k)) * plain_.bodies[i].joint[k].start);
+    for (std::size_t k = 0; k < plain_.bodies[i].joint.size(); ++k) {
+      const int which = static_cast<int>(k);
+      bodies_[i].setOneQ(state, which, sign_of(which) * plain_.bodies[i].joint[k].start);
+      bodies_[i].setOneU(state, which, sign_of(which) * plain_.bodies[i].joint[k].start_rate);
+    }
 }
 
 }  // namespace bench

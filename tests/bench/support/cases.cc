@@ -21,17 +21,20 @@ engine::RpsupParameters linkage(engine::Coupler coupler, double c_r, double omeg
   return parameters;
 }
 
-Eigen::VectorXd assemble(const engine::Mechanism& mechanism) {
+Coordinates assemble(const engine::Mechanism& mechanism) {
   engine::Evaluation assembled = engine::MotionSystem(mechanism).make_evaluation();
   if (!engine::LoopClosure(mechanism).assemble(0.0, assembled)) throw std::runtime_error("the loop does not close");
-  return assembled.q;
+  return {assembled.q, Eigen::VectorXd::Zero(assembled.q.size())};
 }
 
-Eigen::VectorXd assemble_in_contact(const engine::Rpsup& rpsup) {
-  Eigen::VectorXd q = assemble(rpsup.mechanism);
-  for (const engine::CutJoint& joint : rpsup.mechanism.cut_joints)
-    if (joint.clearance) q[rpsup.layout.slider] += joint.clearance->c_r + kPenetration;
-  return q;
+Coordinates assemble_in_contact(const engine::RpsupParameters& parameters, const engine::Rpsup& rpsup) {
+  Coordinates at = assemble(rpsup.mechanism);
+  const Eigen::Index psi = rpsup.layout.rod + 1;  // the coupler's first turn, about z: across the bearing
+  const double lever = at.q[rpsup.layout.slider] - parameters.rod_length;  // the coupler's length seen along that axis
+  if (parameters.c_r > 0.0) at.q[psi] += (parameters.c_r + kPenetration) / lever;
+  at.qd[psi] = 0.02;
+  at.qd[rpsup.layout.slider + 1] = 1.0;  // the cross link's own turn
+  return at;
 }
 
 }  // namespace bench

@@ -11,11 +11,16 @@ namespace bench {
 /// @param omega  crank velocity, [rad/s]
 [[nodiscard]] engine::RpsupParameters linkage(engine::Coupler coupler, double c_r, double omega);
 
-/// Coordinates of the mechanism at t = 0, its loop closed and its drives at rest.
-/// @throws std::runtime_error if the loop does not close
-[[nodiscard]] Eigen::VectorXd assemble(const engine::Mechanism& mechanism);
+/// Every coordinate of a mechanism and its rate.
+struct Coordinates {
+  Eigen::VectorXd q, qd;
+};
 
-/// The same with the journal pushed against the bore, so that every ring touches.
-[[nodiscard]] Eigen::VectorXd assemble_in_contact(const engine::Rpsup& rpsup);
+/// At t = 0, the loop closed and the drives at rest.
+/// @throws std::runtime_error if the loop does not close
+[[nodiscard]] Coordinates assemble(const engine::Mechanism& mechanism);
+
+/// The same with the coupler turned until every ring of the journal touches the bore and slides on it; with an ideal joint without the turn.
+[[nodiscard]] Coordinates assemble_in_contact(const engine::RpsupParameters& parameters, const engine::Rpsup& rpsup);
 
 }  // namespace bench

@@ -11,8 +11,8 @@ class ContactState {
  public:
   explicit ContactState(const engine::RpsupParameters& parameters)
       : rpsup_(engine::build_rpsup(parameters)), system_(rpsup_.mechanism), at_(system_.make_evaluation()) {
-    const Eigen::VectorXd q = assemble_in_contact(rpsup_);
-    y_ = system_.make_state(q, Eigen::VectorXd::Zero(q.size()));
+    const Coordinates at = assemble_in_contact(parameters, rpsup_);
+    y_ = system_.make_state(at.q, at.qd);
     dydt_ = Eigen::VectorXd::Zero(y_.size());
     settle();
   }
