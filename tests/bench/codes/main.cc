@@ -1,10 +1,12 @@
 // One job in this program, in MuJoCo and in Simbody, by turns in one run.
 //   bench_codes [REPEATS]
+//   bench_codes mujoco      only the processor time of MuJoCo's RK4 run of the rigid job, [s]
 // Fails if a code's peak is off by more than its method allows: a comparison of unequal physics is worth nothing.
 
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <string_view>
 
 #include "tests/bench/codes/contest.h"
 #include "tests/bench/codes/make_plain_linkage.h"
@@ -70,6 +72,11 @@ void print_ideal_jobs(int repeats) {
   table.print(std::cout);
 }
 
+void print_mujoco_time() {
+  Rival rival = mujoco(linkage(Coupler::kRigid, 0.25e-3, 10.0), MujocoIntegrator::kRk4, "", 1.0, 1.0);
+  std::cout << digits(time_cpu([&rival] { (void)rival.run(); }), 6) << '\n';
+}
+
 int run(int repeats) {
   print_evaluations();
   print_ideal_jobs(repeats);
@@ -88,9 +95,13 @@ int run(int repeats) {
 
 int main(int argc, char** argv) {
   try {
+    if (argc == 2 && std::string_view(argv[1]) == "mujoco") {
+      bench::print_mujoco_time();
+      return EXIT_SUCCESS;
+    }
     const int repeats = argc > 1 ? std::atoi(argv[1]) : 3;
     if (argc > 2 || repeats < 1) {
-      std::cerr << "usage: bench_codes [REPEATS]\n";
+      std::cerr << "usage: bench_codes [REPEATS | mujoco]\n";
       return 2;
     }
     return bench::run(repeats);
