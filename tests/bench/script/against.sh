@@ -54,5 +54,5 @@ awk -F '\t' -v most="$most_ratio" -v commit="$1" '
     }
     if (!compared) { print "script/bench: no part that both have" > "/dev/stderr"; exit 2 }
     printf "\nbench: %d parts, %d slower than %s by more than %g times\n", compared, slower, commit, most
-    exit slower > 0
+    exit (slower > 0)
   }' "$scratch/times"
