@@ -13,9 +13,14 @@ leave() {
 }
 trap leave EXIT
 trap 'exit 130' INT TERM
-git worktree add --quiet --detach "$scratch/tree" "$commit"
 build_benches "$root" bench_parts
-build_benches "$scratch/tree" bench_parts
+other=$root/build/bench/against/$commit  # the program is kept: a commit does not change
+if [ ! -x "$other" ]; then
+  git worktree add --quiet --detach "$scratch/tree" "$commit"
+  build_benches "$scratch/tree" bench_parts
+  mkdir -p "${other%/*}"
+  cp "$scratch/tree/build/bench/bench_parts" "$other"
+fi
 describe_machine
 
 # measure SIDE PROGRAM: appends "SIDE NAME NANOSECONDS" for each part
@@ -28,7 +33,7 @@ measure() {
 for ((round = 1; round <= rounds; ++round)); do
   echo "bench: round $round of $rounds" >&2
   measure new "$root/build/bench/bench_parts"
-  measure old "$scratch/tree/build/bench/bench_parts"
+  measure old "$other"
 done
 
 awk -F '\t' -v most="$most_ratio" -v commit="$1" '
