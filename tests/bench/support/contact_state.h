@@ -21,13 +21,12 @@ class ContactState {
 
   void evaluate() { (void)system_.calc_derivative(0.0, y_, dydt_, at_); }
 
-  [[nodiscard]] const engine::JournalMotion& journal() const { return at_.joints[0].journal; }
   [[nodiscard]] double penetration() const { return at_.joints[0].load.max_penetration; }
 
  private:
   /// Moves the elements' bristles to where the contact is, and makes room for them.
   void settle() {
-    evaluate();
+    (void)system_.calc_derivative(0.0, y_, dydt_, at_);
     (void)system_.prepare_step(at_, 1e-9, y_);
     while (system_.calc_derivative(0.0, y_, dydt_, at_) == engine::EvaluationStatus::kBristleMissing) {
       system_.widen_bristles(y_);
