@@ -1,0 +1,112 @@
+// One job in this program, in MuJoCo and in Simbody, by turns in one run.
+//   bench_codes [REPEATS]
+//   bench_codes mujoco      only the processor time of MuJoCo's RK4 run of the rigid job, [s]
+// Fails if a code's peak is off by more than its method allows: a comparison of unequal physics is worth nothing.
+
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <string_view>
+
+#include "tests/bench/codes/contest.h"
+#include "tests/bench/codes/make_plain_linkage.h"
+#include "tests/bench/codes/mujoco_linkage.h"
+#include "tests/bench/codes/rpsup_jobs.h"
+#include "tests/bench/codes/simbody_linkage.h"
+#include "tests/bench/support/cases.h"
+#include "tests/bench/support/cpu_time.h"
+#include "tests/bench/support/table.h"
+
+namespace bench {
+namespace {
+
+using engine::Coupler;
+using engine::RpsupParameters;
+
+constexpr double kDuration = 4.0;  // [s]
+constexpr double kStep = 1e-5;     // of MuJoCo's integrators, [s]
+
+Rival mujoco(const RpsupParameters& parameters, MujocoIntegrator integrator, const char* name, double accuracy, double wanted_ratio) {
+  return {name, accuracy, wanted_ratio,
+          [=] { return run_mujoco(make_plain_linkage(parameters), integrator, kStep, kDuration); }};
+}
+
+Contest make_rigid_contest() {
+  const RpsupParameters parameters = linkage(Coupler::kRigid, 0.25e-3, 10.0);
+  return {"rigid, 0.25 mm, 10 rad/s, 4 s", parameters, {.duration = kDuration},
+          {mujoco(parameters, MujocoIntegrator::kEuler, "MuJoCo, Euler 1e-5 s", 5e-3, 10.0),
+           mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 35.0),
+           {"Simbody, Merson 1e-6", 1e-3, 70.0, [=] { return run_simbody(make_plain_linkage(parameters), 1e-6, kDuration); }}}};
+}
+
+Contest make_flexible_contest() {
+  const RpsupParameters parameters = linkage(Coupler::kFlexible, 0.25e-3, 5.0);
+  return {"flexible, 0.25 mm, 5 rad/s, 4 s", parameters, {.duration = kDuration},
+          {mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 30.0)}};
+}
+
+void print_evaluations() {
+  std::cout << "\nOne evaluation of the equations of motion, every ring in contact\n\n";
+  Table table({"coupler", "rpsup [us]", "MuJoCo [us]", "Simbody [us]", "MuJoCo / rpsup", "Simbody / rpsup"});
+  for (const Coupler coupler : {Coupler::kRigid, Coupler::kFlexible}) {
+    const RpsupParameters parameters = linkage(coupler, 0.25e-3, 10.0);
+    const double ours = time_rpsup_evaluation(parameters);
+    const double mujoco = time_mujoco_evaluation(make_plain_linkage_in_contact(parameters));
+    const double simbody = time_simbody_evaluation(make_plain_linkage_in_contact(parameters));
+    table.add({coupler == Coupler::kRigid ? "rigid" : "flexible", digits(1e6 * ours, 3), digits(1e6 * mujoco, 3), digits(1e6 * simbody, 3),
+               digits(mujoco / ours, 3), digits(simbody / ours, 3)});
+  }
+  table.print(std::cout);
+}
+
+void print_ideal_jobs(int repeats) {
+  std::cout << "\nJobs with an ideal joint, 10 rad/s, 4 s, 1 kHz of output\n\n";
+  Table table({"coupler", "CPU least [ms/s]", "median [ms/s]", "at most", "met"});
+  for (const auto& [coupler, limit] : {std::pair{Coupler::kRigid, 5.0}, std::pair{Coupler::kFlexible, 10.0}}) {
+    Samples samples;
+    for (int i = 0; i < 3 * repeats; ++i)
+      samples.add(1e3 / kDuration * time_cpu([c = coupler] { (void)run_rpsup(linkage(c, 0.0, 10.0), {.duration = kDuration}); }));
+    table.add({coupler == Coupler::kRigid ? "rigid" : "flexible", digits(samples.least(), 3), digits(samples.median(), 3), digits(limit, 3),
+               samples.median() < limit ? "yes" : "no"});
+  }
+  table.print(std::cout);
+}
+
+void print_mujoco_time() {
+  Rival rival = mujoco(linkage(Coupler::kRigid, 0.25e-3, 10.0), MujocoIntegrator::kRk4, "", 1.0, 1.0);
+  std::cout << digits(time_cpu([&rival] { (void)rival.run(); }), 6) << '\n';
+}
+
+int run(int repeats) {
+  print_evaluations();
+  print_ideal_jobs(repeats);
+  bool fair = true;
+  for (Contest contest : {make_rigid_contest(), make_flexible_contest()}) {
+    contest.run(repeats);
+    contest.print(std::cout);
+    fair = fair && contest.is_fair();
+  }
+  if (!fair) std::cerr << "bench_codes: a code's peak is off: what is compared is not the same\n";
+  return fair ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) {
+  try {
+    if (argc == 2 && std::string_view(argv[1]) == "mujoco") {
+      bench::print_mujoco_time();
+      return EXIT_SUCCESS;
+    }
+    const int repeats = argc > 1 ? std::atoi(argv[1]) : 3;
+    if (argc > 2 || repeats < 1) {
+      std::cerr << "usage: bench_codes [REPEATS | mujoco]\n";
+      return 2;
+    }
+    return bench::run(repeats);
+  } catch (const std::exception& error) {
+    std::cerr << "bench_codes: " << error.what() << '\n';
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "engine/model/rpsup.h"
+#include "tests/bench/codes/plain_linkage.h"
+
+namespace bench {
+
+/// At rest in its assembled position.
+[[nodiscard]] PlainLinkage make_plain_linkage(const engine::RpsupParameters& parameters);
+
+/// At rest with every ring of the journal touching.
+[[nodiscard]] PlainLinkage make_plain_linkage_in_contact(const engine::RpsupParameters& parameters);
+
+}  // namespace bench

@@ -1,0 +1,82 @@
+#include <string>
+#include <utility>
+
+#include <benchmark/benchmark.h>
+
+#include "engine/simulate.h"
+#include "engine/simulate_rpsup.h"
+#include "engine/validation/support/quiet_observer.h"
+#include "tests/bench/parts/register_parts.h"
+#include "tests/bench/support/cases.h"
+#include "tests/bench/support/integrators.h"
+
+namespace bench {
+
+namespace {
+
+using engine::Coupler;
+using engine::RpsupParameters;
+using engine::RunOptions;
+
+/// A run by steps alone, without results: what a step costs.
+void take_steps(benchmark::State& run, const RpsupParameters& parameters, const RunOptions& options) {
+  const engine::Rpsup rpsup = engine::build_rpsup(parameters);
+  engine::validation::QuietObserver observer;
+  double steps = 0.0;
+  double evaluations = 0.0;
+  for (auto _ : run) {
+    const engine::RunEnd end = engine::simulate(rpsup.mechanism, options, observer);
+    if (end.status != engine::RunStatus::kSucceeded) run.SkipWithError(end.detail.c_str());
+    steps += static_cast<double>(end.steps);
+    evaluations += static_cast<double>(end.evaluations);
+  }
+  using benchmark::Counter;
+  run.counters["s_per_step"] = Counter(steps, Counter::kIsRate | Counter::kInvert);
+  run.counters["evaluations_per_step"] = evaluations / steps;
+}
+
+/// A whole job, all channels and metrics.
+void run_job(benchmark::State& run, const RpsupParameters& parameters, const RunOptions& options) {
+  for (auto _ : run) {
+    const engine::RunResult result = engine::simulate_rpsup(parameters, options, {});
+    if (result.status != engine::RunStatus::kSucceeded) run.SkipWithError(result.detail.c_str());
+  }
+  using benchmark::Counter;
+  run.counters["s_per_simulated_s"] = Counter(options.duration, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+/// A short run: the crank is at full speed after half of it.
+RpsupParameters hurried(RpsupParameters parameters, double duration) {
+  parameters.run_up = 0.5 * duration;
+  return parameters;
+}
+
+void register_steps(Coupler coupler, const char* coupler_name) {
+  constexpr double kDuration = 0.1;
+  const RpsupParameters parameters = hurried(linkage(coupler, 0.25e-3, 10.0), kDuration);
+  for (const NamedIntegrator& integrator : all_integrators()) {
+    RunOptions options{.duration = kDuration, .output_rate = 20.0};
+    options.integrator = integrator.integrator;
+    benchmark::RegisterBenchmark(("steps/" + integrator.name + "/" + coupler_name).c_str(),
+                                 [=](benchmark::State& run) { take_steps(run, parameters, options); })->Unit(benchmark::kMillisecond);
+  }
+}
+
+void register_job(Coupler coupler, const char* coupler_name, double c_r, const char* joint_name) {
+  constexpr double kDuration = 0.5;
+  const RpsupParameters parameters = hurried(linkage(coupler, c_r, 10.0), kDuration);
+  benchmark::RegisterBenchmark((std::string("job/") + coupler_name + "/" + joint_name).c_str(),
+                               [=](benchmark::State& run) { run_job(run, parameters, {.duration = kDuration}); })->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+void register_runs() {
+  for (const auto& [coupler, name] : {std::pair{Coupler::kRigid, "rigid"}, std::pair{Coupler::kFlexible, "flexible"}}) {
+    register_steps(coupler, name);
+    register_job(coupler, name, 0.25e-3, "clearance");
+    register_job(coupler, name, 0.0, "ideal");
+  }
+}
+
+}  // namespace bench
