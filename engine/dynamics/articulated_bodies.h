@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/dynamics/body_force.h"
+#include "engine/dynamics/shapes.h"
 #include "engine/dynamics/tree_model.h"
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/math/buffer.h"
@@ -25,8 +26,8 @@ struct SpatialAcceleration {
 /// force passes: A alone is left, a matrix of three. All accelerations here are what the free coordinates add to those of the frames.
 /// Source: R. Featherstone, Rigid Body Dynamics Algorithms, chapter 7.
 ///
-/// P: scalar of positions and inertias.
-template <typename P>
+/// P: scalar of positions and inertias. Shapes: the tree's joints, AnyShapes or known ones.
+template <typename P, typename Shapes>
 class ArticulatedBodies {
  public:
   explicit ArticulatedBodies(const TreeModel& model) : model_(model), answers_(model.joints.size()), eliminated_(model.joints.size()) {}
@@ -35,14 +36,13 @@ class ArticulatedBodies {
   template <typename V>
   [[nodiscard]] RPSUP_INLINE bool factor(const Frame<P, V>* frames, const JointAxes<P>* axes) {
     bool definite = true;
-    for (int i = static_cast<int>(model_.joints.size()) - 1; i >= 0; --i) {
-      const TreeJoint& joint = model_.joints[static_cast<std::size_t>(i)];
-      if (!joint.moves) continue;
-      Answer& answer = answers_[static_cast<std::size_t>(i)];
+    Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.moves) return;
+      Answer& answer = answers_[i];
       add_body(joint, frames[i].R, answer);
-      definite = eliminate(joint, frames[i].R, axes[i], answer, eliminated_[static_cast<std::size_t>(i)]) && definite;
+      definite = eliminate(joint, frames[i].R, answer, axes[i].axis[0], eliminated_[i]) && definite;
       if (joint.parent_moves) carry(joint, answer, axes[i].r, answers_[static_cast<std::size_t>(joint.parent)]);
-    }
+    });
     return definite;
   }
 
@@ -60,20 +60,17 @@ class ArticulatedBodies {
   /// @param qdd  one a coordinate; only free ones are written
   template <typename T>
   RPSUP_INLINE void solve(const JointAxes<P>* axes, const T* tau, Scratch<T>& scratch, T* qdd) const {
-    const auto count = static_cast<int>(model_.joints.size());
-    for (int i = count - 1; i >= 0; --i) {
-      const TreeJoint& joint = model_.joints[static_cast<std::size_t>(i)];
-      SpatialForce<T>& force = scratch.forces[static_cast<std::size_t>(i)];
-      if (!joint.driven) transmit(joint, axes[i], eliminated_[static_cast<std::size_t>(i)], tau + joint.first, scratch.own[static_cast<std::size_t>(i)], force);
-      if (joint.parent < 0) continue;
+    Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      SpatialForce<T>& force = scratch.forces[i];
+      if (!joint.driven) transmit(joint, axes[i], eliminated_[i], tau + joint.first, scratch.own[i], force);
+      if (joint.parent < 0) return;
       SpatialForce<T>& parent = scratch.forces[static_cast<std::size_t>(joint.parent)];
       parent.force += force.force;
-      parent.moment += force.moment + cross(axes[i].r, force.force);
-    }
-    for (int i = 0; i < count; ++i) {
-      const TreeJoint& joint = model_.joints[static_cast<std::size_t>(i)];
+      if (joint.parent_turns) parent.moment += force.moment + cross(axes[i].r, force.force);
+    });
+    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.moves) accelerate(joint, i, axes[i], scratch, qdd + joint.first);
-    }
+    });
   }
 
   /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.
@@ -87,7 +84,7 @@ class ArticulatedBodies {
       force.force += answers_[k].A * a.linear + answers_[k].C * a.angular;
       force.moment += transpose_times(answers_[k].C, a.linear) + answers_[k].J * a.angular;
     }
-    return dot(axes.axis[0], joint.kind == TreeJoint::Kind::kTranslation ? force.force : force.moment);
+    return joint.rotates() ? dot(axes.axis[0], force.moment) : dot(axes.axis[0], force.force);
   }
 
  private:
@@ -111,28 +108,25 @@ class ArticulatedBodies {
   }
 
   /// Adds the body to what its children have left, or puts it there where none has.
-  RPSUP_INLINE void add_body(const TreeJoint& joint, const Mat3<P>& R, Answer& answer) const {
+  template <typename Joint>
+  RPSUP_INLINE void add_body(const Joint& joint, const Mat3<P>& R, Answer& answer) const {
     if (!joint.carries_moving) answer = Answer{};
-    answer.A.xx += joint.mass;
-    answer.A.yy += joint.mass;
-    answer.A.zz += joint.mass;
-    if (!answers_turning(joint)) return;
-    if (!joint.com_at_origin) answer.C += cross_matrix(rotate_constant(R, joint.mc, joint.com_along_x));
-    if (joint.inertia != TreeJoint::Inertia::kNone) answer.J += calc_inertia(joint, R);
+    answer.A.xx += joint.numbers().mass;
+    answer.A.yy += joint.numbers().mass;
+    answer.A.zz += joint.numbers().mass;
+    if (!joint.answers_turning) return;
+    if (!joint.com_at_origin) answer.C += cross_matrix(rotate_constant(R, joint.numbers().mc, joint.com_along_x));
+    if (joint.inertia != JointShape::Inertia::kNone) answer.J += calc_inertia(joint, R);
   }
 
-  /// Whether the free coordinates can turn a joint's body.
-  [[nodiscard]] RPSUP_INLINE static bool answers_turning(const TreeJoint& joint) {
-    return joint.parent_answers_turning || (!joint.driven && joint.kind != TreeJoint::Kind::kTranslation);
-  }
-
-  RPSUP_INLINE bool eliminate(const TreeJoint& joint, const Mat3<P>& R, const JointAxes<P>& axes, Answer& answer, Eliminated& eliminated) const {
+  template <typename Joint>
+  RPSUP_INLINE bool eliminate(const Joint& joint, const Mat3<P>& R, Answer& answer, const Vec3<P>& axis, Eliminated& eliminated) const {
     if (joint.driven) return true;
-    if (joint.kind != TreeJoint::Kind::kSpherical) return eliminate_single(joint, axes.axis[0], answer, eliminated);
+    if (joint.kind != JointShape::Kind::kSpherical) return eliminate_single(joint, axis, answer, eliminated);
     if (joint.is_bare_rod()) {
-      const double across = 1.0 / joint.I[4];
+      const double across = 1.0 / joint.numbers().I[4];
       eliminated.J_inverse = {};
-      add_outer(eliminated.J_inverse, 1.0 / joint.I[0] - across, R.x);
+      add_outer(eliminated.J_inverse, 1.0 / joint.numbers().I[0] - across, R.x);
       eliminated.J_inverse.xx += across;
       eliminated.J_inverse.yy += across;
       eliminated.J_inverse.zz += across;
@@ -158,12 +152,16 @@ class ArticulatedBodies {
     A.yz -= dot(row_y, z);
   }
 
-  RPSUP_INLINE bool eliminate_single(const TreeJoint& joint, const Vec3<P>& axis, Answer& answer, Eliminated& e) const {
-    const bool slides = joint.kind == TreeJoint::Kind::kTranslation;
-    const bool turning = answers_turning(joint);
-    e.U_a = slides ? answer.A * axis : answer.C * axis;
-    if (turning) e.U_alpha = slides ? transpose_times(answer.C, axis) : answer.J * axis;
-    const P D = dot(axis, slides ? e.U_a : e.U_alpha);
+  template <typename Joint>
+  RPSUP_INLINE bool eliminate_single(const Joint& joint, const Vec3<P>& axis, Answer& answer, Eliminated& e) const {
+    if (joint.rotates()) {
+      e.U_a = answer.C * axis;
+      e.U_alpha = answer.J * axis;
+    } else {
+      e.U_a = answer.A * axis;
+      if (joint.answers_turning) e.U_alpha = transpose_times(answer.C, axis);
+    }
+    const P D = joint.rotates() ? dot(axis, e.U_alpha) : dot(axis, e.U_a);
     e.D_inverse = 1.0 / D;
     if (joint.parent_moves) {
       const P minus = -e.D_inverse;
@@ -178,24 +176,21 @@ class ArticulatedBodies {
   }
 
   /// Adds what is left of a joint to its parent, whose origin sees the joint's at r.
-  RPSUP_INLINE void carry(const TreeJoint& joint, const Answer& answer, const Vec3<P>& r, Answer& parent) {
-    const TreeJoint& carrier = model_.joints[static_cast<std::size_t>(joint.parent)];
-    if (!has_answer(joint)) parent = Answer{};
+  template <typename Joint>
+  RPSUP_INLINE void carry(const Joint& joint, const Answer& answer, const Vec3<P>& r, Answer& parent) {
+    if (joint.last_child) parent = Answer{};
     parent.A += answer.A;
-    if (!answers_turning(carrier)) return;
+    if (!joint.parent_answers_turning) return;
     const Mat3<P> B = times_cross(answer.A, r);
     parent.C.x -= B.x;
     parent.C.y -= B.y;
     parent.C.z -= B.z;
     subtract_cross(r, B, parent.J);
-    if (joint.kind == TreeJoint::Kind::kSpherical) return;
+    if (joint.kind == JointShape::Kind::kSpherical) return;
     parent.C += answer.C;
     parent.J += answer.J;
     add_cross_both(r, answer.C, parent.J);
   }
-
-  /// Whether a later joint has been carried to the same parent before.
-  [[nodiscard]] RPSUP_INLINE bool has_answer(const TreeJoint& joint) const { return !joint.last_child; }
 
   /// A [r]x
   [[nodiscard]] RPSUP_INLINE static Mat3<P> times_cross(const Sym3<P>& A, const Vec3<P>& r) {
@@ -226,32 +221,31 @@ class ArticulatedBodies {
   }
 
   /// The force and moment that a joint passes on before its parent accelerates.
-  template <typename T>
-  RPSUP_INLINE void transmit(const TreeJoint& joint, const JointAxes<P>& axes, const Eliminated& e, const T* tau, Vec3<T>& own,
+  template <typename Joint, typename T>
+  RPSUP_INLINE void transmit(const Joint& joint, const JointAxes<P>& axes, const Eliminated& e, const T* tau, Vec3<T>& own,
                              SpatialForce<T>& force) const {
-    if (joint.kind == TreeJoint::Kind::kSpherical) {
+    if (joint.kind == JointShape::Kind::kSpherical) {
       const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
       own = e.J_inverse * (moment - force.moment);
       force.force += e.C * own;
       force.moment = moment;
       return;
     }
-    own.x = e.D_inverse * (tau[0] - dot(axes.axis[0], joint.kind == TreeJoint::Kind::kTranslation ? force.force : force.moment));
+    own.x = e.D_inverse * (tau[0] - (joint.rotates() ? dot(axes.axis[0], force.moment) : dot(axes.axis[0], force.force)));
     force.force += own.x * e.U_a;
-    if (answers_turning(joint)) force.moment += own.x * e.U_alpha;
+    if (joint.answers_turning) force.moment += own.x * e.U_alpha;
   }
 
   /// A joint's acceleration, after its parent's.
-  template <typename T>
-  RPSUP_INLINE void accelerate(const TreeJoint& joint, int index, const JointAxes<P>& axes, Scratch<T>& scratch, T* qdd) const {
-    const auto k = static_cast<std::size_t>(index);
+  template <typename Joint, typename T>
+  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes<P>& axes, Scratch<T>& scratch, T* qdd) const {
     const Eliminated& e = eliminated_[k];
     SpatialAcceleration<T> own;
     if (joint.parent_moves) {
       own = scratch.accelerations[static_cast<std::size_t>(joint.parent)];
       if (joint.parent_answers_turning) own.linear += cross(own.angular, axes.r);
     }
-    if (joint.kind == TreeJoint::Kind::kSpherical) {
+    if (joint.kind == JointShape::Kind::kSpherical) {
       Vec3<T> alpha = scratch.own[k];
       if (joint.parent_moves) alpha -= e.J_inverse * transpose_times(e.C, own.linear);
       const Vec3<T> relative = alpha - own.angular;
@@ -266,10 +260,10 @@ class ArticulatedBodies {
         if (joint.parent_answers_turning) acceleration -= e.D_inverse * dot(e.U_alpha, own.angular);
       }
       qdd[0] = acceleration;
-      if (joint.kind == TreeJoint::Kind::kTranslation)
-        own.linear += acceleration * axes.axis[0];
-      else
+      if (joint.rotates())
         own.angular += acceleration * axes.axis[0];
+      else
+        own.linear += acceleration * axes.axis[0];
     }
     if (joint.carries_moving || joint.driven) scratch.accelerations[k] = own;
   }

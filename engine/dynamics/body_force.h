@@ -14,20 +14,21 @@ struct SpatialForce {
 };
 
 /// The inertia of a joint's body about its frame's origin, in W.
-template <typename P>
-[[nodiscard]] RPSUP_INLINE Sym3<P> calc_inertia(const TreeJoint& body, const Mat3<P>& R) {
+template <typename Joint, typename P>
+[[nodiscard]] RPSUP_INLINE Sym3<P> calc_inertia(const Joint& body, const Mat3<P>& R) {
+  const std::array<double, 9>& moments = body.numbers().I;
   Sym3<P> I;
-  if (body.inertia == TreeJoint::Inertia::kAxisymmetric) {
-    add_outer(I, body.I[0] - body.I[4], R.x);
-    I.xx += body.I[4];
-    I.yy += body.I[4];
-    I.zz += body.I[4];
-  } else if (body.inertia == TreeJoint::Inertia::kDiagonal) {
-    add_outer(I, body.I[0], R.x);
-    add_outer(I, body.I[4], R.y);
-    add_outer(I, body.I[8], R.z);
-  } else if (body.inertia == TreeJoint::Inertia::kFull) {
-    const Mat3<P> RI = multiply_constant(R, body.I);
+  if (body.inertia == JointShape::Inertia::kAxisymmetric) {
+    add_outer(I, moments[0] - moments[4], R.x);
+    I.xx += moments[4];
+    I.yy += moments[4];
+    I.zz += moments[4];
+  } else if (body.inertia == JointShape::Inertia::kDiagonal) {
+    add_outer(I, moments[0], R.x);
+    add_outer(I, moments[4], R.y);
+    add_outer(I, moments[8], R.z);
+  } else if (body.inertia == JointShape::Inertia::kFull) {
+    const Mat3<P> RI = multiply_constant(R, moments);
     const auto entry = [&](const P& ax, const P& ay, const P& az, const P& bx, const P& by, const P& bz) { return ax * bx + ay * by + az * bz; };
     I.xx = entry(RI.x.x, RI.y.x, RI.z.x, R.x.x, R.y.x, R.z.x);
     I.yy = entry(RI.x.y, RI.y.y, RI.z.y, R.x.y, R.y.y, R.z.y);
@@ -40,27 +41,28 @@ template <typename P>
 }
 
 /// I v for the body's inertia about its frame's origin, in W.
-template <typename P, typename T>
-[[nodiscard]] RPSUP_INLINE Vec3<T> apply_inertia(const TreeJoint& body, const Mat3<P>& R, const Vec3<T>& v) {
-  if (body.inertia == TreeJoint::Inertia::kFull) return calc_inertia(body, R) * v;
-  return (body.I[0] * dot(R.x, v)) * R.x + (body.I[4] * dot(R.y, v)) * R.y + (body.I[8] * dot(R.z, v)) * R.z;
+template <typename Joint, typename P, typename T>
+[[nodiscard]] RPSUP_INLINE Vec3<T> apply_inertia(const Joint& body, const Mat3<P>& R, const Vec3<T>& v) {
+  if (body.inertia == JointShape::Inertia::kFull) return calc_inertia(body, R) * v;
+  const std::array<double, 9>& moments = body.numbers().I;
+  return (moments[0] * dot(R.x, v)) * R.x + (moments[4] * dot(R.y, v)) * R.y + (moments[8] * dot(R.z, v)) * R.z;
 }
 
 /// Newton and Euler for a joint's body about its frame's origin: what its present motion needs, in W.
-template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE SpatialForce<V> calc_body_force(const TreeJoint& body, const Frame<P, V>& f) {
+template <typename Joint, typename P, typename V>
+[[nodiscard]] RPSUP_INLINE SpatialForce<V> calc_body_force(const Joint& body, const Frame<P, V>& f) {
   SpatialForce<V> needed;
-  if (body.inertia == TreeJoint::Inertia::kNone) return needed;
-  needed.force = body.mass * f.vd;
+  if (body.inertia == JointShape::Inertia::kNone) return needed;
+  needed.force = body.numbers().mass * f.vd;
   if (!body.com_at_origin) {
-    const Vec3<P> mc = rotate_constant(f.R, body.mc, body.com_along_x);
+    const Vec3<P> mc = rotate_constant(f.R, body.numbers().mc, body.com_along_x);
     needed.moment = cross(mc, f.vd);
     if (body.turns) needed.force += cross(f.wd, mc) + cross(f.w, cross(f.w, mc));
   }
   if (!body.turns) return needed;
-  if (body.inertia == TreeJoint::Inertia::kAxisymmetric) {
-    const double across = body.I[4];
-    const double more = body.I[0] - across;
+  if (body.inertia == JointShape::Inertia::kAxisymmetric) {
+    const double across = body.numbers().I[4];
+    const double more = body.numbers().I[0] - across;
     needed.moment += across * f.wd + (more * dot(f.R.x, f.wd)) * f.R.x + (more * dot(f.R.x, f.w)) * cross(f.w, f.R.x);
   } else {
     needed.moment += apply_inertia(body, f.R, f.wd) + cross(f.w, apply_inertia(body, f.R, f.w));

@@ -10,6 +10,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 
 /// The equations of motion in plain numbers, and twice in numbers with derivatives: once where positions vary, once (much less work)
 /// where only rates and bristles do.
+template <typename Shapes>
 class CompiledEquations final : public Equations {
  public:
   CompiledEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles)
@@ -63,7 +64,7 @@ class CompiledEquations final : public Equations {
 
   /// Sets q, qd, the driven qdd and the bristles; the free qdd to zero.
   template <typename P, typename V>
-  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives, EquationsOfMotion<P, V>& equations) const {
+  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives, EquationsOfMotion<P, V, Shapes>& equations) const {
     for (int a = 0; a < free_; ++a) {
       const auto i = static_cast<std::size_t>(model_.free[static_cast<std::size_t>(a)]);
       equations.q[i] = P(y[a]);
@@ -95,7 +96,7 @@ class CompiledEquations final : public Equations {
   }
 
   template <typename P, typename V>
-  [[nodiscard]] RPSUP_INLINE V calc_power(const EquationsOfMotion<P, V>& equations, int drive) const {
+  [[nodiscard]] RPSUP_INLINE V calc_power(const EquationsOfMotion<P, V, Shapes>& equations, int drive) const {
     const auto k = static_cast<std::size_t>(drive);
     return equations.drive_force[k] * equations.qd[static_cast<std::size_t>(model_.drives[k])];
   }
@@ -125,7 +126,7 @@ class CompiledEquations final : public Equations {
   }
 
   template <typename P>
-  EvaluationStatus differentiate_chunk(const Chunk& chunk, const double* y, const DrivenMotion* drives, EquationsOfMotion<P, Dual>& equations,
+  EvaluationStatus differentiate_chunk(const Chunk& chunk, const double* y, const DrivenMotion* drives, EquationsOfMotion<P, Dual, Shapes>& equations,
                                        Linearisation& result) {
     set_state(y, drives, equations);
     for (int lane = 0; lane < chunk.count; ++lane) seed(chunk.directions[lane], lane, drives, result, equations);
@@ -149,7 +150,7 @@ class CompiledEquations final : public Equations {
 
   template <typename P>
   RPSUP_INLINE void seed(const Direction& direction, int lane, const DrivenMotion* drives, const Linearisation& result,
-                         EquationsOfMotion<P, Dual>& equations) const {
+                         EquationsOfMotion<P, Dual, Shapes>& equations) const {
     const auto coordinate = [&] { return static_cast<std::size_t>(model_.free[static_cast<std::size_t>(direction.index)]); };
     if (direction.variable == Variable::kRate) equations.qd[coordinate()].set_derivative(lane, 1.0);
     if (direction.variable == Variable::kBristle)
@@ -160,7 +161,7 @@ class CompiledEquations final : public Equations {
     }
   }
 
-  RPSUP_INLINE void seed_time(int lane, const DrivenMotion* drives, EquationsOfMotion<Dual, Dual>& equations) const {
+  RPSUP_INLINE void seed_time(int lane, const DrivenMotion* drives, EquationsOfMotion<Dual, Dual, Shapes>& equations) const {
     equations.time.set_derivative(lane, 1.0);
     if (model_.drive_rows) return;
     for (int k = 0; k < drives_; ++k) {
@@ -183,14 +184,15 @@ class CompiledEquations final : public Equations {
 
   const TreeModel& model_;
   int free_, drives_, bristles_;
-  EquationsOfMotion<double, double> plain_;
-  EquationsOfMotion<Dual, Dual> by_position_;
-  EquationsOfMotion<double, Dual> by_rate_;
+  EquationsOfMotion<double, double, Shapes> plain_;
+  EquationsOfMotion<Dual, Dual, Shapes> by_position_;
+  EquationsOfMotion<double, Dual, Shapes> by_rate_;
   Buffer<Direction> directions_;
 };
 
 /// Copies numbers one by one: functions of Eigen would be shared between instruction sets by the linker.
-inline void CompiledEquations::read_out(Evaluation& at) const {
+template <typename Shapes>
+void CompiledEquations<Shapes>::read_out(Evaluation& at) const {
   const auto copy = [](const Vec3<double>& v, double* to) {
     to[0] = v.x;
     to[1] = v.y;

@@ -41,7 +41,7 @@ RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<P, V>* frames, c
                             const Vec3<P>& x_z, const Vec3<P>& y_z, double sign, int first_row, ConstraintRows<P, V>& rows) {
   for (int i = last; i >= 0; i = model.joints[static_cast<std::size_t>(i)].parent) {
     const TreeJoint& joint = model.joints[static_cast<std::size_t>(i)];
-    const bool rotates = joint.kind != TreeJoint::Kind::kTranslation;
+    const bool rotates = joint.rotates();
     const Vec3<P> arm = p - frames[i].p;
     for (int k = 0; k < joint.count(); ++k) {
       const Vec3<P> axis = sign * axes[i].axis[k];

@@ -30,7 +30,8 @@ struct LossPowers {
 
 /// The equations of motion of a mechanism at one instant, Eqs. (1)-(13), with room for all that they need.
 /// P: scalar of positions and what follows from them; V: scalar of rates and what follows from those too.
-template <typename P, typename V>
+/// Shapes: the tree's joints, AnyShapes or known ones.
+template <typename P, typename V, typename Shapes>
 class EquationsOfMotion {
  public:
   EquationsOfMotion(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristle_room)
@@ -88,19 +89,18 @@ class EquationsOfMotion {
  private:
   /// All frames, root to tip. The joints that stand on driven ones alone move with time only.
   RPSUP_INLINE void calc_frames() {
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const TreeJoint& joint = model_.joints[i];
-      if (joint.kind == TreeJoint::Kind::kTranslation || (!joint.moves && !drives_moved)) continue;
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.rotates() || (!joint.moves && !drives_moved)) return;
       for (int k = 0; k < joint.count(); ++k) turns_[static_cast<std::size_t>(joint.first + k)] = calc_turn(q[static_cast<std::size_t>(joint.first + k)]);
-    }
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const TreeJoint& joint = model_.joints[i];
-      if (!joint.moves && !drives_moved) continue;
+    });
+    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.moves && !drives_moved) return;
       const auto first = static_cast<std::size_t>(joint.first);
-      frames[i] = frame_of(joint.parent);
-      calc_joint_frame(joint, &q[first], &turns_[first], &qd[first], &qdd[first], frames[i], axes[i]);
-      if (!joint.moves) given_[i] = calc_body_force(joint, frames[i]);
-    }
+      Frame<P, V> f = joint.parent < 0 ? ground_ : frames[static_cast<std::size_t>(joint.parent)];
+      calc_joint_frame(joint, &q[first], &turns_[first], &qd[first], &qdd[first], f, axes[i]);
+      frames[i] = f;
+      if (!joint.moves) given_[i] = calc_body_force(joint, f);
+    });
   }
 
   RPSUP_INLINE bool calc_contacts() {
@@ -163,8 +163,9 @@ class EquationsOfMotion {
 
   /// What moves each joint's body as its frame moves, less the contacts' loads on it.
   RPSUP_INLINE void calc_needed_forces() {
-    for (std::size_t i = 0; i < needed_.size(); ++i)
-      needed_[i] = model_.joints[i].moves ? calc_body_force(model_.joints[i], frames[i]) : given_[i];
+    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      needed_[i] = joint.moves ? calc_body_force(joint, frames[i]) : given_[i];
+    });
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (joint.clearance < 0) continue;
@@ -186,11 +187,12 @@ class EquationsOfMotion {
   }
 
   RPSUP_INLINE void calc_free_accelerations() {
-    for (const TreeJoint& joint : model_.joints) {
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       const auto first = static_cast<std::size_t>(joint.first);
       for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k)
-        tau_[first + k] = joint.sprung ? -(joint.stiffness[k] * q[first + k] + joint.damping[k] * qd[first + k]) : V(0.0);
-    }
+        tau_[first + k] =
+            joint.sprung ? -(joint.numbers().stiffness[k] * q[first + k] + joint.numbers().damping[k] * qd[first + k]) : V(0.0);
+    });
     solve();
   }
 
@@ -275,13 +277,13 @@ class EquationsOfMotion {
       losses.impact += cut.load.impact_power;
       losses.friction += cut.load.friction_power;
     }
-    for (const TreeJoint& joint : model_.joints) {
-      if (!joint.sprung) continue;
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.sprung) return;
       for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {
         const V& rate = qd[static_cast<std::size_t>(joint.first) + k];
-        losses.structural += joint.damping[k] * (rate * rate);
+        losses.structural += joint.numbers().damping[k] * (rate * rate);
       }
-    }
+    });
   }
 
   [[nodiscard]] RPSUP_INLINE bool is_finite() const {
@@ -297,9 +299,9 @@ class EquationsOfMotion {
   const TreeModel& model_;
   const std::vector<ClearanceJoint>& joints_;
   const Frame<P, V> ground_;
-  ArticulatedBodies<P> bodies_;
-  typename ArticulatedBodies<P>::template Scratch<V> scratch_;
-  typename ArticulatedBodies<P>::template Scratch<P> response_scratch_;
+  ArticulatedBodies<P, Shapes> bodies_;
+  typename ArticulatedBodies<P, Shapes>::template Scratch<V> scratch_;
+  typename ArticulatedBodies<P, Shapes>::template Scratch<P> response_scratch_;
   Buffer<V> tau_;
   Buffer<Turn<P>> turns_;            ///< one a coordinate
   Buffer<SpatialForce<V>> given_;    ///< needed by the bodies that move with time only

@@ -21,11 +21,11 @@ TreePlacement make_placement(const Placement& placement) {
   return {!is_unturned(placement), !placement.p.isZero(0.0), is_along_x(placement.p), columns_of(placement.R), array_of(placement.p)};
 }
 
-TreeJoint::Inertia kind_of_inertia(const Coordinate& c) {
-  if (c.mass == 0.0) return TreeJoint::Inertia::kNone;
+JointShape::Inertia kind_of_inertia(const Coordinate& c) {
+  if (c.mass == 0.0) return JointShape::Inertia::kNone;
   const Eigen::Matrix3d& I = c.inertia;
-  if (!I.isDiagonal(0.0)) return TreeJoint::Inertia::kFull;
-  return I(1, 1) == I(2, 2) ? TreeJoint::Inertia::kAxisymmetric : TreeJoint::Inertia::kDiagonal;
+  if (!I.isDiagonal(0.0)) return JointShape::Inertia::kFull;
+  return I(1, 1) == I(2, 2) ? JointShape::Inertia::kAxisymmetric : JointShape::Inertia::kDiagonal;
 }
 
 void set_body(const Coordinate& c, TreeJoint& joint) {
@@ -44,13 +44,7 @@ class JointFinder {
 
   std::vector<TreeJoint> find() {
     for (int i = 0; i < static_cast<int>(mechanism_.coordinates.size()); i += joints_.back().count()) add_joint(i);
-    for (std::size_t i = joints_.size(); i-- > 0;) {
-      TreeJoint& joint = joints_[i];
-      if (joint.parent < 0 || !joint.moves) continue;
-      bool& carries_moving = joints_[static_cast<std::size_t>(joint.parent)].carries_moving;
-      joint.last_child = !carries_moving;
-      carries_moving = true;
-    }
+    complete_shapes(joints_);
     return joints_;
   }
 
@@ -62,22 +56,15 @@ class JointFinder {
   void add_joint(int i) {
     const Coordinate& c = coordinate(i);
     TreeJoint joint;
-    joint.first = i;
-    joint.kind = is_spherical(i) ? TreeJoint::Kind::kSpherical
-                                 : c.motion == Motion::kRotation ? TreeJoint::Kind::kRotation : TreeJoint::Kind::kTranslation;
+    joint.kind = is_spherical(i) ? JointShape::Kind::kSpherical
+                                 : c.motion == Motion::kRotation ? JointShape::Kind::kRotation : JointShape::Kind::kTranslation;
     joint.axis = static_cast<int>(c.axis);
     joint.placement = make_placement(c.placement);
+    joint.turned = joint.placement.turned;
+    joint.shifted = joint.placement.shifted;
+    joint.shifted_along_x = joint.placement.along_x;
     joint.driven = is_eliminated(i);
     joint.parent = joint_of(c.parent);
-    const bool rotates = joint.kind != TreeJoint::Kind::kTranslation;
-    if (joint.parent >= 0) {
-      const TreeJoint& parent = joints_[static_cast<std::size_t>(joint.parent)];
-      joint.parent_turns = parent.turns;
-      joint.parent_moves = parent.moves;
-      joint.parent_answers_turning = parent.parent_answers_turning || (!parent.driven && parent.kind != TreeJoint::Kind::kTranslation);
-    }
-    joint.turns = joint.parent_turns || rotates;
-    joint.moves = joint.parent_moves || !joint.driven;
     for (int k = 0; k < joint.count(); ++k) {
       joint.stiffness[static_cast<std::size_t>(k)] = coordinate(i + k).stiffness;
       joint.damping[static_cast<std::size_t>(k)] = coordinate(i + k).damping;

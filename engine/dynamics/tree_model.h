@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/dynamics/joint_shape.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -16,38 +17,15 @@ struct TreePlacement {
   std::array<double, 3> p{};          ///< [m]
 };
 
-/// A joint and the body that it carries: one coordinate, or the three rotations z, y, x of a spherical joint taken together.
-/// What does not move, turn or weigh is marked, and left out where it is computed.
-struct TreeJoint {
-  enum class Kind { kTranslation, kRotation, kSpherical };
-  enum class Inertia { kNone, kAxisymmetric, kDiagonal, kFull };  ///< kAxisymmetric: about the frame's x
-
-  Kind kind = Kind::kRotation;
-  int first = 0;                      ///< its coordinate, or the first of its three
-  int axis = 0;                       ///< of a single coordinate: 0, 1, 2 for x, y, z
-  int parent = -1;                    ///< joint that carries it
+/// A joint and the body that it carries, with their numbers.
+struct TreeJoint : JointShape {
   TreePlacement placement;            ///< in the parent's frame
-  bool driven = false;                ///< its motion is given: the coordinate is eliminated
-  bool parent_turns = false;          ///< its parent's frame may rotate
-  bool turns = false;                 ///< its own frame may
-  bool moves = false;                 ///< it, or a joint that carries it, is free
-  bool parent_moves = false;
-  bool parent_answers_turning = false;  ///< a joint that carries it is a free rotation
-  bool carries_moving = false;        ///< it carries joints that move
-  bool last_child = false;            ///< of those that its parent carries and that move
-  bool sprung = false;                ///< a spring or damper acts on it
   std::array<double, 3> stiffness{}, damping{};  ///< of its coordinates
-
-  Inertia inertia = Inertia::kNone;
   double mass = 0.0;                  ///< [kg]
   std::array<double, 3> mc{};         ///< mass times centre of mass, [kg m]
-  bool com_at_origin = true;
-  bool com_along_x = true;
   std::array<double, 9> I{};          ///< about the frame's origin, [kg m^2]
 
-  [[nodiscard]] int count() const { return kind == Kind::kSpherical ? 3 : 1; }
-  /// A rod that carries nothing which moves: its inertia has an inverse in closed form.
-  [[nodiscard]] bool is_bare_rod() const { return inertia == Inertia::kAxisymmetric && com_along_x && !carries_moving; }
+  [[nodiscard]] const TreeJoint& numbers() const { return *this; }
 };
 
 /// A joint at which a loop is cut. Its bearing and journal sit on the bodies of two joints of the tree, -1: on the ground.

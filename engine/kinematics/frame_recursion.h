@@ -100,35 +100,30 @@ template <typename P>
 /// From the frame of a joint's parent to its own, Eq. (2) and its derivatives by time; accelerations without those of free coordinates.
 /// @param f  in: the parent's frame
 /// @param q, turns, qd, qdd  of the joint's first coordinate on; turns of rotations only, qdd of a driven one only
-template <typename P, typename V>
-RPSUP_INLINE void calc_joint_frame(const TreeJoint& joint, const P* q, const Turn<P>* turns, const V* qd, const V* qdd, Frame<P, V>& f,
+template <typename Joint, typename P, typename V>
+RPSUP_INLINE void calc_joint_frame(const Joint& joint, const P* q, const Turn<P>* turns, const V* qd, const V* qdd, Frame<P, V>& f,
                                    JointAxes<P>& axes) {
-  if (joint.placement.shifted) {
-    axes.r = rotate_constant(f.R, joint.placement.p, joint.placement.along_x);
+  if (joint.shifted) {
+    axes.r = rotate_constant(f.R, joint.numbers().placement.p, joint.shifted_along_x);
     shift_frame(axes.r, joint.parent_turns, f);
   } else {
     axes.r = {};
   }
-  if (joint.placement.turned) f.R = multiply_constant(f.R, joint.placement.R);
-  switch (joint.kind) {
-    case TreeJoint::Kind::kTranslation:
-      axes.axis[0] = axis_of(f.R, joint.axis);
-      slide_frame(axes.axis[0], joint.parent_turns, q[0], qd[0], f, axes.r);
-      if (joint.driven) f.vd += qdd[0] * axes.axis[0];
-      return;
-    case TreeJoint::Kind::kRotation:
-      turn_frame(joint.axis, joint.parent_turns, turns[0], qd[0], f, axes.axis[0]);
-      if (joint.driven) f.wd += qdd[0] * axes.axis[0];
-      return;
-    case TreeJoint::Kind::kSpherical: {
-      turn_frame(2, joint.parent_turns, turns[0], qd[0], f, axes.axis[0]);
-      const Vec3<P> x = f.R.x;
-      turn_frame(1, true, turns[1], qd[1], f, axes.axis[1]);
-      const P inverse = 1.0 / dot(axes.axis[0], f.R.z);  // 1 / cos theta
-      axes.dual = {inverse * f.R.z, axes.axis[1], inverse * x};
-      turn_frame(0, true, turns[2], qd[2], f, axes.axis[2]);
-      return;
-    }
+  if (joint.turned) f.R = multiply_constant(f.R, joint.numbers().placement.R);
+  if (joint.kind == JointShape::Kind::kTranslation) {
+    axes.axis[0] = axis_of(f.R, joint.axis);
+    slide_frame(axes.axis[0], joint.parent_turns, q[0], qd[0], f, axes.r);
+    if (joint.driven) f.vd += qdd[0] * axes.axis[0];
+  } else if (joint.kind == JointShape::Kind::kRotation) {
+    turn_frame(joint.axis, joint.parent_turns, turns[0], qd[0], f, axes.axis[0]);
+    if (joint.driven) f.wd += qdd[0] * axes.axis[0];
+  } else {
+    turn_frame(2, joint.parent_turns, turns[0], qd[0], f, axes.axis[0]);
+    const Vec3<P> x = f.R.x;
+    turn_frame(1, true, turns[1], qd[1], f, axes.axis[1]);
+    const P inverse = 1.0 / dot(axes.axis[0], f.R.z);  // 1 / cos theta
+    axes.dual = {inverse * f.R.z, axes.axis[1], inverse * x};
+    turn_frame(0, true, turns[2], qd[2], f, axes.axis[2]);
   }
 }
 

@@ -7,12 +7,51 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
+/// Eight numbers, in the widest parts that the instruction set has. (Left to the compiler, wider ones fall apart badly.)
+struct Lanes {
+#if defined(__AVX512F__)
+  static constexpr int kWidth = 8;
+#elif defined(__AVX__)
+  static constexpr int kWidth = 4;
+#else
+  static constexpr int kWidth = 2;
+#endif
+  static constexpr int kParts = 8 / kWidth;
+  using Part = double __attribute__((vector_size(8 * kWidth), aligned(8)));
+
+  Part part[kParts];
+
+  [[nodiscard]] RPSUP_INLINE double operator[](int lane) const { return part[lane / kWidth][lane % kWidth]; }
+  RPSUP_INLINE void set(int lane, double value) { part[lane / kWidth][lane % kWidth] = value; }
+};
+
+template <typename Operation>
+[[nodiscard]] RPSUP_INLINE Lanes for_each_part(const Operation& operation) {
+  Lanes result;
+  for (int i = 0; i < Lanes::kParts; ++i) result.part[i] = operation(i);
+  return result;
+}
+[[nodiscard]] RPSUP_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] + b.part[i]; });
+}
+[[nodiscard]] RPSUP_INLINE Lanes operator-(const Lanes& a, const Lanes& b) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] - b.part[i]; });
+}
+[[nodiscard]] RPSUP_INLINE Lanes operator-(const Lanes& a) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return -a.part[i]; });
+}
+[[nodiscard]] RPSUP_INLINE Lanes operator*(double s, const Lanes& a) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i]; });
+}
+/// s a + t b
+[[nodiscard]] RPSUP_INLINE Lanes combine(double s, const Lanes& a, double t, const Lanes& b) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i] + t * b.part[i]; });
+}
+
 /// A number with its derivatives in eight directions: forward differentiation, exact to rounding. What is computed with these is
 /// computed together with its derivatives, from the same lines of code.
 struct Dual {
   static constexpr int kDirections = 8;
-  using Lanes = double __attribute__((vector_size(64), aligned(8)));
-
   double value;
   Lanes d;
 
@@ -21,11 +60,11 @@ struct Dual {
   RPSUP_INLINE Dual(double v, const Lanes& lanes) : value(v), d(lanes) {}
 
   [[nodiscard]] double derivative(int direction) const { return d[direction]; }
-  void set_derivative(int direction, double derivative) { d[direction] = derivative; }
+  void set_derivative(int direction, double derivative) { d.set(direction, derivative); }
 
   RPSUP_INLINE Dual& operator+=(const Dual& b) {
     value += b.value;
-    d += b.d;
+    d = d + b.d;
     return *this;
   }
   RPSUP_INLINE Dual& operator+=(double b) {
@@ -34,7 +73,7 @@ struct Dual {
   }
   RPSUP_INLINE Dual& operator-=(const Dual& b) {
     value -= b.value;
-    d -= b.d;
+    d = d - b.d;
     return *this;
   }
   RPSUP_INLINE Dual& operator-=(double b) {
@@ -47,7 +86,7 @@ struct Dual {
 [[nodiscard]] RPSUP_INLINE Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.d + b.d}; }
 [[nodiscard]] RPSUP_INLINE Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.d - b.d}; }
 [[nodiscard]] RPSUP_INLINE Dual operator*(const Dual& a, const Dual& b) {
-  return {a.value * b.value, a.value * b.d + b.value * a.d};
+  return {a.value * b.value, combine(a.value, b.d, b.value, a.d)};
 }
 [[nodiscard]] RPSUP_INLINE Dual operator+(const Dual& a, double b) { return {a.value + b, a.d}; }
 [[nodiscard]] RPSUP_INLINE Dual operator+(double a, const Dual& b) { return {a + b.value, b.d}; }

@@ -8,3 +8,4 @@
 #endif
 
 #define RPSUP_INLINE [[gnu::always_inline]] inline
+#define RPSUP_INLINE_LAMBDA __attribute__((always_inline))

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace engine {
+
+/// A joint of a tree and the body that it carries, without their numbers: one coordinate, or the three rotations z, y, x of a spherical
+/// joint taken together. What does not move, turn or weigh is marked, and left out where it is computed.
+struct JointShape {
+  enum class Kind { kTranslation, kRotation, kSpherical };
+  enum class Inertia { kNone, kAxisymmetric, kDiagonal, kFull };  ///< kAxisymmetric: about the frame's x
+
+  Kind kind = Kind::kRotation;
+  int first = 0;                        ///< its coordinate, or the first of its three
+  int axis = 0;                         ///< of a single coordinate: 0, 1, 2 for x, y, z
+  int parent = -1;                      ///< joint that carries it
+  bool driven = false;                  ///< its motion is given: the coordinate is eliminated
+  bool turned = false;                  ///< its axes are not those of the parent's frame
+  bool shifted = false;                 ///< it is not at the origin of the parent's frame
+  bool shifted_along_x = false;         ///< and if so, along x alone
+  bool sprung = false;                  ///< a spring or damper acts on it
+  Inertia inertia = Inertia::kNone;
+  bool com_at_origin = true;
+  bool com_along_x = true;
+
+  // What follows, by complete_shapes().
+  bool parent_turns = false;            ///< its parent's frame may rotate
+  bool turns = false;                   ///< its own frame may
+  bool moves = false;                   ///< it, or a joint that carries it, is free
+  bool parent_moves = false;
+  bool parent_answers_turning = false;  ///< a joint that carries it is a free rotation
+  bool answers_turning = false;         ///< it is one, or a joint that carries it
+  bool carries_moving = false;          ///< it carries joints that move
+  bool last_child = false;              ///< of those that its parent carries and that move
+
+  [[nodiscard]] constexpr int count() const { return kind == Kind::kSpherical ? 3 : 1; }
+  [[nodiscard]] constexpr bool rotates() const { return kind != Kind::kTranslation; }
+  /// A rod that carries nothing which moves: its inertia has an inverse in closed form.
+  [[nodiscard]] constexpr bool is_bare_rod() const { return inertia == Inertia::kAxisymmetric && com_along_x && !carries_moving; }
+
+  bool operator==(const JointShape&) const = default;
+};
+
+/// Sets what follows from the other members. @param shapes  each behind the one that carries it
+template <typename Shapes>
+constexpr void complete_shapes(Shapes& shapes) {
+  int first = 0;
+  for (auto& shape : shapes) {
+    shape.first = first;
+    first += shape.count();
+    if (shape.parent >= 0) {
+      const auto& parent = shapes[static_cast<std::size_t>(shape.parent)];
+      shape.parent_turns = parent.turns;
+      shape.parent_moves = parent.moves;
+      shape.parent_answers_turning = parent.answers_turning;
+    }
+    shape.turns = shape.parent_turns || shape.rotates();
+    shape.moves = shape.parent_moves || !shape.driven;
+    shape.answers_turning = shape.parent_answers_turning || (!shape.driven && shape.rotates());
+  }
+  for (std::size_t i = shapes.size(); i-- > 0;) {
+    auto& shape = shapes[i];
+    if (shape.parent < 0 || !shape.moves) continue;
+    auto& parent = shapes[static_cast<std::size_t>(shape.parent)];
+    shape.last_child = !parent.carries_moving;
+    parent.carries_moving = true;
+  }
+}
+
+}  // namespace engine
