@@ -61,6 +61,7 @@ bool Integration::start(const Evaluation& assembled) {
     return false;
   }
   system_.calc_energies(start_.at);
+  system_.add_penetrations(start_.at, rings_start_);
   dt_ = kFirstStep;
   return true;
 }
@@ -158,9 +159,7 @@ bool Integration::is_accepted(const Trial& trial, double dt) {
 /// @returns false if that one failed; the next try is shorter still
 bool Integration::land_on_event(double dt) {
   for (int landing = 0; landing < kMaxLandings; ++landing) {
-    rings_start_.clear();
     rings_end_.clear();
-    system_.add_penetrations(start_.at, rings_start_);
     system_.add_penetrations(end_.at, rings_end_);
     const std::optional<double> until = ContactEvents::find_first(rings_start_, rings_end_, dt);
     if (!until || *until < shortest_step(start_.t)) return true;
@@ -180,6 +179,7 @@ void Integration::accept() {
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
+  std::swap(rings_start_, rings_end_);
   rodas4_.begin_step();
 }
 

@@ -44,7 +44,7 @@ class Integration {
   SampleTimes samples_;
   StepEnd start_, end_;
   StepEnd sample_;                                ///< the state between steps that a sample is taken from
-  std::vector<Penetration> rings_start_, rings_end_;
+  std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
   RunEnd run_end_;
