@@ -174,6 +174,10 @@ void Integration::accept() {
   ++run_end_.steps;
   system_.calc_energies(end_.at);
   observer_.on_step(start_.at, end_.at);
+  if (observer_.wants_middle()) {
+    evaluate_inside(0.5 * (start_.t + end_.t));
+    observer_.on_middle(sample_.at);
+  }
   take_samples();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
@@ -185,18 +189,21 @@ void Integration::accept() {
 
 /// Samples up to the end of the step, with the contacts as they were in it.
 void Integration::take_samples() {
-  const double dt = end_.t - start_.t;
   while (!samples_.all_taken() && samples_.next() <= end_.t) {
-    const double t = samples_.next();
-    if (t < end_.t)
-      interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / dt, sample_.y);
-    else
-      sample_.y = end_.y;
-    (void)system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);  // between two states that could be evaluated
+    evaluate_inside(samples_.next());
     system_.calc_energies(sample_.at);
     observer_.on_sample(sample_.at);
     samples_.take();
   }
+}
+
+/// Evaluates the last step at one time into sample_.
+void Integration::evaluate_inside(double t) {
+  if (t < end_.t)
+    interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / (end_.t - start_.t), sample_.y);
+  else
+    sample_.y = end_.y;
+  (void)system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);  // between two states that could be evaluated
 }
 
 }  // namespace engine
