@@ -16,14 +16,17 @@ typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
 [[gnu::always_inline]] inline Pair& pair(double* x) { return *reinterpret_cast<Pair*>(x); }
 [[gnu::always_inline]] inline const Pair& pair(const double* x) { return *reinterpret_cast<const Pair*>(x); }
 
-/// Sums of the even and of the odd products, then both: the same on every machine.
-[[gnu::always_inline]] inline double dot(const double* a, const double* b, int n) {
-  Pair sum{0.0, 0.0};
+/// Sums of the even and of the odd products: the same on every machine.
+[[gnu::always_inline]] inline Pair add_products(Pair sum, const double* a, const double* b, int n) {
   int j = 0;
   for (; j + 1 < n; j += 2) sum += pair(a + j) * pair(b + j);
-  if (j < n) sum[0] += a[j] * b[j];
-  return sum[0] + sum[1];
+  if (j < n) sum += Pair{a[j], 0.0} * Pair{b[j], 0.0};
+  return sum;
 }
+
+[[gnu::always_inline]] inline double add_up(Pair sum) { return sum[0] + sum[1]; }
+
+[[gnu::always_inline]] inline double dot(const double* a, const double* b, int n) { return add_up(add_products(Pair{0.0, 0.0}, a, b, n)); }
 
 /// y -= factor x from the pair that holds entry `from` to the one before entry `to`
 [[gnu::always_inline]] inline void subtract_scaled(double factor, const double* x, int from, int to, double* y) {
@@ -68,7 +71,7 @@ ShiftedJacobian::ShiftedJacobian(int free_coordinates, int bristles, int drives)
   lu_.resize(area(whole_pairs(free_), whole_pairs(free_)));
   inverse_pivot_.resize(area(free_, 1));
   order_.resize(area(free_, 1));
-  row_.resize(area(whole_pairs(free_), 1));
+  scaled_q_.resize(area(whole_pairs(free_), 1));
   solution_.resize(area(whole_pairs(free_), 1));
   known_.resize(area(outputs, 1));
   bristle_.resize(area(bristles_, 1));
@@ -196,7 +199,7 @@ void ShiftedJacobian::solve_sized(double* state) {
   // Of a size that the compiler knows, these stay in registers.
   double q_room[N + 1], v_room[N + 1];
   const int n = size<N>();
-  double* q = N > 0 ? q_room : row_.data();
+  double* q = N > 0 ? q_room : scaled_q_.data();
   double* v = N > 0 ? v_room : solution_.data();
   const int acting = derivatives_.bristle_count;
   const double inverse_shift = inverse_shift_;
@@ -216,15 +219,16 @@ void ShiftedJacobian::solve_sized(double* state) {
   for (int i = 0; i < n; ++i) q[i] = inverse_shift * state[i];
   for (int b = 0; b < acting; ++b) known[n + b] = z[acting_.data()[b]] + dot(by_q + (n + b) * n, q, n);
   for (int b = 0; b < acting; b += 2) answer(b);
-  for (int i = 0; i < n; ++i) known[i] = state[n + i] + dot(by_q + i * n, q, n);
-  if (acting > 0)
-    for (int i = 0; i < n; ++i) known[i] += dot(by_bristle + i * bristles_, bristle, acting);
+  for (int i = 0; i < n; ++i)
+    known[i] = add_up(add_products(add_products(Pair{state[n + i], 0.0}, by_q + i * n, q, n), by_bristle + i * bristles_, bristle, acting));
   solve_reduced<N>(known, v);
   for (int b = 0; b < acting; ++b) known[n + b] += dot(K + (n + b) * n, v, n);
   for (int b = 0; b < acting; b += 2) answer(b);
   const int first = n + acting;
-  for (int k = first; k < first + rates_of_work_; ++k)
-    work[k - first] = inverse_shift * (work[k - first] + dot(by_q + k * n, q, n) + dot(K + k * n, v, n) + dot(by_bristle + k * bristles_, bristle, acting));
+  for (int k = first; k < first + rates_of_work_; ++k) {
+    const Pair by_free = add_products(add_products(Pair{work[k - first], 0.0}, by_q + k * n, q, n), K + k * n, v, n);
+    work[k - first] = inverse_shift * add_up(add_products(by_free, by_bristle + k * bristles_, bristle, acting));
+  }
   for (int b = 0; b < bristles_; ++b) z[b] *= inverse_shift;
   for (int b = 0; b < acting; ++b) z[acting_.data()[b]] = bristle[b];
   for (int i = 0; i < n; ++i) {

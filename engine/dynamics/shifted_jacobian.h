@@ -61,7 +61,7 @@ class ShiftedJacobian {
   std::vector<double> lu_;                        ///< free x free, column after column in whole pairs; those of U over their pivots
   std::vector<double> inverse_pivot_;
   std::vector<int> order_;                        ///< of the rows, as pivoting has exchanged them
-  std::vector<double> row_, solution_, known_, bristle_;
+  std::vector<double> scaled_q_, solution_, known_, bristle_;  ///< parts of a solution
 };
 
 }  // namespace engine
