@@ -21,6 +21,8 @@ class RpsupObserver : public Observer {
     metrics.take_step(start, end);
     channels.take_step(start, end);
   }
+  [[nodiscard]] bool wants_middle() override { return metrics.wants_middle(); }
+  void on_middle(const Evaluation& at) override { metrics.take_middle(at); }
   void on_sample(const Evaluation& at) override { channels.take_sample(at); }
   void on_onsets(int count) override { metrics.take_onsets(count); }
   [[nodiscard]] bool stop_requested(double t) override { return stop_requested_ && stop_requested_(t); }

@@ -38,10 +38,9 @@ void RpsupMetrics::take_step(const Evaluation& start, const Evaluation& end) {
     started_ = true;
     first_balance_ = start.energy.calc_balance();
     last_energy_ = start.energy;
-    take_loads(start);
   }
   take_acceleration(start, end);
-  take_loads(end);
+  take_loads(start, end);
   take_energy(last_energy_, end.energy);
   last_energy_ = end.energy;
   // Steps end just beyond an onset or a parting, so what holds at the start of a step holds in all of it.
@@ -59,13 +58,24 @@ void RpsupMetrics::take_acceleration(const Evaluation& start, const Evaluation& 
   steady_time_ += (1.0 - from) * dt;
 }
 
-void RpsupMetrics::take_loads(const Evaluation& at) {
-  const JointState& joint = at.joints[0];
-  contact_force_.take(joint.load.radial_normal_sum, at.t);
-  penetration_.take(joint.load.max_penetration, at.t);
-  torque_.take(at.drive_force[0], at.t);
-  rod_force_.take(at.drive_force[1], at.t);
-  reaction_.take(joint.reaction_W.norm(), at.t);
+void RpsupMetrics::take_loads(const Evaluation& start, const Evaluation& end) {
+  const JointState& before = start.joints[0];
+  const JointState& after = end.joints[0];
+  const auto take = [&](double from, double to, SteppedPeak& peak) { return peak.take_step(from, to, start.t, end.t); };
+  wants_middle_ = take(before.load.radial_normal_sum, after.load.radial_normal_sum, contact_force_);
+  wants_middle_ |= take(before.load.max_penetration, after.load.max_penetration, penetration_);
+  wants_middle_ |= take(start.drive_force[0], end.drive_force[0], torque_);
+  wants_middle_ |= take(start.drive_force[1], end.drive_force[1], rod_force_);
+  wants_middle_ |= take(before.reaction_W.norm(), after.reaction_W.norm(), reaction_);
+}
+
+void RpsupMetrics::take_middle(const Evaluation& middle) {
+  const JointState& joint = middle.joints[0];
+  contact_force_.take_middle(joint.load.radial_normal_sum);
+  penetration_.take_middle(joint.load.max_penetration);
+  torque_.take_middle(middle.drive_force[0]);
+  rod_force_.take_middle(middle.drive_force[1]);
+  reaction_.take_middle(joint.reaction_W.norm());
 }
 
 void RpsupMetrics::take_energy(const EnergyAccount& start, const EnergyAccount& end) {
@@ -86,13 +96,13 @@ std::vector<double> RpsupMetrics::calc(const RunEnd& end, const std::optional<Pe
       has_steady ? std::sqrt(square_integral_ / steady_time_) : kNone,
       ideal_peak,
       has_steady && ideal_peak > 0.0 ? steady_.magnitude / ideal_peak : kNone,
-      has_clearance ? contact_force_.magnitude : kNone,
-      has_clearance ? 1e6 * penetration_.magnitude : kNone,
+      has_clearance ? contact_force_.peak().magnitude : kNone,
+      has_clearance ? 1e6 * penetration_.peak().magnitude : kNone,
       static_cast<double>(onsets_),
       has_clearance ? contact_time_ / end.t : kNone,
-      torque_.magnitude,
-      rod_force_.magnitude,
-      reaction_.magnitude,
+      torque_.peak().magnitude,
+      rod_force_.peak().magnitude,
+      reaction_.peak().magnitude,
       last_energy_.friction_loss,
       last_energy_.impact_loss,
       last_energy_.structural_loss,

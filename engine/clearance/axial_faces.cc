@@ -21,14 +21,17 @@ AxialFaces::AxialFaces(const ClearanceParameters& joint)
 }
 
 bool AxialFaces::advance(const JournalMotion& start, const JournalMotion& end, double dt) {
-  const RelativeMotion<double, double> motion_start = to_relative_motion(start);
-  const RelativeMotion<double, double> motion_end = to_relative_motion(end);
+  const Eigen::Vector3d axial = end.R_bj.row(2);
+  const double p_z = end.p_bj.z();
+  const double most = limit();
   bool changed = false;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const FacePoint& point = points_[k];
-    const FacePenetration<double, double> at_end = calc_face_penetration(motion_end, point, limit());
-    if (!latches_[k].in_contact() && at_end.delta <= 0.0) continue;
-    const FacePenetration<double, double> at_start = calc_face_penetration(motion_start, point, limit());
+    const double r_z = point.x * axial.x() + point.y * axial.y() + point.z * axial.z();
+    const bool touches = point.side * (p_z + r_z) - most > 0.0;
+    if (touches == latches_[k].in_contact()) continue;
+    const FacePenetration<double, double> at_end = calc_face_penetration(to_relative_motion(end), point, most);
+    const FacePenetration<double, double> at_start = calc_face_penetration(to_relative_motion(start), point, most);
     changed |= latches_[k].advance({at_start.delta, at_start.rate}, {at_end.delta, at_end.rate}, dt, joint_.minimum_onset_rate);
   }
   return changed;

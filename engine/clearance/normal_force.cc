@@ -1,19 +1,29 @@
 #include "engine/clearance/normal_force.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace engine {
 
 namespace {
 
-/// Bisects f to the resolution of s in [low, high]; f(low) and f(high) have opposite signs.
-template <typename Function>
-double bisect(const Function& f, double low, double high) {
+/// Where f is zero in [low, high], to the resolution of s; f(low) and f(high) have opposite signs.
+/// Newton's iteration from the middle, kept between two places of opposite signs: where it would leave them or does not halve its last
+/// step, they are bisected.
+template <typename Function, typename Slope>
+double find_zero(const Function& f, const Slope& slope, double low, double high) {
   const bool rises = f(low) < f(high);
+  double s = 0.5 * (low + high);
+  double last = high - low;
   while (high - low > 1e-15 * high) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    ((f(middle) < 0.0) == rises ? low : high) = middle;
+    const double value = f(s);
+    if (value == 0.0) return s;
+    ((value < 0.0) == rises ? low : high) = s;
+    double next = s - value / slope(s);
+    if (!(next > low && next < high && std::abs(next - s) < 0.5 * last)) next = 0.5 * (low + high);
+    last = std::abs(next - s);
+    if (last <= 1e-15 * high) return next;
+    s = next;
   }
   return high;
 }
@@ -28,11 +38,11 @@ PenetrationCubic::PenetrationCubic(const Penetration& start, const Penetration& 
       d_(start.delta) {}
 
 double PenetrationCubic::find_root(double low, double high) const {
-  return bisect([this](double s) { return delta(s); }, low, high);
+  return find_zero([this](double s) { return delta(s); }, [this](double s) { return (3.0 * a_ * s + 2.0 * b_) * s + c_; }, low, high);
 }
 
 double PenetrationCubic::find_extreme() const {
-  return bisect([this](double s) { return rate(s); }, 0.0, 1.0);
+  return find_zero([this](double s) { return rate(s); }, [this](double s) { return (6.0 * a_ * s + 2.0 * b_) / dt_; }, 0.0, 1.0);
 }
 
 bool OnsetLatch::advance(const Penetration& start, const Penetration& end, double dt, double minimum) {

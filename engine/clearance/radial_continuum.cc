@@ -23,13 +23,13 @@ void RadialContinuum::add_penetrations(const JournalMotion& journal, std::vector
 }
 
 ContactChange RadialContinuum::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
-  const RelativeMotion<double, double> motion_start = to_relative_motion(start);
   const RelativeMotion<double, double> motion_end = to_relative_motion(end);
   ContactChange change;
   for (int i = 0; i < joint_.n_r; ++i) {
     OnsetLatch& latch = latches_[static_cast<std::size_t>(i)];
-    if (latch.advance(calc_penetration(joint_, motion_start, i), calc_penetration(joint_, motion_end, i), dt, joint_.minimum_onset_rate)) {
-      change.any = true;
+    const Penetration at_end = calc_penetration(joint_, motion_end, i);
+    if ((at_end.delta > 0.0) != latch.in_contact()) {
+      change.any |= latch.advance(calc_penetration(joint_, to_relative_motion(start), i), at_end, dt, joint_.minimum_onset_rate);
       change.ring_onsets += latch.in_contact() ? 1 : 0;
     }
     if (!latch.in_contact()) bristles[2 * i] = bristles[2 * i + 1] = 0.0;

@@ -68,7 +68,7 @@ ContactChange RadialElements::advance(const JournalMotion& start, const JournalM
       OnsetLatch& onset = latch(i, k);
       was_on = was_on || onset.in_contact();
       const Penetration at_end = calc_penetration(motion_end, i, k);
-      if (onset.in_contact() || at_end.delta > 0.0)
+      if ((at_end.delta > 0.0) != onset.in_contact())
         change.any |= onset.advance(calc_penetration(motion_start, i, k), at_end, dt, joint_.minimum_onset_rate);
       is_on = is_on || onset.in_contact();
       double* bristle = bristles + 2 * (i * window_ + slot);

@@ -61,6 +61,7 @@ bool Integration::start(const Evaluation& assembled) {
     return false;
   }
   system_.calc_energies(start_.at);
+  system_.add_penetrations(start_.at, rings_start_);
   dt_ = kFirstStep;
   return true;
 }
@@ -158,9 +159,7 @@ bool Integration::is_accepted(const Trial& trial, double dt) {
 /// @returns false if that one failed; the next try is shorter still
 bool Integration::land_on_event(double dt) {
   for (int landing = 0; landing < kMaxLandings; ++landing) {
-    rings_start_.clear();
     rings_end_.clear();
-    system_.add_penetrations(start_.at, rings_start_);
     system_.add_penetrations(end_.at, rings_end_);
     const std::optional<double> until = ContactEvents::find_first(rings_start_, rings_end_, dt);
     if (!until || *until < shortest_step(start_.t)) return true;
@@ -175,28 +174,36 @@ void Integration::accept() {
   ++run_end_.steps;
   system_.calc_energies(end_.at);
   observer_.on_step(start_.at, end_.at);
+  if (observer_.wants_middle()) {
+    evaluate_inside(0.5 * (start_.t + end_.t));
+    observer_.on_middle(sample_.at);
+  }
   take_samples();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
+  std::swap(rings_start_, rings_end_);
   rodas4_.begin_step();
 }
 
 /// Samples up to the end of the step, with the contacts as they were in it.
 void Integration::take_samples() {
-  const double dt = end_.t - start_.t;
   while (!samples_.all_taken() && samples_.next() <= end_.t) {
-    const double t = samples_.next();
-    if (t < end_.t)
-      interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / dt, sample_.y);
-    else
-      sample_.y = end_.y;
-    (void)system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);  // between two states that could be evaluated
+    evaluate_inside(samples_.next());
     system_.calc_energies(sample_.at);
     observer_.on_sample(sample_.at);
     samples_.take();
   }
+}
+
+/// Evaluates the last step at one time into sample_.
+void Integration::evaluate_inside(double t) {
+  if (t < end_.t)
+    interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / (end_.t - start_.t), sample_.y);
+  else
+    sample_.y = end_.y;
+  (void)system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);  // between two states that could be evaluated
 }
 
 }  // namespace engine

@@ -28,6 +28,7 @@ class Integration {
   [[nodiscard]] bool land_on_event(double dt);
   void accept();
   void take_samples();
+  void evaluate_inside(double t);
   void prepare(double dt);
   void evaluate_again(StepEnd& end);
   void widen_bristles();
@@ -43,8 +44,8 @@ class Integration {
   StepControl control_;
   SampleTimes samples_;
   StepEnd start_, end_;
-  StepEnd sample_;                                ///< the state between steps that a sample is taken from
-  std::vector<Penetration> rings_start_, rings_end_;
+  StepEnd sample_;                                ///< the state between steps that was evaluated last
+  std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
   RunEnd run_end_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Core>
 // Odeint's resizing of Eigen vectors must be known before its steppers.
@@ -131,22 +132,44 @@ class Rodas4Stepper {
       end.setConstant(y.size(), kNone);
       return;
     }
-    for (std::size_t i = 0; i < K::kStages; ++i) {
-      stage_ = y;
-      for (std::size_t j = 0; j < i; ++j) stage_ += K::a[i][j] * U_[j];
-      if (i == 0)
-        U_[i] = dydt;
-      else
-        f(stage_, U_[i], t + K::c[i] * dt);
-      if (K::d[i] != 0.0) U_[i] += K::d[i] * dt * f.time_derivative();
-      for (std::size_t j = 0; j < i; ++j) U_[i] += K::C[i][j] / dt * U_[j];
-      f.solve_in_place(U_[i]);
-    }
+    calc_stages(f, y, dydt, t, dt, std::make_index_sequence<K::kStages>{});
     error = U_[K::kStages - 1];
     end = stage_ + error;
   }
 
  private:
+  template <class System, std::size_t... i>
+  void calc_stages(System& f, const state_type& y, const deriv_type& dydt, time_type t, time_type dt, std::index_sequence<i...>) {
+    (calc_stage<i>(f, y, dydt, t, dt), ...);
+  }
+
+  template <std::size_t i, class System>
+  void calc_stage(System& f, const state_type& y, const deriv_type& dydt, time_type t, time_type dt) {
+    using K = Rodas4Coefficients;
+    if constexpr (i == 0) {
+      U_[0] = dydt;
+    } else {
+      if constexpr (i + 1 == K::kStages)
+        stage_ += U_[i - 1];  // as all the rest of its sum is the stage before's
+      else
+        add_stages(K::a[i], 1.0, y.data(), stage_.data(), std::make_index_sequence<i>{});
+      f(stage_, U_[i], t + K::c[i] * dt);
+    }
+    if constexpr (K::d[i] != 0.0) U_[i] += K::d[i] * dt * f.time_derivative();
+    if constexpr (i > 0) add_stages(K::C[i], 1.0 / dt, U_[i].data(), U_[i].data(), std::make_index_sequence<i>{});
+    f.solve_in_place(U_[i]);
+  }
+
+  /// sum = from + scale (c_1 U_1 + c_2 U_2 + ...) in one pass. @param from  may be the sum itself
+  template <std::size_t... j>
+  void add_stages(const Rodas4Coefficients::Row& c, double scale, const double* from, double* sum, std::index_sequence<j...>) const {
+    const std::array<double, sizeof...(j)> factors{c[j] * scale...};
+    const std::array<const double*, sizeof...(j)> stages{U_[j].data()...};
+    const Eigen::Index size = stage_.size();
+#pragma GCC ivdep
+    for (Eigen::Index k = 0; k < size; ++k) sum[k] = (from[k] + ... + (factors[j] * stages[j][k]));
+  }
+
   algebra_type algebra_;         ///< what Odeint measures errors with
   std::array<state_type, Rodas4Coefficients::kStages> U_;
   state_type stage_;             ///< argument of the stage at hand

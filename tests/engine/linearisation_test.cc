@@ -30,13 +30,16 @@ std::vector<Case> all_cases() {
   elements.contact = ContactForm::kElements;
   RpsupParameters rows = flexible;
   rows.drive = DriveEnforcement::kBaumgarte;
+  RpsupParameters rigid_rows = rigid;  // an odd number of free coordinates that no code is specialised for
+  rigid_rows.drive = DriveEnforcement::kBaumgarte;
   RpsupParameters ideal = flexible;
   ideal.c_r = 0.0;
   RpsupParameters all_rows = rows;
   all_rows.c_r = 0.0;
   constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
   return {{"rigid", rigid, kPressed, kFine}, {"flexible", flexible, kPressed, kFine}, {"elements", elements, kPressed, kFine},
-          {"drive_rows", rows, kPressed, kFine}, {"ideal_flexible", ideal, 1e-6, kCoarse}, {"ideal_drive_rows", all_rows, 1e-6, kCoarse}};
+          {"drive_rows", rows, kPressed, kFine}, {"rigid_drive_rows", rigid_rows, kPressed, kFine},
+          {"ideal_flexible", ideal, 1e-6, kCoarse}, {"ideal_drive_rows", all_rows, 1e-6, kCoarse}};
 }
 
 /// A mechanism in motion, its bristles bent.
