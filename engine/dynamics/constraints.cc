@@ -7,7 +7,9 @@ namespace engine {
 namespace {
 
 Frame<double, double> calc_end(const Mechanism& mechanism, FrameIndex frame, const Placement& placement, const std::vector<FrameMotion>& frames) {
-  return to_frame(calc_placed_motion(frame == kGround ? ground_motion(mechanism) : frames[static_cast<std::size_t>(frame)], placement));
+  Frame<double, double> end = to_frame(frame == kGround ? ground_motion(mechanism) : frames[static_cast<std::size_t>(frame)]);
+  (void)move_to(placement, end);
+  return end;
 }
 
 }  // namespace
@@ -25,7 +27,7 @@ Constraints::Constraints(const Mechanism& mechanism)
 
 void Constraints::calc(const std::vector<FrameMotion>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames_[i] = to_frame(frames[i]);
+    frames_[i].p = to_vec3(frames[i].p);  // all that the rows' derivatives by the coordinates take of it
     axes_[i].axis[0] = to_vec3(frames[i].axis);
   }
   for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {

@@ -30,7 +30,4 @@ struct FrameMotion {
 void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
                         std::vector<FrameMotion>& frames);
 
-/// A frame fixed to a coordinate's frame at a constant placement: {b} or {j} of a cut joint.
-[[nodiscard]] FrameMotion calc_placed_motion(const FrameMotion& frame, const Placement& placement);
-
 }  // namespace engine
