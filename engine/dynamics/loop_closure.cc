@@ -31,7 +31,7 @@ std::vector<FrameIndex> find_unknown_coordinates(const Mechanism& mechanism) {
 }  // namespace
 
 LoopClosure::LoopClosure(const Mechanism& mechanism)
-    : ideal_(make_ideal(mechanism)), unknown_(find_unknown_coordinates(ideal_)), constraints_(ideal_), tree_(ideal_) {
+    : ideal_(make_ideal(mechanism)), unknown_(find_unknown_coordinates(ideal_)), constraints_(ideal_), inverse_dynamics_(ideal_) {
   J_.setZero(constraints_.count(), static_cast<Eigen::Index>(unknown_.size()));
   step_.setZero(J_.cols());
   lambda_.setZero(J_.rows());
@@ -54,7 +54,7 @@ void LoopClosure::set_drives(double t, Evaluation& at) const {
 
 void LoopClosure::calc_rows(Evaluation& at) {
   calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
-  constraints_.calc(at.frames, at.q, at.qd, at.t);
+  constraints_.calc(at.frames);
   for (std::size_t k = 0; k < unknown_.size(); ++k) J_.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(unknown_[k]);
 }
 
@@ -140,8 +140,8 @@ void LoopClosure::correct_rates(Evaluation& at) {
 /// With all accelerations known the recursion gives every generalised force; those of the unknown coordinates are the reactions' doing.
 void LoopClosure::solve_forces(Evaluation& at) {
   calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
-  tree_.calc(at.frames);
-  for (std::size_t k = 0; k < unknown_.size(); ++k) step_[static_cast<Eigen::Index>(k)] = tree_.bias()[unknown_[k]];
+  const Eigen::VectorXd& forces = inverse_dynamics_.calc(at.frames);
+  for (std::size_t k = 0; k < unknown_.size(); ++k) step_[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
   // By its factors: solving with the transposed decomposition would allocate.
   J_lu_.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(step_);
   J_lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(step_);
@@ -150,7 +150,7 @@ void LoopClosure::solve_forces(Evaluation& at) {
   for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = lambda.segment<3>(constraints_.row_of_joint(k));
   for (std::size_t k = 0; k < ideal_.drives.size(); ++k) {
     const FrameIndex d = ideal_.drives[k].coordinate;
-    at.drive_force[static_cast<Eigen::Index>(k)] = tree_.bias()[d] - constraints_.Phi_q.col(d).dot(lambda);
+    at.drive_force[static_cast<Eigen::Index>(k)] = forces[d] - constraints_.Phi_q.col(d).dot(lambda);
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "engine/dynamics/constraints.h"
 #include "engine/dynamics/evaluation.h"
-#include "engine/dynamics/tree_dynamics.h"
+#include "engine/dynamics/inverse_dynamics.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -55,7 +55,7 @@ class LoopClosure {
   Mechanism ideal_;
   std::vector<FrameIndex> unknown_;
   Constraints constraints_;
-  TreeDynamics tree_;
+  InverseDynamics inverse_dynamics_;
   Eigen::MatrixXd J_;  ///< Phi_q of the unknown coordinates
   Eigen::PartialPivLU<Eigen::MatrixXd> J_lu_;
   Eigen::VectorXd step_, lambda_;  ///< of the unknown coordinates; of the rows

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "engine/dynamics/tree_dynamics.h"
+#include "engine/dynamics/energies.h"
 
 namespace engine {
 

@@ -137,4 +137,11 @@ TreeModel::TreeModel(const Mechanism& mechanism)
   if (drive_rows) rows += static_cast<int>(drives.size());
 }
 
+TreeModel make_given_model(Mechanism mechanism) {
+  mechanism.drive_rows = DriveRows::kEliminated;
+  mechanism.drives.clear();
+  for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) mechanism.drives.push_back({.coordinate = i, .law = {}});
+  return TreeModel(mechanism);
+}
+
 }  // namespace engine

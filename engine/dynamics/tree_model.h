@@ -53,4 +53,7 @@ struct TreeModel {
   std::array<double, 3> gravity{};    ///< [m/s^2]
 };
 
+/// The mechanism with the motion of every coordinate given: each is a joint by itself, with the same index.
+[[nodiscard]] TreeModel make_given_model(Mechanism mechanism);
+
 }  // namespace engine

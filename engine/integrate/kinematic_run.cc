@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/dynamics/tree_dynamics.h"
+#include "engine/dynamics/energies.h"
 #include "engine/integrate/quartic.h"
 #include "engine/integrate/sample_times.h"
 

@@ -30,14 +30,4 @@ struct FrameMotion {
 void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
                         std::vector<FrameMotion>& frames);
 
-/// A frame fixed to a coordinate's frame at a constant placement: {b} or {j} of a cut joint.
-[[nodiscard]] FrameMotion calc_placed_motion(const FrameMotion& frame, const Placement& placement);
-
-/// Velocity that a unit rate of the coordinate gives to a point p_W of a body it moves, and its angular velocity.
-struct JacobianColumn {
-  Eigen::Vector3d v;
-  Eigen::Vector3d w;
-};
-[[nodiscard]] JacobianColumn calc_jacobian_column(const Coordinate& coordinate, const FrameMotion& frame, const Eigen::Vector3d& p_W);
-
 }  // namespace engine

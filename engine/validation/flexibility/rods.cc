@@ -7,11 +7,12 @@
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "engine/dynamics/motion_system.h"
-#include "engine/dynamics/tree_dynamics.h"
 #include "engine/model/rpsup.h"
+#include "engine/validation/support/mass_matrix.h"
 
 namespace engine::validation {
 
@@ -146,13 +147,7 @@ Mechanism cut_coupler(const Rod& rod, int segments, NearEnd near_end) {
 }
 
 Eigen::MatrixXd calc_mass_matrix(const Mechanism& mechanism) {
-  TreeDynamics tree(mechanism);
-  tree.calc(frames_at_zero(mechanism));
-  const auto n = static_cast<FrameIndex>(mechanism.coordinates.size());
-  Eigen::MatrixXd M(n, n);
-  for (FrameIndex i = 0; i < n; ++i)
-    for (FrameIndex j = 0; j < n; ++j) M(i, j) = tree.M(i, j);
-  return M;
+  return calc_mass_matrix(mechanism, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size())));
 }
 
 Eigen::MatrixXd stiffness_matrix(const Mechanism& mechanism) {
@@ -165,8 +160,12 @@ Eigen::MatrixXd stiffness_matrix(const Mechanism& mechanism) {
 Eigen::MatrixXd calc_tip_jacobian(const Mechanism& mechanism) {
   const std::vector<FrameMotion> frames = frames_at_zero(mechanism);
   Eigen::MatrixXd J(3, static_cast<Eigen::Index>(frames.size()));
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    J.col(static_cast<Eigen::Index>(i)) = calc_jacobian_column(mechanism.coordinates[i], frames[i], {Rod::kLength, 0.0, 0.0}).v;
+  const Eigen::Vector3d tip(Rod::kLength, 0.0, 0.0);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const bool slides = mechanism.coordinates[i].motion == Motion::kTranslation;
+    const Eigen::Vector3d& axis = frames[i].axis;
+    J.col(static_cast<Eigen::Index>(i)) = slides ? axis : axis.cross(tip - frames[i].p);
+  }
   return J;
 }
 

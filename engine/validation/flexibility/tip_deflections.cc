@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/dynamics/inverse_dynamics.h"
 #include "engine/dynamics/motion_system.h"
-#include "engine/dynamics/tree_dynamics.h"
 #include "engine/validation/flexibility/parts.h"
 #include "engine/validation/flexibility/rods.h"
 #include "engine/validation/support/text.h"
@@ -23,22 +23,21 @@ struct TipMotion {
   double twist = 0.0;                           ///< about x, [rad]
 };
 
-/// Static equilibrium under a force and a moment at the tip: Newton's method on bias(q) + K q = 0 with the springs as slope, which is exact
+/// Static equilibrium under a force and a moment at the tip: Newton's method on forces(q) + K q = 0 with the springs as slope, which is exact
 /// for small loads.
 TipMotion find_equilibrium(int segments, const Wrench& at_tip) {
   const Mechanism mechanism = cut_coupler(kStudyRod, segments, NearEnd::kClamped);
   const auto n = static_cast<Eigen::Index>(mechanism.coordinates.size());
   const auto last = static_cast<FrameIndex>(n) - 1;
   const Eigen::VectorXd K = stiffness_matrix(mechanism).diagonal();
-  TreeDynamics tree(mechanism);
+  InverseDynamics inverse_dynamics(mechanism);
   Evaluation at = MotionSystem(mechanism).make_evaluation();
   const double reach = 0.5 * Rod::kLength / segments;  // of the last element
   for (int iteration = 0; iteration < 6; ++iteration) {
     calc_frame_motions(mechanism, at.q, at.qd, at.qdd, at.frames);
     const Eigen::Vector3d arm = reach * at.frames.back().R.col(0);
-    tree.add_load(last, {at_tip.force, at_tip.moment + arm.cross(at_tip.force)});
-    tree.calc(at.frames);
-    at.q = -tree.bias().cwiseQuotient(K);
+    inverse_dynamics.add_load(last, {at_tip.force, at_tip.moment + arm.cross(at_tip.force)});
+    at.q = -inverse_dynamics.calc(at.frames).cwiseQuotient(K);
   }
   const FrameMotion& end = at.frames.back();
   return {end.p + reach * end.R.col(0) - Eigen::Vector3d(Rod::kLength, 0.0, 0.0), std::atan2(end.R(2, 1), end.R(1, 1))};

@@ -6,8 +6,8 @@ namespace engine::validation {
 Chapter formulation_chapter() {
   return {.title = "Equations of motion",
           .text =
-              "The engine computes Eqs. (2)-(9), (12) and (13.2) with recursions over the chains: Newton and Euler's for h + g, composite "
-              "bodies for M. The reference is the paper's own form: products of 4x4 matrices, their first and second derivatives by each "
+              "The engine computes Eqs. (2)-(9), (12) and (13.2) with recursions over the chains: Newton and Euler's for h + g (and, by unit "
+              "accelerations, the columns of M), articulated bodies for the accelerations. The reference is the paper's own form: products of 4x4 matrices, their first and second derivatives by each "
               "coordinate, pseudo-inertia matrices and traces, for chains that are built a second time from the parameters (lengths, Table "
               "1, E, G, d, n_rfe, zeta), and contact forces of Eqs. (10) and (11) point by point.\n"
               "\n"

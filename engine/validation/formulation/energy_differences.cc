@@ -2,12 +2,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/dynamics/energies.h"
+#include "engine/dynamics/inverse_dynamics.h"
 #include "engine/dynamics/motion_system.h"
-#include "engine/dynamics/tree_dynamics.h"
 #include "engine/model/rpsup.h"
 #include "engine/validation/formulation/parts.h"
 #include "engine/validation/support/differences.h"
 #include "engine/validation/support/largest.h"
+#include "engine/validation/support/mass_matrix.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -122,8 +124,8 @@ Differences compare_slopes(const RpsupParameters& parameters) {
   const Mechanism springless = without_springs(chains);
   Scalars scalars(chains);
   Scalars springless_scalars(springless);
-  TreeDynamics tree(chains);
-  TreeDynamics weightless_tree(weightless);
+  InverseDynamics inverse_dynamics(chains);
+  InverseDynamics weightless_dynamics(weightless);
   std::vector<FrameMotion> frames(chains.coordinates.size());
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(frames.size()));
   Random random(23);
@@ -135,14 +137,10 @@ Differences compare_slopes(const RpsupParameters& parameters) {
     const Eigen::VectorXd g = calc_potential_slope(springless_scalars, state.q);
 
     calc_frame_motions(weightless, state.q, state.qd, zero, frames);
-    weightless_tree.calc(frames);
-    worst.coriolis.take(relative_difference(weightless_tree.bias(), h));
+    worst.coriolis.take(relative_difference(weightless_dynamics.calc(frames), h));
     calc_frame_motions(chains, state.q, zero, zero, frames);
-    tree.calc(frames);
-    worst.gravity.take(relative_difference(tree.bias(), g));
-    const Eigen::MatrixXd lower = tree.M().triangularView<Eigen::Lower>();
-    const Eigen::MatrixXd lower_M = M.triangularView<Eigen::Lower>();
-    worst.mass.take(relative_difference(lower, lower_M));
+    worst.gravity.take(relative_difference(inverse_dynamics.calc(frames), g));
+    worst.mass.take(relative_difference(validation::calc_mass_matrix(chains, state.q), M));
 
     const Eigen::VectorXd& qdd = scalars.accelerations(state.q, state.qd);
     const double largest_term = (M.cwiseAbs() * qdd.cwiseAbs()).maxCoeff();

@@ -7,12 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "engine/dynamics/inverse_dynamics.h"
 #include "engine/dynamics/motion_system.h"
-#include "engine/dynamics/tree_dynamics.h"
 #include "engine/model/rpsup.h"
 #include "engine/validation/formulation/parts.h"
 #include "engine/validation/reference/paper_linkage.h"
 #include "engine/validation/support/largest.h"
+#include "engine/validation/support/mass_matrix.h"
 #include "engine/validation/support/text.h"
 
 namespace engine::validation {
@@ -28,10 +29,14 @@ struct Quantity {
   const char* equations;
   const char* why;
 };
-enum Index : std::size_t { kMass, kCoriolis, kGravity, kBias, kKinetic, kPotential, kMotion, kSprings, kDampers, kDissipation, kQuantities };
+enum Index : std::size_t {
+  kMass, kCoriolis, kGravity, kBias, kKinetic, kPotential, kMotion, kPrescribed, kMultipliers, kDriveLaws, kSprings, kDampers, kDissipation, kQuantities
+};
 constexpr const char* kRounding = "both forms round, in sums over up to 34 coordinates and 14 bodies";
 constexpr const char* kBackward =
     "both forms round, relative to the largest row of |M| |qdd|: thin elements turn at up to 3e11 rad/s^2, and such terms cancel";
+constexpr const char* kEnforced =
+    "rounding, and a system of two multipliers that undo what bodies and springs would do to crank and rod; relative to the larger of the two";
 constexpr const char* kHeavy =
     "rounding; a body of 1 kg and 1 kg m^2 in place of every link and element keeps the accelerations small, so that they show the last "
     "digits of s_f";
@@ -43,6 +48,12 @@ constexpr std::array<Quantity, kQuantities> kCompared{{
     {"kinetic energy", "T", "Eq. (4)", kRounding},
     {"potential energy of gravity and springs", "V", "Eqs. (6), (8.1)", kRounding},
     {"accelerations of the free chains, M qdd + h + g + s_f = 0", "M qdd + h + g + s_f", "Eqs. (5), (7), (9), (13.2)", kBackward},
+    {"accelerations and drive forces, prescribed drives, M qdd + h + g + s_f = drives", "M qdd + h + g + s_f - drives, prescribed",
+     "Eqs. (5), (7), (9), (13.2)", kBackward},
+    {"accelerations and drive forces, drives by multipliers, M qdd + h + g + s_f = drives", "M qdd + h + g + s_f - drives, multipliers",
+     "Eqs. (5), (7), (9), (13.2)", kBackward},
+    {"accelerations of crank and rod, drives by multipliers", "qdd of the drives, multipliers",
+     "the drive laws with Baumgarte's terms", kEnforced},
     {"spring part of s_f", "s_f, springs", "Eqs. (8.1), (9) with S = diag(E I, E I, G J) / dl", kHeavy},
     {"damper part of s_f", "s_f, dampers", "Eqs. (8.2), (9) with D = 2 zeta / omega_1 S", kHeavy},
     {"power lost in the dampers", "2 R", "twice R of Eq. (8.2)", kRounding},
@@ -53,20 +64,22 @@ constexpr std::size_t kOfRigid = kSprings;  // the quantities from here on belon
 class Engine {
  public:
   explicit Engine(const Mechanism& chains)
-      : chains_(chains), weightless_(chains), tree_(chains_), weightless_tree_(weightless_), system_(chains_), at_(system_.make_evaluation()) {
-    weightless_.gravity_W.setZero();
-  }
+      : chains_(chains),
+        weightless_(without_gravity(chains)),
+        inverse_dynamics_(chains_),
+        weightless_dynamics_(weightless_),
+        system_(chains_),
+        at_(system_.make_evaluation()),
+        frames_(chains.coordinates.size()) {}
   Engine(const Engine&) = delete;  // its members refer to each other
   Engine& operator=(const Engine&) = delete;
 
-  [[nodiscard]] Eigen::MatrixXd calc_mass_matrix(const ChainState& state) {
-    calc_tree(chains_, tree_, state.q, state.qd);
-    const Eigen::MatrixXd lower = tree_.M().triangularView<Eigen::Lower>();
-    return lower;
+  [[nodiscard]] Eigen::MatrixXd calc_mass_matrix(const ChainState& state) const { return validation::calc_mass_matrix(chains_, state.q); }
+  [[nodiscard]] const Eigen::VectorXd& calc_bias(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+    return calc_forces(chains_, inverse_dynamics_, q, qd);
   }
-  [[nodiscard]] const Eigen::VectorXd& calc_bias(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) { return calc_tree(chains_, tree_, q, qd); }
   [[nodiscard]] const Eigen::VectorXd& calc_weightless_bias(const ChainState& state) {
-    return calc_tree(weightless_, weightless_tree_, state.q, state.qd);
+    return calc_forces(weightless_, weightless_dynamics_, state.q, state.qd);
   }
   /// All of it at once: accelerations, energies, losses.
   [[nodiscard]] const Evaluation& evaluate(const ChainState& state) {
@@ -79,15 +92,17 @@ class Engine {
   [[nodiscard]] double structural_power() const { return rates_[rates_.size() - 1]; }
 
  private:
-  const Eigen::VectorXd& calc_tree(const Mechanism& chains, TreeDynamics& tree, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
-    frames_.resize(chains.coordinates.size());
+  static Mechanism without_gravity(Mechanism chains) {
+    chains.gravity_W.setZero();
+    return chains;
+  }
+  const Eigen::VectorXd& calc_forces(const Mechanism& chains, InverseDynamics& inverse_dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
     calc_frame_motions(chains, q, qd, Eigen::VectorXd::Zero(q.size()), frames_);
-    tree.calc(frames_);
-    return tree.bias();
+    return inverse_dynamics.calc(frames_);
   }
 
   Mechanism chains_, weightless_;
-  TreeDynamics tree_, weightless_tree_;
+  InverseDynamics inverse_dynamics_, weightless_dynamics_;
   MotionSystem system_;
   Evaluation at_;
   Eigen::VectorXd rates_;
@@ -115,6 +130,11 @@ class Worst {
   }
   /// Scalars count relative to the largest that any state has.
   void take(Index quantity, double found, double expected) { take_difference(quantity, std::abs(found - expected), std::abs(expected)); }
+  /// What is left of equations of motion counts relative to the largest row of |M| |qdd| at the state.
+  void take_residual(Index quantity, const Eigen::MatrixXd& M, const Eigen::VectorXd& qdd, const Eigen::VectorXd& residual) {
+    const Eigen::VectorXd terms = M.cwiseAbs() * qdd.cwiseAbs();
+    take_difference(quantity, residual.allFinite() ? residual.cwiseAbs().maxCoeff() / terms.maxCoeff() : std::nan(""), 1.0);
+  }
   void take_difference(Index quantity, double difference, double scale) {
     differences_[quantity].take(difference);
     largest_[quantity].take(scale);
@@ -134,18 +154,47 @@ void compare_chains(const RpsupParameters& parameters, Worst& worst) {
     const ChainState state = draw_state(paper_chains, random);
     const TraceForm paper = calc_trace_form(paper_chains, state.q, state.qd);
     const ElasticTerms elastic = calc_elastic_terms(parameters, state.q, state.qd);
-    const Eigen::MatrixXd paper_lower = paper.M.triangularView<Eigen::Lower>();
-    worst.take(kMass, engine.calc_mass_matrix(state), paper_lower);
+    worst.take(kMass, engine.calc_mass_matrix(state), paper.M);
     worst.take(kCoriolis, engine.calc_weightless_bias(state), paper.h);
     worst.take(kGravity, engine.calc_bias(state.q, Eigen::VectorXd::Zero(state.q.size())), paper.g);
     worst.take(kBias, engine.calc_bias(state.q, state.qd), paper.h + paper.g);
     const Evaluation& at = engine.evaluate(state);
-    const Eigen::VectorXd residual = paper.M * at.qdd + paper.h + paper.g + elastic.s_f;
-    const Eigen::VectorXd terms = paper.M.cwiseAbs() * at.qdd.cwiseAbs();
-    worst.take_difference(kMotion, residual.allFinite() ? residual.cwiseAbs().maxCoeff() / terms.maxCoeff() : std::nan(""), 1.0);
+    worst.take_residual(kMotion, paper.M, at.qdd, paper.M * at.qdd + paper.h + paper.g + elastic.s_f);
     worst.take(kKinetic, at.energy.kinetic, paper.kinetic_energy);
     worst.take(kPotential, at.energy.potential, paper.potential_energy + elastic.energy);
     worst.take(kDissipation, engine.structural_power(), 2.0 * elastic.rayleigh);
+  }
+}
+
+/// Accelerations and drive forces of the chains with crank and rod driven.
+void compare_driven_chains(RpsupParameters parameters, DriveEnforcement drive, Worst& worst) {
+  parameters.drive = drive;
+  Mechanism chains = build_rpsup(parameters).mechanism;
+  chains.cut_joints.clear();
+  const Mechanism paper_chains = make_paper_chains(parameters);
+  MotionSystem system(chains);
+  Evaluation at = system.make_evaluation();
+  Eigen::VectorXd rates;
+  Random random(9);
+  for (int k = 0; k < kStates; ++k) {
+    const ChainState state = draw_state(paper_chains, random);
+    const double t = std::abs(random.symmetric(parameters.run_up));
+    const Eigen::VectorXd y = system.make_state(state.q, state.qd);
+    rates.setZero(y.size());
+    if (system.calc_derivative(t, y, rates, at) != EvaluationStatus::kOk) at.qdd.setConstant(std::nan(""));
+    const TraceForm paper = calc_trace_form(paper_chains, at.q, at.qd);
+    Eigen::VectorXd residual = paper.M * at.qdd + paper.h + paper.g + calc_elastic_terms(parameters, at.q, at.qd).s_f;
+    Eigen::Vector2d found, wanted;
+    for (Eigen::Index d = 0; d < 2; ++d) {
+      const Drive& driven = chains.drives[static_cast<std::size_t>(d)];
+      const FrameIndex i = driven.coordinate;
+      const DrivenMotion law = calc_driven_motion(driven.law, t);
+      residual[i] -= at.drive_force[d];
+      found[d] = at.qdd[i];
+      wanted[d] = law.qdd - 2.0 * parameters.baumgarte_alpha * (at.qd[i] - law.qd) - std::pow(parameters.baumgarte_beta, 2) * (at.q[i] - law.q);
+    }
+    worst.take_residual(drive == DriveEnforcement::kPrescribed ? kPrescribed : kMultipliers, paper.M, at.qdd, residual);
+    if (drive == DriveEnforcement::kBaumgarte) worst.take(kDriveLaws, found, wanted);
   }
 }
 
@@ -181,6 +230,8 @@ Findings compute_trace_form() {
     const bool rigid = c.parameters.coupler == Coupler::kRigid;
     Worst worst;
     compare_chains(c.parameters, worst);
+    for (const DriveEnforcement drive : {DriveEnforcement::kPrescribed, DriveEnforcement::kBaumgarte})
+      compare_driven_chains(c.parameters, drive, worst);
     if (!rigid) compare_elastic_terms(c.parameters, worst);
     table.head.push_back(c.name);
     for (std::size_t k = 0; k < kQuantities; ++k) {

@@ -1,0 +1,33 @@
+#include "engine/dynamics/energies.h"
+
+#include <cstddef>
+
+#include <Eigen/Geometry>
+
+namespace engine {
+
+double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Coordinate& body = mechanism.coordinates[i];
+    if (body.mass == 0.0) continue;
+    const FrameMotion& f = frames[i];
+    const Eigen::Vector3d w_F = f.R.transpose() * f.w;
+    const Eigen::Vector3d v_F = f.R.transpose() * f.v;
+    twice += body.mass * (v_F.squaredNorm() + 2.0 * v_F.dot(w_F.cross(body.com))) + w_F.dot(body.inertia * w_F);
+  }
+  return 0.5 * twice;
+}
+
+double calc_potential_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames, const Eigen::VectorXd& q) {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Coordinate& c = mechanism.coordinates[i];
+    const double qi = q[static_cast<Eigen::Index>(i)];
+    energy += 0.5 * c.stiffness * qi * qi;
+    if (c.mass > 0.0) energy -= c.mass * mechanism.gravity_W.dot(frames[i].p + frames[i].R * c.com);
+  }
+  return energy;
+}
+
+}  // namespace engine

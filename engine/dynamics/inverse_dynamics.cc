@@ -1,0 +1,43 @@
+#include "engine/dynamics/inverse_dynamics.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <Eigen/Geometry>
+
+#include "engine/dynamics/body_force.h"
+#include "engine/kinematics/plain_frame.h"
+
+namespace engine {
+
+InverseDynamics::InverseDynamics(const Mechanism& mechanism)
+    : model_(make_given_model(mechanism)), loads_(model_.joints.size()), needed_(model_.joints.size()) {
+  forces_.setZero(model_.coordinates);
+}
+
+void InverseDynamics::add_load(FrameIndex frame, const Wrench& about_origin) {
+  Wrench& load = loads_[static_cast<std::size_t>(frame)];
+  load.force += about_origin.force;
+  load.moment += about_origin.moment;
+}
+
+const Eigen::VectorXd& InverseDynamics::calc(const std::vector<FrameMotion>& frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const SpatialForce<double> needed = calc_body_force(model_.joints[i], to_frame(frames[i]));
+    needed_[i] = {to_eigen(needed.force) - loads_[i].force, to_eigen(needed.moment) - loads_[i].moment};
+  }
+  std::fill(loads_.begin(), loads_.end(), Wrench{});
+  for (std::size_t i = frames.size(); i-- > 0;) {
+    const TreeJoint& joint = model_.joints[i];
+    const Wrench& needed = needed_[i];
+    const bool slides = joint.kind == TreeJoint::Kind::kTranslation;
+    forces_[static_cast<Eigen::Index>(i)] = frames[i].axis.dot(slides ? needed.force : needed.moment);
+    if (joint.parent < 0) continue;
+    Wrench& parent = needed_[static_cast<std::size_t>(joint.parent)];
+    parent.force += needed.force;
+    parent.moment += needed.moment + frames[i].p_parent.cross(needed.force);
+  }
+  return forces_;
+}
+
+}  // namespace engine

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/frame_motion.h"
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// Force and moment about a frame's origin, in W.
+struct Wrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [N m]
+};
+
+/// The generalised forces that hold a given motion of the open chains: M qdd + h + g of Eqs. (5)-(7) less what the loads do. Newton and
+/// Euler's recursion in W, each frame about its own origin (about a common one, the spin inertia of a thin rod would lose its last digits).
+class InverseDynamics {
+ public:
+  explicit InverseDynamics(const Mechanism& mechanism);
+
+  /// External forces for the next calc(); cleared by it.
+  void add_load(FrameIndex frame, const Wrench& about_origin);
+
+  /// Computes the forces from the frames' motions, accelerations with them, and the loads added since. Allocates nothing.
+  const Eigen::VectorXd& calc(const std::vector<FrameMotion>& frames);
+  /// What calc() found last, one a coordinate, [N] or [N m].
+  [[nodiscard]] const Eigen::VectorXd& forces() const { return forces_; }
+
+ private:
+  TreeModel model_;
+  std::vector<Wrench> loads_;
+  std::vector<Wrench> needed_;  ///< to move all that a frame carries
+  Eigen::VectorXd forces_;
+};
+
+}  // namespace engine
