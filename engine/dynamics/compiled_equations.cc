@@ -4,10 +4,21 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
+namespace {
+
+/// @returns null if the tree is another one
+template <typename Shapes>
+Equations* try_shapes(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles) {
+  return Shapes::fit(model) ? new CompiledEquations<Shapes>(model, joints, bristles) : nullptr;
+}
+
+}  // namespace
+
+/// The linkage with prescribed drives is known when the program is compiled, with a rigid coupler and with one of four parts.
 Equations* make_compiled_equations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles) {
-  if (RpsupShapes<1>::fit(model)) return new CompiledEquations<RpsupShapes<1>>(model, joints, bristles);
-  if (RpsupShapes<4>::fit(model)) return new CompiledEquations<RpsupShapes<4>>(model, joints, bristles);
-  return new CompiledEquations<AnyShapes>(model, joints, bristles);
+  if (Equations* rigid = try_shapes<KnownShapes<kRigidRpsup>>(model, joints, bristles)) return rigid;
+  if (Equations* flexible = try_shapes<KnownShapes<kFlexibleRpsup>>(model, joints, bristles)) return flexible;
+  return try_shapes<AnyShapes>(model, joints, bristles);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -12,8 +12,9 @@ namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// A joint whose shape is known when the program is compiled: what it leaves out costs not even a question.
-template <JointShape shape>
+template <const auto& shapes, std::size_t index>
 struct KnownJoint {
+  static constexpr JointShape shape = shapes[index];
   static constexpr JointShape::Kind kind = shape.kind;
   static constexpr int first = shape.first;
   static constexpr int axis = shape.axis;
@@ -58,9 +59,10 @@ struct AnyShapes {
   }
 };
 
-/// The joints of a tree known when the program is compiled.
-template <std::size_t n, std::array<JointShape, n> shapes>
+/// The joints of a tree known when the program is compiled. @tparam shapes  an array of JointShape
+template <const auto& shapes>
 struct KnownShapes {
+  static constexpr std::size_t n = shapes.size();
   [[nodiscard]] static bool fit(const TreeModel& model) {
     if (model.joints.size() != n) return false;
     for (std::size_t i = 0; i < n; ++i)
@@ -81,12 +83,12 @@ struct KnownShapes {
   template <typename Visit, std::size_t... i>
   RPSUP_INLINE static void outwards(const TreeModel& model, const Visit& visit, std::index_sequence<i...>) {
     const TreeJoint* joints = model.joints.data();
-    (visit(std::integral_constant<std::size_t, i>(), KnownJoint<shapes[i]>{joints[i]}), ...);
+    (visit(std::integral_constant<std::size_t, i>(), KnownJoint<shapes, i>{joints[i]}), ...);
   }
   template <typename Visit, std::size_t... i>
   RPSUP_INLINE static void inwards(const TreeModel& model, const Visit& visit, std::index_sequence<i...>) {
     const TreeJoint* joints = model.joints.data();
-    (visit(std::integral_constant<std::size_t, n - 1 - i>(), KnownJoint<shapes[n - 1 - i]>{joints[n - 1 - i]}), ...);
+    (visit(std::integral_constant<std::size_t, n - 1 - i>(), KnownJoint<shapes, n - 1 - i>{joints[n - 1 - i]}), ...);
   }
 };
 
@@ -108,8 +110,8 @@ consteval std::array<JointShape, n_rfe + 4> make_rpsup_shapes() {
   return shapes;
 }
 
-template <std::size_t n_rfe>
-using RpsupShapes = KnownShapes<n_rfe + 4, make_rpsup_shapes<n_rfe>()>;
+inline constexpr auto kRigidRpsup = make_rpsup_shapes<1>();
+inline constexpr auto kFlexibleRpsup = make_rpsup_shapes<4>();
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine
