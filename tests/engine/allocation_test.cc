@@ -40,7 +40,7 @@ TEST_P(RightHandSide, AllocatesNothing) {
   MotionSystem system(mechanism);
   Evaluation assembled = system.make_evaluation();
   ASSERT_TRUE(LoopClosure(mechanism).assemble(0.0, assembled));
-  assembled.q[2] += 0.51e-3;  // lifts the coupler's end by 0.255 mm: 5 um into contact
+  assembled.q[2] += 0.56e-3;  // lifts the coupler's end, 0.458 m away across, by some 0.256 mm: 6 um into contact
   StepEnd start, end;
   start.y = system.make_state(assembled.q, assembled.qd);
   start.f = Eigen::VectorXd::Zero(start.y.size());
@@ -50,11 +50,16 @@ TEST_P(RightHandSide, AllocatesNothing) {
   (void)system.calc_derivative(0.0, start.y, start.f, start.at);
   (void)system.prepare_step(start.at, 1e-9, start.y);  // the elements' bristles go where the contact is
   ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
-  ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the method's own vectors
+  EXPECT_EQ(start.at.joints[0].load.max_penetration > 0.0, GetParam().parameters.c_r > 0.0);
+  Rodas4 implicit(1e-6, 1e-6);
+  ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the methods' own vectors
+  ASSERT_EQ(implicit.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
 
   const long before = allocations;
   for (int i = 0; i < 100; ++i) {
     ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
+    implicit.begin_step();
+    ASSERT_EQ(implicit.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
     system.calc_energies(end.at);
   }
   EXPECT_EQ(allocations - before, 0);

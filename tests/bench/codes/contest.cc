@@ -29,12 +29,12 @@ engine::RunOptions tight(engine::RunOptions options) {
 
 }  // namespace
 
-Contest::Contest(std::string title, engine::RpsupParameters parameters, engine::RunOptions options, std::vector<Rival> rivals)
+Contest::Contest(std::string title, std::string method, engine::RpsupParameters parameters, engine::RunOptions options, std::vector<Rival> rivals)
     : title_(std::move(title)),
       parameters_(std::move(parameters)),
       options_(options),
       rivals_(std::move(rivals)),
-      ours_{"rpsup, default integrator", kOurAccuracy, 1.0, [job = parameters_, options] { return run_rpsup(job, options); }} {}
+      ours_{"rpsup, " + method, kOurAccuracy, 1.0, [job = parameters_, options] { return run_rpsup(job, options); }} {}
 
 void Contest::run(int repeats) {
   reference_ = run_rpsup(parameters_, tight(options_));

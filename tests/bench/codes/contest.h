@@ -24,7 +24,8 @@ struct Rival {
 /// One job in our code and in others, by turns.
 class Contest {
  public:
-  Contest(std::string title, engine::RpsupParameters parameters, engine::RunOptions options, std::vector<Rival> rivals);
+  /// @param method  what our options stand for
+  Contest(std::string title, std::string method, engine::RpsupParameters parameters, engine::RunOptions options, std::vector<Rival> rivals);
 
   void run(int repeats);
   void print(std::ostream& out) const;

@@ -19,7 +19,7 @@ class ContactState {
   ContactState(const ContactState&) = delete;  // the system refers to the mechanism
   ContactState& operator=(const ContactState&) = delete;
 
-  void evaluate() { (void)system_.calc_derivative(0.0, y_, dydt_, at_); }
+  void evaluate() { (void)system_.calc_derivative(0.0, y_, dydt_); }
 
   [[nodiscard]] double penetration() const { return at_.joints[0].load.max_penetration; }
 
