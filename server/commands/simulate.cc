@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "jobs/service.h"
+#include "jobs/trajectory_codec.h"
 #include "server/commands/command.h"
 #include "server/json_text.h"
 #include "server/tables.h"
@@ -61,7 +62,7 @@ int simulate(const SimulateOptions& options) {
   check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")).parameters);
   jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
   if (!options.trajectory.empty()) {
-    const auto trajectory = select(std::move(outcome.trajectory), options.channels);
+    const auto trajectory = select(jobs::rounded_to_stored(std::move(outcome.trajectory)), options.channels);  // as the service would give it
     const bool csv = options.trajectory.ends_with(".csv");
     write_text(options.trajectory, csv ? jobs::to_csv(trajectory) : to_json_columns(trajectory));
   }
