@@ -80,8 +80,7 @@ void RpsupMetrics::take_middle(const Evaluation& middle) {
 
 void RpsupMetrics::take_energy(const EnergyAccount& start, const EnergyAccount& end) {
   largest_imbalance_ = std::max(largest_imbalance_, std::abs(end.calc_balance() - first_balance_));
-  turned_over_ += (end.drive_work - start.drive_work).cwiseAbs().sum() + std::abs(end.impact_loss - start.impact_loss) +
-                  std::abs(end.friction_loss - start.friction_loss) + std::abs(end.structural_loss - start.structural_loss);
+  turned_over_ += end.calc_turned_over_since(start);
 }
 
 std::vector<double> RpsupMetrics::calc(const RunEnd& end, const std::optional<Peak>& ideal) const {

@@ -24,16 +24,16 @@ class CompiledEquations final : public Equations {
         plan_(model, bristles) {}
 
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
-    const EvaluationStatus status = solve(y, drives, drives_moved);
+    set_state(y, drives);
+    plain_.drives_moved = drives_moved;
+    const EvaluationStatus status = plain_.evaluate(drives);
     if (status == EvaluationStatus::kOk) write_rates(dydt);
     return status;
   }
 
   void read_out(Evaluation& at) const override;
 
-  EvaluationStatus linearise(const double* y, const DrivenMotion* drives, bool drives_moved, Linearisation& result) override {
-    const EvaluationStatus status = solve(y, drives, drives_moved);
-    if (status != EvaluationStatus::kOk) return status;
+  void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) override {
     find_acting_bristles(y, result);
     varied_.hold(y + 2 * free_);
     plan_.start(drives, result.bristles, result.bristle_count);
@@ -43,16 +43,9 @@ class CompiledEquations final : public Equations {
       take_outputs(group, result);
     }
     plan_.sort(result);
-    return EvaluationStatus::kOk;
   }
 
  private:
-  EvaluationStatus solve(const double* y, const DrivenMotion* drives, bool drives_moved) {
-    set_state(y, drives);
-    plain_.drives_moved = drives_moved;
-    return plain_.evaluate(drives);
-  }
-
   /// Sets q, qd, the driven qdd and the bristles; the free qdd to zero.
   RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives) {
     for (int a = 0; a < free_; ++a) {

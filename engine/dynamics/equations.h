@@ -48,8 +48,8 @@ class Equations {
   /// What evaluate() last found, for observers.
   virtual void read_out(Evaluation& at) const = 0;
 
-  /// All derivatives at y, exact to rounding.
-  [[nodiscard]] virtual EvaluationStatus linearise(const double* y, const DrivenMotion* drives, bool drives_moved, Linearisation& result) = 0;
+  /// All derivatives where evaluate() was last called, and came to an end: at the same y and motion of the drives. Exact to rounding.
+  virtual void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) = 0;
 
  protected:
   Equations() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +29,12 @@ struct EnergyAccount {
   /// E - work of the drives + losses: constant if the integration were exact.
   [[nodiscard]] double calc_balance() const {
     return kinetic + potential - drive_work.sum() + impact_loss + friction_loss + structural_loss;
+  }
+
+  /// Work that the drives did and took, and energy that was lost, since an instant shortly before.
+  [[nodiscard]] double calc_turned_over_since(const EnergyAccount& before) const {
+    return (drive_work - before.drive_work).cwiseAbs().sum() + std::abs(impact_loss - before.impact_loss) +
+           std::abs(friction_loss - before.friction_loss) + std::abs(structural_loss - before.structural_loss);
   }
 };
 

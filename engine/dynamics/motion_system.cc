@@ -25,6 +25,10 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
 void MotionSystem::make_room() {
   equations_ = make_equations(instruction_set_, model_, clearance_joints_);
   drives_time_ = std::numeric_limits<double>::quiet_NaN();
+  solved_ = false;
+  const Eigen::Index size = controlled_size() + static_cast<Eigen::Index>(drives_.size()) + 3;
+  solved_y_.resize(size);
+  dydt_.resize(size);
   jacobian_ = ShiftedJacobian(static_cast<int>(free_count()), static_cast<int>(bristles_), static_cast<int>(drives_.size()));
 }
 
@@ -60,7 +64,10 @@ bool MotionSystem::move_drives(double t) {
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
-  return equations_->evaluate(y.data(), drives_.data(), moved, dydt.data());
+  const EvaluationStatus status = equations_->evaluate(y.data(), drives_.data(), moved, dydt.data());
+  solved_ = status == EvaluationStatus::kOk;
+  solved_y_ = y;
+  return status;
 }
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at) {
@@ -76,10 +83,12 @@ EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& 
 }
 
 EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y) {
-  const bool moved = move_drives(t);
-  const EvaluationStatus status = equations_->linearise(y.data(), drives_.data(), moved, jacobian_.linearisation());
+  const bool is_solved = solved_ && t == drives_time_ && y == solved_y_;
+  const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : calc_derivative(t, y, dydt_);
+  if (status != EvaluationStatus::kOk) return status;
+  equations_->linearise(y.data(), drives_.data(), jacobian_.linearisation());
   jacobian_.calc_time_derivative(time_derivative_);
-  return status;
+  return EvaluationStatus::kOk;
 }
 
 void MotionSystem::calc_energies(Evaluation& at) const {
@@ -100,6 +109,7 @@ bool MotionSystem::prepare_step(const Evaluation& at, double dt, Eigen::VectorXd
     moved |= clearance_joints_[k].follow(at.joints[clearance_joint_of_[k]].journal, dt, bristles);
     bristles += clearance_joints_[k].bristle_count();
   }
+  if (moved) solved_ = false;
   return moved;
 }
 
@@ -114,6 +124,7 @@ ContactChange MotionSystem::accept_step(const Evaluation& start, const Evaluatio
     sum.ring_onsets += change.ring_onsets;
     bristles += clearance_joints_[k].bristle_count();
   }
+  if (sum.any) solved_ = false;
   return sum;
 }
 

@@ -76,6 +76,9 @@ class MotionSystem {
   double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
   std::vector<DrivenMotion> drives_;
   std::unique_ptr<Equations> equations_;
+  bool solved_ = false;        ///< the equations hold their solution at (drives_time_, solved_y_), with the contacts as they are
+  Eigen::VectorXd solved_y_;
+  Eigen::VectorXd dydt_;       ///< for linearise()
   ShiftedJacobian jacobian_;
   Eigen::VectorXd time_derivative_;
 };

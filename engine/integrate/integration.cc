@@ -23,11 +23,14 @@ double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
 }  // namespace
 
 Integration::Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer)
-    : options_(options),
+    : mechanism_(mechanism),
+      options_(options),
       observer_(observer),
       system_(mechanism),
-      dopri5_(options.relative_tolerance, options.absolute_tolerance),
-      rodas4_(options.relative_tolerance, options.absolute_tolerance),
+      tolerance_(options.relative_tolerance, options.absolute_tolerance),
+      energy_control_(options),
+      dopri5_(tolerance_),
+      rodas4_(tolerance_),
       control_(options.integrator == Integrator::kRodas4 ? 4.0 : 5.0),
       samples_(options.output_rate, options.duration) {}
 
@@ -60,6 +63,8 @@ bool Integration::start(const Evaluation& assembled) {
     fail(status);
     return false;
   }
+  // Dopri5's steps are as short as its stability asks: it would take no longer ones.
+  if (options_.integrator == Integrator::kRodas4) tolerance_.set_radii(mechanism_, system_.free_coordinates(), start_.at.frames);
   system_.calc_energies(start_.at);
   system_.add_penetrations(start_.at, rings_start_);
   dt_ = kFirstStep;
@@ -114,6 +119,7 @@ bool Integration::try_fixed_step() {
     return false;
   }
   end_.t = t_end;
+  system_.calc_energies(end_.at);
   ++fixed_steps_;
   return true;
 }
@@ -131,9 +137,12 @@ bool Integration::try_controlled_step() {
 }
 
 Trial Integration::try_step(double dt) {
-  const Trial trial = options_.integrator == Integrator::kRodas4 ? rodas4_.try_step(system_, start_, dt, end_)
-                                                                 : dopri5_.try_step(system_, start_, dt, end_);
+  const bool implicit = options_.integrator == Integrator::kRodas4;
+  Trial trial = implicit ? rodas4_.try_step(system_, start_, dt, end_) : dopri5_.try_step(system_, start_, dt, end_);
   run_end_.evaluations += trial.evaluations;
+  if (trial.status != EvaluationStatus::kOk || !(trial.error <= 1.0)) return trial;
+  system_.calc_energies(end_.at);
+  if (implicit) trial.error = std::max(trial.error, energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt));
   return trial;
 }
 
@@ -172,7 +181,7 @@ bool Integration::land_on_event(double dt) {
 
 void Integration::accept() {
   ++run_end_.steps;
-  system_.calc_energies(end_.at);
+  energy_control_.accept(start_.at.energy, end_.at.energy);
   observer_.on_step(start_.at, end_.at);
   if (observer_.wants_middle()) {
     evaluate_inside(0.5 * (start_.t + end_.t));

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/integrate/energy_control.h"
 #include "engine/integrate/observer.h"
 #include "engine/integrate/run_end.h"
 #include "engine/integrate/sample_times.h"
@@ -35,10 +36,13 @@ class Integration {
   void fail(EvaluationStatus status);
   void fail(RunStatus status, std::string detail);
 
+  const Mechanism& mechanism_;
   const RunOptions& options_;
   Observer& observer_;
   MotionSystem system_;
   Rk4 rk4_;
+  Tolerance tolerance_;
+  EnergyControl energy_control_;
   Dopri5 dopri5_;
   Rodas4 rodas4_;
   StepControl control_;

@@ -1,7 +1,5 @@
 #include "engine/integrate/step_method.h"
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
 
 namespace engine {
@@ -64,16 +62,6 @@ void evaluate_end(MotionSystem& system, StepEnd& end, Trial& trial) {
 }
 
 }  // namespace
-
-double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < controlled; ++i) {
-    const double scale = absolute + relative * std::max(std::abs(y0[i]), std::abs(y1[i]));
-    const double ratio = error[i] / scale;
-    sum += ratio * ratio;
-  }
-  return std::sqrt(sum / static_cast<double>(controlled));
-}
 
 Trial Rk4::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;

@@ -11,6 +11,7 @@
 
 #include "engine/dynamics/motion_system.h"
 #include "engine/integrate/rodas4.h"
+#include "engine/integrate/tolerance.h"
 
 namespace engine {
 
@@ -36,14 +37,6 @@ template <template <class, class, class, class, class, class, class> class Stepp
 using EigenStepper = Stepper<Eigen::VectorXd, double, Eigen::VectorXd, double, boost::numeric::odeint::vector_space_algebra,
                              boost::numeric::odeint::default_operations, boost::numeric::odeint::always_resizer>;
 
-/// How large a local error may be.
-struct Tolerance {
-  double relative, absolute;
-
-  /// Root mean square over the first `controlled` entries of an error, each in units of its tolerance.
-  [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const;
-};
-
 /// The paper's integrator: the classical Runge-Kutta method of order 4.
 class Rk4 {
  public:
@@ -56,12 +49,12 @@ class Rk4 {
 /// Dormand and Prince's method of order 5 with an error estimate of order 4. The last stage is the next step's first.
 class Dopri5 {
  public:
-  Dopri5(double relative_tolerance, double absolute_tolerance) : tolerance_{relative_tolerance, absolute_tolerance} {}
+  explicit Dopri5(const Tolerance& tolerance) : tolerance_(tolerance) {}
 
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
 
  private:
-  Tolerance tolerance_;
+  const Tolerance& tolerance_;
   Eigen::VectorXd local_error_;
   EigenStepper<boost::numeric::odeint::runge_kutta_dopri5> stepper_;
 };
@@ -69,14 +62,14 @@ class Dopri5 {
 /// RODAS4: implicit, so that stiff contacts and links do not bound its steps. Tries from one start share its Jacobian.
 class Rodas4 {
  public:
-  Rodas4(double relative_tolerance, double absolute_tolerance) : tolerance_{relative_tolerance, absolute_tolerance} {}
+  explicit Rodas4(const Tolerance& tolerance) : tolerance_(tolerance) {}
 
   /// The next try is from another start, or by other equations of motion, than the last.
   void begin_step() { linearised_ = false; }
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
 
  private:
-  Tolerance tolerance_;
+  const Tolerance& tolerance_;
   bool linearised_ = false;  ///< the system holds the Jacobian of the step's start
   Eigen::VectorXd local_error_;
   Rodas4Stepper stepper_;

@@ -10,10 +10,10 @@ enum class Integrator { kDopri5, kRodas4, kRk4 };
 struct RunOptions {
   double duration = 5.0;                    ///< [s], > 0
   double output_rate = 1000.0;              ///< samples of the trajectory, [Hz]
-  Integrator integrator = Integrator::kDopri5;
+  Integrator integrator = Integrator::kRodas4;
   double step = 1e-5;                       ///< of rk4, [s]
-  double relative_tolerance = 1e-6;         ///< of the error-controlled integrators, [1]
-  double absolute_tolerance = 1e-7;         ///< of the error-controlled integrators, in the state's units
+  double relative_tolerance = 2e-5;         ///< of the error-controlled integrators, [1]
+  double absolute_tolerance = 2e-5;         ///< of the error-controlled integrators, in m and m/s; rotations by what they carry: Tolerance
   long step_limit = 100'000'000;            ///< steps after which the run ends with kStepLimit
 };
 

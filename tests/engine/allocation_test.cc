@@ -46,12 +46,13 @@ TEST_P(RightHandSide, AllocatesNothing) {
   start.f = Eigen::VectorXd::Zero(start.y.size());
   start.at = system.make_evaluation();
   end = start;
-  Dopri5 method(1e-6, 1e-7);
+  const Tolerance tolerance(1e-6, 1e-6);
+  Dopri5 method(tolerance);
   (void)system.calc_derivative(0.0, start.y, start.f, start.at);
   (void)system.prepare_step(start.at, 1e-9, start.y);  // the elements' bristles go where the contact is
   ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
   EXPECT_EQ(start.at.joints[0].load.max_penetration > 0.0, GetParam().parameters.c_r > 0.0);
-  Rodas4 implicit(1e-6, 1e-6);
+  Rodas4 implicit(tolerance);
   ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the methods' own vectors
   ASSERT_EQ(implicit.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
 

@@ -87,10 +87,10 @@ TEST(StudyRequests, AreSweepsThatTheServiceTakes) {
   const auto requests = study_requests();
   for (const auto& request : requests) jobs += plan_sweep(request, 1000).jobs.size();
   EXPECT_EQ(requests.size(), 3 + open_parameters().size());
-  // The ideal joint 8, with clearance 16 of 5 replicates, 10 that converge; each open value 8, the coupler's damping 4.
+  // The ideal joint 8, with clearance 16 of 5 replicates, 10 that converge of as many; each open value 8, the coupler's damping 4.
   std::size_t open = 0;
   for (const OpenParameter& parameter : open_parameters()) open += parameter.values.size() * (parameter.key == "coupler_damping_ratio" ? 4 : 8);
-  EXPECT_EQ(jobs, 8 + 80 + 10 + open);
+  EXPECT_EQ(jobs, 8 + 80 + 50 + open);
 }
 
 }  // namespace

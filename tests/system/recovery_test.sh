@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 
 cat >sweep.json <<'JSON'
-{"name": "recovery", "parameters": {"duration_s": 0.4, "run_up_s": 0.05},
+{"name": "recovery", "parameters": {"duration_s": 2, "run_up_s": 0.05},
  "sweep": {"clearance_mm": [0.1, 0.25, 0.5], "coupler": ["rigid", "flexible"]}}
 JSON
 

@@ -24,7 +24,7 @@ without_job_id <again.csv | cmp - two.txt
 
 # Interrupted, then given again: it ends with what an undisturbed sweep gives.
 cat >longer.json <<'JSON'
-{"parameters": {"duration_s": 0.5, "run_up_s": 0.05, "coupler": "flexible"}, "sweep": {"clearance_mm": [0.1, 0.2, 0.3, 0.4]}}
+{"parameters": {"duration_s": 3, "run_up_s": 0.05, "coupler": "flexible"}, "sweep": {"clearance_mm": [0.1, 0.2, 0.3, 0.4]}}
 JSON
 "$rpsup" sweep longer.json --db broken.db --results broken.csv --threads 1 >/dev/null 2>progress &
 service=$!

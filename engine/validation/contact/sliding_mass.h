@@ -25,7 +25,7 @@ struct Impact {
 };
 
 /// Error-controlled steps whose error is not to be seen.
-inline constexpr RunOptions kTightSteps{.relative_tolerance = 1e-13, .absolute_tolerance = 1e-16};
+inline constexpr RunOptions kTightSteps{.integrator = Integrator::kDopri5, .relative_tolerance = 1e-13, .absolute_tolerance = 1e-16};
 
 /// Lets the mass run at the bore from a gap and follows it until it has parted.
 /// @param gap        at the start, [m]

@@ -54,7 +54,8 @@ double simulate_torque(RadialForm form, double sigma_0) {
   const std::size_t from = form == RadialForm::kElements ? 100 : 700;
   const std::size_t to = from + 50;
   const double rate = kOmega / kPitch;
-  const RunOptions options{.duration = static_cast<double>(to) / rate, .output_rate = rate, .relative_tolerance = 1e-9, .absolute_tolerance = 1e-11};
+  const RunOptions options{.duration = static_cast<double>(to) / rate, .output_rate = rate, .integrator = Integrator::kDopri5,
+                           .relative_tolerance = 1e-9, .absolute_tolerance = 1e-11};
   WorkObserver observer;
   const RunEnd end = Integration(mechanism, options, observer).run(MotionSystem(mechanism).make_evaluation());
   if (end.status != RunStatus::kSucceeded || observer.work.size() <= to) throw std::runtime_error("a run of the validation failed: " + end.detail);

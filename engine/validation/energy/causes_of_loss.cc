@@ -12,7 +12,8 @@ namespace engine::validation {
 
 namespace {
 
-constexpr RunOptions kOptions{.duration = 0.06, .output_rate = 1000.0, .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9};
+constexpr RunOptions kOptions{.duration = 0.06, .output_rate = 1000.0, .integrator = Integrator::kDopri5,
+                              .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9};
 
 RpsupParameters flexible() {
   RpsupParameters p;
@@ -73,7 +74,8 @@ Findings compute_causes_of_loss() {
   still.coupler = Coupler::kRigid;
   still.crank_velocity = 0.0;
   still.rod_stroke = 0.0;
-  const RunResult bouncing = run_rpsup(still, {.duration = 0.1, .output_rate = 1000.0, .relative_tolerance = 1e-10, .absolute_tolerance = 1e-13});
+  const RunResult bouncing = run_rpsup(still, {.duration = 0.1, .output_rate = 1000.0, .integrator = Integrator::kDopri5,
+                                               .relative_tolerance = 1e-10, .absolute_tolerance = 1e-13});
   findings.checks.push_back(limit("rigid, 0.25 mm, drives at rest, no losses, 0.1 s of bouncing: change of energy over the largest kinetic energy",
                                   "conserved",
                                   find_drift(bouncing), 1e-8, "1", "a hundred times the tolerance, 1e-10: it holds for each of 26,000 steps"));

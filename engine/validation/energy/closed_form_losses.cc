@@ -42,7 +42,8 @@ Check compare_impact(double k_r) {
   const double chi = 0.75 * (1.0 - k_r * k_r);
   const Mechanism mass = make_free_mass(kMass, {.c_r = kGap, .K = 4.7e10, .chi = chi, .friction = {}});
   LastAccount last(kGap);
-  run_from(mass, {.duration = 2e-3, .output_rate = 1.0, .relative_tolerance = 1e-9, .absolute_tolerance = 1e-10}, Eigen::VectorXd::Zero(1),
+  run_from(mass, {.duration = 2e-3, .output_rate = 1.0, .integrator = Integrator::kDopri5,
+                  .relative_tolerance = 1e-9, .absolute_tolerance = 1e-10}, Eigen::VectorXd::Zero(1),
            Eigen::VectorXd::Constant(1, kSpeed), last);
   const double e = calc_rebound(chi);
   const double expected = 0.5 * kMass * kSpeed * kSpeed * (1.0 - e * e);
@@ -62,7 +63,8 @@ Check compare_friction(double v) {
   slider.coordinates[1].parent = 0;
   slider.cut_joints[0].journal_frame = 1;
   LastAccount last(1e9);
-  run_from(slider, {.duration = duration, .output_rate = 1.0, .relative_tolerance = 1e-10, .absolute_tolerance = 1e-13},
+  run_from(slider, {.duration = duration, .output_rate = 1.0, .integrator = Integrator::kDopri5,
+                    .relative_tolerance = 1e-10, .absolute_tolerance = 1e-13},
            Eigen::Vector2d(0.0, resting_height(slider)), Eigen::Vector2d(v, 0.0), last);
   const double passed = 1.0 - std::exp(-3.0);
   const double expected = v * (g * (duration - tau * passed) + law.sigma_1 * v * tau * passed + law.sigma_2 * v * duration);

@@ -65,7 +65,8 @@ Line run_dopri5(const RpsupParameters& parameters, double duration, const std::v
   Line line;
   for (const double tolerance : tolerances)
     add_run(line, "dopri5, tolerance " + number(tolerance), parameters,
-            {.duration = duration, .output_rate = 10.0, .relative_tolerance = tolerance, .absolute_tolerance = 0.1 * tolerance});
+            {.duration = duration, .output_rate = 10.0, .integrator = Integrator::kDopri5,
+             .relative_tolerance = tolerance, .absolute_tolerance = 0.1 * tolerance});
   return line;
 }
 

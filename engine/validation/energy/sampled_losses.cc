@@ -105,7 +105,8 @@ Findings compute_sampled_losses() {
     const double nu = 0.5 * parameters.youngs_modulus / parameters.shear_modulus - 1.0;
     const double K = 2.0 * parameters.youngs_modulus / (3.0 * (1.0 - nu * nu)) * std::sqrt(parameters.bearing_radius * r_j / parameters.c_r);
     ContactLosses losses(parameters.c_r, r_j, K);
-    (void)simulate(rpsup.mechanism, {.duration = 0.2, .output_rate = kSampling, .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, losses);
+    (void)simulate(rpsup.mechanism, {.duration = 0.2, .output_rate = kSampling, .integrator = Integrator::kDopri5,
+                                     .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, losses);
     const std::string what = "rigid, 0.25 mm, 10 rad/s, one ring, 0.2 s: ";
     findings.checks.push_back(compare(what + "impact loss",
                                       "integral of (f_n - K delta^1.5) times the penetration rate, from samples of force and motion",
@@ -119,7 +120,8 @@ Findings compute_sampled_losses() {
     parameters.coupler = Coupler::kFlexible;
     const Rpsup rpsup = build_rpsup(parameters);
     DamperLosses losses(parameters, rpsup.layout.coupler);
-    (void)simulate(rpsup.mechanism, {.duration = 0.1, .output_rate = kSampling, .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, losses);
+    (void)simulate(rpsup.mechanism, {.duration = 0.1, .output_rate = kSampling, .integrator = Integrator::kDopri5,
+                                     .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, losses);
     findings.checks.push_back(compare("flexible, 0.25 mm, 10 rad/s, 0.1 s: structural loss",
                                       "integral of rate^T D rate, D from E, G and the rod's size, from samples of the coupler's angles",
                                       losses.energy.structural_loss, losses.structural.sum(), 1e-7 * losses.structural.sum(), "J",

@@ -45,7 +45,8 @@ Findings compute_whole_account() {
   parameters.coupler = Coupler::kFlexible;
   const Rpsup rpsup = build_rpsup(parameters);
   AccountRecord record;
-  (void)simulate(rpsup.mechanism, {.duration = 0.5, .output_rate = 1000.0, .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, record);
+  (void)simulate(rpsup.mechanism, {.duration = 0.5, .output_rate = 1000.0, .integrator = Integrator::kDopri5,
+                                   .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, record);
   const double sum = record.impact.back() + record.friction.back() + record.structural.back();
   const double scale = *std::max_element(record.work.begin(), record.work.end());
   Findings findings;

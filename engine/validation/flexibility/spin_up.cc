@@ -80,7 +80,8 @@ struct SpinUp {
 
 SpinUp simulate_spin_up(int segments, double duration) {
   const Mechanism beam = make_beam(segments);
-  const RunOptions options{.duration = duration, .output_rate = 100.0, .relative_tolerance = 1e-8, .absolute_tolerance = 1e-10};
+  const RunOptions options{.duration = duration, .output_rate = 100.0, .integrator = Integrator::kDopri5,
+                           .relative_tolerance = 1e-8, .absolute_tolerance = 1e-10};
   TipObserver observer(0.5 * kLength / segments);
   const RunEnd end = Integration(beam, options, observer).run(MotionSystem(beam).make_evaluation());
   if (end.status != RunStatus::kSucceeded) throw std::runtime_error("a run of the validation failed: " + end.detail);

@@ -38,7 +38,8 @@ double run_contacts(double sliding) {
   m.drives = {{0, RunUp{sliding, 0.0}}};
   LastLoss last;
   const double duration = 2.0 * kContacts * kGap / kSpeed + kContacts * duration_of_contact();  // half way back from the last one
-  run_from(m, {.duration = duration, .output_rate = 1.0, .relative_tolerance = 1e-10, .absolute_tolerance = 1e-12}, Eigen::Vector2d::Zero(),
+  run_from(m, {.duration = duration, .output_rate = 1.0, .integrator = Integrator::kDopri5,
+               .relative_tolerance = 1e-10, .absolute_tolerance = 1e-12}, Eigen::Vector2d::Zero(),
            Eigen::Vector2d(sliding, kSpeed), last);
   return last.loss;
 }

@@ -53,6 +53,7 @@ Findings compute_stick_slip() {
   RunOptions options;
   options.duration = kDuration;
   options.output_rate = 40.0;
+  options.integrator = Integrator::kDopri5;
   options.relative_tolerance = 1e-10;
   options.absolute_tolerance = 1e-13;
   options.step_limit = 1'000'000;  // some 75,000 are needed

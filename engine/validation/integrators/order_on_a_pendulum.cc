@@ -89,7 +89,8 @@ Findings compute_order_on_a_pendulum() {
   std::vector<double> tolerances;
   for (int exponent = 4; exponent <= 12; ++exponent) {
     const double tolerance = std::pow(10.0, -exponent);
-    const ControlledRun r = run({.duration = kDuration, .output_rate = 1.0, .relative_tolerance = tolerance, .absolute_tolerance = tolerance});
+    const ControlledRun r = run({.duration = kDuration, .output_rate = 1.0, .integrator = Integrator::kDopri5, .relative_tolerance = tolerance,
+                                 .absolute_tolerance = tolerance});
     controlled.add(kDuration / static_cast<double>(r.steps), r.error);
     tolerances.push_back(tolerance);
     worst.take(r.error / tolerance);

@@ -48,7 +48,8 @@ Pair run_pair(RpsupParameters p, const RunOptions& options) {
 }
 
 RunOptions with_tolerance(double tolerance) {
-  return {.duration = kDuration, .relative_tolerance = tolerance, .absolute_tolerance = 0.1 * tolerance, .step_limit = 500'000};
+  return {.duration = kDuration, .integrator = Integrator::kDopri5,
+          .relative_tolerance = tolerance, .absolute_tolerance = 0.1 * tolerance, .step_limit = 500'000};
 }
 
 /// The prescribed motion of an ideal joint is solved, not integrated: the difference is all the integration's.

@@ -11,7 +11,8 @@ namespace engine::validation {
 /// @returns all that is known at the end, energies included
 [[nodiscard]] inline Evaluation take_equal_steps(const Mechanism& mechanism, const Evaluation& assembled, double duration, int count) {
   MotionSystem system(mechanism);
-  Dopri5 method(1e-6, 1e-6);
+  const Tolerance not_asked_for(1e-6, 1e-6);
+  Dopri5 method(not_asked_for);
   StepEnd start;
   start.y = system.make_state(assembled.q, assembled.qd);
   start.f = Eigen::VectorXd::Zero(start.y.size());

@@ -1,0 +1,16 @@
+#include "engine/integrate/energy_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+
+double EnergyControl::measure(const EnergyAccount& start, const EnergyAccount& end, double t0, double dt) const {
+  constexpr double kRounding = 1e-14;
+  constexpr double kShort = 1e-5;  // [s]; where a contact law jumps inside a step, imbalance falls no faster than the step becomes shorter
+  const double power = t0 > 0.0 ? exchanged_ / t0 : 0.0;
+  const double rounding = kRounding * (std::abs(end.kinetic) + std::abs(end.potential) + end.drive_work.cwiseAbs().sum());
+  return std::abs(end.calc_balance() - start.calc_balance()) / (std::max(dt, kShort) * (absolute_ + relative_ * power) + rounding);
+}
+
+}  // namespace engine

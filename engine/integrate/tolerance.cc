@@ -1,0 +1,60 @@
+#include "engine/integrate/tolerance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Geometry>
+
+namespace engine {
+
+namespace {
+
+bool carries(const Mechanism& mechanism, FrameIndex carrier, FrameIndex frame) {
+  while (frame > carrier) frame = mechanism.coordinates[static_cast<std::size_t>(frame)].parent;
+  return frame == carrier;
+}
+
+/// Radius of gyration of all that a rotation carries about its axis; 1 if that weighs nothing.
+double calc_radius(const Mechanism& mechanism, FrameIndex rotation, const std::vector<FrameMotion>& frames) {
+  const FrameMotion& joint = frames[static_cast<std::size_t>(rotation)];
+  double mass = 0.0;
+  double moment = 0.0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Coordinate& body = mechanism.coordinates[i];
+    if (body.mass == 0.0 || !carries(mechanism, rotation, static_cast<FrameIndex>(i))) continue;
+    const FrameMotion& f = frames[i];
+    const Eigen::Vector3d s_F = f.R.transpose() * joint.axis;
+    const Eigen::Vector3d arm = f.R.transpose() * (f.p - joint.p);
+    const Eigen::Vector3d origin_rate = s_F.cross(arm);  // of the body's origin where the joint turns at 1 rad/s
+    mass += body.mass;
+    moment += body.mass * (origin_rate.squaredNorm() + 2.0 * origin_rate.dot(s_F.cross(body.com))) + s_F.dot(body.inertia * s_F);
+  }
+  return mass > 0.0 ? std::sqrt(moment / mass) : 1.0;
+}
+
+}  // namespace
+
+void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free, const std::vector<FrameMotion>& frames) {
+  radii_.setOnes(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t k = 0; k < free.size(); ++k)
+    if (mechanism.coordinates[static_cast<std::size_t>(free[k])].motion == Motion::kRotation)
+      radii_[static_cast<Eigen::Index>(k)] = calc_radius(mechanism, free[k], frames);
+}
+
+double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const {
+  double sum = 0.0;
+  const auto add = [&](Eigen::Index i, double radius) {
+    const double ratio = radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
+    sum += ratio * ratio;
+  };
+  const Eigen::Index n = radii_.size();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    add(i, radii_[i]);
+    add(n + i, radii_[i]);
+  }
+  for (Eigen::Index i = 2 * n; i < controlled; ++i) add(i, 1.0);
+  return std::sqrt(sum / static_cast<double>(controlled));
+}
+
+}  // namespace engine

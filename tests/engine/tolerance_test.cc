@@ -1,0 +1,51 @@
+#include "engine/integrate/tolerance.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/dynamics/motion_system.h"
+#include "engine/integrate/energy_control.h"
+#include "engine/model/mechanism.h"
+
+namespace engine {
+namespace {
+
+/// A rod that turns about its end: 3 kg at 0.4 m from the pivot, radius of gyration 0.5 m.
+Mechanism make_rod() {
+  Mechanism m;
+  m.coordinates.push_back({.name = "angle", .placement = {}, .axis = Axis::kZ, .mass = 3.0, .com = {0.4, 0.0, 0.0},
+                           .inertia = Eigen::Vector3d(0.01, 0.75, 0.75).asDiagonal()});
+  return m;
+}
+
+TEST(Tolerance, MeasuresARotationAtTheRadiusOfGyrationOfWhatItCarries) {
+  const Mechanism rod = make_rod();
+  MotionSystem system(rod);
+  Evaluation at = system.make_evaluation();
+  Eigen::VectorXd y = system.make_state(at.q, at.qd);
+  Eigen::VectorXd f(y.size());
+  ASSERT_EQ(system.calc_derivative(0.0, y, f, at), EvaluationStatus::kOk);
+  Tolerance tolerance(1e-3, 1e-6);
+  const Eigen::VectorXd error = Eigen::VectorXd::Constant(y.size(), 1e-5);
+  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.controlled_size()), 10.0, 1e-12);
+  tolerance.set_radii(rod, system.free_coordinates(), at.frames);
+  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.controlled_size()), 5.0, 1e-12);
+}
+
+EnergyAccount account(double kinetic, double work) {
+  return {.kinetic = kinetic, .drive_work = Eigen::VectorXd::Constant(1, work)};
+}
+
+TEST(EnergyControl, AllowsAStepAPartOfTheMeanPower) {
+  const RunOptions options{.relative_tolerance = 1e-3, .absolute_tolerance = 1e-6};
+  EnergyControl control(options);
+  control.accept(account(0.0, 0.0), account(5.0, 5.0));  // 10 J exchanged in 2 s
+  const double imbalance = 1e-5;
+  const double allowed = 0.2 * (1e-6 + 1e-3 * 5.0);  // [W]
+  EXPECT_NEAR(control.measure(account(5.0, 5.0), account(6.0 + imbalance, 6.0), 2.0, 0.01), imbalance / (0.01 * allowed), 1e-6);
+  EXPECT_NEAR(control.measure(account(5.0, 5.0), account(6.0, 6.0), 2.0, 0.01), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace engine
