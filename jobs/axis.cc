@@ -90,13 +90,6 @@ void add_list_values(const json& list, const std::string& pointer, Axis& axis) {
   }
 }
 
-/// A value in the form in which equal values are equal: 5 and 5.0 are one number.
-std::string identity(const std::string& path, const json& value) {
-  const ParameterInfo* info = find_parameter(path);
-  if (info != nullptr) return canonical_value(*info, value).dump();
-  return value.is_number() ? json(value.get<double>()).dump() : value.dump();
-}
-
 void find_axis_value_faults(const Axis& axis, bool is_span, std::vector<Fault>& faults) {
   std::set<std::string> seen;
   for (std::size_t k = 0; k < axis.values.size(); ++k) {
@@ -105,7 +98,7 @@ void find_axis_value_faults(const Axis& axis, bool is_span, std::vector<Fault>& 
     const auto value_faults = find_value_faults(alone);
     const std::string which = is_span ? "value " + axis.values[k].dump() + ": " : "";
     for (const Fault& fault : value_faults) faults.push_back({axis.pointers[k], which + fault.detail});
-    if (value_faults.empty() && !seen.insert(identity(axis.path, axis.values[k])).second) {
+    if (value_faults.empty() && !seen.insert(value_identity(axis.path, axis.values[k])).second) {
       faults.push_back({axis.pointers[k], which + "is in this axis already"});
     }
   }
@@ -131,6 +124,12 @@ Axis make_axis(const std::string& path, const json& axis, const std::string& poi
   }
   find_axis_value_faults(made, axis.is_object(), faults);
   return made;
+}
+
+std::string value_identity(const std::string& path, const json& value) {
+  const ParameterInfo* info = find_parameter(path);
+  if (info != nullptr) return canonical_value(*info, value).dump();
+  return value.is_number() ? json(value.get<double>()).dump() : value.dump();
 }
 
 }  // namespace jobs

@@ -27,4 +27,7 @@ struct Axis {
 ///     linear:  (from (n - 1 - k) + to k) / (n - 1),    log:  from (to / from)^(k / (n - 1)),    both with exact ends.
 [[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer, std::vector<Fault>& faults);
 
+/// A value of an axis in the form in which equal values are equal: 5 and 5.0 are one number. @param value  one without faults
+[[nodiscard]] std::string value_identity(const std::string& path, const nlohmann::json& value);
+
 }  // namespace jobs

@@ -102,11 +102,16 @@ std::string swept_text(const json& completed, const std::vector<std::string>& sw
   return values.dump();
 }
 
+/// Ideal joints cost a small part of what contact does, and rigid couplers of flexible ones.
+std::string kind_of(const json& completed) {
+  return completed.at("coupler").get<std::string>() + (completed.at("clearance_mm").get<double>() > 0.0 ? ", clearance" : ", ideal");
+}
+
 PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, std::string swept) {
   PlannedJob job;
   job.parameters = canonical_text(completed);
   job.content_id = content_id(job.parameters, kEngineVersion);
-  job.coupler = completed.at("coupler").get<std::string>();
+  job.kind = kind_of(completed);
   job.replicate = replicate;
   job.swept = std::move(swept);
   return job;
@@ -141,7 +146,8 @@ double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation
 
 SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs) {
   const SweepRequest sweep = parse_sweep_request(request, max_jobs);
-  SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse, .jobs = {}};
+  SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse,
+                 .priority = sweep.priority, .jobs = {}};
   PointFaults faults(sweep);
   Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
   do {

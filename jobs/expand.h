@@ -16,7 +16,7 @@ namespace jobs {
 struct PlannedJob {
   std::string parameters;   ///< all of them, canonical
   std::string content_id;
-  std::string coupler;      ///< what its cost depends on most
+  std::string kind;         ///< what its cost depends on most: "flexible, clearance"
   std::optional<std::uint64_t> replicate;
   std::string swept;        ///< JSON list of the values of SweepPlan::swept
 };
@@ -26,6 +26,7 @@ struct SweepPlan {
   std::vector<std::string> swept;  ///< paths of the parameters that differ from job to job
   bool replicated = false;
   bool reuse = true;
+  std::int64_t priority = 0;
   std::vector<PlannedJob> jobs;
 };
 

@@ -18,6 +18,7 @@ using nlohmann::ordered_json;
 constexpr std::size_t kLongestName = 200;
 constexpr Range kReplicateCount{.minimum = 1, .maximum = 1e9};
 constexpr Range kPerturbation{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
+constexpr Range kPriority{.minimum = -100, .maximum = 100};
 constexpr Range kSeed{.minimum = 0, .maximum = 9007199254740991.0};  // integers that every JSON reader keeps
 
 /// Reads one request; a member function a part of it.
@@ -30,6 +31,7 @@ class Parser {
     check_keys();
     read_name();
     read_reuse();
+    read_priority();
     read_replicates();
     read_parameters();
     check_cases_shape();
@@ -45,7 +47,7 @@ class Parser {
   void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
 
   void check_keys() {
-    constexpr std::array<std::string_view, 6> kKeys{"name", "parameters", "sweep", "cases", "replicates", "reuse"};
+    constexpr std::array<std::string_view, 7> kKeys{"name", "parameters", "sweep", "cases", "replicates", "reuse", "priority"};
     for (const auto& [key, value] : request_.items()) {
       if (std::ranges::find(kKeys, key) != kKeys.end()) continue;
       const bool is_parameter = std::ranges::find(known_paths(), key) != known_paths().end();
@@ -67,6 +69,14 @@ class Parser {
     if (!request_.contains("reuse")) return;
     if (!request_.at("reuse").is_boolean()) return fault("/reuse", "must be true or false");
     sweep_.reuse = request_.at("reuse").get<bool>();
+  }
+
+  void read_priority() {
+    if (!request_.contains("priority")) return;
+    const json priority = request_.at("priority");
+    const std::string detail = describe_integer_fault(kPriority, priority);
+    if (!detail.empty()) return fault("/priority", detail);
+    sweep_.priority = priority.get<std::int64_t>();
   }
 
   void read_replicates() {

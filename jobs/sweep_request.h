@@ -28,9 +28,10 @@ struct SweepRequest {
   std::vector<std::string> swept;                        ///< paths that differ from job to job: axes first, then those of the cases
   Replicates replicates;
   bool reuse = true;
+  std::int64_t priority = 0;
 };
 
-/// Reads {"name", "parameters", "sweep", "cases", "replicates", "reuse"}; all are optional.
+/// Reads {"name", "parameters", "sweep", "cases", "replicates", "reuse", "priority"}; all are optional.
 /// The number of jobs is counted before anything of that size is made.
 /// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
 [[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);
