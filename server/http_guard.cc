@@ -36,6 +36,10 @@ void disarm(httplib::Request& request) {
   request.headers.erase("Accept-Encoding");
 }
 
+/// What the handler wants to follow the head of the answer. The library calls a handler on the thread that serves the connection,
+/// and tells it nothing of the connection.
+thread_local std::shared_ptr<EventSource> events_of_this_connection;
+
 std::string to_wire(const Response& response) {
   std::string text = "HTTP/1.1 " + std::to_string(response.status) + " " + std::string(status_phrase(response.status)) +
                      "\r\nConnection: close\r\nContent-Type: " + response.content_type +
@@ -68,16 +72,23 @@ int GuardedServer::bind(const std::string& address, int port) {
 
 bool GuardedServer::process_and_close_socket(socket_t socket) {
   HttpStream stream(socket, limits_, draining_);
+  events_of_this_connection.reset();
   // Called on a thread of the library's pool, where an exception would end the process.
   try {
     serve(stream);
   } catch (const std::exception& error) {
     spdlog::error("a connection ended early: {}", error.what());
   }
+  if (auto events = std::exchange(events_of_this_connection, nullptr)) {
+    hub_.take(socket, std::move(events));
+    return true;
+  }
   stream.close_gently();
   ::close(socket);
   return true;
 }
+
+void GuardedServer::follow_with(std::shared_ptr<EventSource> events) { events_of_this_connection = std::move(events); }
 
 void GuardedServer::serve(HttpStream& stream) {
   switch (stream.read_head()) {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/commands/command.h"
+#include "server/commands/export.h"
 #include "server/commands/serve.h"
 #include "server/commands/simulate.h"
 #include "server/commands/sweep.h"
@@ -11,6 +12,7 @@
 
 namespace {
 
+using server::commands::ExportOptions;
 using server::commands::ServeOptions;
 using server::commands::SimulateOptions;
 using server::commands::SweepOptions;
@@ -19,7 +21,7 @@ using server::commands::ValidateOptions;
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   CLI::App* const command = app.add_subcommand("simulate", "Compute one job and print it as JSON");
   command->add_option("file", options.file, "JSON file with the parameters; - reads standard input")->required();
-  command->add_option("--trajectory", options.trajectory, "File for the trajectory, .csv or .json")
+  command->add_option("--trajectory", options.trajectory, "File for the trajectory, .csv, .json or .npz")
       ->envname("RPSUP_TRAJECTORY");
   command->add_option("--channels", options.channels, "Channels of the trajectory, with commas between; all if left out")
       ->delimiter(',')
@@ -80,6 +82,13 @@ CLI::App* add_validate(CLI::App& app, ValidateOptions& options) {
   return command;
 }
 
+CLI::App* add_export(CLI::App& app, ExportOptions& options) {
+  CLI::App* const command = app.add_subcommand("export", "Write a consistent copy of a store, also while a service uses it");
+  command->add_option("file", options.file, "SQLite file for the copy; must not exist")->required();
+  command->add_option("--db", options.store, "SQLite file that keeps sweeps and results")->required()->envname("RPSUP_DB");
+  return command;
+}
+
 void describe(CLI::App& app) {
   app.set_version_flag("--version", "rpsup " RPSUP_VERSION);
   // The library reads this file before the environment, so the name in the environment is its default.
@@ -104,9 +113,11 @@ int main(int argc, char** argv) {
   SweepOptions sweep_options;
   ServeOptions serve_options;
   ValidateOptions validate_options;
+  ExportOptions export_options;
   const CLI::App* const simulate = add_simulate(app, simulate_options);
   const CLI::App* const sweep = add_sweep(app, sweep_options);
   const CLI::App* const validate = add_validate(app, validate_options);
+  const CLI::App* const exporting = add_export(app, export_options);
   add_serve(app, serve_options);
   try {
     app.parse(argc, argv);
@@ -117,6 +128,7 @@ int main(int argc, char** argv) {
     if (simulate->parsed()) return server::commands::simulate(simulate_options);
     if (sweep->parsed()) return server::commands::sweep(sweep_options);
     if (validate->parsed()) return server::commands::validate(validate_options);
+    if (exporting->parsed()) return server::commands::export_store(export_options);
     return server::commands::serve(serve_options);
   });
 }

@@ -12,6 +12,8 @@
 #include "server/job_routes.h"
 #include "server/page_routes.h"
 #include "server/problem.h"
+#include "server/store_route.h"
+#include "server/sweep_events.h"
 #include "server/sweep_routes.h"
 
 namespace server {
@@ -30,13 +32,17 @@ constexpr std::array kRoutes = {
     Route{"GET", "/v1/sweeps/{id}", get_sweep},
     Route{"DELETE", "/v1/sweeps/{id}", delete_sweep},
     Route{"GET", "/v1/sweeps/{id}/results", get_results},
+    Route{"GET", "/v1/sweeps/{id}/events", get_events},
     Route{"POST", "/v1/sweeps/{id}/cancel", cancel_sweep},
+    Route{"POST", "/v1/sweeps/{id}/retry", retry_sweep},
+    Route{"POST", "/v1/sweeps/{id}/extend", extend_sweep},
     Route{"POST", "/v1/jobs", post_job},
     Route{"GET", "/v1/jobs", get_jobs},
     Route{"GET", "/v1/jobs/{id}", get_job},
     Route{"POST", "/v1/jobs/{id}/cancel", cancel_job},
     Route{"GET", "/v1/jobs/{id}/trajectory", get_trajectory},
     Route{"GET", "/v1/parameters", get_parameters},
+    Route{"GET", "/v1/store", get_store},
     Route{"GET", "/healthz", get_health},
     Route{"GET", "/readyz", get_readiness},
     Route{"GET", "/", get_page_file},
@@ -83,7 +89,7 @@ Response Routes::dispatch(const Request& request) const {
     if (!id) continue;
     if (route.method == method) {
       if (draining_ && changes_something(method)) return make_retry_later(503, "the service is shutting down");
-      return route.handler({service_, request, std::move(*id), draining_});
+      return route.handler({service_, request, std::move(*id), draining_, waiting_room_, copying_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }
@@ -95,6 +101,18 @@ bool is_id(const std::string& text) {
   return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_';
   });
+}
+
+std::string find_key(const Request& request) {
+  constexpr std::size_t kLongest = 255;
+  if (!request.idempotency_key) return "";
+  std::string_view key = *request.idempotency_key;
+  if (key.size() > 2 && key.front() == '"' && key.back() == '"') key = key.substr(1, key.size() - 2);
+  const bool visible = std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+  if (key.empty() || key.size() > kLongest || !visible) {
+    throw HttpError(400, "Idempotency-Key must be 1 to " + std::to_string(kLongest) + " visible ASCII characters");
+  }
+  return std::string(key);
 }
 
 Response make_json(int status, std::string text) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <string>
 
 #include "jobs/service.h"
 #include "server/message.h"
+#include "server/preference.h"
 
 namespace server {
 
@@ -25,6 +27,8 @@ class Routes {
 
   jobs::Service& service_;
   std::atomic<bool> draining_ = false;
+  mutable WaitingRoom waiting_room_;
+  mutable std::mutex copying_;
 };
 
 /// What a route is called with.
@@ -33,10 +37,16 @@ struct Call {
   const Request& request;
   std::string id;  ///< what stands in the place of {id} in the route's pattern
   bool draining;
+  WaitingRoom& waiting_room;
+  std::mutex& copying;  ///< held by the one request that copies the store
 };
 
 /// True for a text that may be an id: 1 to 64 letters, digits, '-' or '_'.
 [[nodiscard]] bool is_id(const std::string& text);
+
+/// The client's Idempotency-Key, without the quotes that it may have; empty if there is none.
+/// @throws HttpError 400 if it is empty or longer than 255 bytes, or has other than visible ASCII characters
+[[nodiscard]] std::string find_key(const Request& request);
 
 /// An answer that holds one JSON text.
 [[nodiscard]] Response make_json(int status, std::string text);

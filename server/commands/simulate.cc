@@ -5,6 +5,7 @@
 #include <iostream>
 #include <utility>
 
+#include "jobs/npz.h"
 #include "jobs/service.h"
 #include "jobs/trajectory_codec.h"
 #include "server/commands/command.h"
@@ -19,8 +20,8 @@ namespace {
 void check_trajectory_file(const std::string& path) {
   if (path.empty()) return;
   const auto extension = std::filesystem::path(path).extension();
-  if (extension != ".csv" && extension != ".json") {
-    throw BadInput("--trajectory " + path + ": the name must end in .csv or .json");
+  if (extension != ".csv" && extension != ".json" && extension != ".npz") {
+    throw BadInput("--trajectory " + path + ": the name must end in .csv, .json or .npz");
   }
   const auto folder = std::filesystem::absolute(path).parent_path();
   if (!std::filesystem::is_directory(folder)) throw BadInput("--trajectory " + path + ": there is no folder " + folder.string());
@@ -38,6 +39,12 @@ void check_channels(const SimulateOptions& options, const engine::RpsupParameter
     if (!found) faults.push_back({"--channels", "there is no channel " + wanted + "; there are: " + known});
   }
   if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
+}
+
+/// In the format that the file's name ends in.
+std::string trajectory_text(const std::string& path, const engine::Trajectory& trajectory) {
+  if (path.ends_with(".npz")) return jobs::to_npz(trajectory);
+  return path.ends_with(".csv") ? jobs::to_csv(trajectory) : to_json_columns(trajectory);
 }
 
 /// The channels that were asked for, in the order of the table, time first.
@@ -63,8 +70,7 @@ int simulate(const SimulateOptions& options) {
   jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
   if (!options.trajectory.empty()) {
     const auto trajectory = select(jobs::rounded_to_stored(std::move(outcome.trajectory)), options.channels);  // as the service would give it
-    const bool csv = options.trajectory.ends_with(".csv");
-    write_text(options.trajectory, csv ? jobs::to_csv(trajectory) : to_json_columns(trajectory));
+    write_text(options.trajectory, trajectory_text(options.trajectory, trajectory));
   }
   write_text("-", to_text(outcome.job, 2) + "\n");
   return outcome.job.at("state") == "succeeded" ? kDone : kJobFailed;

@@ -7,7 +7,7 @@ namespace server::commands {
 
 struct SimulateOptions {
   std::string file;                   ///< parameter object; "-": standard input
-  std::string trajectory;             ///< where the trajectory goes, .csv or .json; empty: nowhere
+  std::string trajectory;             ///< where the trajectory goes, .csv, .json or .npz; empty: nowhere
   std::vector<std::string> channels;  ///< of the trajectory; empty: all
 };
 

@@ -55,6 +55,12 @@ class RawClient {
     return text + " [no end of the connection within 10 s]";
   }
 
+  /// The status of the first line, read without waiting for the end of the connection; 0 if there is none.
+  int read_status() {
+    std::string line(12, '\0');  // "HTTP/1.1 200"
+    return ::recv(socket_, line.data(), line.size(), MSG_WAITALL) == 12 ? std::stoi(line.substr(9)) : 0;
+  }
+
   /// True once there is something to read or the server has closed its end.
   bool answered_within(std::chrono::milliseconds time) {
     pollfd entry{socket_, POLLIN, 0};

@@ -17,7 +17,7 @@ TableFormat format_of(const std::string& accept, const std::string& format) {
   request.accept = accept;
   if (!format.empty()) request.query = {{"format", format}};
   server::Query query(request, {"format"});
-  const TableFormat result = server::find_format(request, query);
+  const TableFormat result = server::find_row_format(request, query);
   query.check();
   return result;
 }
