@@ -19,6 +19,9 @@ class PageChecker {
   /// @throws InvalidRequest with every fault
   PageChecker(const PageQuery& query, std::string_view id_prefix, std::span<const std::string> keys);
 
+  /// The keys that are wanted; empty: all.
+  [[nodiscard]] const std::vector<std::string>& wanted() const { return wanted_; }
+
   /// Leaves the keys that are wanted.
   void take_fields(nlohmann::json& item) const;
 

@@ -127,11 +127,21 @@ ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
 
 }  // namespace
 
-json job_json(const JobRow& row, Detail detail) {
-  json job{{"id", row.id}, {"sweep_id", value_or_null(row.sweep_id)}, {"state", row.state},
-           {"error", row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json()},
-           {"attempts", row.attempts}, {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)},
-           {"ended_at", time_or_null(row.ended_ms)}, {"run", row.run ? run_json(*row.run, row.attempts, row.reused) : json()}, {"links", job_links(row)}};
+json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& wanted) {
+  json job = json::object();
+  const auto put = [&](const char* key, const auto& make) {
+    if (wanted.empty() || std::ranges::find(wanted, key) != wanted.end()) job[key] = make();
+  };
+  put("id", [&] { return json(row.id); });
+  put("sweep_id", [&] { return value_or_null(row.sweep_id); });
+  put("state", [&] { return json(row.state); });
+  put("error", [&] { return row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json(); });
+  put("attempts", [&] { return json(row.attempts); });
+  put("created_at", [&] { return json(time_text(row.created_ms)); });
+  put("started_at", [&] { return time_or_null(row.started_ms); });
+  put("ended_at", [&] { return time_or_null(row.ended_ms); });
+  put("run", [&] { return row.run ? run_json(*row.run, row.attempts, row.reused) : json(); });
+  put("links", [&] { return job_links(row); });
   if (row.replicate) job["replicate"] = *row.replicate;
   if (detail == Detail::kFull) {
     job["parameters"] = stored_json(row.parameters);

@@ -15,8 +15,8 @@ namespace jobs {
 
 enum class Detail { kFull, kListing };
 
-/// A listing leaves out parameters and metrics.
-[[nodiscard]] nlohmann::json job_json(const JobRow& row, Detail detail);
+/// A listing leaves out parameters and metrics. @param wanted  keys; others need not be made. Empty: all
+[[nodiscard]] nlohmann::json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& wanted = {});
 
 /// A listing leaves out the request. @param threads  how many jobs are computed at a time, for the ETA
 [[nodiscard]] nlohmann::json sweep_json(const SweepRow& row, int threads, Detail detail);

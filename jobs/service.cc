@@ -122,7 +122,7 @@ class Service::Impl {
   [[nodiscard]] json list_jobs(const PageQuery& query) const {
     const PageChecker checker(query, kJobPrefix, job_listing_keys());
     return make_page(store_.list_jobs(query.state, query.cursor, query.limit + 1), query.limit, checker,
-                     [](const JobRow& row) { return job_json(row, Detail::kListing); });
+                     [&](const JobRow& row) { return job_json(row, Detail::kListing, checker.wanted()); });
   }
 
   [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id, const ResultQuery& query) const {
