@@ -43,7 +43,7 @@ struct SweepRow {
 /// The run behind a result.
 struct RunRow {
   double wall_time_s = 0.0, cpu_time_s = 0.0;
-  std::string host, cpu, version, commit, compiler;
+  std::string host, cpu, version, commit, compiler, engine;
 };
 
 struct JobRow {
