@@ -15,7 +15,7 @@ enum class TableFormat { kJson, kCsv };
 [[nodiscard]] TableFormat find_format(const Request& request, Query& query);
 
 /// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each has, after the
-/// metrics, `replicates`: {"count", "mean", "spread", "min", "max", "of"} of its set, `of` the metric that they are of.
+/// metrics, replicates_count, _mean, _spread, _min and _max of its set.
 [[nodiscard]] std::string to_json_rows(const jobs::ResultTable& table);
 
 /// {"channels": [key, ...], "columns": {key: [number, ...], ...}}; null for what is not finite.
