@@ -85,7 +85,7 @@ void HttpStream::close_gently() {
 bool HttpStream::is_readable() const { return consumed_ < buffer_.size() || wait_for(POLLIN, read_deadline_); }
 
 bool HttpStream::is_writable() const {
-  return wait_for(POLLOUT, write_deadline_.value_or(Clock::now() + limits_.response_time));
+  return wait_for(POLLOUT, std::min(stall_deadline(), write_deadline_.value_or(Clock::now() + limits_.response_time)));
 }
 
 ssize_t HttpStream::read(char* to, std::size_t size) {
@@ -107,10 +107,16 @@ ssize_t HttpStream::read(char* to, std::size_t size) {
 }
 
 ssize_t HttpStream::write(const char* from, std::size_t size) {
-  if (!write_deadline_) write_deadline_ = Clock::now() + limits_.response_time;
-  while (wait_for(POLLOUT, *write_deadline_)) {
+  const auto start = Clock::now();
+  if (!write_deadline_) write_deadline_ = start + limits_.response_time;
+  const auto deadline = std::min(*write_deadline_, stall_deadline());
+  while (wait_for(POLLOUT, deadline)) {
     const ssize_t sent = ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
-    if (sent >= 0) return sent;
+    if (sent >= 0) {
+      sent_bytes_ += static_cast<std::size_t>(sent);
+      waited_ += Clock::now() - start;
+      return sent;
+    }
     if (errno != EAGAIN && errno != EINTR) return -1;
   }
   return -1;
@@ -136,6 +142,11 @@ bool HttpStream::wait_for(short events, Clock::time_point deadline) const {
     if (ready > 0) return true;
     if (ready < 0 && errno != EINTR) return false;
   }
+}
+
+HttpStream::Clock::time_point HttpStream::stall_deadline() const {
+  const auto earned = std::chrono::milliseconds(1000 * sent_bytes_ / limits_.least_bytes_per_s);
+  return Clock::now() + limits_.stall_time + earned - waited_;
 }
 
 ssize_t HttpStream::receive(char* to, std::size_t size, Clock::time_point deadline) const {
