@@ -154,6 +154,8 @@ class Service::Impl {
     }
   }
 
+  [[nodiscard]] Load find_load() const { return store_.find_load(); }
+
   std::optional<json> cancel_sweep(const std::string& id) {
     return apply(store_.cancel_sweep(id), "the sweep has ended") ? find_sweep(id) : std::nullopt;
   }
@@ -244,6 +246,7 @@ std::optional<ResultTable> Service::find_results(const std::string& sweep_id) co
 std::optional<engine::Trajectory> Service::find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const {
   return impl_->find_trajectory(job_id, query);
 }
+Load Service::find_load() const { return impl_->find_load(); }
 std::optional<json> Service::cancel_sweep(const std::string& id) { return impl_->cancel_sweep(id); }
 std::optional<json> Service::cancel_job(const std::string& id) { return impl_->cancel_job(id); }
 bool Service::delete_sweep(const std::string& id) { return impl_->delete_sweep(id); }

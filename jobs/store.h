@@ -118,6 +118,7 @@ class Store {
   [[nodiscard]] std::vector<SweepRow> list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const;
   [[nodiscard]] std::vector<JobRow> list_jobs(const std::string& state, const std::string& before, std::size_t limit) const;
   [[nodiscard]] std::vector<ResultRow> list_results(const std::string& sweep_id) const;
+  [[nodiscard]] Load find_load() const;
   /// The packed trajectory of a job that has one.
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
 

@@ -77,6 +77,9 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str()
       ->envname("RPSUP_PORT");
+  command->add_option("--cors-origin", options.cors_origins, "Other sites whose pages may use the service, as https://lab.example.org, with commas between")
+      ->delimiter(',')
+      ->envname("RPSUP_CORS_ORIGIN");
   command->add_option("--log-level", options.log_level, "What the log on standard error holds")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()
