@@ -18,6 +18,9 @@ using server::HttpLimits;
 using server::HttpStream;
 using Clock = std::chrono::steady_clock;
 
+const std::atomic<bool> kNotDraining = false;
+const std::atomic<int> kNobodyWaits = 0;
+
 /// Two ends of a connection with small buffers.
 class Pair {
  public:
@@ -60,8 +63,7 @@ std::jthread slow_reader(const Pair& pair, std::size_t bytes, std::chrono::milli
 
 TEST(HttpStream, GivesUpAClientThatTakesNothing) {
   const Pair pair;
-  const std::atomic<bool> draining = false;
-  HttpStream stream(pair.server(), limits_of(300ms, 1024 * 1024), draining);
+  HttpStream stream(pair.server(), limits_of(300ms, 1024 * 1024), kNotDraining, kNobodyWaits);
   const auto start = Clock::now();
   EXPECT_FALSE(stream.send_all(std::string(1'000'000, 'a')));
   const auto took = Clock::now() - start;
@@ -71,9 +73,8 @@ TEST(HttpStream, GivesUpAClientThatTakesNothing) {
 
 TEST(HttpStream, GivesUpAClientThatTakesALittleNowAndThen) {
   const Pair pair;
-  const std::atomic<bool> draining = false;
   // 20 bytes a second would keep the connection for hours; each wait alone is short.
-  HttpStream stream(pair.server(), limits_of(500ms, 100'000), draining);
+  HttpStream stream(pair.server(), limits_of(500ms, 100'000), kNotDraining, kNobodyWaits);
   const auto reader = slow_reader(pair, 1, 50ms);
   const auto start = Clock::now();
   EXPECT_FALSE(stream.send_all(std::string(1'000'000, 'a')));
@@ -82,13 +83,34 @@ TEST(HttpStream, GivesUpAClientThatTakesALittleNowAndThen) {
 
 TEST(HttpStream, ServesAClientThatIsSlowButSteady) {
   const Pair pair;
-  const std::atomic<bool> draining = false;
   // Some 400 kB/s, four times what is asked for: 300 kB take longer than a stall may.
-  HttpStream stream(pair.server(), limits_of(250ms, 100'000), draining);
+  HttpStream stream(pair.server(), limits_of(250ms, 100'000), kNotDraining, kNobodyWaits);
   const auto reader = slow_reader(pair, 4000, 10ms);
   const auto start = Clock::now();
   EXPECT_TRUE(stream.send_all(std::string(300'000, 'a')));
   EXPECT_GT(Clock::now() - start, 300ms) << "the client was not slow";
+}
+
+TEST(HttpStream, HurriesAClientOnceOthersWait) {
+  HttpLimits limits;
+  limits.head_time = limits.linger_time = 20s;
+  limits.crowded_time = 200ms;
+  const Pair pair;
+  ASSERT_EQ(::send(pair.client(), "GET", 3, 0), 3);
+  std::atomic<int> waiting = 0;
+  const auto start = Clock::now();
+  HttpStream stream(pair.server(), limits, kNotDraining, waiting);
+  std::jthread others([&waiting] {
+    std::this_thread::sleep_for(600ms);
+    waiting = 1;
+  });
+  EXPECT_EQ(stream.read_head(), HttpStream::Head::kTooSlow);
+  EXPECT_GE(Clock::now() - start, 590ms) << "hurried although nobody waited";
+  EXPECT_LT(Clock::now() - start, 3s);
+  const auto closing = Clock::now();
+  stream.close_gently();
+  EXPECT_GE(Clock::now() - closing, 190ms);
+  EXPECT_LT(Clock::now() - closing, 3s);
 }
 
 }  // namespace
