@@ -23,6 +23,26 @@ namespace {
 constexpr std::size_t kThreads = 32;  // they wait for clients most of the time
 constexpr int kBacklog = 511;         // the library's 5 makes clients wait for a second when a few come at once
 
+/// The library's threads, and how many connections wait for one.
+class CountingPool final : public httplib::TaskQueue {
+ public:
+  explicit CountingPool(std::atomic<int>& waiting) : waiting_(waiting), pool_(kThreads) {}
+
+  void enqueue(std::function<void()> task) override {
+    ++waiting_;
+    pool_.enqueue([&waiting = waiting_, task = std::move(task)] {
+      --waiting;
+      task();
+    });
+  }
+
+  void shutdown() override { pool_.shutdown(); }
+
+ private:
+  std::atomic<int>& waiting_;
+  httplib::ThreadPool pool_;
+};
+
 void set_reuse_address(socket_t socket) {
   // Not SO_REUSEPORT, the library's choice: with it a second server on the port would start without a word.
   const int yes = 1;
@@ -52,7 +72,7 @@ std::string to_wire(const Response& response) {
 
 GuardedServer::GuardedServer(const HttpLimits& limits, std::function<Response(int, const std::string&)> make_refusal)
     : limits_(limits), make_refusal_(std::move(make_refusal)) {
-  new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  new_task_queue = [this] { return new CountingPool(waiting_); };
   set_socket_options(set_reuse_address);
   set_tcp_nodelay(true);
   set_payload_max_length(limits.body_bytes);
@@ -71,7 +91,7 @@ int GuardedServer::bind(const std::string& address, int port) {
 }
 
 bool GuardedServer::process_and_close_socket(socket_t socket) {
-  HttpStream stream(socket, limits_, draining_);
+  HttpStream stream(socket, limits_, draining_, waiting_);
   events_of_this_connection.reset();
   // Called on a thread of the library's pool, where an exception would end the process.
   try {

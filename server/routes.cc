@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <exception>
 #include <optional>
 #include <string_view>
@@ -45,6 +46,7 @@ constexpr std::array kRoutes = {
     Route{"GET", "/v1/store", get_store},
     Route{"GET", "/healthz", get_health},
     Route{"GET", "/readyz", get_readiness},
+    Route{"GET", "/metrics", get_metrics},
     Route{"GET", "/", get_page_file},
     Route{"GET", "/style.css", get_page_file},
     Route{"GET", "/app.js", get_page_file},
@@ -74,22 +76,29 @@ Response make_wrong_method(const std::string& allowed) {
 }  // namespace
 
 Response Routes::answer(const Request& request) const {
+  const auto start = std::chrono::steady_clock::now();
+  std::string_view pattern;
+  Response response;
   try {
-    return dispatch(request);
+    response = dispatch(request, pattern);
   } catch (...) {
-    return make_error_answer(std::current_exception(), request.id);
+    response = make_error_answer(std::current_exception(), request.id);
   }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  metrics_->add_request(request.method, pattern, response.status, took.count());
+  return response;
 }
 
-Response Routes::dispatch(const Request& request) const {
+Response Routes::dispatch(const Request& request, std::string_view& pattern) const {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
   std::string allowed;
   for (const Route& route : kRoutes) {
     auto id = match(route.pattern, request.path);
     if (!id) continue;
+    pattern = route.pattern;
     if (route.method == method) {
       if (draining_ && changes_something(method)) return make_retry_later(503, "the service is shutting down");
-      return route.handler({service_, request, std::move(*id), draining_, waiting_room_, copying_});
+      return route.handler({service_, request, std::move(*id), draining_, *metrics_, waiting_room_, copying_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }
