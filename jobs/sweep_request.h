@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/axis.h"
+#include "jobs/design.h"
 
 namespace jobs {
 
@@ -25,12 +26,13 @@ struct SweepRequest {
   nlohmann::json parameters = nlohmann::json::object();  ///< of all points
   std::vector<nlohmann::json> cases;                     ///< empty: none were given, which counts as one
   std::vector<Axis> axes;
-  std::vector<std::string> swept;                        ///< paths that differ from job to job: axes first, then those of the cases
+  Design design;
+  std::vector<std::string> swept;                        ///< paths that differ from job to job: the design's, the axes', those of the cases
   Replicates replicates;
   bool reuse = true;
 };
 
-/// Reads {"name", "parameters", "sweep", "cases", "replicates", "reuse"}; all are optional.
+/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "reuse"}; all are optional.
 /// The number of jobs is counted before anything of that size is made.
 /// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
 [[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);
