@@ -83,7 +83,7 @@ void find_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, std
     const auto value_faults = find_value_faults(alone);
     const std::string which = is_span ? "value " + axis.values[k].dump() + ": " : "";
     for (const Fault& fault : value_faults) faults.push_back({axis.pointers[k], which + fault.detail});
-    if (repeats == Repeats::kRefused && value_faults.empty() && !seen.insert(identity_text(axis.path, axis.values[k])).second) {
+    if (repeats == Repeats::kRefused && value_faults.empty() && !seen.insert(value_identity(axis.path, axis.values[k])).second) {
       faults.push_back({axis.pointers[k], which + "is in this axis already"});
     }
   }
@@ -108,7 +108,7 @@ bool is_numeric(const std::string& path) {
   return info != nullptr ? info->kind != ParameterKind::kChoice : path.ends_with("mass_kg");
 }
 
-std::string identity_text(const std::string& path, const json& value) {
+std::string value_identity(const std::string& path, const json& value) {
   const ParameterInfo* info = find_parameter(path);
   if (info != nullptr) return canonical_value(*info, value).dump();
   return value.is_number() ? json(value.get<double>()).dump() : value.dump();
@@ -128,11 +128,11 @@ bool axis_contains(const std::string& path, const json& axis, const json& value)
   return std::ranges::any_of(axis, [&](const json& other) {
     json alone = json::object();
     set_at_path(alone, path, other);
-    return find_value_faults(alone).empty() && identity_text(path, other) == identity_text(path, value);
+    return find_value_faults(alone).empty() && value_identity(path, other) == value_identity(path, value);
   });
 }
 
-Axis make_axis(const std::string& path, const json& axis, const std::string& pointer, Repeats repeats, std::vector<Fault>& faults) {
+Axis make_axis(const std::string& path, const json& axis, const std::string& pointer, std::vector<Fault>& faults, Repeats repeats) {
   Axis made{.path = path, .values = {}, .pointers = {}};
   if (axis.is_array()) {
     add_list_values(axis, pointer, made);

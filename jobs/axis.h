@@ -31,7 +31,7 @@ enum class Repeats { kRefused, kAllowed };
 [[nodiscard]] bool is_numeric(const std::string& path);
 
 /// A value in the form in which equal values are equal: 5 and 5.0 are one number. @param value  has no faults
-[[nodiscard]] std::string identity_text(const std::string& path, const nlohmann::json& value);
+[[nodiscard]] std::string value_identity(const std::string& path, const nlohmann::json& value);
 
 /// How many values an axis has, without making them. 0 if it has faults, which are added.
 /// @param pointer  where the axis stands in the request
@@ -46,7 +46,7 @@ enum class Repeats { kRefused, kAllowed };
 /// The values of an axis whose count is known to be affordable. Faults of single values are added.
 ///
 ///     linear:  (from (n - 1 - k) + to k) / (n - 1),    log:  from (to / from)^(k / (n - 1)),    both with exact ends.
-[[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer, Repeats repeats,
-                             std::vector<Fault>& faults);
+[[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer, std::vector<Fault>& faults,
+                             Repeats repeats = Repeats::kRefused);
 
 }  // namespace jobs

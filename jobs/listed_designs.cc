@@ -18,7 +18,7 @@ std::string pointer_of(const std::string& path) { return "/design/over" + pointe
 
 std::vector<Axis> make_axes(const ordered_json& design, Repeats repeats, std::vector<Fault>& faults) {
   std::vector<Axis> axes;
-  for (const auto& [path, axis] : design.at("over").items()) axes.push_back(make_axis(path, axis, pointer_of(path), repeats, faults));
+  for (const auto& [path, axis] : design.at("over").items()) axes.push_back(make_axis(path, axis, pointer_of(path), faults, repeats));
   return axes;
 }
 
@@ -72,7 +72,7 @@ DesignPoints make_zip(const ordered_json& design, const json&, std::vector<Fault
     std::string identity;
     for (const Axis& axis : axes) {
       points[k].push_back(axis.values[k]);
-      identity += identity_text(axis.path, axis.values[k]) + ' ';
+      identity += value_identity(axis.path, axis.values[k]) + ' ';
     }
     if (!seen.insert(identity).second) faults.push_back({axes.front().pointers[k], "this value and those beside it are one of the points already"});
   }
@@ -99,7 +99,7 @@ DesignPoints make_one_at_a_time(const ordered_json& design, const json& paramete
   if (faults.size() != before) return points;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     for (const json& value : axes[i].values) {
-      if (identity_text(axes[i].path, value) == identity_text(axes[i].path, centre[i])) continue;
+      if (value_identity(axes[i].path, value) == value_identity(axes[i].path, centre[i])) continue;
       points.push_back(centre);
       points.back()[i] = value;
     }

@@ -60,7 +60,7 @@ class Dimension {
  public:
   Dimension(const std::string& path, const json& given, std::vector<Fault>& faults) : integer_(is_integer(path)) {
     if (given.is_array()) {
-      values_ = make_axis(path, given, pointer_of(path), Repeats::kRefused, faults).values;
+      values_ = make_axis(path, given, pointer_of(path), faults).values;
     } else {
       span_ = *read_span(given, {}, pointer_of(path), faults);
     }

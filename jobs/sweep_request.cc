@@ -15,10 +15,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kLongestName = 200;
-constexpr Range kReplicateCount{.minimum = 1, .maximum = 1e9};
-constexpr Range kPerturbation{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
-
 /// Reads one request; a member function a part of it.
 class Parser {
  public:
@@ -75,8 +71,8 @@ class Parser {
     if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation and seed");
     constexpr std::array<std::string_view, 3> kKeys{"count", "perturbation", "seed"};
     for (const auto& [key, value] : replicates.items()) {
-      const std::string detail = key == "count"          ? describe_integer_fault(kReplicateCount, value)
-                                 : key == "perturbation" ? describe_number_fault(kPerturbation, "", value)
+      const std::string detail = key == "count"          ? describe_integer_fault(kCountRange, value)
+                                 : key == "perturbation" ? describe_number_fault(kPerturbationRange, "", value)
                                  : key == "seed"         ? describe_integer_fault(kSeedRange, value)
                                                          : describe_unknown_key(key, kKeys);
       if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
@@ -152,7 +148,7 @@ class Parser {
       const std::string pointer = "/sweep" + pointer_token(path);
       std::vector<Fault> known;  // those that counting has reported already
       if (count_axis_values(path, axis, pointer, known) == 0) continue;
-      sweep_.axes.push_back(make_axis(path, axis, pointer, Repeats::kRefused, faults_));
+      sweep_.axes.push_back(make_axis(path, axis, pointer, faults_));
       sweep_.swept.push_back(path);
     }
   }

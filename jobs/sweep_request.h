@@ -12,6 +12,9 @@
 
 namespace jobs {
 
+inline constexpr std::size_t kLongestName = 200;  ///< bytes
+inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
+
 /// How often each point of a sweep is run, with slightly different contact stiffness.
 struct Replicates {
   bool requested = false;       ///< whether rows carry `replicate`
