@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "jobs/parameter_help.h"
 #include "server/commands/command.h"
 #include "server/commands/serve.h"
 #include "server/commands/simulate.h"
@@ -24,6 +25,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   command->add_option("--channels", options.channels, "Channels of the trajectory, with commas between; all if left out")
       ->delimiter(',')
       ->envname("RPSUP_CHANNELS");
+  command->footer("Parameters, each with its default and what is allowed:\n" + jobs::parameter_help());
   return command;
 }
 
