@@ -41,11 +41,10 @@ class Parser {
   void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
 
   void check_keys() {
-    constexpr std::array<std::string_view, 7> kKeys{"name", "parameters", "sweep", "design", "cases", "replicates", "reuse"};
     for (const auto& [key, value] : request_.items()) {
-      if (std::ranges::find(kKeys, key) != kKeys.end()) continue;
+      if (std::ranges::find(kSweepRequestKeys, key) != kSweepRequestKeys.end()) continue;
       const bool is_parameter = std::ranges::find(known_paths(), key) != known_paths().end();
-      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\"" : describe_unknown_key(key, kKeys));
+      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\"" : describe_unknown_key(key, kSweepRequestKeys));
     }
   }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +13,9 @@
 #include "jobs/design.h"
 
 namespace jobs {
+
+/// What a request may hold.
+inline constexpr std::array<std::string_view, 7> kSweepRequestKeys{"name", "parameters", "sweep", "design", "cases", "replicates", "reuse"};
 
 inline constexpr std::size_t kLongestName = 200;  ///< bytes
 inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};

@@ -5,8 +5,9 @@ import http from "node:http";
 const keptSweeps = 30;
 const keptJobs = 60;
 
+/** Half a surrogate pair has no encoding; Buffer replaces it. */
 function encoded(text) {
-  return encodeURIComponent(text.toWellFormed());
+  return encodeURIComponent(Buffer.from(text).toString());
 }
 
 export class Client {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "jobs/design_kinds.h"
+#include "jobs/sweep_request.h"
 #include "server/route_table.h"
 #include "server/web_files.h"
 #include "tests/server/service_fixture.h"
@@ -61,6 +63,15 @@ TEST(OpenApi, HasTheParametersOfTheService) {
   EXPECT_EQ(document.at("components").at("schemas").at("Parameters"), parameters);
   EXPECT_EQ(document.at("components").at("schemas").at("Ranges").at("properties").at("links.2,1.mass_kg").at("anyOf").at(0).at("items").at("$ref"),
             "#/components/schemas/Parameters/properties/links/properties/2,1/properties/mass_kg");
+}
+
+TEST(OpenApi, KnowsEveryKeyOfASweepRequestAndOfADesign) {
+  Bench bench;
+  const json schemas = json::parse(bench.call("GET", "/v1/openapi.json").body).at("components").at("schemas");
+  EXPECT_EQ(schemas.at("SweepRequest").at("properties").size(), jobs::kSweepRequestKeys.size());
+  for (const auto key : jobs::kSweepRequestKeys) EXPECT_TRUE(schemas.at("SweepRequest").at("properties").contains(key)) << key;
+  EXPECT_EQ(schemas.at("Design").at("oneOf").size(), jobs::design_kinds().size());
+  for (const json& design : schemas.at("Design").at("oneOf")) EXPECT_EQ(design.at("additionalProperties"), false);
 }
 
 // What the page asks for is part of the program, and its policy allows no more. The program may have been built without it.
