@@ -49,12 +49,8 @@ void set_reuse_address(socket_t socket) {
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// Takes out of a request what makes the library do much work for little: compressing with brotli at its slowest
-/// setting, and answering any number of ranges.
-void disarm(httplib::Request& request) {
-  request.ranges.clear();
-  request.headers.erase("Accept-Encoding");
-}
+/// Takes out of a request what makes the library do much work for little: compressing with brotli at its slowest setting.
+void disarm(httplib::Request& request) { request.headers.erase("Accept-Encoding"); }
 
 /// What the handler wants to follow the head of the answer. The library calls a handler on the thread that serves the connection,
 /// and tells it nothing of the connection.
@@ -124,6 +120,8 @@ void GuardedServer::serve(HttpStream& stream) {
   if (const auto fault = find_fault_in_head(stream.head(), limits_.body_bytes)) {
     return refuse(stream, fault->status, fault->detail);
   }
+  // The library would answer any number of ranges, and refuse those that it does not understand; whoever does not serve ranges ignores them.
+  stream.replace_head(without_header(stream.head(), "range"));
   bool connection_closed = true;
   process_request(stream, true, connection_closed, disarm);
 }

@@ -71,6 +71,11 @@ HttpStream::Head HttpStream::read_head() {
   }
 }
 
+void HttpStream::replace_head(const std::string& head) {
+  buffer_.replace(0, head_size_, head);
+  head_size_ = head.size();
+}
+
 bool HttpStream::send_all(std::string_view text) {
   while (!text.empty()) {
     const ssize_t sent = write(text.data(), text.size());

@@ -40,6 +40,9 @@ class HttpStream final : public httplib::Stream {
   Head read_head();
   [[nodiscard]] std::string_view head() const { return std::string_view(buffer_).substr(0, head_size_); }
 
+  /// Puts another head in the place of the one that was read. Not after read().
+  void replace_head(const std::string& head);
+
   /// Sends all of a text. False if the client is gone or too slow.
   bool send_all(std::string_view text);
 

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "jobs/parameter_help.h"
 #include "server/commands/command.h"
 #include "server/commands/completion.h"
 #include "server/commands/config_file.h"
@@ -40,6 +41,7 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
       ->expected(0, 1)
       ->type_name("FILE.svg")
       ->envname("RPSUP_PLOT");
+  command->footer("Parameters, each with its default and what is allowed:\n" + jobs::parameter_help());
   return command;
 }
 
@@ -140,7 +142,7 @@ std::vector<std::string> read_arguments(int argc, char** argv) {
 }
 
 int print_man_page(const CLI::App& app) {
-  server::commands::write_text("-", server::commands::make_man_page(server::commands::describe_commands(app), RPSUP_VERSION, app.get_footer()));
+  server::commands::write_text("-", server::commands::make_man_page(server::commands::describe_commands(app), RPSUP_VERSION));
   return server::commands::kDone;
 }
 

@@ -123,6 +123,16 @@ std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t bod
   return find_fault_in_framing(framing, body_bytes);
 }
 
+std::string without_header(std::string_view head, std::string_view name) {
+  std::string kept;
+  while (!head.empty()) {
+    const std::string_view line = head.substr(0, head.find("\r\n") + 2);
+    head.remove_prefix(line.size());
+    if (lower(line.substr(0, line.find(':'))) != name) kept += line;
+  }
+  return kept;
+}
+
 OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed) : bound_host_(lower(bound_host)), allowed_(std::move(allowed)) {}
 
 bool OriginCheck::is_allowed(const std::string& origin) const { return std::ranges::find(allowed_, lower(origin)) != allowed_.end(); }

@@ -25,6 +25,10 @@ inline constexpr std::size_t kMaxLineBytes = 8000;
 /// @returns what is wrong with it, if anything
 [[nodiscard]] std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes);
 
+/// A head that has passed find_fault_in_head without the lines of one header.
+/// @param name  in lower case
+[[nodiscard]] std::string without_header(std::string_view head, std::string_view name);
+
 /// Examines what names this server and where a request comes from. A page of another site that a user's browser shows
 /// must not reach this service, neither under a name that resolves to it nor by a form or a script.
 class OriginCheck {

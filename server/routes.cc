@@ -1,7 +1,6 @@
 #include "server/routes.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <chrono>
 #include <exception>
@@ -10,47 +9,12 @@
 #include <utility>
 
 #include "server/error_answer.h"
-#include "server/job_routes.h"
-#include "server/page_routes.h"
 #include "server/problem.h"
-#include "server/store_route.h"
-#include "server/sweep_events.h"
-#include "server/sweep_routes.h"
+#include "server/route_table.h"
 
 namespace server {
 
 namespace {
-
-struct Route {
-  std::string_view method;
-  std::string_view pattern;  ///< {id} stands for one segment that is_id
-  Response (*handler)(const Call&);
-};
-
-constexpr std::array kRoutes = {
-    Route{"POST", "/v1/sweeps", post_sweep},
-    Route{"GET", "/v1/sweeps", get_sweeps},
-    Route{"GET", "/v1/sweeps/{id}", get_sweep},
-    Route{"DELETE", "/v1/sweeps/{id}", delete_sweep},
-    Route{"GET", "/v1/sweeps/{id}/results", get_results},
-    Route{"GET", "/v1/sweeps/{id}/events", get_events},
-    Route{"POST", "/v1/sweeps/{id}/cancel", cancel_sweep},
-    Route{"POST", "/v1/sweeps/{id}/retry", retry_sweep},
-    Route{"POST", "/v1/sweeps/{id}/extend", extend_sweep},
-    Route{"POST", "/v1/jobs", post_job},
-    Route{"GET", "/v1/jobs", get_jobs},
-    Route{"GET", "/v1/jobs/{id}", get_job},
-    Route{"POST", "/v1/jobs/{id}/cancel", cancel_job},
-    Route{"GET", "/v1/jobs/{id}/trajectory", get_trajectory},
-    Route{"GET", "/v1/parameters", get_parameters},
-    Route{"GET", "/v1/store", get_store},
-    Route{"GET", "/healthz", get_health},
-    Route{"GET", "/readyz", get_readiness},
-    Route{"GET", "/metrics", get_metrics},
-    Route{"GET", "/", get_page_file},
-    Route{"GET", "/style.css", get_page_file},
-    Route{"GET", "/app.js", get_page_file},
-};
 
 /// The text in the place of {id} (empty for a pattern without one), if the path is of this pattern.
 std::optional<std::string> match(std::string_view pattern, std::string_view path) {
@@ -92,7 +56,7 @@ Response Routes::answer(const Request& request) const {
 Response Routes::dispatch(const Request& request, std::string_view& pattern) const {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
   std::string allowed;
-  for (const Route& route : kRoutes) {
+  for (const Route& route : route_table()) {
     auto id = match(route.pattern, request.path);
     if (!id) continue;
     pattern = route.pattern;

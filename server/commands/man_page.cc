@@ -51,6 +51,11 @@ void append_options_to(std::string& page, const CommandEntry& command) {
   for (const OptionEntry& option : command.options) page += ".TP\n" + heading(option) + "\n" + describe(option) + "\n";
 }
 
+void append_lines_to(std::string& page, const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) page += escaped(line) + "\n.br\n";
+}
+
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
@@ -58,7 +63,7 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-std::string make_man_page(const std::vector<CommandEntry>& commands, const std::string& version, const std::string& notes) {
+std::string make_man_page(const std::vector<CommandEntry>& commands, const std::string& version) {
   const CommandEntry& program = commands.front();
   std::string page = ".TH " + upper(program.name) + " 1 \"\" \"" + escaped(program.name + " " + version) + "\" \"User Commands\"\n";
   page += ".SH NAME\n" + escaped(program.name) + " \\- " + escaped(program.help) + "\n";
@@ -71,10 +76,10 @@ std::string make_man_page(const std::vector<CommandEntry>& commands, const std::
     CommandEntry own = *command;
     std::erase_if(own.options, [](const OptionEntry& option) { return option.name == "--help"; });
     append_options_to(page, own);
+    // The parser hands the program's down to commands that have none.
+    if (own.footer != program.footer) append_lines_to(page += ".PP\n", own.footer);
   }
-  page += ".SH NOTES\n";
-  std::istringstream lines(notes);
-  for (std::string line; std::getline(lines, line);) page += escaped(line) + "\n.br\n";
+  append_lines_to(page += ".SH NOTES\n", program.footer);
   return page;
 }
 

@@ -10,7 +10,6 @@ namespace server::commands {
 /// The manual page of the program in roff, for man(1).
 /// @param commands  as describe_commands() gives them
 /// @param version   of the program
-/// @param notes     what --help says below the options, a line each
-[[nodiscard]] std::string make_man_page(const std::vector<CommandEntry>& commands, const std::string& version, const std::string& notes);
+[[nodiscard]] std::string make_man_page(const std::vector<CommandEntry>& commands, const std::string& version);
 
 }  // namespace server::commands

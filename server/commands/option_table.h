@@ -27,6 +27,7 @@ struct OptionEntry {
 struct CommandEntry {
   std::string name;
   std::string help;
+  std::string footer;                ///< what follows the options, in lines
   std::vector<OptionEntry> options;
 };
 

@@ -56,7 +56,7 @@ TEST(OptionTable, SaysWhatWasDeclared) {
 }
 
 TEST(ManPage, KeepsTheSignsOfRoffOutOfTheText) {
-  const std::string page = make_man_page({{.name = "p", .help = "a\\b", .options = {}}}, "1.0", ".line\n'other\nplain-text");
+  const std::string page = make_man_page({{.name = "p", .help = "a\\b", .footer = ".line\n'other\nplain-text", .options = {}}}, "1.0");
   EXPECT_NE(page.find("a\\eb"), std::string::npos);
   EXPECT_NE(page.find("\n\\&.line\n"), std::string::npos) << page;
   EXPECT_NE(page.find("\n\\&'other\n"), std::string::npos) << page;
@@ -66,7 +66,7 @@ TEST(ManPage, KeepsTheSignsOfRoffOutOfTheText) {
 TEST(Completion, QuotesWhatShellsWouldRead) {
   EXPECT_NE(make_fish_completion(commands()).find(R"(-a go -d 'It'\''s gone')"), std::string::npos);
   EXPECT_NE(make_zsh_completion(commands()).find(R"('--word[Which]:TEXT:(a b)')"), std::string::npos);
-  CommandEntry odd{.name = "odd", .help = "", .options = {{.name = "--x", .value = "", .allowed = "", .choices = {}, .help = "a[b]:c", .default_text = "", .environment = ""}}};
+  CommandEntry odd{.name = "odd", .help = "", .footer = "", .options = {{.name = "--x", .value = "", .allowed = "", .choices = {}, .help = "a[b]:c", .default_text = "", .environment = ""}}};
   EXPECT_NE(make_zsh_completion({commands()[0], odd}).find(R"('--x[a\[b\]\:c]')"), std::string::npos);
 }
 

@@ -42,7 +42,7 @@ std::vector<std::string> lines_of(const std::string& text, const std::string& na
 server::Response follow(Bench& bench, const std::string& id, const std::string& last_event_id = "") {
   server::Request request{.method = "GET", .path = "/v1/sweeps/" + id + "/events", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.last_event_id = last_event_id;
-  return bench.routes().answer(request);
+  return bench.call(request);
 }
 
 TEST(SweepEvents, TellOfEveryJobThenOfTheEnd) {

@@ -262,6 +262,10 @@ TEST_F(Http, IgnoresRangesAndCompression) {
   EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos);
 }
 
+TEST_F(Http, IgnoresRangesThatAreNone) {
+  for (const char* const range : {"bytes=a-b", "bytes=9-1", "lines=1-2", ""}) EXPECT_EQ(status_of(get("/", std::string("range: ") + range + "\r\n")), 200) << range;
+}
+
 TEST_F(Http, RefusesOtherNamesAndOtherSites) {
   EXPECT_EQ(status_of(ask("GET /v1/sweeps HTTP/1.1\r\nHost: evil.com\r\n\r\n")), 403);
   const std::string request = R"({"sweep": {"clearance_mm": [0.1]}})";

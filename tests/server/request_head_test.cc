@@ -109,6 +109,10 @@ TEST(Origin, MayBeAnotherSiteThatIsAllowed) {
   EXPECT_TRUE(check.find_fault({"GET", "evil.com", "https://lab.example.org", "cross-site", "cors"}));
 }
 
+TEST(WithoutHeader, LeavesTheOtherLinesAsTheyAre) {
+  EXPECT_EQ(server::without_header("GET / HTTP/1.1\r\nRANGE: a\r\nHost: b\r\nX: range\r\nrange:c\r\n\r\n", "range"), "GET / HTTP/1.1\r\nHost: b\r\nX: range\r\n\r\n");
+}
+
 TEST(Loopback, IsWhatOnlyThisMachineReaches) {
   for (const char* const host : {"127.0.0.1", "127.1.2.3", "::1", "localhost"}) EXPECT_TRUE(server::is_loopback(host)) << host;
   for (const char* const host : {"0.0.0.0", "::", "128.0.0.1", "10.0.0.1", "127.0.0.1.evil.com", "", "example.org"}) {
