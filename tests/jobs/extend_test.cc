@@ -101,6 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
                     RefusalCase{"TooManyTogether", kGrid, R"({"sweep": {"clearance_mm": {"from": 1, "to": 2, "count": 100}}})", {"/sweep"}},
                     RefusalCase{"NoCasesBefore", kGrid, R"({"cases": [{"restitution": 0.5}]})", {"/cases"}},
                     RefusalCase{"OtherParametersInACase", kCases, R"({"cases": [{"clearance_mm": 0.5}]})", {"/cases/0/clearance_mm"}},
+                    RefusalCase{"NoCasesAtAll", kCases, R"({"cases": []})", {"/cases"}}, RefusalCase{"NoListOfCases", kCases, R"({"cases": {}})", {"/cases"}},
                     RefusalCase{"BadCases", kCases, R"({"cases": [{"restitution": 0.9}, {"restitution": 2}]})", {"/cases/1/restitution"}},
                     // Larger than the bearing: a fault of the set, found in the union, where the case has another number.
                     RefusalCase{"CasesThatCannotBe", R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 2}]})",
