@@ -22,19 +22,25 @@ Digest sha256(std::string_view first, std::string_view second) {
   return digest;
 }
 
-}  // namespace
-
-std::string canonical_text(const nlohmann::json& completed) { return completed.dump(); }
-
-std::string content_id(std::string_view canonical_parameters, std::string_view engine_version) {
+std::string hex_of(const Digest& digest) {
   constexpr std::string_view kHex = "0123456789abcdef";
-  // The line feed cannot stand in canonical text, so no two pairs run together into one.
   std::string hex;
-  for (const unsigned char byte : sha256(canonical_parameters, "\n" + std::string(engine_version))) {
+  for (const unsigned char byte : digest) {
     hex += kHex[byte >> 4U];
     hex += kHex[byte & 15U];
   }
   return hex;
 }
+
+}  // namespace
+
+std::string canonical_text(const nlohmann::json& completed) { return completed.dump(); }
+
+std::string content_id(std::string_view canonical_parameters, std::string_view engine_version) {
+  // The line feed cannot stand in canonical text, so no two pairs run together into one.
+  return hex_of(sha256(canonical_parameters, "\n" + std::string(engine_version)));
+}
+
+std::string sha256_hex(std::string_view text) { return hex_of(sha256(text, "")); }
 
 }  // namespace jobs

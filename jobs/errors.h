@@ -17,12 +17,14 @@ struct Fault {
 class InvalidRequest : public std::runtime_error {
  public:
   explicit InvalidRequest(std::vector<Fault> faults)
-      : std::runtime_error(faults.empty() ? "invalid request" : faults.front().pointer + ": " + faults.front().detail),
+      : std::runtime_error(faults.empty() ? "invalid request" : text_of(faults.front())),
         faults_(std::move(faults)) {}
 
   [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 
  private:
+  static std::string text_of(const Fault& fault) { return fault.pointer.empty() ? fault.detail : fault.pointer + ": " + fault.detail; }
+
   std::vector<Fault> faults_;
 };
 

@@ -16,7 +16,7 @@ namespace jobs {
 struct PlannedJob {
   std::string parameters;   ///< all of them, canonical
   std::string content_id;
-  std::string coupler;      ///< what its cost depends on most
+  std::string kind;         ///< what its cost depends on most: "flexible, clearance"
   std::optional<std::uint64_t> replicate;
   std::string swept;        ///< JSON list of the values of SweepPlan::swept
 };
@@ -26,10 +26,12 @@ struct SweepPlan {
   std::vector<std::string> swept;  ///< paths of the parameters that differ from job to job
   bool replicated = false;
   bool reuse = true;
+  std::int64_t priority = 0;
   std::vector<PlannedJob> jobs;
 };
 
-/// All jobs of a sweep: cases outermost, then the axes in their order, the last one fastest, replicates innermost.
+/// All jobs of a sweep: cases outermost, then the points of the design, then the axes in their order, the last one fastest,
+/// replicates innermost.
 /// @throws InvalidRequest with every fault; one that several points have is told once, with the first of them
 [[nodiscard]] SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs);
 

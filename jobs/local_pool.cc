@@ -57,8 +57,9 @@ void LocalPool::wake() {
 
 void LocalPool::stop_job(const std::string& id) {
   const std::lock_guard lock(claim_mutex_);
-  const auto found = running_.find(id);
-  if (found != running_.end()) found->second.request_stop();
+  for (auto& [attempt, stop] : running_) {
+    if (attempt.first == id) stop.request_stop();
+  }
 }
 
 void LocalPool::stop() {
@@ -98,7 +99,7 @@ std::optional<ClaimedJob> LocalPool::claim_next(const std::stop_token& stop, std
   const std::lock_guard lock(claim_mutex_);
   if (stop.stop_requested()) return std::nullopt;
   auto job = source_.claim();
-  if (job) running_.insert_or_assign(job->id, job_stop);
+  if (job) running_.insert_or_assign({job->id, job->attempt}, job_stop);
   return job;
 }
 
@@ -111,7 +112,7 @@ void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, cons
   deliver(job, record, stop);
   // If another job has waited for this one, this thread is about to claim it: nobody need be woken.
   const std::lock_guard lock(claim_mutex_);
-  running_.erase(job.id);
+  running_.erase({job.id, job.attempt});
 }
 
 /// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered again. If the

@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "jobs/run_record.h"
@@ -53,7 +54,8 @@ class LocalPool {
   const std::function<void(const std::string&)> log_;
 
   std::mutex claim_mutex_;  // guards running_; held while claiming, so that a job is in the store as running and here at once
-  std::map<std::string, std::stop_source> running_;
+  /// By id and attempt: a job that was cancelled and queued again may begin before its former attempt has stopped.
+  std::map<std::pair<std::string, std::int64_t>, std::stop_source> running_;
 
   std::mutex wake_mutex_;  // guards wakes_
   std::condition_variable_any wake_;

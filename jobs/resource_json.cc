@@ -9,7 +9,9 @@
 
 #include "jobs/flat_json.h"
 #include "jobs/machine.h"
+#include "jobs/parameter_path.h"
 #include "jobs/program_info.h"
+#include "jobs/time_left.h"
 #include "jobs/time_text.h"
 
 namespace jobs {
@@ -34,7 +36,7 @@ json error_json(const std::string& reason, const std::string& detail, const std:
 
 json run_json(const RunRow& run, std::int64_t attempts, bool reused) {
   return {{"wall_time_s", run.wall_time_s}, {"cpu_time_s", run.cpu_time_s}, {"attempts", attempts}, {"host", run.host}, {"cpu", run.cpu},
-          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}}},
+          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}, {"engine", run.engine}}},
           {"reused", reused}};
 }
 
@@ -54,6 +56,18 @@ double progress(const StateCounts& counts) {
   const auto total = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   const auto left = counts[static_cast<std::size_t>(JobState::kQueued)] + counts[static_cast<std::size_t>(JobState::kRunning)];
   return static_cast<double>(total - left) / static_cast<double>(total);
+}
+
+json time_left_json(const SweepRow& row, int threads) {
+  const auto left = estimate_time_left(row, threads);
+  if (!left) return {{"eta_s", nullptr}, {"eta_low_s", nullptr}, {"eta_high_s", nullptr}};
+  return {{"eta_s", left->expected_s}, {"eta_low_s", left->low_s}, {"eta_high_s", left->high_s}};
+}
+
+std::vector<std::string> keys_of(const json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
 }
 
 /// Where the metrics stand in a row of a table, by their keys.
@@ -99,6 +113,13 @@ void append_swept(const std::string& text, std::vector<json>& cells) {
   for (json& value : stored_json(text)) cells.push_back(std::move(value));
 }
 
+/// Appends the values of parameters that are not swept.
+void append_others(const std::string& parameters, const std::vector<std::string>& others, std::vector<json>& cells) {
+  if (others.empty()) return;
+  const json completed = stored_json(parameters);
+  for (const std::string& path : others) cells.push_back(value_at_path(completed, path));
+}
+
 /// What a row brings to its set. Only what has succeeded has metrics, and a peak may be null: the run ended before its window.
 ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
   return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)), .value = peak.is_number() ? std::optional(peak.get<double>()) : std::nullopt};
@@ -106,27 +127,21 @@ ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
 
 }  // namespace
 
-std::optional<double> estimate_time_left_s(const SweepRow& row, int threads) {
-  if (has_ended(row.counts)) return 0.0;
-  // By passing time: the solvers give way to other programs, so that their CPU time says too little.
-  double thread_time_s = 0.0;
-  double longest_s = 0.0;
-  for (const auto& [kind, cost] : row.costs) {
-    if (cost.queued + cost.running == 0) continue;
-    if (cost.computed == 0) return std::nullopt;
-    const double each_s = cost.wall_time_s / static_cast<double>(cost.computed);
-    thread_time_s += each_s * (static_cast<double>(cost.queued) + 0.5 * static_cast<double>(cost.running));
-    longest_s = std::max(longest_s, cost.queued > 0 ? each_s : 0.5 * each_s);
-  }
-  // However many threads there are, the last job takes its time.
-  return std::max(longest_s, thread_time_s / static_cast<double>(threads));
-}
-
-json job_json(const JobRow& row, Detail detail) {
-  json job{{"id", row.id}, {"sweep_id", value_or_null(row.sweep_id)}, {"state", row.state},
-           {"error", row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json()},
-           {"attempts", row.attempts}, {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)},
-           {"ended_at", time_or_null(row.ended_ms)}, {"run", row.run ? run_json(*row.run, row.attempts, row.reused) : json()}, {"links", job_links(row)}};
+json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& wanted) {
+  json job = json::object();
+  const auto put = [&](const char* key, const auto& make) {
+    if (wanted.empty() || std::ranges::find(wanted, key) != wanted.end()) job[key] = make();
+  };
+  put("id", [&] { return json(row.id); });
+  put("sweep_id", [&] { return value_or_null(row.sweep_id); });
+  put("state", [&] { return json(row.state); });
+  put("error", [&] { return row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json(); });
+  put("attempts", [&] { return json(row.attempts); });
+  put("created_at", [&] { return json(time_text(row.created_ms)); });
+  put("started_at", [&] { return time_or_null(row.started_ms); });
+  put("ended_at", [&] { return time_or_null(row.ended_ms); });
+  put("run", [&] { return row.run ? run_json(*row.run, row.attempts, row.reused) : json(); });
+  put("links", [&] { return job_links(row); });
   if (row.replicate) job["replicate"] = *row.replicate;
   if (detail == Detail::kFull) {
     job["parameters"] = stored_json(row.parameters);
@@ -138,10 +153,11 @@ json job_json(const JobRow& row, Detail detail) {
 json sweep_json(const SweepRow& row, int threads, Detail detail) {
   const std::string self = "/v1/sweeps/" + row.id;
   json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)},
-             {"progress", progress(row.counts)}, {"eta_s", value_or_null(estimate_time_left_s(row, threads))},
-             {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
+             {"progress", progress(row.counts)}, {"priority", row.priority}, {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
              {"axes", stored_json(row.swept)},
-             {"links", {{"self", self}, {"results", self + "/results"}, {"cancel", self + "/cancel"}}}};
+             {"links", {{"self", self}, {"results", self + "/results"}, {"events", self + "/events"}, {"cancel", self + "/cancel"},
+                        {"retry", self + "/retry"}, {"extend", self + "/extend"}}}};
+  sweep.update(time_left_json(row, threads));
   if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
   return sweep;
 }
@@ -155,31 +171,61 @@ json unstored_job_json(const json& parameters, const RunRecord& record, std::int
     error = error_json(record.error_reason, record.error_detail, record.error_t_s);
   }
   const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = host_name(), .cpu = cpu_name(),
-                   .version = std::string(kProgramVersion), .commit = std::string(kProgramCommit), .compiler = std::string(kProgramCompiler)};
+                   .version = std::string(kProgramVersion), .commit = std::string(kProgramCommit), .compiler = std::string(kProgramCompiler), .engine = std::string(kEngineVersion)};
   return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics}, {"error", error},
           {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)}, {"ended_at", time_text(ended_ms)},
           {"run", run_json(run, 1, false)}};
 }
 
-ResultTable result_table(const SweepRow& sweep, const std::vector<ResultRow>& rows) {
-  const auto swept = stored_json(sweep.swept).get<std::vector<std::string>>();
-  ResultTable table{.columns = {"job_id", "state"}, .rows = {}};
+json progress_json(const SweepRow& row, int threads) {
+  json progress_now{{"sweep_id", row.id}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)}, {"progress", progress(row.counts)}};
+  progress_now.update(time_left_json(row, threads));
+  return progress_now;
+}
+
+std::vector<std::string> swept_of(const SweepRow& sweep) { return stored_json(sweep.swept).get<std::vector<std::string>>(); }
+
+const std::vector<std::string>& sweep_listing_keys() {
+  static const std::vector<std::string> keys = [] {
+    SweepRow row;
+    row.swept = "[]";
+    return keys_of(sweep_json(row, 1, Detail::kListing));
+  }();
+  return keys;
+}
+
+const std::vector<std::string>& job_listing_keys() {
+  static const std::vector<std::string> keys = [] {
+    JobRow row;
+    row.replicate = 0;
+    return keys_of(job_json(row, Detail::kListing));
+  }();
+  return keys;
+}
+
+ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others) {
+  const SweepRow& sweep = results.sweep;
+  const auto swept = swept_of(sweep);
+  ResultTable table{.columns = {"job_id", "state"}, .rows = {}, .ended = has_ended(sweep.counts)};
   if (sweep.replicated) table.columns.emplace_back("replicate");
   table.columns.insert(table.columns.end(), swept.begin(), swept.end());
   const MetricColumns metrics = metric_columns(table.columns.size());
   for (const engine::QuantityInfo& metric : engine::metric_table()) table.columns.push_back(metric.key);
+  const std::size_t own = table.columns.size();
+  table.columns.insert(table.columns.end(), others.begin(), others.end());
   const std::size_t peak = metrics.at(std::string(kReplicateMetric));
-  table.rows.reserve(rows.size());
+  table.rows.reserve(results.rows.size());
   std::vector<ReplicateValue> peaks;
-  peaks.reserve(rows.size());
-  for (const ResultRow& row : rows) {
+  peaks.reserve(results.rows.size());
+  for (const ResultRow& row : results.rows) {
     std::vector<json> cells;
     cells.reserve(table.columns.size());
     cells.emplace_back(row.job_id);
     cells.emplace_back(row.state);
     if (sweep.replicated) cells.push_back(value_or_null(row.replicate));
     append_swept(row.swept, cells);
-    cells.resize(table.columns.size());
+    cells.resize(own);
+    append_others(row.parameters, others, cells);
     if (row.metrics) put_metrics(*row.metrics, metrics, cells);
     peaks.push_back(replicate_value(row, cells[peak]));
     table.rows.push_back(std::move(cells));

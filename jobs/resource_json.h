@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "jobs/run_record.h"
@@ -12,8 +15,8 @@ namespace jobs {
 
 enum class Detail { kFull, kListing };
 
-/// A listing leaves out parameters and metrics.
-[[nodiscard]] nlohmann::json job_json(const JobRow& row, Detail detail);
+/// A listing leaves out parameters and metrics. @param wanted  keys; others need not be made. Empty: all
+[[nodiscard]] nlohmann::json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& wanted = {});
 
 /// A listing leaves out the request. @param threads  how many jobs are computed at a time, for the ETA
 [[nodiscard]] nlohmann::json sweep_json(const SweepRow& row, int threads, Detail detail);
@@ -21,10 +24,17 @@ enum class Detail { kFull, kListing };
 /// A job that was computed without a store: no id, no links.
 [[nodiscard]] nlohmann::json unstored_job_json(const nlohmann::json& parameters, const RunRecord& record, std::int64_t started_ms, std::int64_t ended_ms);
 
-[[nodiscard]] ResultTable result_table(const SweepRow& sweep, const std::vector<ResultRow>& rows);
+/// How far a sweep is: a part of its resource.
+[[nodiscard]] nlohmann::json progress_json(const SweepRow& row, int threads);
 
-/// Seconds until the last job of a sweep ends, from what its jobs have cost so far; empty while that is not known of
-/// every kind of job that is left. A running job counts as half done.
-[[nodiscard]] std::optional<double> estimate_time_left_s(const SweepRow& row, int threads);
+/// The keys that items of a listing may have.
+[[nodiscard]] const std::vector<std::string>& sweep_listing_keys();
+[[nodiscard]] const std::vector<std::string>& job_listing_keys();
+
+/// The parameters that a sweep varies.
+[[nodiscard]] std::vector<std::string> swept_of(const SweepRow& sweep);
+
+/// @param others  parameters that the sweep does not vary, for columns of their own at the end; then rows carry their parameters
+[[nodiscard]] ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others);
 
 }  // namespace jobs

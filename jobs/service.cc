@@ -2,19 +2,23 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
 
+#include "jobs/content_id.h"
 #include "jobs/expand.h"
+#include "jobs/extend_request.h"
+#include "jobs/keys_in_use.h"
 #include "jobs/local_pool.h"
-#include "jobs/parameter_value.h"
+#include "jobs/page.h"
 #include "jobs/resource_json.h"
+#include "jobs/result_query.h"
 #include "jobs/run_record.h"
 #include "jobs/store.h"
 #include "jobs/time_text.h"
 #include "jobs/trajectory_codec.h"
+#include "jobs/trajectory_query.h"
 
 namespace jobs {
 namespace {
@@ -27,56 +31,12 @@ ServiceOptions with_defaults(ServiceOptions options) {
   return options;
 }
 
-void check_page(const PageQuery& query, std::string_view id_prefix) {
-  constexpr std::size_t kLargestPage = 1000;
-  std::vector<Fault> faults;
-  if (query.limit < 1 || query.limit > kLargestPage) faults.push_back({"/limit", "must be an integer in [1, " + std::to_string(kLargestPage) + "]"});
-  if (!query.cursor.empty() && !is_id(query.cursor, id_prefix)) faults.push_back({"/cursor", "must be the next_cursor of another page"});
-  if (!query.state.empty() && std::ranges::find(kJobStates, query.state) == kJobStates.end()) {
-    faults.push_back({"/state", "must be one of queued, running, succeeded, failed, cancelled"});
-  }
-  if (!faults.empty()) throw InvalidRequest(std::move(faults));
-}
+/// JSON that any reader takes, whatever bytes a name has.
+std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-/// @param rows  one more than the page takes, if there are as many
-template <typename Row, typename ToJson>
-json page_json(const std::vector<Row>& rows, std::size_t limit, const ToJson& to_json) {
-  json items = json::array();
-  for (std::size_t i = 0; i < std::min(limit, rows.size()); ++i) items.push_back(to_json(rows[i]));
-  return {{"items", std::move(items)}, {"next_cursor", rows.size() > limit ? rows[limit - 1].id : ""}};
-}
-
-void check_trajectory_query(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>& channels) {
-  std::vector<std::string_view> known;
-  for (const auto& channel : channels) known.push_back(channel.key);
-  std::vector<Fault> faults;
-  for (std::size_t i = 0; i < query.channels.size(); ++i) {
-    if (std::ranges::find(known, query.channels[i]) != known.end()) continue;
-    faults.push_back({"/channels/" + std::to_string(i), "\"" + query.channels[i] + "\": " + describe_unknown_key(query.channels[i], known)});
-  }
-  if (query.from && std::isnan(*query.from)) faults.push_back({"/from", "must be a number"});
-  if (query.to && std::isnan(*query.to)) faults.push_back({"/to", "must be a number"});
-  if (query.from && query.to && *query.from > *query.to) faults.push_back({"/to", "must not be less than from"});
-  if (!faults.empty()) throw InvalidRequest(std::move(faults));
-}
-
-/// t_s first, then the channels that are asked for, each once.
-std::vector<std::string> wanted_channels(const std::vector<std::string>& asked) {
-  if (asked.empty()) return {};
-  std::vector<std::string> wanted{"t_s"};
-  for (const std::string& channel : asked) {
-    if (std::ranges::find(wanted, channel) == wanted.end()) wanted.push_back(channel);
-  }
-  return wanted;
-}
-
-/// @param trajectory  with t_s as its first column
-void cut(const TrajectoryQuery& query, engine::Trajectory& trajectory) {
-  if (trajectory.columns.empty()) return;
-  const std::vector<double>& t = trajectory.columns.front();
-  const auto begin = query.from ? std::ranges::lower_bound(t, *query.from) - t.begin() : std::ptrdiff_t{0};
-  const auto end = query.to ? std::ranges::upper_bound(t, *query.to) - t.begin() : std::ssize(t);
-  for (std::vector<double>& column : trajectory.columns) column = std::vector<double>(column.begin() + begin, column.begin() + std::max(begin, end));
+json ended_job_json(const EndedJob& job) {
+  return {{"job_id", job.id}, {"state", job.state}, {"error_reason", job.error_reason ? json(*job.error_reason) : json()},
+          {"ended_at", time_text(job.ended_ms)}, {"reused", job.reused}};
 }
 
 }  // namespace
@@ -91,25 +51,56 @@ class Service::Impl {
 
   void start() {
     if (pool_) return;
-    pool_.emplace(JobSource{.claim = [this] { return store_.claim(); },
+    pool_.emplace(JobSource{.claim = [this] { return claim(); },
                             .record = [this](const ClaimedJob& job, const RunRecord& run) { record(job, run); },
                             .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
                   options_.runner, options_.threads, options_.log);
   }
 
-  json submit_sweep(const nlohmann::ordered_json& request) {
+  json submit_sweep(const nlohmann::ordered_json& request, const std::string& key) {
     check_open();
-    const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
-    const std::string id = store_.add_sweep(plan, request.dump(), options_.max_queued_jobs);
-    wake();
-    return find_sweep(id).value();
+    const std::string text = request.dump();
+    return once(key, "POST /v1/sweeps " + sha256_hex(text), [&](const std::string& name, std::string& answer) {
+      const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
+      const KeptAnswer<SweepRow> kept{.key = key, .request = name, .make_text = [&](const SweepRow& row) {
+                                        return answer = text_of(sweep_json(row, options_.threads, Detail::kFull));
+                                      }};
+      const std::string id = store_.add_sweep(plan, text, options_.max_queued_jobs, kept);
+      wake();
+      return find_sweep(id).value();
+    });
   }
 
-  json submit_job(const json& parameters) {
+  json submit_job(const json& parameters, const std::string& key) {
     check_open();
-    const std::string id = store_.add_job(plan_job(parameters), options_.max_queued_jobs);
+    return once(key, "POST /v1/jobs " + sha256_hex(parameters.dump()), [&](const std::string& name, std::string& answer) {
+      const KeptAnswer<JobRow> kept{
+          .key = key, .request = name, .make_text = [&](const JobRow& row) { return answer = text_of(job_json(row, Detail::kFull)); }};
+      const std::string id = store_.add_job(plan_job(parameters), options_.max_queued_jobs, kept);
+      wake();
+      return find_job(id).value();
+    });
+  }
+
+  std::optional<json> extend_sweep(const std::string& id, const nlohmann::ordered_json& addition) {
+    check_open();
+    for (bool done = false; !done;) {  // again, if another extension came in between
+      const auto sweep = store_.find_sweep(id);
+      if (!sweep) return std::nullopt;
+      const Extension extension = plan_extension(nlohmann::ordered_json::parse(sweep->request), addition, options_.max_sweep_jobs);
+      done = extension.jobs.empty() || store_.extend_sweep(id, sweep->request, extension.request.dump(), extension.jobs, options_.max_queued_jobs);
+    }
     wake();
-    return find_job(id).value();
+    tell_change();
+    return find_sweep(id);
+  }
+
+  std::optional<json> retry_sweep(const std::string& id) {
+    check_open();
+    if (!store_.retry_sweep(id, options_.max_queued_jobs)) return std::nullopt;
+    wake();
+    tell_change();
+    return find_sweep(id);
   }
 
   [[nodiscard]] std::optional<json> find_sweep(const std::string& id) const {
@@ -123,42 +114,60 @@ class Service::Impl {
   }
 
   [[nodiscard]] json list_sweeps(const PageQuery& query) const {
-    check_page(query, kSweepPrefix);
-    return page_json(store_.list_sweeps(query.state, query.cursor, query.limit + 1), query.limit,
+    const PageChecker checker(query, kSweepPrefix, sweep_listing_keys());
+    return make_page(store_.list_sweeps(query.state, query.cursor, query.limit + 1), query.limit, checker,
                      [&](const SweepRow& row) { return sweep_json(row, options_.threads, Detail::kListing); });
   }
 
   [[nodiscard]] json list_jobs(const PageQuery& query) const {
-    check_page(query, kJobPrefix);
-    return page_json(store_.list_jobs(query.state, query.cursor, query.limit + 1), query.limit,
-                     [](const JobRow& row) { return job_json(row, Detail::kListing); });
+    const PageChecker checker(query, kJobPrefix, job_listing_keys());
+    return make_page(store_.list_jobs(query.state, query.cursor, query.limit + 1), query.limit, checker,
+                     [&](const JobRow& row) { return job_json(row, Detail::kListing, checker.wanted()); });
   }
 
-  [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id) const {
+  [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id, const ResultQuery& query) const {
     const auto sweep = store_.find_sweep(sweep_id);
     if (!sweep) return std::nullopt;
-    return result_table(*sweep, store_.list_results(sweep_id));
+    const auto others = find_other_parameters(query, swept_of(*sweep));
+    const auto results = store_.find_results(sweep_id, !others.empty());
+    if (!results) return std::nullopt;
+    ResultTable table = result_table(*results, others);
+    jobs::apply(query, table);
+    return table;
   }
 
   [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const {
     const auto blob = store_.find_trajectory(job_id);
     if (!blob) return std::nullopt;
     try {
-      const auto bytes = std::as_bytes(std::span(*blob));
-      check_trajectory_query(query, decode_channels(bytes));
-      engine::Trajectory trajectory = decode_trajectory(bytes, wanted_channels(query.channels));
-      cut(query, trajectory);
-      return trajectory;
+      return read_trajectory(std::as_bytes(std::span(*blob)), query);
     } catch (const DamagedTrajectory& damage) {
       throw StorageError("the trajectory of " + job_id + " cannot be read: " + damage.what(), 0, false);
     }
   }
 
-  std::optional<json> cancel_sweep(const std::string& id) {
-    return apply(store_.cancel_sweep(id), "the sweep has ended") ? find_sweep(id) : std::nullopt;
+  [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const {
+    const auto changes = store_.find_changes(sweep_id, after);
+    if (!changes) return std::nullopt;
+    SweepNews news{.progress = progress_json(changes->sweep, options_.threads), .ended = has_ended(changes->sweep.counts), .jobs = {}};
+    for (const EndedJob& job : changes->ended) news.jobs.push_back({.change = job.change, .job = ended_job_json(job)});
+    return news;
   }
 
-  std::optional<json> cancel_job(const std::string& id) { return apply(store_.cancel_job(id), "the job has ended") ? find_job(id) : std::nullopt; }
+  [[nodiscard]] Load find_load() const { return store_.find_load(); }
+
+  [[nodiscard]] std::uint64_t activity() const { return activity_; }
+
+  [[nodiscard]] bool copy_store_to(const std::filesystem::path& file) const {
+    return copy_store(options_.store, file, [this] { return stopped_.load(); });
+  }
+  [[nodiscard]] const std::filesystem::path& store_file() const { return options_.store; }
+
+  std::optional<json> cancel_sweep(const std::string& id) {
+    return finish_cancelling(store_.cancel_sweep(id), "the sweep has ended") ? find_sweep(id) : std::nullopt;
+  }
+
+  std::optional<json> cancel_job(const std::string& id) { return finish_cancelling(store_.cancel_job(id), "the job has ended") ? find_job(id) : std::nullopt; }
 
   bool delete_sweep(const std::string& id) {
     const DeleteOutcome outcome = store_.delete_sweep(id);
@@ -178,16 +187,37 @@ class Service::Impl {
       if (!ended) return false;
       if (*ended) return true;
       lock.lock();
-      if (!changed_.wait_until(lock, until, [&] { return changes_ != seen; })) return false;
+      if (!changed_.wait_until(lock, until, [&] { return changes_ != seen || stopped_; }) || stopped_) return false;
     }
   }
 
   void stop() {
     stopped_ = true;
     if (pool_) pool_->stop();
+    tell_change();
   }
 
  private:
+  /// Answers a request that has a key as it was answered before, or does submit(name of the request, its answer to be).
+  template <typename Submit>
+  json once(const std::string& key, const std::string& name, const Submit& submit) {
+    std::string answer;
+    if (key.empty()) return submit(name, answer);
+    const KeysInUse::Use use(keys_, key);
+    if (const auto found = store_.find_answer(key)) {
+      if (found->request == name) return json::parse(found->text);
+      throw InvalidRequest(std::vector<Fault>{{"", "this Idempotency-Key belongs to another request; a new request needs a new key"}});
+    }
+    submit(name, answer);
+    return json::parse(answer);  // as it is kept, so that both answers are the same
+  }
+
+  std::optional<ClaimedJob> claim() {
+    auto job = store_.claim();
+    if (job) ++activity_;
+    return job;
+  }
+
   void check_open() const {
     if (stopped_) throw WrongState("the service has been stopped and takes nothing new");
   }
@@ -202,7 +232,7 @@ class Service::Impl {
   }
 
   /// Does the rest of a cancellation. False if there is nothing of that id.
-  bool apply(const Cancellation& cancellation, const char* why_not) {
+  bool finish_cancelling(const Cancellation& cancellation, const char* why_not) {
     if (cancellation.outcome == CancelOutcome::kMissing) return false;
     if (cancellation.outcome == CancelOutcome::kEnded) throw WrongState(why_not);
     for (const std::string& job : cancellation.running) {
@@ -214,6 +244,7 @@ class Service::Impl {
   }
 
   void tell_change() {
+    ++activity_;
     {
       const std::lock_guard lock(change_mutex_);
       ++changes_;
@@ -226,6 +257,8 @@ class Service::Impl {
   mutable std::mutex change_mutex_;  // guards changes_
   mutable std::condition_variable changed_;
   std::uint64_t changes_ = 0;  ///< how often a sweep may have ended
+  std::atomic<std::uint64_t> activity_ = 0;
+  KeysInUse keys_;
   Store store_;
   std::optional<LocalPool> pool_;  // ends before the store it works for; empty before start()
 };
@@ -234,16 +267,25 @@ Service::Service(ServiceOptions options) : impl_(std::make_unique<Impl>(std::mov
 Service::~Service() { stop(); }
 
 void Service::start() { impl_->start(); }
-json Service::submit_sweep(const nlohmann::ordered_json& request) { return impl_->submit_sweep(request); }
-json Service::submit_job(const json& parameters) { return impl_->submit_job(parameters); }
+json Service::submit_sweep(const nlohmann::ordered_json& request, const std::string& key) { return impl_->submit_sweep(request, key); }
+json Service::submit_job(const json& parameters, const std::string& key) { return impl_->submit_job(parameters, key); }
+std::optional<json> Service::extend_sweep(const std::string& id, const nlohmann::ordered_json& addition) { return impl_->extend_sweep(id, addition); }
+std::optional<json> Service::retry_sweep(const std::string& id) { return impl_->retry_sweep(id); }
 std::optional<json> Service::find_sweep(const std::string& id) const { return impl_->find_sweep(id); }
 std::optional<json> Service::find_job(const std::string& id) const { return impl_->find_job(id); }
 json Service::list_sweeps(const PageQuery& query) const { return impl_->list_sweeps(query); }
 json Service::list_jobs(const PageQuery& query) const { return impl_->list_jobs(query); }
-std::optional<ResultTable> Service::find_results(const std::string& sweep_id) const { return impl_->find_results(sweep_id); }
+std::optional<ResultTable> Service::find_results(const std::string& sweep_id, const ResultQuery& query) const {
+  return impl_->find_results(sweep_id, query);
+}
+std::optional<SweepNews> Service::find_news(const std::string& sweep_id, std::int64_t after) const { return impl_->find_news(sweep_id, after); }
+std::uint64_t Service::activity() const { return impl_->activity(); }
+bool Service::copy_store_to(const std::filesystem::path& file) const { return impl_->copy_store_to(file); }
+const std::filesystem::path& Service::store_file() const { return impl_->store_file(); }
 std::optional<engine::Trajectory> Service::find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const {
   return impl_->find_trajectory(job_id, query);
 }
+Load Service::find_load() const { return impl_->find_load(); }
 std::optional<json> Service::cancel_sweep(const std::string& id) { return impl_->cancel_sweep(id); }
 std::optional<json> Service::cancel_job(const std::string& id) { return impl_->cancel_job(id); }
 bool Service::delete_sweep(const std::string& id) { return impl_->delete_sweep(id); }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -41,9 +42,26 @@ struct ServiceOptions {
 
 /// A page of a listing.
 struct PageQuery {
+  static constexpr std::size_t kLargestLimit = 10'000;
+
   std::string state;            ///< only these; empty: all
-  std::size_t limit = 50;       ///< 1 .. 1000
+  std::size_t limit = 50;       ///< 1 .. kLargestLimit
   std::string cursor;           ///< next_cursor of the page before; empty: the newest
+  std::string fields{};         ///< keys of the items, with commas between; empty: all
+};
+
+/// A condition on the rows of a table.
+struct ResultFilter {
+  std::string key;    ///< a column, for equality, or a column with _gt, _lt, _ge or _le
+  std::string value;
+};
+
+/// What is wanted of the results of a sweep. Columns are those of its table, and all other parameters.
+struct ResultQuery {
+  std::string fields;                 ///< columns, with commas between, in the order in which they are wanted; empty: all
+  std::vector<ResultFilter> filters;  ///< rows that have no value of the column pass none
+  std::string order_by;               ///< columns, with commas between; one with a leading '-' has its largest values first. Null comes last
+  std::optional<std::size_t> limit;   ///< rows
 };
 
 /// Flat rows, one a job, in the order in which the sweep was expanded. Columns are the same for JSON and CSV:
@@ -52,20 +70,40 @@ struct ResultTable {
   std::vector<std::string> columns;
   std::vector<std::vector<nlohmann::json>> rows;  ///< null where a job has no value
   std::vector<ReplicateStatistics> replicates{};  ///< of each row's set, one a row; empty unless sets were run more than once
+  bool ended = false;  ///< whether the sweep had ended
 };
 
 /// What is wanted of a trajectory.
 struct TrajectoryQuery {
   std::vector<std::string> channels;  ///< empty: all; t_s always comes first
   std::optional<double> from, to;     ///< [s], both included
+  std::optional<std::size_t> points{};  ///< at most so many samples, see decimate(); empty: all
+};
+
+/// What has happened to a sweep since a change.
+struct SweepNews {
+  nlohmann::json progress;               ///< {"sweep_id", "state", "counts", "progress", "eta_s", "eta_low_s", "eta_high_s"}
+  bool ended = false;
+  /// A job that has ended: {"job_id", "state", "error_reason", "ended_at", "reused"}.
+  struct EndedJob {
+    std::int64_t change = 0;             ///< grows from end to end; jobs that ended together share it
+    nlohmann::json job;
+  };
+  std::vector<EndedJob> jobs;            ///< by change
+};
+
+/// How much there is to do, and what the store takes.
+struct Load {
+  std::int64_t queued = 0, running = 0;  ///< jobs
+  std::int64_t store_bytes = 0;          ///< on disk, with its log
 };
 
 /// The study queue: validates, stores, computes and hands out sweeps and jobs. One per store.
 ///
 /// Every JSON it returns is the resource as the HTTP interface and the command line show it.
 /// All members may be called from any thread.
-/// What throws: InvalidRequest (a faulty request; of a query "/limit", "/state", "/cursor", "/channels/0", "/from", "/to"
-/// are the pointers), WrongState, StorageError.
+/// What throws: InvalidRequest (a faulty request; of a query "/limit", "/state", "/cursor", "/fields/0", "/order_by/0",
+/// "/clearance_mm_gt", "/channels/0", "/from", "/to", "/points" are the pointers), WrongState, StorageError.
 class Service {
  public:
   /// Opens the store (its lock is held until destruction), queues again what a former process left running, and starts the pool if
@@ -82,16 +120,25 @@ class Service {
   /// @param request  order-preserving, since the axes multiply in the order in which they were written, the last one
   ///                 fastest: parse the body with nlohmann::ordered_json::parse
   /// @throws QueueFull if more than max_queued_jobs would be waiting
-  nlohmann::json submit_sweep(const nlohmann::ordered_json& request);
-  nlohmann::json submit_job(const nlohmann::json& parameters);
+  /// @param key  chosen by the client; for a week, the same request under the same key is answered as before, and nothing new is
+  ///             stored. Another request under it is an InvalidRequest, one that comes while the first is answered a WrongState. Empty: none
+  nlohmann::json submit_sweep(const nlohmann::ordered_json& request, const std::string& key = {});
+  nlohmann::json submit_job(const nlohmann::json& parameters, const std::string& key = {});
+
+  /// Adds values to the axes of a sweep, and cases to its cases; only what is new is computed. See plan_extension().
+  std::optional<nlohmann::json> extend_sweep(const std::string& id, const nlohmann::ordered_json& addition);
+  /// Queues the failed and cancelled jobs of a sweep again; those that have succeeded stay.
+  std::optional<nlohmann::json> retry_sweep(const std::string& id);
 
   [[nodiscard]] std::optional<nlohmann::json> find_sweep(const std::string& id) const;
   [[nodiscard]] std::optional<nlohmann::json> find_job(const std::string& id) const;
   [[nodiscard]] nlohmann::json list_sweeps(const PageQuery& query) const;  ///< {"items": [...], "next_cursor": ""}
   [[nodiscard]] nlohmann::json list_jobs(const PageQuery& query) const;
-  [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id) const;
+  [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id, const ResultQuery& query = {}) const;
   /// Empty if there is no such job or it has no trajectory (yet).
   [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const;
+
+  [[nodiscard]] Load find_load() const;
 
   /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there is none.
   /// Cancelling what is already cancelled changes nothing; what has ended otherwise throws WrongState.
@@ -101,7 +148,17 @@ class Service {
   /// Deletes a sweep that has ended, with its jobs and the results that no other job shares. False if there is none.
   bool delete_sweep(const std::string& id);
 
-  /// Blocks until the sweep has ended, or for that long. True if it has ended; false at once if there is none.
+  /// What has ended since that change; 0: since the beginning.
+  [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const;
+  /// A number that grows whenever a job begins or ends, or is changed otherwise.
+  [[nodiscard]] std::uint64_t activity() const;
+
+  /// Writes a consistent copy of the store to a file that does not exist, while everything goes on.
+  /// @returns false if the service was stopped before it was done; then there is no file
+  bool copy_store_to(const std::filesystem::path& file) const;
+  [[nodiscard]] const std::filesystem::path& store_file() const;
+
+  /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once if there is none.
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const;
 
   /// Ends the pool: running jobs are stopped and go back to the queue. Nothing can be submitted afterwards.

@@ -1,144 +1,98 @@
 #include "jobs/store.h"
 
-#include "jobs/content_id.h"
-#include "jobs/program_info.h"
+#include "jobs/store_insert.h"
+#include "jobs/store_rows.h"
 #include "jobs/time_text.h"
 
 namespace jobs {
 namespace {
 
-/// Stores jobs inside one transaction; its statements are prepared once.
-class JobInserter {
- public:
-  JobInserter(SQLite::Database& database, IdMaker& ids, std::int64_t now_ms)
-      : ids_(ids),
-        now_ms_(now_ms),
-        add_content_(database, "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING"),
-        find_content_(database, "SELECT seq FROM contents WHERE content_id = ?"),
-        find_result_(database, "SELECT max(seq) FROM results WHERE content = ? AND error_reason IS NULL"),
-        add_job_(database,
-                 "INSERT INTO jobs (id, sweep, replicate, swept, content, coupler, reuse, created_ms, state, result, reused, started_ms, ended_ms) "
-                 "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
-
-  std::string insert(const PlannedJob& job, std::optional<std::int64_t> sweep, bool reuse) {
-    const std::int64_t content = content_of(job);
-    const auto result = reuse ? known_result(content) : std::nullopt;
-    std::string id = ids_.make(kJobPrefix, now_ms_);
-    add_job_.reset();
-    add_job_.clearBindings();  // what is not bound below is null
-    add_job_.bind(1, id);
-    if (sweep) add_job_.bind(2, *sweep);
-    if (job.replicate) add_job_.bind(3, static_cast<std::int64_t>(*job.replicate));
-    add_job_.bind(4, job.swept);
-    add_job_.bind(5, content);
-    add_job_.bind(6, job.coupler);
-    add_job_.bind(7, reuse ? 1 : 0);
-    add_job_.bind(8, now_ms_);
-    add_job_.bind(9, std::string(state_name(result ? JobState::kSucceeded : JobState::kQueued)));
-    add_job_.bind(11, result ? 1 : 0);
-    if (result) {
-      add_job_.bind(10, *result);
-      add_job_.bind(12, now_ms_);
-      add_job_.bind(13, now_ms_);
-    }
-    add_job_.exec();
-    return id;
-  }
-
- private:
-  std::int64_t content_of(const PlannedJob& job) {
-    add_content_.reset();
-    add_content_.bind(1, job.content_id);
-    add_content_.bind(2, std::string(kEngineVersion));
-    add_content_.bind(3, job.parameters);
-    add_content_.exec();
-    find_content_.reset();
-    find_content_.bind(1, job.content_id);
-    find_content_.executeStep();
-    return find_content_.getColumn(0).getInt64();
-  }
-
-  std::optional<std::int64_t> known_result(std::int64_t content) {
-    find_result_.reset();
-    find_result_.bind(1, content);
-    find_result_.executeStep();
-    const SQLite::Column result = find_result_.getColumn(0);
-    return result.isNull() ? std::nullopt : std::optional(result.getInt64());
-  }
-
-  IdMaker& ids_;
-  std::int64_t now_ms_;
-  SQLite::Statement add_content_, find_content_, find_result_, add_job_;
-};
-
-/// Throws, and so undoes the transaction, if there is no room for what has just been added.
-void check_room(SQLite::Database& database, std::size_t max_queued) {
-  const auto queued = database.execAndGet("SELECT count(*) FROM jobs WHERE state = 'queued'").getInt64();
-  if (static_cast<std::size_t>(queued) > max_queued) {
-    throw QueueFull("with these, " + std::to_string(queued) + " jobs would be waiting; at most " + std::to_string(max_queued) + " may");
-  }
-}
-
-/// Jobs that a former version of the engine was to compute have results of that version as theirs; give them new names.
-void rename_queued_contents(SQLite::Database& database) {
-  SQLite::Statement old(database,
-                        "SELECT DISTINCT c.seq, c.parameters FROM jobs j JOIN contents c ON c.seq = j.content "
-                        "WHERE j.state = 'queued' AND c.engine_version <> ?");
-  old.bind(1, std::string(kEngineVersion));
-  std::vector<std::pair<std::int64_t, std::string>> contents;
-  while (old.executeStep()) contents.emplace_back(old.getColumn(0).getInt64(), old.getColumn(1).getString());
-  for (const auto& [seq, parameters] : contents) {
-    const std::string name = content_id(parameters, kEngineVersion);
-    SQLite::Statement add(database, "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING");
-    add.bind(1, name);
-    add.bind(2, std::string(kEngineVersion));
-    add.bind(3, parameters);
-    add.exec();
-    SQLite::Statement move(database, "UPDATE jobs SET content = (SELECT seq FROM contents WHERE content_id = ?) WHERE content = ? AND state = 'queued'");
-    move.bind(1, name);
-    move.bind(2, seq);
-    move.exec();
-  }
-}
+constexpr std::int64_t kAnswersAreKept_ms = 7LL * 24 * 3600 * 1000;
 
 std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms) {
-  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, created_ms) VALUES (?, ?, ?, ?, ?, ?)");
+  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?)");
   add.bind(1, id);
   add.bind(2, plan.name);
   add.bind(3, request);
   add.bind(4, nlohmann::json(plan.swept).dump());
   add.bind(5, plan.replicated ? 1 : 0);
-  add.bind(6, now_ms);
+  add.bind(6, plan.priority);
+  add.bind(7, now_ms);
   add.exec();
   return database.getLastInsertRowid();
+}
+
+/// Keeps the answer for those who send the same request again, and forgets old ones.
+void keep_answer(SQLite::Database& database, const std::string& key, const std::string& request, const std::string& answer) {
+  const std::int64_t now_ms = now_unix_ms();
+  SQLite::Statement forget(database, "DELETE FROM answers WHERE created_ms < ?");
+  forget.bind(1, now_ms - kAnswersAreKept_ms);
+  forget.exec();
+  SQLite::Statement add(database, "INSERT INTO answers (key, request, answer, created_ms) VALUES (?, ?, ?, ?)");
+  add.bind(1, key);
+  add.bind(2, request);
+  add.bind(3, answer);
+  add.bind(4, now_ms);
+  add.exec();
 }
 
 }  // namespace
 
 Store::Store(const std::filesystem::path& file) : lock_(file), writer_(file), readers_(file) {
-  writer_.write(Durability::kSurvivesPowerLoss, [](SQLite::Database& database) {
+  writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running'");
     rename_queued_contents(database);
+    changes_ = database.execAndGet("SELECT coalesce(max(change), 0) FROM jobs WHERE change IS NOT NULL").getInt64();
   });
 }
 
-std::string Store::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued) {
+std::string Store::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued, const KeptAnswer<SweepRow>& kept) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     std::string id = ids_.make(kSweepPrefix, now_ms);
     const std::int64_t sweep = insert_sweep(database, id, plan, request, now_ms);
-    JobInserter inserter(database, ids_, now_ms);
+    JobInserter inserter(database, ids_, now_ms, ++changes_);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, sweep, plan.reuse);
     check_room(database, max_queued);
+    if (!kept.key.empty()) keep_answer(database, kept.key, kept.request, kept.make_text(read_sweep(database, id).value()));
     return id;
   });
 }
 
-std::string Store::add_job(const PlannedJob& job, std::size_t max_queued) {
+std::string Store::add_job(const PlannedJob& job, std::size_t max_queued, const KeptAnswer<JobRow>& kept) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    std::string id = JobInserter(database, ids_, now_unix_ms()).insert(job, std::nullopt, true);
+    std::string id = JobInserter(database, ids_, now_unix_ms(), ++changes_).insert(job, std::nullopt, true);
     check_room(database, max_queued);
+    if (!kept.key.empty()) keep_answer(database, kept.key, kept.request, kept.make_text(read_job(database, id).value()));
     return id;
+  });
+}
+
+bool Store::extend_sweep(const std::string& id, const std::string& former, const std::string& request, const std::vector<PlannedJob>& jobs,
+                         std::size_t max_queued) {
+  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    SQLite::Statement change(database, "UPDATE sweeps SET request = ? WHERE id = ? AND request = ? RETURNING seq, (SELECT reuse FROM jobs WHERE sweep = seq LIMIT 1)");
+    change.bind(1, request);
+    change.bind(2, id);
+    change.bind(3, former);
+    if (!change.executeStep()) return false;
+    const std::int64_t sweep = change.getColumn(0).getInt64();
+    const bool reuse = change.getColumn(1).getInt() != 0;
+    change.executeStep();
+    JobInserter inserter(database, ids_, now_unix_ms(), ++changes_);
+    for (const PlannedJob& job : jobs) inserter.insert(job, sweep, reuse);
+    check_room(database, max_queued);
+    return true;
+  });
+}
+
+std::optional<FoundAnswer> Store::find_answer(const std::string& key) const {
+  return readers_.read([&](const SQLite::Database& database) -> std::optional<FoundAnswer> {
+    SQLite::Statement find(database, "SELECT request, answer FROM answers WHERE key = ? AND created_ms >= ?");
+    find.bind(1, key);
+    find.bind(2, now_unix_ms() - kAnswersAreKept_ms);
+    if (!find.executeStep()) return std::nullopt;
+    return FoundAnswer{.request = find.getColumn(0).getString(), .text = find.getColumn(1).getString()};
   });
 }
 

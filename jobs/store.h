@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -24,16 +25,18 @@ inline constexpr std::array<std::string_view, 5> kJobStates{"queued", "running",
 /// How many jobs of a sweep are in each state, by JobState.
 using StateCounts = std::array<std::int64_t, kJobStates.size()>;
 
-/// What is left to compute of a sweep, and what its jobs have cost so far, by coupler kind.
+/// What is left to compute of a sweep, and what its jobs have cost so far, by PlannedJob::kind.
 struct CostOfKind {
   std::int64_t queued = 0, running = 0;
-  std::int64_t computed = 0;   ///< ended jobs that were computed, not reused
-  double wall_time_s = 0.0;    ///< of those together, each on one thread
+  std::int64_t computed = 0;        ///< ended jobs that were computed, not reused
+  double wall_time_s = 0.0;         ///< of those together, each on one thread
+  double wall_time_squares_s2 = 0;  ///< the sum of their squares
 };
 
 struct SweepRow {
   std::string id, name, request, swept;
   bool replicated = false;
+  std::int64_t priority = 0;
   std::int64_t created_ms = 0;
   std::optional<std::int64_t> started_ms, ended_ms;  ///< of its first job, and of its last one if all have ended
   StateCounts counts{};
@@ -43,7 +46,7 @@ struct SweepRow {
 /// The run behind a result.
 struct RunRow {
   double wall_time_s = 0.0, cpu_time_s = 0.0;
-  std::string host, cpu, version, commit, compiler;
+  std::string host, cpu, version, commit, compiler, engine;
 };
 
 struct JobRow {
@@ -68,6 +71,40 @@ struct ResultRow {
   std::string job_id, state, swept;
   std::optional<std::int64_t> replicate;
   std::optional<std::string> metrics;
+  std::string parameters{};  ///< only if they were asked for
+};
+
+/// All jobs of a sweep as one picture of the store has them.
+struct SweepResults {
+  SweepRow sweep;
+  std::vector<ResultRow> rows;  ///< in the order in which the sweep was expanded, what was added to it later last
+};
+
+/// A job that has ended.
+struct EndedJob {
+  std::int64_t change = 0;  ///< grows from end to end; what ended in one transaction shares it
+  std::string id, state;
+  std::optional<std::string> error_reason;
+  std::int64_t ended_ms = 0;
+  bool reused = false;
+};
+
+/// What has happened to a sweep since a change.
+struct SweepChanges {
+  SweepRow sweep;
+  std::vector<EndedJob> ended;  ///< by change
+};
+
+/// How the answer to a request is kept, so that the same request sent again gets it again.
+template <typename Row>
+struct KeptAnswer {
+  std::string key;                                  ///< chosen by the client; empty: nothing is kept
+  std::string request;                              ///< what tells the request from others
+  std::function<std::string(const Row&)> make_text; ///< the answer
+};
+
+struct FoundAnswer {
+  std::string request, text;
 };
 
 /// A job that a worker has taken.
@@ -95,10 +132,19 @@ class Store {
 
   /// Stores a sweep with its jobs, those whose result is known as succeeded. Returns its id.
   /// @throws QueueFull if more than max_queued jobs would wait
-  std::string add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued);
-  std::string add_job(const PlannedJob& job, std::size_t max_queued);
+  std::string add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued, const KeptAnswer<SweepRow>& kept = {});
+  std::string add_job(const PlannedJob& job, std::size_t max_queued, const KeptAnswer<JobRow>& kept = {});
+  /// The answer that is kept under a key, for a week.
+  [[nodiscard]] std::optional<FoundAnswer> find_answer(const std::string& key) const;
 
-  /// Takes a job: of the sweep that was served least recently, the first whose content nobody is computing.
+  /// Adds jobs to a sweep and replaces its request. False, and nothing is stored, if the request is not `former` any more.
+  bool extend_sweep(const std::string& id, const std::string& former, const std::string& request, const std::vector<PlannedJob>& jobs,
+                    std::size_t max_queued);
+  /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at once. False if there is none.
+  bool retry_sweep(const std::string& id, std::size_t max_queued);
+
+  /// Takes a job: of the sweeps of the highest priority the one that was served least recently, of that the first whose content
+  /// nobody is computing.
   [[nodiscard]] std::optional<ClaimedJob> claim();
   /// Stores what a run left, and settles every queued job of the same content. False, and nothing is stored, if the job
   /// is no longer this attempt's (it was cancelled).
@@ -117,7 +163,11 @@ class Store {
   /// Newest first. @param state empty: all  @param before  an id; empty: the newest
   [[nodiscard]] std::vector<SweepRow> list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const;
   [[nodiscard]] std::vector<JobRow> list_jobs(const std::string& state, const std::string& before, std::size_t limit) const;
-  [[nodiscard]] std::vector<ResultRow> list_results(const std::string& sweep_id) const;
+  /// @param parameters  whether rows carry all parameters
+  [[nodiscard]] std::optional<SweepResults> find_results(const std::string& sweep_id, bool parameters) const;
+  /// What has ended after that change; 0: everything.
+  [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
+  [[nodiscard]] Load find_load() const;
   /// The packed trajectory of a job that has one.
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
 
@@ -130,7 +180,13 @@ class Store {
   // Which sweep was served when, as counted by claims; single jobs are sweep 0 together. Guarded by the writer's lock.
   std::map<std::int64_t, std::uint64_t> served_;
   std::uint64_t claims_ = 0;
+  std::int64_t changes_ = 0;  ///< the last EndedJob::change; guarded by the writer's lock
 };
+
+/// Writes a consistent copy of a store, a store itself, to a file that does not exist. The store may be in use by any process, which goes on.
+/// @param stop  asked now and then; true ends the copying, and there is no file
+/// @returns whether there is a copy
+bool copy_store(const std::filesystem::path& store, const std::filesystem::path& file, const std::function<bool()>& stop);
 
 /// The state of a sweep as its jobs make it.
 [[nodiscard]] std::string_view sweep_state(const StateCounts& counts);

@@ -1,18 +1,13 @@
-// Ending and deleting what is stored.
+// Ending and deleting what is stored, and trying it again.
 
 #include <algorithm>
 
 #include "jobs/store.h"
+#include "jobs/store_insert.h"
 #include "jobs/time_text.h"
 
 namespace jobs {
 namespace {
-
-std::optional<std::int64_t> find_sweep_seq(SQLite::Database& database, const std::string& id) {
-  SQLite::Statement find(database, "SELECT seq FROM sweeps WHERE id = ?");
-  find.bind(1, id);
-  return find.executeStep() ? std::optional(find.getColumn(0).getInt64()) : std::nullopt;
-}
 
 std::vector<std::string> find_running(SQLite::Database& database, const char* column, const std::string& id) {
   SQLite::Statement find(database, std::string("SELECT j.id FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep WHERE j.state = 'running' AND ") + column + " = ?");
@@ -23,10 +18,11 @@ std::vector<std::string> find_running(SQLite::Database& database, const char* co
 }
 
 /// @param whose  SQL condition on the jobs, with one parameter
-int cancel_where(SQLite::Database& database, const std::string& whose, const std::string& id) {
-  SQLite::Statement cancel(database, "UPDATE jobs SET state = 'cancelled', ended_ms = ? WHERE state IN ('queued', 'running') AND " + whose);
+int cancel_where(SQLite::Database& database, const std::string& whose, const std::string& id, std::int64_t change) {
+  SQLite::Statement cancel(database, "UPDATE jobs SET state = 'cancelled', ended_ms = ?, change = ? WHERE state IN ('queued', 'running') AND " + whose);
   cancel.bind(1, now_unix_ms());
-  cancel.bind(2, id);
+  cancel.bind(2, change);
+  cancel.bind(3, id);
   return cancel.exec();
 }
 
@@ -72,7 +68,7 @@ Cancellation Store::cancel_sweep(const std::string& id) {
     if (!find_sweep_seq(database, id)) return {};
     std::vector<std::string> running = find_running(database, "s.id", id);
     const std::string of_sweep = "sweep = (SELECT seq FROM sweeps WHERE id = ?)";
-    const bool done = cancel_where(database, of_sweep, id) > 0 || any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
+    const bool done = cancel_where(database, of_sweep, id, ++changes_) > 0 || any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
     return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
   });
 }
@@ -81,8 +77,32 @@ Cancellation Store::cancel_job(const std::string& id) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
     if (!any_in_state(database, "id = ?", id)) return {};
     std::vector<std::string> running = find_running(database, "j.id", id);
-    const bool done = cancel_where(database, "id = ?", id) > 0 || any_in_state(database, "state = 'cancelled' AND id = ?", id);
+    const bool done = cancel_where(database, "id = ?", id, ++changes_) > 0 || any_in_state(database, "state = 'cancelled' AND id = ?", id);
     return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
+  });
+}
+
+bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
+  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    const auto sweep = find_sweep_seq(database, id);
+    if (!sweep) return false;
+    SQLite::Statement queue(database,
+                            "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = NULL, started_ms = NULL, ended_ms = NULL "
+                            "WHERE sweep = ? AND state IN ('failed', 'cancelled')");
+    queue.bind(1, *sweep);
+    if (queue.exec() == 0) return true;
+    rename_queued_contents(database);
+    SQLite::Statement settle(database,
+                             "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = ?3, ended_ms = ?3, "
+                             "result = (SELECT max(seq) FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL) "
+                             "WHERE sweep = ?1 AND state = 'queued' AND reuse = 1 "
+                             "AND EXISTS (SELECT 1 FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL)");
+    settle.bind(1, *sweep);
+    settle.bind(2, ++changes_);
+    settle.bind(3, now_unix_ms());
+    settle.exec();
+    check_room(database, max_queued);
+    return true;
   });
 }
 

@@ -11,18 +11,24 @@ namespace {
 
 constexpr std::int64_t kSingleJobs = 0;
 
+/// A sweep that has queued jobs.
+struct WaitingSweep {
+  std::int64_t seq = kSingleJobs;
+  std::int64_t priority = 0;
+};
+
 /// The sweeps that have queued jobs; kSingleJobs if single jobs wait. Jumps from one sweep to the next in the index of
 /// queued jobs, so its cost is that of their number, however many jobs each has.
-std::vector<std::int64_t> find_waiting_sweeps(Statements& statements) {
+std::vector<WaitingSweep> find_waiting_sweeps(Statements& statements) {
   const auto waiting = statements.use(
       "WITH RECURSIVE next (sweep) AS ("
       "  SELECT min(sweep) FROM jobs WHERE state = 'queued' AND sweep > 0"
       "  UNION ALL"
       "  SELECT (SELECT min(j.sweep) FROM jobs j WHERE j.state = 'queued' AND j.sweep > next.sweep) FROM next WHERE next.sweep IS NOT NULL)"
-      " SELECT sweep FROM next WHERE sweep IS NOT NULL"
-      " UNION ALL SELECT 0 WHERE EXISTS (SELECT 1 FROM jobs WHERE state = 'queued' AND sweep IS NULL)");
-  std::vector<std::int64_t> sweeps;
-  while (waiting->executeStep()) sweeps.push_back(waiting->getColumn(0).getInt64());
+      " SELECT next.sweep, s.priority FROM next JOIN sweeps s ON s.seq = next.sweep"
+      " UNION ALL SELECT 0, 0 WHERE EXISTS (SELECT 1 FROM jobs WHERE state = 'queued' AND sweep IS NULL)");
+  std::vector<WaitingSweep> sweeps;
+  while (waiting->executeStep()) sweeps.push_back({.seq = waiting->getColumn(0).getInt64(), .priority = waiting->getColumn(1).getInt64()});
   return sweeps;
 }
 
@@ -82,25 +88,27 @@ void insert_trajectory(Statements& statements, std::int64_t result, const std::s
   add->exec();
 }
 
-void end_job(Statements& statements, const ClaimedJob& job, JobState state, std::int64_t result, std::int64_t now_ms) {
-  const auto end = statements.use("UPDATE jobs SET state = ?, result = ?, ended_ms = ? WHERE seq = ? AND attempt = ? AND state = 'running'");
+void end_job(Statements& statements, const ClaimedJob& job, JobState state, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
+  const auto end = statements.use("UPDATE jobs SET state = ?, result = ?, ended_ms = ?, change = ? WHERE seq = ? AND attempt = ? AND state = 'running'");
   end->bind(1, std::string(state_name(state)));
   end->bind(2, result);
   end->bind(3, now_ms);
-  end->bind(4, job.seq);
-  end->bind(5, job.attempt);
+  end->bind(4, change);
+  end->bind(5, job.seq);
+  end->bind(6, job.attempt);
   end->exec();
 }
 
 /// Gives a new result to those who waited for it.
-void settle_waiting(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms) {
+void settle_waiting(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
   const auto settle = statements.use(
-      "UPDATE jobs SET state = 'succeeded', result = ?, reused = 1, started_ms = ?, ended_ms = ? "
+      "UPDATE jobs SET state = 'succeeded', result = ?, reused = 1, started_ms = ?, ended_ms = ?, change = ? "
       "WHERE content = ? AND state = 'queued' AND reuse = 1");
   settle->bind(1, result);
   settle->bind(2, now_ms);
   settle->bind(3, now_ms);
-  settle->bind(4, content);
+  settle->bind(4, change);
+  settle->bind(5, content);
   settle->exec();
 }
 
@@ -108,10 +116,12 @@ void settle_waiting(Statements& statements, std::int64_t content, std::int64_t r
 
 std::optional<ClaimedJob> Store::claim() {
   return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) -> std::optional<ClaimedJob> {
-    std::vector<std::int64_t> sweeps = find_waiting_sweeps(statements);
+    std::vector<WaitingSweep> sweeps = find_waiting_sweeps(statements);
     // Never served counts as longest ago; among those the oldest sweep comes first, since the sort is stable.
-    std::ranges::stable_sort(sweeps, {}, [&](std::int64_t sweep) { return served_.contains(sweep) ? served_.at(sweep) : 0; });
-    for (const std::int64_t sweep : sweeps) {
+    std::ranges::stable_sort(sweeps, {}, [&](const WaitingSweep& sweep) {
+      return std::pair(-sweep.priority, served_.contains(sweep.seq) ? served_.at(sweep.seq) : 0);
+    });
+    for (const auto& [sweep, priority] : sweeps) {
       auto job = find_claimable(statements, sweep);
       if (!job) continue;
       const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = ? WHERE seq = ?");
@@ -138,8 +148,8 @@ bool Store::record(const ClaimedJob& job, const RunRecord& record) {
     const std::int64_t now_ms = now_unix_ms();
     const std::int64_t result = insert_result(statements, *content, record, metrics);
     if (sampled) insert_trajectory(statements, result, blob);
-    end_job(statements, job, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms);
-    if (succeeded) settle_waiting(statements, *content, result, now_ms);
+    end_job(statements, job, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++changes_);
+    if (succeeded) settle_waiting(statements, *content, result, now_ms, changes_);
     return true;
   });
 }

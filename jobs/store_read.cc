@@ -1,4 +1,4 @@
-#include "jobs/store.h"
+#include "jobs/store_rows.h"
 
 namespace jobs {
 namespace {
@@ -29,18 +29,20 @@ void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow&
 
 void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
   SQLite::Statement cost(database,
-                         "SELECT j.coupler, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT NULL), total(r.wall_time_s) "
-                         "FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 WHERE j.sweep = ? GROUP BY j.coupler");
+                         "SELECT j.kind, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT NULL), total(r.wall_time_s), "
+                         "total(r.wall_time_s * r.wall_time_s) FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
+                         "WHERE j.sweep = ? GROUP BY j.kind");
   cost.bind(1, sweep);
   while (cost.executeStep()) {
     row.costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(), .running = cost.getColumn(2).getInt64(),
-                                                .computed = cost.getColumn(3).getInt64(), .wall_time_s = cost.getColumn(4).getDouble()};
+                                                .computed = cost.getColumn(3).getInt64(), .wall_time_s = cost.getColumn(4).getDouble(),
+                                                .wall_time_squares_s2 = cost.getColumn(5).getDouble()};
   }
 }
 
-constexpr const char* kSweepColumns = "SELECT seq, id, name, request, swept, replicated, created_ms FROM sweeps";
+constexpr const char* kSweepColumns = "SELECT seq, id, name, request, swept, replicated, priority, created_ms FROM sweeps";
 
-SweepRow read_sweep(const SQLite::Database& database, SQLite::Statement& found) {
+SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   SweepRow row;
   const std::int64_t seq = found.getColumn(0).getInt64();
   row.id = found.getColumn(1).getString();
@@ -48,7 +50,8 @@ SweepRow read_sweep(const SQLite::Database& database, SQLite::Statement& found) 
   row.request = found.getColumn(3).getString();
   row.swept = found.getColumn(4).getString();
   row.replicated = found.getColumn(5).getInt() != 0;
-  row.created_ms = found.getColumn(6).getInt64();
+  row.priority = found.getColumn(6).getInt64();
+  row.created_ms = found.getColumn(7).getInt64();
   read_counts(database, seq, row);
   if (!has_ended(row.counts)) read_costs(database, seq, row);
   return row;
@@ -57,7 +60,7 @@ SweepRow read_sweep(const SQLite::Database& database, SQLite::Statement& found) 
 /// @param parameters, metrics  SQL of what stands in their columns
 std::string job_columns(const std::string& parameters, const std::string& metrics) {
   return "SELECT j.id, s.id, j.replicate, j.state, j.created_ms, j.started_ms, j.ended_ms, j.attempt, j.reused, r.error_reason, r.error_detail, "
-         "r.error_t_s, r.seq, r.wall_time_s, r.cpu_time_s, r.host, r.cpu, r.version, r.\"commit\", r.compiler, " +
+         "r.error_t_s, r.seq, r.wall_time_s, r.cpu_time_s, r.host, r.cpu, r.version, r.\"commit\", r.compiler, c.engine_version, " +
          parameters + ", " + metrics +
          " FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep LEFT JOIN results r ON r.seq = j.result JOIN contents c ON c.seq = j.content";
 }
@@ -65,10 +68,11 @@ std::string job_columns(const std::string& parameters, const std::string& metric
 RunRow read_run(SQLite::Statement& found) {
   return {.wall_time_s = found.getColumn(13).getDouble(), .cpu_time_s = found.getColumn(14).getDouble(),
           .host = found.getColumn(15).getString(), .cpu = found.getColumn(16).getString(), .version = found.getColumn(17).getString(),
-          .commit = found.getColumn(18).getString(), .compiler = found.getColumn(19).getString()};
+          .commit = found.getColumn(18).getString(), .compiler = found.getColumn(19).getString(),
+          .engine = found.getColumn(20).getString()};
 }
 
-JobRow read_job(SQLite::Statement& found) {
+JobRow job_row(SQLite::Statement& found) {
   JobRow row;
   row.id = found.getColumn(0).getString();
   row.sweep_id = optional_text(found.getColumn(1));
@@ -83,20 +87,27 @@ JobRow read_job(SQLite::Statement& found) {
   row.error_detail = found.getColumn(10).getString();
   row.error_t_s = optional_double(found.getColumn(11));
   if (!found.getColumn(12).isNull()) row.run = read_run(found);
-  row.parameters = found.getColumn(20).getString();
-  row.metrics = optional_text(found.getColumn(21));
+  row.parameters = found.getColumn(21).getString();
+  row.metrics = optional_text(found.getColumn(22));
   return row;
 }
 
 }  // namespace
 
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, std::string(kSweepColumns) + " WHERE id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(sweep_row(database, find)) : std::nullopt;
+}
+
+std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, job_columns("c.parameters", "r.metrics") + " WHERE j.id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(job_row(find)) : std::nullopt;
+}
+
 std::optional<SweepRow> Store::find_sweep(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<SweepRow> {
-    SQLite::Statement find(database, std::string(kSweepColumns) + " WHERE id = ?");
-    find.bind(1, id);
-    if (!find.executeStep()) return std::nullopt;
-    return read_sweep(database, find);
-  });
+  return readers_.read([&](const SQLite::Database& database) { return read_sweep(database, id); });
 }
 
 std::optional<bool> Store::has_sweep_ended(const std::string& id) const {
@@ -116,7 +127,7 @@ std::vector<SweepRow> Store::list_sweeps(const std::string& state, const std::st
     std::vector<SweepRow> rows;
     // A sweep's state is made of its jobs', so it cannot be asked for in SQL without counting them for every sweep.
     while (rows.size() < limit && list.executeStep()) {
-      SweepRow row = read_sweep(database, list);
+      SweepRow row = sweep_row(database, list);
       if (state.empty() || sweep_state(row.counts) == state) rows.push_back(std::move(row));
     }
     return rows;
@@ -124,12 +135,7 @@ std::vector<SweepRow> Store::list_sweeps(const std::string& state, const std::st
 }
 
 std::optional<JobRow> Store::find_job(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<JobRow> {
-    SQLite::Statement find(database, job_columns("c.parameters", "r.metrics") + " WHERE j.id = ?");
-    find.bind(1, id);
-    if (!find.executeStep()) return std::nullopt;
-    return read_job(find);
-  });
+  return readers_.read([&](const SQLite::Database& database) { return read_job(database, id); });
 }
 
 std::vector<JobRow> Store::list_jobs(const std::string& state, const std::string& before, std::size_t limit) const {
@@ -139,23 +145,46 @@ std::vector<JobRow> Store::list_jobs(const std::string& state, const std::string
     list.bind(2, state);
     list.bind(3, static_cast<std::int64_t>(limit));
     std::vector<JobRow> rows;
-    while (list.executeStep()) rows.push_back(read_job(list));
+    while (list.executeStep()) rows.push_back(job_row(list));
     return rows;
   });
 }
 
-std::vector<ResultRow> Store::list_results(const std::string& sweep_id) const {
-  return readers_.read([&](const SQLite::Database& database) {
-    SQLite::Statement list(database,
-                           "SELECT j.id, j.state, j.swept, j.replicate, r.metrics FROM jobs j LEFT JOIN results r ON r.seq = j.result "
-                           "WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) ORDER BY j.seq");
+std::optional<SweepResults> Store::find_results(const std::string& sweep_id, bool parameters) const {
+  return readers_.read([&](const SQLite::Database& database) -> std::optional<SweepResults> {
+    auto sweep = read_sweep(database, sweep_id);
+    if (!sweep) return std::nullopt;
+    SweepResults results{.sweep = std::move(*sweep), .rows = {}};
+    const std::string columns = std::string("SELECT j.id, j.state, j.swept, j.replicate, r.metrics, ") + (parameters ? "c.parameters" : "''");
+    const std::string contents = parameters ? " JOIN contents c ON c.seq = j.content" : "";
+    SQLite::Statement list(database, columns + " FROM jobs j LEFT JOIN results r ON r.seq = j.result" + contents +
+                                         " WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) ORDER BY j.seq");
     list.bind(1, sweep_id);
-    std::vector<ResultRow> rows;
     while (list.executeStep()) {
-      rows.push_back({.job_id = list.getColumn(0).getString(), .state = list.getColumn(1).getString(), .swept = list.getColumn(2).getString(),
-                      .replicate = optional_int(list.getColumn(3)), .metrics = optional_text(list.getColumn(4))});
+      results.rows.push_back({.job_id = list.getColumn(0).getString(), .state = list.getColumn(1).getString(), .swept = list.getColumn(2).getString(),
+                              .replicate = optional_int(list.getColumn(3)), .metrics = optional_text(list.getColumn(4)),
+                              .parameters = list.getColumn(5).getString()});
     }
-    return rows;
+    return results;
+  });
+}
+
+std::optional<SweepChanges> Store::find_changes(const std::string& sweep_id, std::int64_t after) const {
+  return readers_.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
+    auto sweep = read_sweep(database, sweep_id);
+    if (!sweep) return std::nullopt;
+    SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
+    SQLite::Statement list(database,
+                           "SELECT j.change, j.id, j.state, r.error_reason, j.ended_ms, j.reused FROM jobs j LEFT JOIN results r ON r.seq = j.result "
+                           "WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) AND j.change > ? ORDER BY j.change, j.seq");
+    list.bind(1, sweep_id);
+    list.bind(2, after);
+    while (list.executeStep()) {
+      changes.ended.push_back({.change = list.getColumn(0).getInt64(), .id = list.getColumn(1).getString(), .state = list.getColumn(2).getString(),
+                               .error_reason = optional_text(list.getColumn(3)), .ended_ms = list.getColumn(4).getInt64(),
+                               .reused = list.getColumn(5).getInt() != 0});
+    }
+    return changes;
   });
 }
 

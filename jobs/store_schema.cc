@@ -13,7 +13,7 @@ namespace {
 constexpr int kApplicationId = 0x52505355;  // "RPSU"
 
 /// Step i brings a store from version i to i + 1. What has been released is never changed, only added to.
-constexpr std::array<const char*, 1> kMigrations{R"sql(
+constexpr std::array<const char*, 2> kMigrations{R"sql(
   CREATE TABLE sweeps (
     seq INTEGER PRIMARY KEY,
     id TEXT NOT NULL UNIQUE,
@@ -75,6 +75,28 @@ constexpr std::array<const char*, 1> kMigrations{R"sql(
   CREATE INDEX jobs_by_result ON jobs (result);
   CREATE INDEX queued_jobs ON jobs (sweep) WHERE state = 'queued';
   CREATE INDEX running_jobs ON jobs (content) WHERE state = 'running';
+)sql",
+                                                     R"sql(
+  ALTER TABLE sweeps ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;
+
+  -- What its cost depends on most.
+  ALTER TABLE jobs RENAME COLUMN coupler TO kind;
+
+  -- The number of the change with which the job ended: they follow one another in the order of their commits.
+  ALTER TABLE jobs ADD COLUMN change INTEGER;
+  UPDATE jobs SET change = ended.number FROM
+    (SELECT seq, row_number() OVER (ORDER BY ended_ms, seq) AS number FROM jobs WHERE state IN ('succeeded', 'failed', 'cancelled')) AS ended
+    WHERE ended.seq = jobs.seq;
+  CREATE INDEX ended_jobs ON jobs (sweep, change) WHERE change IS NOT NULL;
+
+  CREATE TABLE answers (
+    seq INTEGER PRIMARY KEY,
+    key TEXT NOT NULL UNIQUE,
+    request TEXT NOT NULL,
+    answer TEXT NOT NULL,
+    created_ms INTEGER NOT NULL
+  ) STRICT;
+  CREATE INDEX answers_by_age ON answers (created_ms);
 )sql"};
 constexpr int kNewestVersion = static_cast<int>(kMigrations.size());
 

@@ -1,15 +1,19 @@
 #include "server/http.h"
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <random>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <spdlog/spdlog.h>
 
+#include "server/error_answer.h"
 #include "server/http_guard.h"
 #include "server/problem.h"
 #include "server/request_head.h"
@@ -44,10 +48,36 @@ class RequestIds {
   std::atomic<unsigned long> count_ = 0;
 };
 
+/// Sends a file piece by piece.
+void set_file(httplib::Response& to, const std::string& content_type, std::shared_ptr<FileBody> file) {
+  static constexpr std::size_t kPiece = 64 * 1024;
+  const std::size_t size = file->size();
+  to.set_content_provider(size, content_type, [file = std::move(file)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+    std::vector<char> piece(std::min(length, kPiece));
+    const std::size_t got = file->read(offset, piece.data(), piece.size());
+    return got > 0 && sink.write(piece.data(), got);
+  });
+}
+
+/// Sends the head alone; the events follow on another thread.
+void set_events(httplib::Response& to, const std::string& content_type, std::shared_ptr<EventSource> events) {
+  to.set_content_provider(content_type, [](std::size_t, httplib::DataSink& sink) {
+    sink.done();
+    return true;
+  });
+  GuardedServer::follow_with(std::move(events));
+}
+
 void copy_to(httplib::Response& to, Response from) {
   to.status = from.status;
   to.body = std::move(from.body);
-  if (!from.content_type.empty()) to.set_header("Content-Type", from.content_type);
+  if (from.file) {
+    set_file(to, from.content_type, std::move(from.file));
+  } else if (from.events) {
+    set_events(to, from.content_type, std::move(from.events));
+  } else if (!from.content_type.empty()) {
+    to.set_header("Content-Type", from.content_type);
+  }
   for (const auto& [name, value] : from.headers) to.set_header(name, value);
 }
 
@@ -71,7 +101,7 @@ class HttpServer::Impl {
       : options(std::move(http_options)),
         limits(http_limits),
         routes_(routes),
-        origin_check_(options.address),
+        origin_check_(options.address, options.cors_origins),
         guard(http_limits, make_refusal) {
     guard.set_default_headers(kSecurityHeaders);
     guard.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
@@ -84,7 +114,10 @@ class HttpServer::Impl {
     guard.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
       copy_to(response, make_problem(500, "something went wrong"));
     });
-    guard.set_post_routing_handler([](const httplib::Request&, httplib::Response& response) { tidy_headers(response); });
+    guard.set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+      tidy_headers(response);
+      add_cors_headers(request, response);
+    });
   }
 
   HttpOptions options;
@@ -107,12 +140,41 @@ class HttpServer::Impl {
 
   static void tidy_headers(httplib::Response& response) {
     response.headers.erase("Accept-Ranges");
-    if (response.status == 204) response.headers.erase("Content-Length");
+    if (response.status == 204 || response.status == 304) response.headers.erase("Content-Length");
+  }
+
+  /// Lets the page of another site read the answer, if it is one that may.
+  void add_cors_headers(const httplib::Request& request, httplib::Response& response) const {
+    if (options.cors_origins.empty()) return;
+    response.set_header("Vary", "Origin");
+    const std::string origin = request.get_header_value("Origin");
+    if (!origin_check_.is_allowed(origin)) return;
+    response.set_header("Access-Control-Allow-Origin", origin);
+    response.set_header("Access-Control-Expose-Headers", "ETag, Location, Retry-After, X-Request-Id");
+  }
+
+  /// What a browser asks on behalf of such a page before it sends the request itself.
+  bool is_preflight(const httplib::Request& request) const {
+    return request.method == "OPTIONS" && request.has_header("Access-Control-Request-Method") &&
+           origin_check_.is_allowed(request.get_header_value("Origin"));
+  }
+
+  static void answer_preflight(const httplib::Request& request, httplib::Response& response) {
+    response.status = 204;
+    response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
+    response.set_header("Access-Control-Allow-Headers", "Authorization, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID, Prefer");
+    response.set_header("Access-Control-Max-Age", "600");
+    // Chrome asks this where a page from elsewhere speaks to this machine.
+    if (request.has_header("Access-Control-Request-Private-Network")) response.set_header("Access-Control-Allow-Private-Network", "true");
   }
 
   Handled route_without_body(const httplib::Request& request, httplib::Response& response) {
     if (const auto fault = find_origin_fault(request)) {
       copy_to(response, make_problem(fault->status, fault->detail));
+      return Handled::Handled;
+    }
+    if (is_preflight(request)) {
+      answer_preflight(request, response);
       return Handled::Handled;
     }
     if (request.method == "POST") return Handled::Unhandled;
@@ -159,9 +221,16 @@ class HttpServer::Impl {
     request.path = from.path;
     request.query.assign(from.params.begin(), from.params.end());
     request.accept = from.get_header_value("Accept");
+    request.if_none_match = from.get_header_value("If-None-Match");
+    request.prefer = from.get_header_value("Prefer");
+    request.last_event_id = from.get_header_value("Last-Event-ID");
+    if (from.has_header("Idempotency-Key")) request.idempotency_key = from.get_header_value("Idempotency-Key");
     request.body = std::move(body);
     request.id = request_ids_.next();
-    copy_to(to, routes_.answer(request));
+    Response response = routes_.answer(request);
+    if (response.events && !guard.has_room_for_events()) response = make_retry_later(503, "too many clients follow events");
+    if (from.method == "HEAD") response.events.reset();
+    copy_to(to, std::move(response));
     to.set_header("X-Request-Id", request.id);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, from.target, to.status, took.count());

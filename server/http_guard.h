@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 
+#include "server/event_hub.h"
 #include "server/http_stream.h"
 #include "server/message.h"
 
@@ -25,8 +27,17 @@ class GuardedServer final : public httplib::Server {
   /// @returns the port; 0 if it could not be bound, because another process has it say
   int bind(const std::string& address, int port);
 
-  /// From now on every connection has HttpLimits::drain_time left.
-  void start_draining() { draining_ = true; }
+  /// From now on every connection has HttpLimits::drain_time left, and those with events none.
+  void start_draining() {
+    draining_ = true;
+    hub_.stop();
+  }
+
+  /// Whether one more connection may stay open for events.
+  [[nodiscard]] bool has_room_for_events() const { return hub_.has_room(); }
+
+  /// Called by the handler of a request: once its answer's head has been sent, the connection stays open for these events.
+  static void follow_with(std::shared_ptr<EventSource> events);
 
  private:
   bool process_and_close_socket(socket_t socket) override;
@@ -36,6 +47,8 @@ class GuardedServer final : public httplib::Server {
   HttpLimits limits_;
   std::function<Response(int, const std::string&)> make_refusal_;
   std::atomic<bool> draining_ = false;
+  std::atomic<int> waiting_ = 0;  ///< connections that no thread has taken yet
+  EventHub hub_;
 };
 
 }  // namespace server

@@ -1,7 +1,10 @@
 #include "server/job_routes.h"
 
 #include <string>
+#include <utility>
 
+#include "jobs/npz.h"
+#include "server/conditional.h"
 #include "server/json_text.h"
 #include "server/listing.h"
 #include "server/problem.h"
@@ -14,11 +17,18 @@ namespace {
 
 HttpError no_such_job(const std::string& id) { return {404, "there is no job " + id}; }
 
+bool has_ended(const nlohmann::json& job) { return job.at("state") != "queued" && job.at("state") != "running"; }
+
+std::string to_text(const engine::Trajectory& trajectory, TableFormat format) {
+  if (format == TableFormat::kCsv) return jobs::to_csv(trajectory);
+  return format == TableFormat::kNpz ? jobs::to_npz(trajectory) : to_json_columns(trajectory);
+}
+
 }  // namespace
 
 Response post_job(const Call& call) {
   Query(call.request, {}).check();
-  const auto job = call.service.submit_job(parse_json(call.request.body));
+  const auto job = call.service.submit_job(parse_json(call.request.body), find_key(call.request));
   Response response = make_json(201, to_text(job));
   response.headers.emplace_back("Location", "/v1/jobs/" + job.at("id").template get<std::string>());
   return response;
@@ -32,7 +42,8 @@ Response get_job(const Call& call) {
   Query(call.request, {}).check();
   const auto job = call.service.find_job(call.id);
   if (!job) throw no_such_job(call.id);
-  return make_json(200, to_text(*job));
+  Response response = make_json(200, to_text(*job));
+  return has_ended(*job) ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
 }
 
 Response cancel_job(const Call& call) {
@@ -43,12 +54,13 @@ Response cancel_job(const Call& call) {
 }
 
 Response get_trajectory(const Call& call) {
-  Query query(call.request, {"channels", "from", "to", "format"});
-  const TableFormat format = find_format(call.request, query);
+  Query query(call.request, {"channels", "from", "to", "points", "format"});
+  const TableFormat format = find_column_format(call.request, query);
   jobs::TrajectoryQuery wanted;
   wanted.channels = query.list("channels");
   wanted.from = query.number("from");
   wanted.to = query.number("to");
+  wanted.points = query.count("points");
   query.check();
   const auto trajectory = call.service.find_trajectory(call.id, wanted);
   if (!trajectory) {
@@ -57,8 +69,8 @@ Response get_trajectory(const Call& call) {
     throw HttpError(404, "job " + call.id + " is " + job->at("state").template get<std::string>() +
                              " and has no trajectory");
   }
-  return make_table(format, format == TableFormat::kCsv ? jobs::to_csv(*trajectory) : to_json_columns(*trajectory),
-                    "job-" + call.id);
+  // Only what has ended has a trajectory.
+  return with_etag(call.request, make_table(format, to_text(*trajectory, format), "job-" + call.id));
 }
 
 Response get_parameters(const Call& call) {

@@ -5,7 +5,7 @@
 
 namespace server {
 
-/// Reads `?state=&limit=&cursor=` of a listing.
+/// Reads `?state=&limit=&cursor=&fields=` of a listing.
 /// @throws jobs::InvalidRequest with every fault of the query's form; what the values mean is checked by the service.
 [[nodiscard]] jobs::PageQuery read_page_query(const Request& request);
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +17,42 @@ struct Request {
   std::string accept;                                       ///< of the Accept header; may be empty
   std::string body;
   std::string id;                                           ///< names this request in answers and in the log
+  // Of the headers of these names; empty if they are missing.
+  std::string if_none_match{};
+  std::string prefer{};
+  std::string last_event_id{};
+  std::optional<std::string> idempotency_key{};
+};
+
+/// A file that is sent as a body and is gone when it has been.
+class FileBody {
+ public:
+  /// @param descriptor  of a file that has no name any more; becomes this object's
+  explicit FileBody(int descriptor) : descriptor_(descriptor) {}
+  ~FileBody();
+  FileBody(const FileBody&) = delete;
+  FileBody& operator=(const FileBody&) = delete;
+
+  [[nodiscard]] std::size_t size() const;
+  /// Reads from a place in the file. @returns how many bytes there were; 0 if the file cannot be read
+  [[nodiscard]] std::size_t read(std::size_t offset, char* to, std::size_t size) const;
+
+ private:
+  int descriptor_;
+};
+
+/// Events that follow one another on a connection that stays open.
+class EventSource {
+ public:
+  EventSource() = default;
+  virtual ~EventSource() = default;
+  EventSource(const EventSource&) = delete;
+  EventSource& operator=(const EventSource&) = delete;
+
+  /// The text of what is new since the last call; empty if nothing is. Must not block.
+  [[nodiscard]] virtual std::string next() = 0;
+  /// Whether nothing will follow.
+  [[nodiscard]] virtual bool has_ended() const = 0;
 };
 
 /// What goes back.
@@ -22,6 +61,8 @@ struct Response {
   std::string content_type;                                 ///< empty: there is no body
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers; ///< beside Content-Type and Content-Length
+  std::shared_ptr<FileBody> file{};                         ///< stands for the body, if there is one
+  std::shared_ptr<EventSource> events{};                    ///< follow the head, if there are any
 };
 
 }  // namespace server

@@ -26,13 +26,18 @@ std::optional<Number> whole_text_as(const std::string& text) {
 
 }  // namespace
 
-Query::Query(const Request& request, std::initializer_list<std::string_view> allowed) : request_(request) {
+Query::Query(const Request& request, std::initializer_list<std::string_view> allowed) : Query(request, allowed, Others::kRefused) {}
+
+Query::Query(const Request& request, std::initializer_list<std::string_view> allowed, Others others) : request_(request) {
   std::set<std::string_view> seen;
   for (const auto& [key, value] : request.query) {
-    if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
+    const bool known = std::find(allowed.begin(), allowed.end(), key) != allowed.end();
+    if (!known && others == Others::kRefused) {
       add_fault(key, "unknown query parameter; allowed: " + joined(allowed));
     } else if (!seen.insert(key).second) {
       add_fault(key, "given more than once");
+    } else if (!known) {
+      others_.emplace_back(key, value);
     }
   }
 }
@@ -56,6 +61,12 @@ std::vector<std::string> Query::list(std::string_view key) {
     if (comma == std::string::npos) return items;
     start = comma + 1;
   }
+}
+
+std::string Query::names(std::string_view key) {
+  const auto value = text(key);
+  if (value && value->empty()) add_fault(key, "must be a list of names with commas between");
+  return value.value_or("");
 }
 
 std::optional<double> Query::number(std::string_view key) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "jobs/errors.h"
@@ -18,10 +19,19 @@ class Query {
   /// @param allowed  the keys that the route knows; any other is a fault that names them
   Query(const Request& request, std::initializer_list<std::string_view> allowed);
 
+  /// What becomes of keys that are not among those allowed: they are faults, or the caller's to understand.
+  enum class Others { kRefused, kKept };
+  Query(const Request& request, std::initializer_list<std::string_view> allowed, Others others);
+
+  /// The other keys with their values.
+  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& others() const { return others_; }
+
   /// The value of a key, if it stands in the query.
   [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
   /// The same, split at its commas; empty if the key is missing. An empty item is a fault.
   [[nodiscard]] std::vector<std::string> list(std::string_view key);
+  /// The same as it stands, for lists whose items may have commas; an empty text is a fault.
+  [[nodiscard]] std::string names(std::string_view key);
   /// The same as a finite number; anything else is a fault.
   [[nodiscard]] std::optional<double> number(std::string_view key);
   /// The same as a count without sign; anything else is a fault.
@@ -36,6 +46,7 @@ class Query {
   void add_fault(std::string_view key, const std::string& detail);
 
   const Request& request_;
+  std::vector<std::pair<std::string, std::string>> others_;
   std::vector<jobs::Fault> faults_;
 };
 

@@ -1,48 +1,20 @@
 #include "server/routes.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <chrono>
 #include <exception>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "server/error_answer.h"
-#include "server/job_routes.h"
-#include "server/page_routes.h"
 #include "server/problem.h"
-#include "server/sweep_routes.h"
+#include "server/route_table.h"
 
 namespace server {
 
 namespace {
-
-struct Route {
-  std::string_view method;
-  std::string_view pattern;  ///< {id} stands for one segment that is_id
-  Response (*handler)(const Call&);
-};
-
-constexpr std::array kRoutes = {
-    Route{"POST", "/v1/sweeps", post_sweep},
-    Route{"GET", "/v1/sweeps", get_sweeps},
-    Route{"GET", "/v1/sweeps/{id}", get_sweep},
-    Route{"DELETE", "/v1/sweeps/{id}", delete_sweep},
-    Route{"GET", "/v1/sweeps/{id}/results", get_results},
-    Route{"POST", "/v1/sweeps/{id}/cancel", cancel_sweep},
-    Route{"POST", "/v1/jobs", post_job},
-    Route{"GET", "/v1/jobs", get_jobs},
-    Route{"GET", "/v1/jobs/{id}", get_job},
-    Route{"POST", "/v1/jobs/{id}/cancel", cancel_job},
-    Route{"GET", "/v1/jobs/{id}/trajectory", get_trajectory},
-    Route{"GET", "/v1/parameters", get_parameters},
-    Route{"GET", "/healthz", get_health},
-    Route{"GET", "/readyz", get_readiness},
-    Route{"GET", "/", get_page_file},
-    Route{"GET", "/style.css", get_page_file},
-    Route{"GET", "/app.js", get_page_file},
-};
 
 /// The text in the place of {id} (empty for a pattern without one), if the path is of this pattern.
 std::optional<std::string> match(std::string_view pattern, std::string_view path) {
@@ -68,22 +40,29 @@ Response make_wrong_method(const std::string& allowed) {
 }  // namespace
 
 Response Routes::answer(const Request& request) const {
+  const auto start = std::chrono::steady_clock::now();
+  std::string_view pattern;
+  Response response;
   try {
-    return dispatch(request);
+    response = dispatch(request, pattern);
   } catch (...) {
-    return make_error_answer(std::current_exception(), request.id);
+    response = make_error_answer(std::current_exception(), request.id);
   }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  metrics_->add_request(request.method, pattern, response.status, took.count());
+  return response;
 }
 
-Response Routes::dispatch(const Request& request) const {
+Response Routes::dispatch(const Request& request, std::string_view& pattern) const {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
   std::string allowed;
-  for (const Route& route : kRoutes) {
+  for (const Route& route : route_table()) {
     auto id = match(route.pattern, request.path);
     if (!id) continue;
+    pattern = route.pattern;
     if (route.method == method) {
       if (draining_ && changes_something(method)) return make_retry_later(503, "the service is shutting down");
-      return route.handler({service_, request, std::move(*id), draining_});
+      return route.handler({service_, request, std::move(*id), draining_, *metrics_, waiting_room_, copying_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }
@@ -95,6 +74,18 @@ bool is_id(const std::string& text) {
   return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_';
   });
+}
+
+std::string find_key(const Request& request) {
+  constexpr std::size_t kLongest = 255;
+  if (!request.idempotency_key) return "";
+  std::string_view key = *request.idempotency_key;
+  if (key.size() > 2 && key.front() == '"' && key.back() == '"') key = key.substr(1, key.size() - 2);
+  const bool visible = std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+  if (key.empty() || key.size() > kLongest || !visible) {
+    throw HttpError(400, "Idempotency-Key must be 1 to " + std::to_string(kLongest) + " visible ASCII characters");
+  }
+  return std::string(key);
 }
 
 Response make_json(int status, std::string text) {

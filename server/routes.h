@@ -1,10 +1,16 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "jobs/service.h"
 #include "server/message.h"
+#include "server/metrics.h"
+#include "server/preference.h"
 
 namespace server {
 
@@ -12,7 +18,9 @@ namespace server {
 /// May be called from any thread.
 class Routes {
  public:
-  explicit Routes(jobs::Service& service) : service_(service) {}
+  /// @param metrics  counts the requests
+  explicit Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>())
+      : service_(service), metrics_(std::move(metrics)) {}
 
   /// Never throws: whatever goes wrong becomes an answer of type application/problem+json.
   [[nodiscard]] Response answer(const Request& request) const;
@@ -21,10 +29,14 @@ class Routes {
   void start_draining() { draining_ = true; }
 
  private:
-  [[nodiscard]] Response dispatch(const Request& request) const;
+  /// @param pattern  set to that of the route, if there is one
+  [[nodiscard]] Response dispatch(const Request& request, std::string_view& pattern) const;
 
   jobs::Service& service_;
+  std::shared_ptr<Metrics> metrics_;
   std::atomic<bool> draining_ = false;
+  mutable WaitingRoom waiting_room_;
+  mutable std::mutex copying_;
 };
 
 /// What a route is called with.
@@ -33,10 +45,17 @@ struct Call {
   const Request& request;
   std::string id;  ///< what stands in the place of {id} in the route's pattern
   bool draining;
+  const Metrics& metrics;
+  WaitingRoom& waiting_room;
+  std::mutex& copying;  ///< held by the one request that copies the store
 };
 
 /// True for a text that may be an id: 1 to 64 letters, digits, '-' or '_'.
 [[nodiscard]] bool is_id(const std::string& text);
+
+/// The client's Idempotency-Key, without the quotes that it may have; empty if there is none.
+/// @throws HttpError 400 if it is empty or longer than 255 bytes, or has other than visible ASCII characters
+[[nodiscard]] std::string find_key(const Request& request);
 
 /// An answer that holds one JSON text.
 [[nodiscard]] Response make_json(int status, std::string text);

@@ -1,7 +1,9 @@
 #include "server/sweep_routes.h"
 
 #include <string>
+#include <utility>
 
+#include "server/conditional.h"
 #include "server/json_text.h"
 #include "server/listing.h"
 #include "server/problem.h"
@@ -14,13 +16,33 @@ namespace {
 
 HttpError no_such_sweep(const std::string& id) { return {404, "there is no sweep " + id}; }
 
+bool has_ended(const nlohmann::json& sweep) {
+  const auto& counts = sweep.at("counts");
+  return counts.at("queued") == 0 && counts.at("running") == 0;
+}
+
+/// Waits for the end of a sweep, if that is preferred, and says so.
+bool wait_as_preferred(const Call& call, const std::string& id, Response& response) {
+  if (!call.waiting_room.wait(call.service, id, call.request)) return false;
+  response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(find_wait(call.request.prefer)->count()));
+  return true;
+}
+
+std::string to_text(const jobs::ResultTable& table, TableFormat format) {
+  if (format == TableFormat::kCsv) return jobs::to_csv(table);
+  return format == TableFormat::kNdjson ? to_json_lines(table) : to_json_rows(table);
+}
+
 }  // namespace
 
 Response post_sweep(const Call& call) {
   Query(call.request, {}).check();
-  const auto sweep = call.service.submit_sweep(parse_json(call.request.body));
-  Response response = make_json(201, to_text(sweep));
-  response.headers.emplace_back("Location", "/v1/sweeps/" + sweep.at("id").template get<std::string>());
+  auto sweep = call.service.submit_sweep(parse_json(call.request.body), find_key(call.request));
+  const std::string id = sweep.at("id");
+  Response response = make_json(201, "");
+  if (wait_as_preferred(call, id, response)) sweep = call.service.find_sweep(id).value_or(sweep);
+  response.body = to_text(sweep) + "\n";
+  response.headers.emplace_back("Location", "/v1/sweeps/" + id);
   return response;
 }
 
@@ -30,9 +52,12 @@ Response get_sweeps(const Call& call) {
 
 Response get_sweep(const Call& call) {
   Query(call.request, {}).check();
+  Response response = make_json(200, "");
+  wait_as_preferred(call, call.id, response);
   const auto sweep = call.service.find_sweep(call.id);
   if (!sweep) throw no_such_sweep(call.id);
-  return make_json(200, to_text(*sweep));
+  response.body = to_text(*sweep) + "\n";
+  return has_ended(*sweep) ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
 }
 
 Response delete_sweep(const Call& call) {
@@ -42,18 +67,37 @@ Response delete_sweep(const Call& call) {
 }
 
 Response get_results(const Call& call) {
-  Query query(call.request, {"format"});
-  const TableFormat format = find_format(call.request, query);
+  Query query(call.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
+  const TableFormat format = find_row_format(call.request, query);
+  jobs::ResultQuery wanted;
+  wanted.fields = query.names("fields");
+  wanted.order_by = query.names("order_by");
+  wanted.limit = query.count("limit");
+  for (const auto& [key, value] : query.others()) wanted.filters.push_back({key, value});
   query.check();
-  const auto table = call.service.find_results(call.id);
+  const auto table = call.service.find_results(call.id, wanted);
   if (!table) throw no_such_sweep(call.id);
-  return make_table(format, format == TableFormat::kCsv ? jobs::to_csv(*table) : to_json_rows(*table),
-                    "sweep-" + call.id);
+  Response response = make_table(format, to_text(*table, format), "sweep-" + call.id);
+  return table->ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
 }
 
 Response cancel_sweep(const Call& call) {
   Query(call.request, {}).check();
   const auto sweep = call.service.cancel_sweep(call.id);
+  if (!sweep) throw no_such_sweep(call.id);
+  return make_json(200, to_text(*sweep));
+}
+
+Response retry_sweep(const Call& call) {
+  Query(call.request, {}).check();
+  const auto sweep = call.service.retry_sweep(call.id);
+  if (!sweep) throw no_such_sweep(call.id);
+  return make_json(200, to_text(*sweep));
+}
+
+Response extend_sweep(const Call& call) {
+  Query(call.request, {}).check();
+  const auto sweep = call.service.extend_sweep(call.id, parse_json(call.request.body));
   if (!sweep) throw no_such_sweep(call.id);
   return make_json(200, to_text(*sweep));
 }

@@ -11,5 +11,7 @@ Response get_sweep(const Call& call);
 Response delete_sweep(const Call& call);
 Response get_results(const Call& call);
 Response cancel_sweep(const Call& call);
+Response retry_sweep(const Call& call);
+Response extend_sweep(const Call& call);
 
 }  // namespace server

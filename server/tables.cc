@@ -1,6 +1,10 @@
 #include "server/tables.h"
 
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "server/json_text.h"
@@ -9,9 +13,40 @@ namespace server {
 
 namespace {
 
-bool prefers_csv(const std::string& accept) {
-  const auto csv = accept.find("text/csv");
-  return csv != std::string::npos && csv < accept.find("application/json");
+struct FormatInfo {
+  TableFormat format;
+  std::string_view word;        ///< of ?format=, and the end of a download's name
+  std::string_view media_type;
+};
+
+constexpr std::array<FormatInfo, 4> kFormats{{{TableFormat::kJson, "json", "application/json"},
+                                              {TableFormat::kCsv, "csv", "text/csv"},
+                                              {TableFormat::kNdjson, "ndjson", "application/x-ndjson"},
+                                              {TableFormat::kNpz, "npz", "application/x-npz"}}};
+
+const FormatInfo& info_of(TableFormat format) {
+  return *std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatInfo& info) { return info.format == format; });
+}
+
+/// The one of these formats that stands first in an Accept header; JSON if none does.
+TableFormat accepted(const std::string& accept, std::initializer_list<TableFormat> formats) {
+  TableFormat first = TableFormat::kJson;
+  std::size_t least = std::string::npos;
+  for (const TableFormat format : formats) {
+    const std::size_t place = accept.find(info_of(format).media_type);
+    if (place >= least) continue;
+    least = place;
+    first = format;
+  }
+  return first;
+}
+
+TableFormat find_format(const Request& request, Query& query, std::initializer_list<TableFormat> formats, std::initializer_list<std::string_view> words) {
+  const auto word = query.word("format", words);
+  for (const TableFormat format : formats) {
+    if (word && info_of(format).word == *word) return format;
+  }
+  return accepted(request.accept, formats);
 }
 
 void append_cell_to(std::string& text, const nlohmann::json& cell) {
@@ -30,16 +65,13 @@ void append_optional_to(std::string& text, const std::optional<double>& value) {
   }
 }
 
-/// {"count", "mean", "spread", "min", "max", "of"}
+/// The keys are the columns of the CSV.
 void append_replicates_to(std::string& text, const jobs::ReplicateStatistics& set) {
-  text += "{\"count\":" + std::to_string(set.count);
+  text += "\"replicates_count\":" + std::to_string(set.count);
   for (const auto& [key, value] : {std::pair{"mean", set.mean}, {"spread", set.spread}, {"min", set.min}, {"max", set.max}}) {
-    text += std::string(",\"") + key + "\":";
+    text += std::string(",\"replicates_") + key + "\":";
     append_optional_to(text, value);
   }
-  text += ",\"of\":";
-  append_string_to(text, std::string(jobs::kReplicateMetric));
-  text += '}';
 }
 
 /// `"key":` of every column, made once for all rows.
@@ -53,31 +85,41 @@ std::vector<std::string> quoted_keys(const std::vector<std::string>& columns) {
   return keys;
 }
 
-}  // namespace
-
-TableFormat find_format(const Request& request, Query& query) {
-  const auto format = query.word("format", {"csv", "json"});
-  if (format) return *format == "csv" ? TableFormat::kCsv : TableFormat::kJson;
-  return prefers_csv(request.accept) ? TableFormat::kCsv : TableFormat::kJson;
-}
-
-std::string to_json_rows(const jobs::ResultTable& table) {
+/// An object for each row. @param before_first, before  what stands before it
+std::string joined_rows(const jobs::ResultTable& table, const char* before_first, const char* before) {
   const auto keys = quoted_keys(table.columns);
-  std::string text = "[";
+  std::string text;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    text += r == 0 ? "\n{" : ",\n{";
+    text += r == 0 ? before_first : before;
+    text += '{';
     for (std::size_t c = 0; c < keys.size(); ++c) {
       if (c > 0) text += ',';
       text += keys[c];
       append_cell_to(text, table.rows[r].at(c));
     }
     if (!table.replicates.empty()) {
-      text += ",\"replicates\":";
+      if (!keys.empty()) text += ',';
       append_replicates_to(text, table.replicates.at(r));
     }
     text += '}';
   }
-  return text + "\n]\n";
+  return text;
+}
+
+}  // namespace
+
+TableFormat find_row_format(const Request& request, Query& query) {
+  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNdjson}, {"csv", "json", "ndjson"});
+}
+
+TableFormat find_column_format(const Request& request, Query& query) {
+  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNpz}, {"csv", "json", "npz"});
+}
+
+std::string to_json_rows(const jobs::ResultTable& table) { return "[" + joined_rows(table, "\n", ",\n") + "\n]\n"; }
+
+std::string to_json_lines(const jobs::ResultTable& table) {
+  return table.rows.empty() ? "" : joined_rows(table, "", "\n") + "\n";
 }
 
 std::string to_json_columns(const engine::Trajectory& trajectory) {
@@ -103,11 +145,10 @@ Response make_table(TableFormat format, std::string text, const std::string& fil
   Response response;
   response.body = std::move(text);
   response.headers = {{"Vary", "Accept"}};
-  if (format == TableFormat::kJson) {
-    response.content_type = "application/json";
-  } else {
-    response.content_type = "text/csv; charset=utf-8";
-    response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + file_stem + ".csv\"");
+  const FormatInfo& info = info_of(format);
+  response.content_type = std::string(info.media_type) + (format == TableFormat::kCsv ? "; charset=utf-8" : "");
+  if (format == TableFormat::kCsv || format == TableFormat::kNpz) {
+    response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + file_stem + "." + std::string(info.word) + "\"");
   }
   return response;
 }

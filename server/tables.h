@@ -8,20 +8,25 @@
 
 namespace server {
 
-enum class TableFormat { kJson, kCsv };
+enum class TableFormat { kJson, kCsv, kNdjson, kNpz };
 
-/// The format that a request asks for: `?format=csv|json` first, then the Accept header, then JSON.
+/// The format that a request for rows asks for: `?format=csv|json|ndjson` first, then the Accept header, then JSON.
 /// @param query  one that allows the key `format`; a wrong word is a fault of it
-[[nodiscard]] TableFormat find_format(const Request& request, Query& query);
+[[nodiscard]] TableFormat find_row_format(const Request& request, Query& query);
+/// The same for a trajectory: `?format=csv|json|npz`.
+[[nodiscard]] TableFormat find_column_format(const Request& request, Query& query);
 
 /// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each has, after the
-/// metrics, `replicates`: {"count", "mean", "spread", "min", "max", "of"} of its set, `of` the metric that they are of.
+/// metrics, replicates_count, _mean, _spread, _min and _max of its set.
 [[nodiscard]] std::string to_json_rows(const jobs::ResultTable& table);
+
+/// The same objects, each on a line of its own and nothing between them: NDJSON.
+[[nodiscard]] std::string to_json_lines(const jobs::ResultTable& table);
 
 /// {"channels": [key, ...], "columns": {key: [number, ...], ...}}; null for what is not finite.
 [[nodiscard]] std::string to_json_columns(const engine::Trajectory& trajectory);
 
-/// A table as an answer: JSON as text, CSV as a download with a name.
+/// A table as an answer: JSON as text, CSV and NumPy's format as a download with a name.
 /// @param file_stem  of the download; letters, digits, '-' and '_'
 [[nodiscard]] Response make_table(TableFormat format, std::string text, const std::string& file_stem);
 

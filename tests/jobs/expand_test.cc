@@ -35,7 +35,7 @@ TEST(PlanSweep, MultipliesAxesInTheirOrderLastFastest) {
   EXPECT_EQ(swept_values(plan), (Strings{R"([5.0,"flexible",0.0])", R"([5.0,"flexible",0.25])", R"([5.0,"flexible",0.5])", R"([5.0,"rigid",0.0])",
                                          R"([5.0,"rigid",0.25])", R"([5.0,"rigid",0.5])", R"([10.0,"flexible",0.0])", R"([10.0,"flexible",0.25])",
                                          R"([10.0,"flexible",0.5])", R"([10.0,"rigid",0.0])", R"([10.0,"rigid",0.25])", R"([10.0,"rigid",0.5])"}));
-  EXPECT_EQ(plan.jobs[3].coupler, "rigid");
+  EXPECT_EQ(plan.jobs[3].kind, "rigid, ideal");
 }
 
 TEST(PlanSweep, GivesEachJobItsWholeParameterSet) {
@@ -155,7 +155,7 @@ TEST(PlanSweep, GivesReplicatesTheSweptValuesOfTheirPoint) {
 TEST(PlanJob, IsTheJobOfItsParameters) {
   const auto job = jobs::plan_job(json_of(R"({"coupler": "flexible"})"));
   EXPECT_EQ(job.content_id, plan_of(R"({"sweep": {"coupler": ["flexible"]}})").jobs[0].content_id);
-  EXPECT_EQ(job.coupler, "flexible");
+  EXPECT_EQ(job.kind, "flexible, clearance");
   EXPECT_FALSE(job.replicate.has_value());
 }
 

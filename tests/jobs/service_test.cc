@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/errors.h"
+#include "jobs/program_info.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
@@ -49,7 +50,9 @@ TEST(Service, ComputesASweepAndShowsIt) {
   EXPECT_EQ(sweep.at("name"), "paper");
   EXPECT_EQ(sweep.at("request"), json_of(request));
   EXPECT_EQ(sweep.at("axes"), json_of(R"(["crank_velocity_rad_s", "clearance_mm"])"));
-  EXPECT_EQ(sweep.at("links"), (json{{"self", "/v1/sweeps/" + id}, {"results", "/v1/sweeps/" + id + "/results"}, {"cancel", "/v1/sweeps/" + id + "/cancel"}}));
+  EXPECT_EQ(sweep.at("links"), (json{{"self", "/v1/sweeps/" + id}, {"results", "/v1/sweeps/" + id + "/results"}, {"events", "/v1/sweeps/" + id + "/events"},
+                                      {"cancel", "/v1/sweeps/" + id + "/cancel"}, {"retry", "/v1/sweeps/" + id + "/retry"},
+                                      {"extend", "/v1/sweeps/" + id + "/extend"}}));
   for (const char* time : {"created_at", "started_at", "ended_at"}) {
     std::string form = sweep.at(time);
     std::replace_if(form.begin(), form.end(), [](char c) { return c >= '0' && c <= '9'; }, 'd');
@@ -86,7 +89,8 @@ TEST(Service, ShowsAJobWithAllItsParameters) {
   EXPECT_EQ(job.at("run").at("attempts"), 1);
   EXPECT_EQ(job.at("run").at("reused"), false);
   EXPECT_FALSE(job.at("run").at("host").get<std::string>().empty());
-  EXPECT_EQ(job.at("run").at("program").size(), 3U);
+  EXPECT_EQ(job.at("run").at("program").size(), 4U);
+  EXPECT_EQ(job.at("run").at("program").at("engine"), std::string(jobs::kEngineVersion));
   EXPECT_GE(job.at("run").at("wall_time_s").get<double>(), 0.0);
   EXPECT_EQ(job.at("links").at("sweep"), "/v1/sweeps/" + sweep);
 }

@@ -162,7 +162,7 @@ TEST(Store, KnowsWhatHasBeenComputed) {
   const std::string wider = add_sweep(store, kThreeJobs);
   EXPECT_EQ(count_of(store, wider, jobs::JobState::kSucceeded), 1);
   EXPECT_EQ(count_of(store, wider, jobs::JobState::kQueued), 2);
-  const auto rows = store.list_results(wider);
+  const auto rows = store.find_results(wider, false).value().rows;
   EXPECT_EQ(rows[0].metrics, R"({"peak":7.0})");
   EXPECT_TRUE(store.find_job(rows[0].job_id)->reused);
   EXPECT_TRUE(store.find_trajectory(rows[0].job_id).has_value());
@@ -251,11 +251,11 @@ TEST(Store, DeletesASweepButNotWhatAnotherShares) {
     EXPECT_TRUE(store.record(store.claim().value(), success(5.0)));
     EXPECT_TRUE(store.record(store.claim().value(), success(10.0)));
     const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-    const auto shared = store.list_results(second);
+    const auto shared = store.find_results(second, false).value().rows;
     EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kDone);
     EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kMissing);
     EXPECT_FALSE(store.find_sweep(first).has_value());
-    EXPECT_EQ(store.list_results(second)[0].metrics, R"({"peak":5.0})");
+    EXPECT_EQ(store.find_results(second, false).value().rows[0].metrics, R"({"peak":5.0})");
     EXPECT_TRUE(store.find_trajectory(shared[0].job_id).has_value());
   }
   EXPECT_EQ(query_sql(temporary.file(), "SELECT (SELECT count(*) FROM results) || ' ' || (SELECT count(*) FROM contents) || ' ' || "
@@ -302,15 +302,15 @@ TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
   EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
   const std::string sweep = add_sweep(store, R"({"sweep": {"coupler": ["rigid", "flexible"], "crank_velocity_rad_s": [5, 10, 12]}})");
   auto costs = store.find_sweep(sweep).value().costs;
-  EXPECT_EQ(costs.at("rigid").computed, 0);
-  EXPECT_EQ(costs.at("rigid").queued, 2);
+  EXPECT_EQ(costs.at("rigid, clearance").computed, 0);
+  EXPECT_EQ(costs.at("rigid, clearance").queued, 2);
   EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
   (void)store.claim();
   costs = store.find_sweep(sweep).value().costs;
-  EXPECT_EQ(costs.at("rigid").computed, 1);
-  EXPECT_EQ(costs.at("rigid").wall_time_s, 2.0);
-  EXPECT_EQ(costs.at("rigid").running, 1);
-  EXPECT_EQ(costs.at("flexible").queued, 3);
+  EXPECT_EQ(costs.at("rigid, clearance").computed, 1);
+  EXPECT_EQ(costs.at("rigid, clearance").wall_time_s, 2.0);
+  EXPECT_EQ(costs.at("rigid, clearance").running, 1);
+  EXPECT_EQ(costs.at("flexible, clearance").queued, 3);
 }
 
 TEST(Store, KnowsWhetherASweepHasEnded) {
@@ -325,21 +325,6 @@ TEST(Store, KnowsWhetherASweepHasEnded) {
   EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one running
   EXPECT_TRUE(store.record(last, failure()));
   EXPECT_EQ(store.has_sweep_ended(sweep), true);
-}
-
-TEST(TimeLeft, IsThatOfTheJobsThatAreLeftByKind) {
-  jobs::SweepRow row;
-  row.counts = {8, 1, 5, 0, 0};
-  row.costs["rigid"] = {.queued = 4, .running = 1, .computed = 2, .wall_time_s = 6.0};
-  row.costs["flexible"] = {.queued = 4, .running = 0, .computed = 3, .wall_time_s = 30.0};
-  // (4 + 1/2) * 3 s + 4 * 10 s
-  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 1).value(), 53.5);
-  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 2).value(), 53.5 / 2.0);
-  EXPECT_DOUBLE_EQ(jobs::estimate_time_left_s(row, 100).value(), 10.0);  // a flexible one takes its time on whatever thread
-  row.costs["flexible"].computed = 0;
-  EXPECT_FALSE(jobs::estimate_time_left_s(row, 1).has_value());
-  row.counts = {0, 0, 14, 0, 0};
-  EXPECT_EQ(jobs::estimate_time_left_s(row, 1), 0.0);
 }
 
 TEST(SweepState, FollowsFromItsJobs) {

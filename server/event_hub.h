@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "server/message.h"
+
+namespace server {
+
+/// Carries all connections that stay open for events on one thread of its own, so that they take none from those who ask and go.
+class EventHub {
+ public:
+  static constexpr std::size_t kPlaces = 64;
+
+  EventHub();
+  ~EventHub();  ///< closes every connection
+  EventHub(const EventHub&) = delete;
+  EventHub& operator=(const EventHub&) = delete;
+
+  /// Whether there is room for one more.
+  [[nodiscard]] bool has_room() const;
+
+  /// Takes a connection over, whose head has been sent, and closes it at the end.
+  void take(int socket, std::shared_ptr<EventSource> events);
+
+  /// Closes every connection, and those that come from now on.
+  void stop();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Stream {
+    int socket;
+    std::shared_ptr<EventSource> events;
+    std::string unsent{};
+    Clock::time_point last_sent{Clock::now()};
+  };
+
+  void work(const std::stop_token& stop);
+  /// False when the connection is done with.
+  static bool serve(Stream& stream);
+
+  mutable std::mutex mutex_;  // guards streams_ and stopped_
+  std::condition_variable_any changed_;
+  std::list<Stream> streams_;
+  bool stopped_ = false;
+  std::jthread thread_;  // last: uses the rest
+};
+
+}  // namespace server

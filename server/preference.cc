@@ -1,0 +1,45 @@
+#include "server/preference.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace server {
+
+namespace {
+
+constexpr std::chrono::seconds kLongest{60};
+
+std::string_view trimmed(std::string_view text) {
+  while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
+  while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
+  while (!prefer.empty()) {
+    const auto comma = std::min(prefer.find(','), prefer.size());
+    std::string_view item = trimmed(prefer.substr(0, comma));
+    prefer.remove_prefix(std::min(comma + 1, prefer.size()));
+    if (!item.starts_with("wait")) continue;
+    item = trimmed(item.substr(4));
+    if (!item.starts_with('=')) continue;
+    item = trimmed(item.substr(1));
+    unsigned seconds = 0;
+    const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), seconds);
+    if (error == std::errc{} && end == item.data() + item.size()) return std::min(kLongest, std::chrono::seconds(seconds));
+  }
+  return std::nullopt;
+}
+
+bool WaitingRoom::wait(const jobs::Service& service, const std::string& sweep_id, const Request& request) {
+  const auto time = find_wait(request.prefer);
+  if (!time) return false;
+  const bool room = ++waiting_ <= kPlaces;
+  if (room) service.wait_for_sweep(sweep_id, *time);
+  --waiting_;
+  return room;
+}
+
+}  // namespace server

@@ -1,0 +1,94 @@
+#include "jobs/result_query.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/jobs/request_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using Strings = std::vector<std::string>;
+using nlohmann::json;
+
+jobs::ResultTable table() {
+  return {.columns = {"job_id", "state", "coupler", "links.1,3.mass_kg", "peak"},
+          .rows = {{"a", "succeeded", "rigid", 0.3, 7.0},
+                   {"b", "succeeded", "flexible", 0.4, 9.0},
+                   {"c", "failed", "flexible", 0.3, nullptr},
+                   {"d", "succeeded", "rigid", 0.5, 8.0}}};
+}
+
+jobs::ResultTable applied(const jobs::ResultQuery& query) {
+  auto result = table();
+  jobs::apply(query, result);
+  return result;
+}
+
+Strings ids(const jobs::ResultTable& result) {
+  Strings found;
+  for (const auto& row : result.rows) found.push_back(row.front().get<std::string>());
+  return found;
+}
+
+struct FilterCase {
+  const char* name;
+  std::vector<jobs::ResultFilter> filters;
+  Strings ids;
+};
+
+class Filter : public testing::TestWithParam<FilterCase> {};
+
+TEST_P(Filter, KeepsTheRowsThatPass) { EXPECT_EQ(ids(applied({.fields = {}, .filters = GetParam().filters, .order_by = {}, .limit = {}})), GetParam().ids); }
+
+INSTANTIATE_TEST_SUITE_P(All, Filter,
+                         testing::Values(FilterCase{"None", {}, {"a", "b", "c", "d"}}, FilterCase{"Greater", {{"peak_gt", "8"}}, {"b"}},
+                                         FilterCase{"GreaterOrEqual", {{"peak_ge", "8"}}, {"b", "d"}}, FilterCase{"Less", {{"peak_lt", "8"}}, {"a"}},
+                                         FilterCase{"LessOrEqual", {{"peak_le", "8.0"}}, {"a", "d"}}, FilterCase{"Equal", {{"peak", "9"}}, {"b"}},
+                                         FilterCase{"Word", {{"coupler", "flexible"}}, {"b", "c"}}, FilterCase{"State", {{"state", "failed"}}, {"c"}},
+                                         FilterCase{"PathOfALink", {{"links.1,3.mass_kg_ge", "0.4"}}, {"b", "d"}},
+                                         FilterCase{"Both", {{"peak_gt", "7"}, {"peak_lt", "9"}}, {"d"}}),
+                         [](const auto& tested) { return tested.param.name; });
+
+Strings fault_pointers(const jobs::ResultQuery& query) {
+  return pointers_of(faults_of([&] { (void)applied(query); }));
+}
+
+TEST(ResultQuery, NamesEveryFault) {
+  EXPECT_EQ(fault_pointers({.fields = "job_id,peek,job_id,", .filters = {{"nonsense_gt", "1"}, {"peak_lt", "x"}, {"coupler_gt", "rigid"}, {"coupler", "soft"}},
+                            .order_by = "-speed", .limit = {}}),
+            (Strings{"/coupler", "/coupler_gt", "/fields/1", "/fields/2", "/fields/3", "/nonsense_gt", "/order_by/0", "/peak_lt"}));
+  EXPECT_EQ(fault_pointers({.fields = {}, .filters = {{"peak", "nan"}}, .order_by = {}, .limit = {}}), (Strings{"/peak"}));
+}
+
+TEST(ResultQuery, OrdersByColumnsNullLast) {
+  EXPECT_EQ(ids(applied({.fields = {}, .filters = {}, .order_by = "peak", .limit = {}})), (Strings{"a", "d", "b", "c"}));
+  EXPECT_EQ(ids(applied({.fields = {}, .filters = {}, .order_by = "-peak", .limit = {}})), (Strings{"b", "d", "a", "c"}));
+  EXPECT_EQ(ids(applied({.fields = {}, .filters = {}, .order_by = "coupler,-links.1,3.mass_kg", .limit = {}})), (Strings{"b", "c", "d", "a"}));
+  EXPECT_EQ(ids(applied({.fields = {}, .filters = {}, .order_by = "-peak", .limit = 2})), (Strings{"b", "d"}));
+}
+
+TEST(ResultQuery, TakesColumnsInTheOrderInWhichTheyAreWanted) {
+  const auto result = applied({.fields = "peak,links.1,3.mass_kg,job_id", .filters = {}, .order_by = {}, .limit = {}});
+  EXPECT_EQ(result.columns, (Strings{"peak", "links.1,3.mass_kg", "job_id"}));
+  EXPECT_EQ(result.rows[1], (std::vector<json>{9.0, 0.4, "b"}));
+}
+
+TEST(ResultQuery, KeepsTheStatisticsOfTheRowsThatStay) {
+  auto repeated = table();
+  for (std::size_t k = 0; k < 4; ++k) repeated.replicates.push_back({.count = k, .mean = {}, .spread = {}, .min = {}, .max = {}});
+  auto some = repeated;
+  jobs::apply({.fields = "job_id,replicates", .filters = {{"peak_gt", "7"}}, .order_by = "peak", .limit = {}}, some);
+  ASSERT_EQ(some.replicates.size(), 2U);
+  EXPECT_EQ(some.replicates[0].count, 3U);
+  EXPECT_EQ(some.replicates[1].count, 1U);
+  jobs::apply({.fields = "job_id", .filters = {}, .order_by = {}, .limit = {}}, repeated);
+  EXPECT_TRUE(repeated.replicates.empty());
+}
+
+TEST(ResultQuery, FindsTheParametersThatTheSweepDoesNotVary) {
+  const jobs::ResultQuery query{.fields = "job_id,links.1,3.mass_kg", .filters = {{"restitution_gt", "0.5"}}, .order_by = "-clearance_mm,peak", .limit = {}};
+  EXPECT_EQ(jobs::find_other_parameters(query, {"clearance_mm"}), (Strings{"restitution", "links.1,3.mass_kg"}));
+}
+
+}  // namespace
+}  // namespace jobs_tests
