@@ -1,5 +1,5 @@
-# Writes a source file that holds the files of the page.
-#   cmake -DOUTPUT=web_files.cc -DFOLDER=web -DFILES=index.html,app.js -P embed_files.cmake
+# Writes a source file that holds files as they are now, by the paths under which they are served.
+#   cmake -DOUTPUT=web_files.cc -DFILES=/index.html=web/index.html,/app.js=web/app.js -P embed_files.cmake
 set(types_html "text/html; charset=utf-8")
 set(types_css "text/css; charset=utf-8")
 set(types_js "text/javascript; charset=utf-8")
@@ -8,16 +8,19 @@ string(REPLACE "," ";" FILES "${FILES}")
 set(arrays "")
 set(entries "")
 set(number 0)
-foreach(file IN LISTS FILES)
+foreach(entry IN LISTS FILES)
+  string(REGEX MATCH "^([^=]+)=(.+)$" matched "${entry}")
+  set(path "${CMAKE_MATCH_1}")
+  set(file "${CMAKE_MATCH_2}")
   get_filename_component(extension "${file}" LAST_EXT)
   string(SUBSTRING "${extension}" 1 -1 extension)
   if(NOT DEFINED types_${extension})
     message(FATAL_ERROR "${file}: no content type is known for .${extension}")
   endif()
-  file(READ "${FOLDER}/${file}" bytes HEX)
+  file(READ "${file}" bytes HEX)
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${bytes}")
   string(APPEND arrays "constexpr char kFile${number}[] = {${bytes}};\n")
-  string(APPEND entries "    {\"/${file}\", \"${types_${extension}}\", {kFile${number}, sizeof kFile${number}}},\n")
+  string(APPEND entries "    {\"${path}\", \"${types_${extension}}\", {kFile${number}, sizeof kFile${number}}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
 
@@ -33,7 +36,12 @@ ${entries}};
 
 }  // namespace
 
-std::span<const WebFile> web_files() { return kFiles; }
+const WebFile* find_web_file(std::string_view path) {
+  for (const WebFile& file : kFiles) {
+    if (file.path == path) return &file;
+  }
+  return nullptr;
+}
 
 }  // namespace server
 ")

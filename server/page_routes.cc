@@ -8,18 +8,16 @@
 
 namespace server {
 
-Response get_page_file(const Call& call) {
-  const std::string_view path = call.request.path == "/" ? "/index.html" : std::string_view(call.request.path);
-  for (const WebFile& file : web_files()) {
-    if (file.path == path) {
-      return {.status = 200,
-              .content_type = std::string(file.content_type),
-              .body = std::string(file.content),
-              .headers = {{"Cache-Control", "no-cache"}}};
-    }
-  }
-  throw HttpError(404, "there is nothing at " + call.request.path);
+Response make_file_answer(std::string_view path) {
+  const WebFile* file = find_web_file(path);
+  if (file == nullptr) throw HttpError(404, "there is nothing at " + std::string(path));
+  return {.status = 200,
+          .content_type = std::string(file->content_type),
+          .body = std::string(file->content),
+          .headers = {{"Cache-Control", "no-cache"}}};
 }
+
+Response get_page_file(const Call& call) { return make_file_answer(call.request.path == "/" ? "/index.html" : call.request.path); }
 
 Response get_health(const Call&) { return make_json(200, R"({"status":"ok"})"); }
 

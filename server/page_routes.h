@@ -1,9 +1,14 @@
 #pragma once
 
+#include <string_view>
+
 #include "server/message.h"
 #include "server/routes.h"
 
 namespace server {
+
+/// A file of web/ as an answer. @throws HttpError 404 if there is none of that path
+[[nodiscard]] Response make_file_answer(std::string_view path);
 
 Response get_page_file(const Call& call);  ///< a file of the page, by its path; it is part of the program
 Response get_health(const Call& call);     ///< 200 as long as the program answers at all

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <span>
 #include <string_view>
 
 namespace server {
 
-/// One file of web/, as it was when the program was built.
+/// One file of web/ or of an npm package, as it was when the program was built.
 struct WebFile {
   std::string_view path;  ///< "/index.html"
   std::string_view content_type;
   std::string_view content;
 };
 
-/// All of them; written by server/embed_files.cmake.
-[[nodiscard]] std::span<const WebFile> web_files();
+/// The file of that path; null if there is none. Written by server/embed_files.cmake.
+[[nodiscard]] const WebFile* find_web_file(std::string_view path);
 
 }  // namespace server
