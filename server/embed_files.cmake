@@ -3,6 +3,7 @@
 set(types_html "text/html; charset=utf-8")
 set(types_css "text/css; charset=utf-8")
 set(types_js "text/javascript; charset=utf-8")
+set(types_svg "image/svg+xml")
 
 string(REPLACE "," ";" FILES "${FILES}")
 set(arrays "")
@@ -18,9 +19,10 @@ foreach(entry IN LISTS FILES)
     message(FATAL_ERROR "${file}: no content type is known for .${extension}")
   endif()
   file(READ "${file}" bytes HEX)
-  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${bytes}")
-  string(APPEND arrays "constexpr char kFile${number}[] = {${bytes}};\n")
-  string(APPEND entries "    {\"${path}\", \"${types_${extension}}\", {kFile${number}, sizeof kFile${number}}},\n")
+  # A string literal: it compiles many times faster than a list of characters. It ends in a NUL that the file has not.
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" bytes "${bytes}")
+  string(APPEND arrays "constexpr char kFile${number}[] = \"${bytes}\";\n")
+  string(APPEND entries "    {\"${path}\", \"${types_${extension}}\", {kFile${number}, sizeof kFile${number} - 1}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
 

@@ -17,6 +17,8 @@ Response make_file_answer(std::string_view path) {
           .headers = {{"Cache-Control", "no-cache"}}};
 }
 
+bool is_page_file(std::string_view path) { return find_web_file(path) != nullptr; }
+
 Response get_page_file(const Call& call) { return make_file_answer(call.request.path == "/" ? "/index.html" : call.request.path); }
 
 Response get_health(const Call&) { return make_json(200, R"({"status":"ok"})"); }

@@ -46,8 +46,6 @@ constexpr std::array kRoutes = {
     Route{"GET", "/healthz", get_health},
     Route{"GET", "/readyz", get_readiness},
     Route{"GET", "/", get_page_file},
-    Route{"GET", "/style.css", get_page_file},
-    Route{"GET", "/app.js", get_page_file},
 };
 
 /// The text in the place of {id} (empty for a pattern without one), if the path is of this pattern.
@@ -92,6 +90,10 @@ Response Routes::dispatch(const Request& request) const {
       return route.handler({service_, request, std::move(*id), draining_, waiting_room_, copying_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
+  }
+  if (allowed.empty() && is_page_file(request.path)) {
+    if (method == "GET") return make_file_answer(request.path);
+    allowed = "GET, HEAD";
   }
   if (!allowed.empty()) return make_wrong_method(allowed);
   throw HttpError(404, "there is nothing at " + request.path);

@@ -1,0 +1,51 @@
+// Shows the view that the address names, and gives it up when the address changes.
+import { readRoute } from "/core/route.js";
+import { h } from "/core/dom.js";
+import { startTheme } from "/core/theme.js";
+
+const pages = {
+  "": () => import("/pages/sweeps.js"),
+  new: () => import("/pages/new_sweep.js"),
+  sweeps: () => import("/pages/sweep.js"),
+  jobs: () => import("/pages/job.js"),
+};
+
+const main = document.querySelector("#main");
+let leave = () => {};
+let shown = 0;
+
+function markNavigation(kind) {
+  for (const link of document.querySelectorAll("header nav a")) {
+    const target = link.getAttribute("href").slice(2);
+    if (target === (kind === "new" ? "new" : "")) link.setAttribute("aria-current", "page");
+    else link.removeAttribute("aria-current");
+  }
+}
+
+async function show() {
+  const { kind, id, query } = readRoute();
+  const number = ++shown;
+  leave();
+  leave = () => {};
+  main.replaceChildren();
+  markNavigation(kind);
+  try {
+    if (!Object.hasOwn(pages, kind)) throw new Error("There is no such view.");
+    const page = await pages[kind]();
+    const ended = new AbortController();
+    leave = () => ended.abort();
+    if (number === shown) await page.show(main, { id, query, signal: ended.signal });
+  } catch (error) {
+    if (number !== shown || error.name === "AbortError") return;
+    main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, error.message),
+      h("p", {}, h("a", { href: "#/" }, "To the sweeps")));
+  }
+}
+
+document.querySelector(".skip").addEventListener("click", (event) => {
+  event.preventDefault();
+  main.focus();
+});
+startTheme();
+addEventListener("hashchange", show);
+show();

@@ -1,0 +1,77 @@
+// A metric over one axis, a line for each value of a second one (and of the panels' axis), with the spread of what lies together.
+import { axisLook, makeChart } from "/core/charts.js";
+import { exact, nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
+import { lineColour } from "/core/theme.js";
+import { groupBy, valuesOf } from "/study/data.js";
+
+const mostLines = 30;
+const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "pin"];
+
+export function linesChart(element, study, signal) {
+  let groups = [];
+  const made = makeChart(element, () => {
+    const plan = planOf(study);
+    groups = plan.groups;
+    return plan.option;
+  }, "Lines of the metric over one axis; the table below has the same numbers", signal);
+  made.then(({ chart }) => chart.on("click", ({ seriesId, dataIndex }) => {
+    const group = groups[Number(seriesId?.split(":")[1])]?.[dataIndex];
+    if (group) study.selection.toggle(group.jobs);
+  })).catch(() => {});
+  return made;
+}
+
+function planOf({ rows, view, selection, others }) {
+  const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
+  const numeric = xs.every((x) => typeof x === "number");
+  const lines = [...linesOf(rows, view, ""), ...(others ? linesOf(others.rows, view, ` (${others.name})`) : [])].slice(0, mostLines);
+  const at = (value) => (numeric ? value : xs.indexOf(value));
+  const x = numeric ? { type: "value", scale: true } : { type: "category", data: xs.map(exact) };
+  return { groups: lines.map((line) => line.groups), option: {
+    grid: { left: 75, right: 20, top: 40, bottom: 50 },
+    legend: { top: 0 },
+    tooltip: { formatter: ({ data }) => data.text ?? "" },
+    xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...axisLook() },
+    yAxis: { type: "value", scale: true, name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
+    series: lines.flatMap((line, index) => [spreadSeries(line, index, at), lineSeries(line, index, at, view, selection)]),
+  } };
+}
+
+function linesOf(rows, view, suffix) {
+  const keys = [view.y, view.panel].filter(Boolean);
+  const byLine = new Map();
+  for (const group of groupBy(rows, [...keys, view.x], view.metric)) {
+    if (group.mean === null) continue;
+    const name = (keys.map((key, i) => pointOf(key, group.values[i])).join(", ") || nameOf(view.metric)) + suffix;
+    byLine.set(name, [...(byLine.get(name) ?? []), group]);
+  }
+  const order = valuesOf(rows, view.x);
+  const x = (group) => order.indexOf(group.values.at(-1));
+  return [...byLine].map(([name, groups]) => ({ name, dashed: suffix !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+}
+
+function lineSeries(line, index, at, view, selection) {
+  return { id: `line:${index}`, name: line.name, type: "line", symbol: symbols[index % symbols.length], showSymbol: true, color: lineColour(index),
+    lineStyle: { type: line.dashed ? "dashed" : "solid" },
+    data: line.groups.map((group) => {
+      const chosen = group.jobs.some((job) => selection.has(job));
+      const several = group.count > 1 ? `\nmean of ${group.count}: ${number(group.min)} to ${number(group.max)}` : "";
+      return { value: [at(group.values.at(-1)), group.mean], symbolSize: chosen ? 15 : 8,
+        itemStyle: chosen ? { borderColor: "#e6007a", borderWidth: 3 } : {},
+        text: `${line.name}\n${nameOf(view.x)} ${pointOf(view.x, group.values.at(-1))}\n${number(group.mean)} ${unitOf(view.metric)}${several}` };
+    }) };
+}
+
+/// From the least to the largest of what lies together, as an upright bar.
+function spreadSeries(line, index, at) {
+  return { id: `spread:${index}`, name: line.name, type: "custom", silent: true, color: lineColour(index),
+    data: line.groups.filter((group) => group.count > 1).map((group) => [at(group.values.at(-1)), group.min, group.max]),
+    encode: { x: 0, y: [1, 2] },
+    renderItem: (_, api) => {
+      const [x, low] = api.coord([api.value(0), api.value(1)]);
+      const [, high] = api.coord([api.value(0), api.value(2)]);
+      const style = { stroke: api.visual("color"), lineWidth: 2, opacity: 0.6 };
+      const stroke = (x1, y1, x2, y2) => ({ type: "line", shape: { x1, y1, x2, y2 }, style });
+      return { type: "group", children: [stroke(x, low, x, high), stroke(x - 5, low, x + 5, low), stroke(x - 5, high, x + 5, high)] };
+    } };
+}

@@ -1,0 +1,51 @@
+// Parallel coordinates: a line for each job over the axes and some metrics. Brushing an axis selects jobs.
+import { makeChart } from "/core/charts.js";
+import { exact, number, titleOf } from "/core/format.js";
+import { colour, palette } from "/core/theme.js";
+import { valueOf, valuesOf } from "/study/data.js";
+
+const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
+
+export function parallelChart(element, study, signal) {
+  let shown = [];
+  let brushing = false;
+  const made = makeChart(element, () => {
+    const plan = planOf(study);
+    shown = plan.shown;
+    return plan.option;
+  }, "Parallel coordinates of all jobs; the table below has the same numbers", signal);
+  made.then(({ chart }) => chart.on("axisareaselected", () => {
+    const [series] = chart.getModel().getSeries();
+    const active = series.getRawIndicesByActiveState("active");
+    brushing = true;
+    study.selection.set(active.length === shown.length ? [] : active.map((index) => shown[index].job_id));
+    brushing = false;
+  })).catch(() => {});
+  // While an axis is brushed its own lines are not drawn anew: that would end the brushing.
+  return made.then((chart) => ({ ...chart, draw: () => { if (!brushing) chart.draw(); } }));
+}
+
+function planOf({ rows, axes, metrics, view, selection }) {
+  const columns = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
+  const shown = rows.filter((row) => row.state === "succeeded");
+  const dimensions = columns.map((column, dim) => {
+    const values = valuesOf(shown, column);
+    const numeric = values.every((value) => typeof value === "number" || value === "–");
+    return { dim, name: titleOf(column), nameTextStyle: { color: colour("text") }, axisLabel: { color: colour("text"), formatter: (value) => (numeric ? number(value, 3) : exact(value)) },
+      axisLine: { lineStyle: { color: colour("quiet") } }, ...(numeric ? { scale: true } : { type: "category", data: values.map(String) }) };
+  });
+  const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
+  const chosenFew = selection.size > 0;
+  return { shown, option: {
+    parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" }, areaSelectStyle: { color: colour("accent"), opacity: 0.35 } } },
+    parallelAxis: dimensions.map((dimension, index) => ({ ...dimension, nameLocation: index % 2 === 0 ? "end" : "start" })),
+    visualMap: { show: false, min: Math.min(...peaks), max: Math.max(...peaks), dimension: columns.indexOf(view.metric), inRange: { color: palette() } },
+    series: [{ type: "parallel", smooth: false, progressive: 2000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
+      data: shown.map((row) => ({ value: columns.map((column) => cellOf(row, column)), lineStyle: !chosenFew ? {} : selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 } })) }],
+  } };
+}
+
+function cellOf(row, column) {
+  const value = valueOf(row, column);
+  return typeof value === "number" ? value : value === "–" ? "-" : String(value);
+}
