@@ -24,12 +24,21 @@ set(page_files
   run/facts.js
   run/ideal.js
   run/orbit.js
+  run/orbit_drawing.js
+  run/overview.js
   run/plot_card.js
   run/plot_data.js
   run/plot_options.js
   run/time_bar.js
   run/time_plot.js
   run/time_window.js
+  scene/linkage.js
+  scene/player.js
+  scene/poses.js
+  scene/scene_card.js
+  scene/shapes.js
+  scene/stage.js
+  scene/three.js
   study/data.js
   study/heat_map.js
   study/lines.js
@@ -45,5 +54,11 @@ set(page_files
 # Of the packages: SERVED=FILE.
 set(page_packages
   lib/echarts.js=echarts/dist/echarts.esm.min.js
+  lib/orbit_controls.js=three/examples/jsm/controls/OrbitControls.js
+  lib/three.core.js=three/build/three.core.js
+  lib/three.module.js=three/build/three.module.js
   lib/uplot.css=uplot/dist/uPlot.min.css
   lib/uplot.js=uplot/dist/uPlot.esm.js)
+
+# Browsers know no packages: a module that is imported by the NAME before "=" is taken from there.
+set(page_imports three=/lib/three.module.js)

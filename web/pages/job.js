@@ -2,6 +2,7 @@
 import { cancelJob, findJob, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
 import { choice, h, notify } from "/core/dom.js";
 import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
+import { seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
@@ -10,9 +11,12 @@ import { orbit } from "/run/orbit.js";
 import { plotCard, tracesOf } from "/run/plot_card.js";
 import { timeBar } from "/run/time_bar.js";
 import { TimeWindow } from "/run/time_window.js";
+import { linksOf } from "/scene/poses.js";
+import { sceneCard } from "/scene/scene_card.js";
 
 const acceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
 const pollMs = 1000;
+const rememberMs = 400;  // browsers refuse to change the address many times a second
 
 export async function show(main, { id, query, signal }) {
   const others = (query.get("with") ?? "").split(",").filter(Boolean);
@@ -56,8 +60,12 @@ class JobPage {
     this.times = new TimeWindow(end, Math.min(end, 5 / rate));
     const [from, to] = ["from", "to"].map((key) => Number(this.query.get(key) ?? NaN));
     if (Number.isFinite(from + to)) this.times.set(from, to);
-    this.times.addEventListener("change", () => this.remember(), { signal: this.signal });
-    const { columns } = await this.channelNames();
+    if (this.query.has("t")) this.times.pointAt(Number(this.query.get("t")) || 0);
+    const remember = seldom(() => this.signal.aborted || this.remember(), rememberMs);
+    for (const event of ["change", "instant"]) this.times.addEventListener(event, remember, { signal: this.signal });
+    const all = Object.keys(await findTrajectory(this.job.id, { from: 0, to: 0 }, this.signal));
+    // The poses are for drawing.
+    const columns = all.filter((name) => name !== "t_s" && !name.startsWith("pose_"));
     this.main = h("div");
     this.drawAcceleration([]);
     this.extra = h("div");
@@ -65,14 +73,8 @@ class JobPage {
     const add = choice("Add a channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
     const plots = [this.main, clearance > 0 ? this.card("Contact force", ["contact_force_n"]) : null, this.card("Drive torque and force", ["crank_torque_n_m", "rod_force_n"]),
       this.energy(), this.extra, h("p", { class: "card" }, add)];
-    const side = [clearance > 0 ? orbit(this.job, this.times, this.signal) : null, metricsCard(this.jobs), runCard(this.job, this.schema)];
+    const side = [sceneCard(this.job, linksOf(all), this.times, this.signal), clearance > 0 ? orbit(this.job, this.times, this.signal) : null, metricsCard(this.jobs), runCard(this.job, this.schema)];
     return [timeBar(this.times, this.job, this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
-  }
-
-  /// The channels that can be added: all but the time and the poses, which are for drawing.
-  async channelNames() {
-    const columns = await findTrajectory(this.job.id, { from: 0, to: 0 }, this.signal);
-    return { columns: Object.keys(columns).filter((name) => name !== "t_s" && !name.startsWith("pose_")) };
   }
 
   card(title, channels, more = {}) {
@@ -127,6 +129,6 @@ class JobPage {
   remember() {
     const { times } = this;
     const window = times.isWhole ? {} : { from: times.from.toPrecision(7), to: times.to.toPrecision(7) };
-    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window });
+    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window, t: times.instant > 0 ? times.instant.toPrecision(7) : "" });
   }
 }

@@ -41,12 +41,13 @@ class SweepList {
     this.empty = h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
       h("p", {}, h("a", { class: "button main", href: "#/new" }, "Set one up"), " ",
         h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study")));
+    this.none = h("p", { class: "card", hidden: true }, "No sweep is like that.");
     const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); } });
     const tools = h("p", { class: "actions" },
       h("label", { class: "choice" }, h("span", {}, "Search by name, id or axis"), search),
       choice("State", [["", "any"], ...states], this.state, (state) => { this.state = state; this.changed(); this.refresh(); }),
       h("a", { class: "button main", href: "#/new" }, "New sweep"));
-    return [h("h1", {}, "Sweeps of the RPSUP linkage"), this.status, tools, this.table, this.more, this.empty];
+    return [h("h1", {}, "Sweeps of the RPSUP linkage"), this.status, tools, this.table, this.none, this.more, this.empty];
   }
 
   changed() {
@@ -108,6 +109,7 @@ class SweepList {
     if (rows.length !== this.body.children.length || rows.some((row, i) => this.body.children[i] !== row)) this.body.replaceChildren(...rows);
     this.table.hidden = shown.length === 0;
     this.empty.hidden = shown.length > 0 || this.search !== "" || this.state !== "";
+    this.none.hidden = shown.length > 0 || !this.empty.hidden;
     const busy = shown.filter(isUnderWay).length;
     this.status.textContent = `${this.more.hidden ? "" : "The newest "}${plural(shown.length, "sweep")}, ${busy} under way`;
   }

@@ -4,50 +4,73 @@ import { choice, h } from "/core/dom.js";
 import { number } from "/core/format.js";
 import { saveCanvas } from "/core/download.js";
 import { seldom } from "/core/live.js";
-import { colour, onColours, paletteColour } from "/core/theme.js";
+import { onColours } from "/core/theme.js";
+import { drawRing, drawScale, paintOrbit } from "/run/orbit_drawing.js";
 
 const points = 6000;
 const refineMs = 150;
-const hues = 64;  // steps of the palette: one path is drawn for each
+const channels = ["t_s", "journal_x_mm", "journal_y_mm", "contact_force_n"];
 
 /// @param job  with a clearance
 export function orbit(job, times, signal) {
   const canvas = h("canvas", { class: "orbit", role: "img", "aria-label": "Journal orbit inside the clearance circle" });
+  const bar = h("canvas", { class: "palette", width: 256, height: 1, "aria-hidden": "true" });
+  const [low, high] = [h("span"), h("span")];
   const caption = h("p", { class: "quiet small", role: "status" });
-  let by = "time";
-  let data = null;
   const clearance = job.parameters.clearance_mm;
+  let by = "time";
+  let whole = null;
+  let shown = null;
+  let painted = null;
 
   async function load() {
-    const { from, to } = times;
     try {
-      data = await findTrajectory(job.id, { channels: ["t_s", "journal_x_mm", "journal_y_mm", "contact_force_n"], from, to, points }, signal);
-      draw();
+      whole ??= await findTrajectory(job.id, { channels, points }, signal);
+      shown = times.isWhole ? whole : await findTrajectory(job.id, { channels, from: times.from, to: times.to, points }, signal);
+      paint();
     } catch (error) {
       if (error.name !== "AbortError") caption.textContent = error.message;
     }
   }
 
-  function draw() {
-    if (!data) return;
-    const values = by === "time" ? data.t_s : data.contact_force_n;
-    const [low, high] = extremes(values);
-    drawOrbit(canvas, data, clearance, (i) => (high > low ? (values[i] - low) / (high - low) : 0), indexAt(data.t_s, times.instant));
+  function paint() {
+    const size = Math.round(canvas.clientWidth * devicePixelRatio);
+    if (!shown || size === 0) return;
+    const values = by === "time" ? shown.t_s : shown.contact_force_n;
+    const [least, largest] = extremes(values);
+    painted = paintOrbit(size, shown, shown === whole ? null : whole, clearance, (i) => (largest > least ? (values[i] - least) / (largest - least) : 0));
+    drawScale(bar);
     const unit = by === "time" ? "s" : "N";
-    caption.textContent = `Circle: clearance ${number(clearance)} mm. Colour from ${number(low)} ${unit} (dark) to ${number(high)} ${unit} (bright); ${data.t_s.length.toLocaleString("en")} points. The ring marks the instant pointed at.`;
+    low.textContent = `${number(least)} ${unit}`;
+    high.textContent = `${number(largest)} ${unit}`;
+    caption.textContent = `Circle: clearance ${number(clearance)} mm. ${shown.t_s.length.toLocaleString("en")} samples${shown === whole ? "" : "; the rest of the run is pale"}. The ring marks the instant.`;
+    canvas.dataset.samples = shown.t_s.length;
+    draw();
+  }
+
+  function draw() {
+    if (!painted) return;
+    const { picture } = painted;
+    Object.assign(canvas, { width: picture.width, height: picture.height });
+    const context = canvas.getContext("2d");
+    context.drawImage(picture, 0, 0);
+    const index = indexAt(shown.t_s, times.instant);
+    context.lineWidth = 2 * devicePixelRatio;
+    if (index !== null) drawRing(context, painted.at(index), 5 * devicePixelRatio);
   }
 
   const refine = seldom(() => signal.aborted || load(), refineMs);
   times.addEventListener("change", refine, { signal });
   times.addEventListener("instant", () => requestAnimationFrame(draw), { signal });
-  onColours(draw, signal);
-  const sizes = new ResizeObserver(draw);
+  onColours(paint, signal);
+  const sizes = new ResizeObserver(paint);
   sizes.observe(canvas);
   signal.addEventListener("abort", () => sizes.disconnect());
   load();
-  const picker = choice("Colour by", [["time", "time"], ["force", "contact force"]], by, (value) => { by = value; draw(); });
-  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, "Journal orbit [mm]"),
-    h("span", { class: "actions" }, picker, h("button", { onclick: () => saveCanvas(canvas, "orbit.png") }, "PNG"))), canvas, caption);
+  const picker = choice("Colour by", [["time", "time"], ["force", "contact force"]], by, (value) => { by = value; paint(); });
+  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, "Journal orbit"),
+    h("span", { class: "actions" }, picker, h("button", { onclick: () => saveCanvas(canvas, "orbit.png") }, "PNG"))), canvas,
+    h("p", { class: "scale small" }, low, bar, high), caption);
 }
 
 function extremes(values) {
@@ -62,49 +85,4 @@ function extremes(values) {
 function indexAt(times, instant) {
   const index = times.findIndex((t) => t >= instant);
   return instant < times[0] || index < 0 ? null : index;
-}
-
-function drawOrbit(canvas, { journal_x_mm: x, journal_y_mm: y }, clearance, partOf, marked) {
-  const size = canvas.clientWidth * devicePixelRatio;
-  if (size === 0) return;
-  Object.assign(canvas, { width: size, height: size });
-  const context = canvas.getContext("2d");
-  const scale = (0.4 * size) / clearance;
-  const at = (i) => [size / 2 + scale * x[i], size / 2 - scale * y[i]];
-  context.fillStyle = colour("card");
-  context.fillRect(0, 0, size, size);
-  drawFrame(context, size, scale, clearance);
-  const paths = Array.from({ length: hues }, () => new Path2D());
-  for (let i = 1; i < x.length; i += 1) {
-    const path = paths[Math.min(hues - 1, Math.floor(partOf(i) * hues))];
-    path.moveTo(...at(i - 1));
-    path.lineTo(...at(i));
-  }
-  context.lineWidth = devicePixelRatio;
-  paths.forEach((path, hue) => {
-    context.strokeStyle = paletteColour(hue / (hues - 1));
-    context.stroke(path);
-  });
-  if (marked !== null) ring(context, ...at(marked), 5 * devicePixelRatio, "#e6007a");
-}
-
-function drawFrame(context, size, scale, clearance) {
-  context.lineWidth = 1.5 * devicePixelRatio;
-  ring(context, size / 2, size / 2, scale * clearance, colour("quiet"));
-  context.fillStyle = colour("text");
-  context.font = `${12 * devicePixelRatio}px system-ui`;
-  context.textAlign = "center";
-  for (const tick of [-clearance, 0, clearance]) {
-    context.fillText(number(tick), size / 2 + scale * tick, size - 6 * devicePixelRatio);
-    if (tick !== 0) context.fillText(number(tick), 0.05 * size, size / 2 - scale * tick + 4 * devicePixelRatio);
-  }
-  context.fillText("x", 0.96 * size, size - 6 * devicePixelRatio);
-  context.fillText("y", 0.05 * size, 0.06 * size);
-}
-
-function ring(context, x, y, radius, stroke) {
-  context.strokeStyle = stroke;
-  context.beginPath();
-  context.arc(x, y, radius, 0, 2 * Math.PI);
-  context.stroke();
 }

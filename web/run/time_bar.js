@@ -1,6 +1,7 @@
 // Sets the stretch of time that all plots show.
 import { h } from "/core/dom.js";
 import { number } from "/core/format.js";
+import { overview } from "/run/overview.js";
 
 const aroundPeak = 0.02;
 
@@ -23,10 +24,11 @@ export function timeBar(times, job, signal) {
   const { run_up_s: runUp } = job.parameters;
   const peak = job.metrics?.peak_slider_acceleration_time_s;
   const jump = (name, go) => h("button", { onclick: go }, name);
-  return h("section", { class: "card", "aria-label": "Time" },
+  return h("section", { class: "card tight", "aria-label": "Time" },
     h("p", { class: "actions" }, h("strong", {}, "Time"), text, jump("Whole run", () => times.reset()),
       runUp < times.end ? jump("Steady part", () => times.set(runUp, times.end)) : null,
       typeof peak === "number" ? jump("Around the peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null),
+    overview(job, times, signal),
     h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from), h("label", { class: "small quiet" }, "to", to)),
-    h("p", { class: "quiet small" }, "In a plot: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run. Keys: ← → + − 0."));
+    h("p", { class: "quiet small" }, "In a plot or in the strip: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run. Keys: ← → + − 0."));
 }

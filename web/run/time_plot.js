@@ -1,4 +1,5 @@
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
+import { h } from "/core/dom.js";
 import { seldom } from "/core/live.js";
 import { colour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
@@ -15,6 +16,7 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   let plot = null;
   let data = null;
   let asked = 0;
+  const now = h("div", { class: "now", hidden: true });
 
   async function load() {
     const number = ++asked;
@@ -33,17 +35,27 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   function make() {
     plot?.destroy();
     plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, element);
+    plot.over.append(now);
     watchPointer(plot, times);
+  }
+
+  function showInstant() {
+    if (!plot) return;
+    const inside = times.instant >= times.from && times.instant <= times.to;
+    now.hidden = !inside;
+    if (inside) now.style.transform = `translateX(${plot.valToPos(times.instant, "x")}px)`;
   }
 
   function follow() {
     if (plot) plot.batch(() => {
       plot.setScale("x", { min: times.from, max: times.to });
     });
+    showInstant();
   }
 
   const refine = seldom(() => signal.aborted || load(), refineMs);
   times.addEventListener("change", () => { follow(); refine(); }, { signal });
+  times.addEventListener("instant", showInstant, { signal });
   onColours(() => data && make(), signal);
   const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });
   sizes.observe(element);

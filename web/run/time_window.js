@@ -19,6 +19,7 @@ export class TimeWindow extends EventTarget {
     if (!Number.isFinite(start) || (start === this.from && start + length === this.to)) return;
     this.from = start;
     this.to = start + length;
+    this.instant = Math.min(Math.max(this.instant, this.from), this.to);
     this.dispatchEvent(new Event("change"));
   }
 

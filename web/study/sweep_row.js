@@ -41,9 +41,9 @@ export function sweepRow(act, signal) {
     buttons.cancel.hidden = !isUnderWay(sweep);
     buttons.retry.hidden = sweep.counts.failed + sweep.counts.cancelled === 0;
     buttons.delete.hidden = isUnderWay(sweep);
-    for (const [action, button] of Object.entries(buttons)) button.setAttribute("aria-label", `${action} ${name}`);
+    for (const [action, button] of Object.entries(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
     again.href = routeTo("new", "", { from: sweep.id });
-    again.setAttribute("aria-label", `Use ${name} again`);
+    again.setAttribute("aria-label", `Use again: ${name}`);
     if (sweep.counts.succeeded !== counted && sweep.counts.succeeded > 0) showPeaks(sweep);
     counted = sweep.counts.succeeded;
   }
