@@ -23,8 +23,10 @@ set(page_files
   pages/sweeps.js
   run/facts.js
   run/ideal.js
+  run/labels.js
   run/orbit.js
   run/orbit_drawing.js
+  run/overlay.js
   run/overview.js
   run/plot_card.js
   run/plot_data.js

@@ -5,7 +5,8 @@ import { colour, onColours } from "/core/theme.js";
 
 let library = null;
 
-function loadLibrary() {
+/// Loads ECharts; called early, it is there when the data are.
+export function loadCharts() {
   library ??= import("/lib/echarts.js").catch(() => {
     library = null;
     throw new Error("This program was built without its charts: the npm packages of web/ could not be fetched then.");
@@ -32,7 +33,7 @@ export function axisLook() {
 /// @param makeOption  gives ECharts' option, anew for each drawing
 /// @param label       what a screen reader says of it
 export async function makeChart(element, makeOption, label, signal) {
-  const echarts = await loadLibrary();
+  const echarts = await loadCharts();
   const chart = echarts.init(element);
   element.setAttribute("role", "img");
   element.setAttribute("aria-label", label);

@@ -47,7 +47,7 @@ export function withUnit(column, value) {
 export function pointOf(axis, value) {
   const unit = unitOf(axis);
   if (typeof value !== "number") return String(value);
-  return unit ? `${exact(value)} ${unit}` : `${nameOf(axis).toLowerCase()} ${exact(value)}`;
+  return unit ? `${number(value, 6)} ${unit}` : `${nameOf(axis).toLowerCase()} ${number(value, 6)}`;
 }
 
 /// A time span: "12 s", "3 min 20 s", "2 h 5 min".

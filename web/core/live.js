@@ -49,3 +49,12 @@ export function seldom(run, milliseconds) {
     }, milliseconds);
   };
 }
+
+/// A function that runs the given one once it has not been called for so many milliseconds.
+export function settled(run, milliseconds) {
+  let timer = null;
+  return () => {
+    clearTimeout(timer);
+    timer = setTimeout(run, milliseconds);
+  };
+}

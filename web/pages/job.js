@@ -3,11 +3,12 @@ import { cancelJob, findJob, findTrajectory, parameterSchema, trajectoryUrl } fr
 import { choice, h, notify } from "/core/dom.js";
 import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
 import { seldom } from "/core/live.js";
-import { rememberQuery, routeTo } from "/core/route.js";
+import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
 import { idealOf, isIdeal } from "/run/ideal.js";
 import { orbit } from "/run/orbit.js";
+import { overlayPicker } from "/run/overlay.js";
 import { plotCard, tracesOf } from "/run/plot_card.js";
 import { timeBar } from "/run/time_bar.js";
 import { TimeWindow } from "/run/time_window.js";
@@ -43,7 +44,7 @@ class JobPage {
     const links = job.state === "succeeded" ? h("p", { class: "actions" }, ["csv", "json", "npz"].map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
       : h("p", { class: "actions" }, job.state === "queued" || job.state === "running" ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, `${coupler} coupler, clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`),
-      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? ` · with ${this.jobs.length - 1} more` : "")), links), failure].filter(Boolean);
+      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
   }
 
   async waitForEnd() {
@@ -72,7 +73,7 @@ class JobPage {
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
     const add = choice("Add a channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
     const plots = [this.main, clearance > 0 ? this.card("Contact force", ["contact_force_n"]) : null, this.card("Drive torque and force", ["crank_torque_n_m", "rod_force_n"]),
-      this.energy(), this.extra, h("p", { class: "card" }, add)];
+      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay())];
     const side = [sceneCard(this.job, linksOf(all), this.times, this.signal), clearance > 0 ? orbit(this.job, this.times, this.signal) : null, metricsCard(this.jobs), runCard(this.job, this.schema)];
     return [timeBar(this.times, this.job, this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }
@@ -99,6 +100,17 @@ class JobPage {
       button.disabled = false;
       if (error.name !== "AbortError") notify(error.message, "trouble");
     }
+  }
+
+  /// Filled when the other jobs of the sweep are known.
+  overlay() {
+    const place = h("span");
+    overlayPicker(this.jobs, (id) => {
+      const { query } = readRoute();
+      query.set("with", [...this.jobs.slice(1).map((job) => job.id), id].join(","));
+      location.hash = routeTo("jobs", this.job.id, Object.fromEntries(query));
+    }, this.signal).then((picker) => picker && place.append(picker)).catch(() => {});
+    return place;
   }
 
   energy() {
@@ -128,7 +140,8 @@ class JobPage {
 
   remember() {
     const { times } = this;
-    const window = times.isWhole ? {} : { from: times.from.toPrecision(7), to: times.to.toPrecision(7) };
-    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window, t: times.instant > 0 ? times.instant.toPrecision(7) : "" });
+    const short = (value) => Number(value.toPrecision(7));
+    const window = times.isWhole ? {} : { from: short(times.from), to: short(times.to) };
+    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window, t: times.instant > 0 ? short(times.instant) : "" });
   }
 }

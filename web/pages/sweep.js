@@ -1,6 +1,6 @@
 // One sweep: its metrics over its axes, in parts that share what is selected.
 import { cancelSweep, findResults, findSweep, listSweeps, resultsUrl, retrySweep } from "/core/api.js";
-import { saveButtons } from "/core/charts.js";
+import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural, span, titleOf } from "/core/format.js";
 import { follow, isUnderWay, seldom } from "/core/live.js";
@@ -16,6 +16,7 @@ const mostInAddress = 20;
 const reloadMs = 1500;
 
 export async function show(main, { id, query, signal }) {
+  loadCharts().catch(() => {});  // told where a chart would be
   const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal)]);
   const page = new SweepPage(sweep, rows, query, signal);
   main.replaceChildren(...page.parts());
@@ -63,10 +64,22 @@ class SweepPage {
     this.table.draw();
     this.drawChosen();
     this.selection.addEventListener("change", () => this.changed());
-    const makers = [[heatMap, this.heat], [linesChart, this.lines], [parallelChart, this.parallel]];
-    makers.forEach(([make, element], index) => make(element, this, this.signal).then((chart) => { this.charts[index] = chart; })
-      .catch((error) => element.replaceChildren(h("p", { class: "trouble" }, error.message))));
+    this.makeCharts();
     if (isUnderWay(this.sweep)) this.followIt();
+  }
+
+  /// One in each frame, so that the first is seen before the last is made.
+  async makeCharts() {
+    for (const [make, element] of [[heatMap, this.heat], [linesChart, this.lines], [parallelChart, this.parallel]]) {
+      await new Promise(requestAnimationFrame);
+      if (this.signal.aborted) return;
+      try {
+        this.charts.push(await make(element, this, this.signal));
+      } catch (error) {
+        this.charts.push(null);
+        element.replaceChildren(h("p", { class: "trouble" }, error.message));
+      }
+    }
   }
 
   followIt() {
@@ -131,7 +144,8 @@ class SweepPage {
 
   async compareWith(id) {
     if (!id) { this.others = null; return; }
-    const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);
+    loadCharts().catch(() => {});  // told where a chart would be
+  const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);
     this.others = { id, name: sweep.name || sweep.id, rows };
     this.drawAll();
   }

@@ -1,5 +1,6 @@
 // The list of sweeps, up to date by itself.
 import { cancelSweep, deleteSweep, findSweep, listSweeps, retrySweep } from "/core/api.js";
+import { loadCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { plural } from "/core/format.js";
@@ -17,6 +18,7 @@ export async function show(main, { query, signal }) {
   main.replaceChildren(...view.parts());
   await view.refresh();
   view.keepAsking();
+  requestIdleCallback(() => loadCharts().catch(() => {}));  // the next view needs it
 }
 
 class SweepList {

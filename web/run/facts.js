@@ -1,10 +1,12 @@
 // What a job's result is, in tables: metrics, how it was run, its parameters.
 import { h } from "/core/dom.js";
 import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
+import { labelsOf } from "/run/labels.js";
 
 export function metricsCard(jobs) {
   const names = Object.keys(jobs[0].metrics ?? {});
-  const head = h("tr", {}, h("th", { scope: "col" }, "Metric"), jobs.map((job, index) => h("th", { scope: "col", class: "number" }, index === 0 ? "Value" : `…${job.id.slice(-5)}`)), h("th", { scope: "col" }, "Unit"));
+  const labels = labelsOf(jobs);
+  const head = h("tr", {}, h("th", { scope: "col" }, "Metric"), labels.map((_, index) => h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index])), h("th", { scope: "col" }, "Unit"));
   return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"), h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
     names.map((name) => h("tr", {}, h("td", {}, nameOf(name)), jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))));
 }

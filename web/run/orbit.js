@@ -3,12 +3,12 @@ import { findTrajectory } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { number } from "/core/format.js";
 import { saveCanvas } from "/core/download.js";
-import { seldom } from "/core/live.js";
+import { settled } from "/core/live.js";
 import { onColours } from "/core/theme.js";
 import { drawRing, drawScale, paintOrbit } from "/run/orbit_drawing.js";
 
 const points = 6000;
-const refineMs = 150;
+const refineMs = 200;
 const channels = ["t_s", "journal_x_mm", "journal_y_mm", "contact_force_n"];
 
 /// @param job  with a clearance
@@ -59,7 +59,7 @@ export function orbit(job, times, signal) {
     if (index !== null) drawRing(context, painted.at(index), 5 * devicePixelRatio);
   }
 
-  const refine = seldom(() => signal.aborted || load(), refineMs);
+  const refine = settled(() => signal.aborted || load(), refineMs);
   times.addEventListener("change", refine, { signal });
   times.addEventListener("instant", () => requestAnimationFrame(draw), { signal });
   onColours(paint, signal);

@@ -50,5 +50,5 @@ function optionsOf(width, times) {
 
 function mark(plot, times) {
   const left = plot.valToPos(times.from, "x");
-  plot.setSelect({ left, top: 0, width: plot.valToPos(times.to, "x") - left, height: plot.over.clientHeight }, false);
+  plot.setSelect({ left, top: 0, width: plot.valToPos(times.to, "x") - left, height: plot.bbox.height / devicePixelRatio }, false);
 }

@@ -3,6 +3,7 @@ import { h } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
 import { nameOf } from "/core/format.js";
 import { lineColour } from "/core/theme.js";
+import { labelsOf } from "/run/labels.js";
 import { timePlot } from "/run/time_plot.js";
 
 /// @param close  is called to take the card away; without it there is no such button
@@ -18,9 +19,10 @@ export function plotCard(title, { traces, times, height, signal, close, tools = 
 /// Traces of some channels for each of the jobs. @param channels  names, or {channel, envelope}
 export function tracesOf(jobs, channels) {
   const several = jobs.length > 1;
+  const labels = labelsOf(jobs);
   return jobs.flatMap((job, j) => channels.map((each, c) => {
     const { channel, envelope } = typeof each === "string" ? { channel: each } : each;
     const name = channels.length > 1 || !several ? nameOf(channel) : "";
-    return { job: job.id, channel, envelope, name: [name, several ? `…${job.id.slice(-5)}` : ""].filter(Boolean).join(" "), colour: lineColour(j * channels.length + c) };
+    return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "), colour: lineColour(j * channels.length + c) };
   }));
 }

@@ -1,13 +1,14 @@
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
 import { h } from "/core/dom.js";
-import { seldom } from "/core/live.js";
+import { seldom, settled } from "/core/live.js";
 import { colour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
 import { loadAligned } from "/run/plot_data.js";
 import { plotOptions } from "/run/plot_options.js";
 import { listenToKeys } from "/run/time_window.js";
 
-const refineMs = 120;
+const refineMs = 120;  // where nothing is there to be shown yet
+const settleMs = 250;  // where it only gets finer
 
 /// @param traces  a list of {job, channel, name, colour, dash, envelope: [least, largest] or nothing}
 /// @param times   the window that all plots share
@@ -53,8 +54,11 @@ export async function timePlot(element, { traces, times, height = 260, label, si
     showInstant();
   }
 
-  const refine = seldom(() => signal.aborted || load(), refineMs);
-  times.addEventListener("change", () => { follow(); refine(); }, { signal });
+  const fetchSoon = seldom(() => signal.aborted || load(), refineMs);
+  const fetchLater = settled(() => signal.aborted || load(), settleMs);
+  // What moves inside the data that are there is drawn from them at every frame, and made finer when it stands still.
+  const isThere = () => data && times.from >= data[0][0] && times.to <= data[0].at(-1);
+  times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });
   times.addEventListener("instant", showInstant, { signal });
   onColours(() => data && make(), signal);
   const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });

@@ -12,9 +12,14 @@ function compare(a, b) {
   return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en");
 }
 
+const known = new WeakMap();  // by rows, then by axis: many parts ask for the same
+
 /// The different values of an axis, in order. An object or list stands as its JSON.
 export function valuesOf(rows, axis) {
-  return [...new Set(rows.map((row) => valueOf(row, axis)))].sort(compare);
+  if (!known.has(rows)) known.set(rows, new Map());
+  const ofRows = known.get(rows);
+  if (!ofRows.has(axis)) ofRows.set(axis, [...new Set(rows.map((row) => valueOf(row, axis)))].sort(compare));
+  return ofRows.get(axis);
 }
 
 export function valueOf(row, axis) {

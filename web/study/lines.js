@@ -1,10 +1,11 @@
 // A metric over one axis, a line for each value of a second one (and of the panels' axis), with the spread of what lies together.
 import { axisLook, makeChart } from "/core/charts.js";
-import { exact, nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
-import { lineColour } from "/core/theme.js";
+import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
+import { colour, lineColour } from "/core/theme.js";
 import { groupBy, valuesOf } from "/study/data.js";
 
 const mostLines = 30;
+const fewPoints = 400;  // whose marks do not hide the lines
 const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "pin"];
 
 export function linesChart(element, study, signal) {
@@ -24,16 +25,20 @@ export function linesChart(element, study, signal) {
 function planOf({ rows, view, selection, others }) {
   const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
   const numeric = xs.every((x) => typeof x === "number");
-  const lines = [...linesOf(rows, view, ""), ...(others ? linesOf(others.rows, view, ` (${others.name})`) : [])].slice(0, mostLines);
+  const all = [...linesOf(rows, view, ""), ...(others ? linesOf(others.rows, view, ` (${others.name})`) : [])];
+  const lines = all.slice(0, mostLines);
+  const few = lines.reduce((sum, line) => sum + line.groups.length, 0) <= fewPoints;
   const at = (value) => (numeric ? value : xs.indexOf(value));
-  const x = numeric ? { type: "value", scale: true } : { type: "category", data: xs.map(exact) };
+  const x = numeric ? { type: "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
   return { groups: lines.map((line) => line.groups), option: {
     grid: { left: 75, right: 20, top: 40, bottom: 50 },
     legend: { top: 0 },
-    tooltip: { formatter: ({ data }) => data.text ?? "" },
+    title: { show: all.length > mostLines, text: `The first ${mostLines} of ${all.length} lines: choose fewer values, or another axis for them.`, bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
+    tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
     xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...axisLook() },
     yAxis: { type: "value", scale: true, name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
-    series: lines.flatMap((line, index) => [spreadSeries(line, index, at), lineSeries(line, index, at, view, selection)]),
+    series: lines.flatMap((line, index) => [...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []), lineSeries(line, index, at, few),
+      ...chosenSeries(line, index, at, selection)]),
   } };
 }
 
@@ -42,24 +47,34 @@ function linesOf(rows, view, suffix) {
   const byLine = new Map();
   for (const group of groupBy(rows, [...keys, view.x], view.metric)) {
     if (group.mean === null) continue;
-    const name = (keys.map((key, i) => pointOf(key, group.values[i])).join(", ") || nameOf(view.metric)) + suffix;
-    byLine.set(name, [...(byLine.get(name) ?? []), group]);
+    const key = JSON.stringify(group.values.slice(0, -1));
+    if (!byLine.has(key)) byLine.set(key, []);
+    byLine.get(key).push(group);
   }
-  const order = valuesOf(rows, view.x);
-  const x = (group) => order.indexOf(group.values.at(-1));
-  return [...byLine].map(([name, groups]) => ({ name, dashed: suffix !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+  const nameOfLine = ([{ values }]) => (keys.map((key, i) => pointOf(key, values[i])).join(", ") || nameOf(view.metric)) + suffix;
+  const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
+  const x = (group) => order.get(group.values.at(-1));
+  return [...byLine.values()].map((groups) => ({ name: nameOfLine(groups), dashed: suffix !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
 }
 
-function lineSeries(line, index, at, view, selection) {
-  return { id: `line:${index}`, name: line.name, type: "line", symbol: symbols[index % symbols.length], showSymbol: true, color: lineColour(index),
+function lineSeries(line, index, at, few) {
+  return { id: `line:${index}`, name: line.name, type: "line", symbol: symbols[index % symbols.length], showSymbol: few, symbolSize: 8, color: lineColour(index),
     lineStyle: { type: line.dashed ? "dashed" : "solid" },
-    data: line.groups.map((group) => {
-      const chosen = group.jobs.some((job) => selection.has(job));
-      const several = group.count > 1 ? `\nmean of ${group.count}: ${number(group.min)} to ${number(group.max)}` : "";
-      return { value: [at(group.values.at(-1)), group.mean], symbolSize: chosen ? 15 : 8,
-        itemStyle: chosen ? { borderColor: "#e6007a", borderWidth: 3 } : {},
-        text: `${line.name}\n${nameOf(view.x)} ${pointOf(view.x, group.values.at(-1))}\n${number(group.mean)} ${unitOf(view.metric)}${several}` };
-    }) };
+    data: line.groups.map((group) => [at(group.values.at(-1)), group.mean]) };
+}
+
+/// Rings around what is selected; nothing, where nothing is.
+function chosenSeries(line, index, at, selection) {
+  const chosen = selection.size === 0 ? [] : line.groups.filter((group) => group.jobs.some((job) => selection.has(job)));
+  if (chosen.length === 0) return [];
+  return [{ id: `chosen:${index}`, name: line.name, type: "scatter", silent: true, symbol: "circle", symbolSize: 15, z: 5,
+    itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 }, data: chosen.map((group) => [at(group.values.at(-1)), group.mean]) }];
+}
+
+function textOf({ name, groups }, index, view) {
+  const group = groups[index];
+  const several = group.count > 1 ? `\nmean of ${group.count}: ${number(group.min)} to ${number(group.max)}` : "";
+  return `${name}\n${nameOf(view.x)} ${pointOf(view.x, group.values.at(-1))}\n${number(group.mean)} ${unitOf(view.metric)}${several}`;
 }
 
 /// From the least to the largest of what lies together, as an upright bar.

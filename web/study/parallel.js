@@ -25,14 +25,18 @@ export function parallelChart(element, study, signal) {
   return made.then((chart) => ({ ...chart, draw: () => { if (!brushing) chart.draw(); } }));
 }
 
+// Beyond the extremes there is room, from where a brush can begin.
+const room = ({ min, max }) => 0.05 * (max - min || Math.abs(max) || 1);
+const roomy = { scale: true, min: (extremes) => extremes.min - room(extremes), max: (extremes) => extremes.max + room(extremes) };
+
 function planOf({ rows, axes, metrics, view, selection }) {
   const columns = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
   const shown = rows.filter((row) => row.state === "succeeded");
   const dimensions = columns.map((column, dim) => {
     const values = valuesOf(shown, column);
     const numeric = values.every((value) => typeof value === "number" || value === "–");
-    return { dim, name: titleOf(column), nameTextStyle: { color: colour("text") }, axisLabel: { color: colour("text"), formatter: (value) => (numeric ? number(value, 3) : exact(value)) },
-      axisLine: { lineStyle: { color: colour("quiet") } }, ...(numeric ? { scale: true } : { type: "category", data: values.map(String) }) };
+    return { dim, name: titleOf(column), nameTextStyle: { color: colour("text") }, axisLabel: { color: colour("text"), formatter: (value) => (numeric ? number(value, 3) : exact(value)), ...(numeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
+      axisLine: { lineStyle: { color: colour("quiet") } }, ...(numeric ? roomy : { type: "category", data: values.map(String) }) };
   });
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
   const chosenFew = selection.size > 0;
@@ -40,8 +44,11 @@ function planOf({ rows, axes, metrics, view, selection }) {
     parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" }, areaSelectStyle: { color: colour("accent"), opacity: 0.35 } } },
     parallelAxis: dimensions.map((dimension, index) => ({ ...dimension, nameLocation: index % 2 === 0 ? "end" : "start" })),
     visualMap: { show: false, min: Math.min(...peaks), max: Math.max(...peaks), dimension: columns.indexOf(view.metric), inRange: { color: palette() } },
-    series: [{ type: "parallel", smooth: false, progressive: 2000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
-      data: shown.map((row) => ({ value: columns.map((column) => cellOf(row, column)), lineStyle: !chosenFew ? {} : selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 } })) }],
+    series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
+      data: shown.map((row) => {
+        const value = columns.map((column) => cellOf(row, column));
+        return chosenFew ? { value, lineStyle: selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 } } : value;
+      }) }],
   } };
 }
 

@@ -1,6 +1,6 @@
 // The rows of a sweep as a table: sorted by any column, a page at a time.
 import { h } from "/core/dom.js";
-import { exact, nameOf, number, unitOf } from "/core/format.js";
+import { nameOf, number, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { sortedBy, valueOf } from "/study/data.js";
 
@@ -77,6 +77,6 @@ export class ResultTable {
     const value = valueOf(row, column);
     if (column === "state") return h("td", { class: value }, value);
     const given = this.study.axes.includes(column);
-    return h("td", { class: typeof value === "number" ? "number" : null }, given ? exact(value) : number(value));
+    return h("td", { class: typeof value === "number" ? "number" : null }, number(value, given ? 6 : 4));
   }
 }
