@@ -27,7 +27,7 @@ test("a sweep of 10,000 jobs opens in less than a second", { timeout: 600000 }, 
   const taken = [];
   for (let k = 0; k < tries; k += 1) {
     const page = await visit("");
-    await page.getByText("10000 succeeded").waitFor();
+    await page.getByText("10,000 succeeded").waitFor();
     await page.waitForLoadState("networkidle");
     // From the click to the table, the heat map and the lines on the screen.
     taken.push(await page.evaluate(async (address) => {

@@ -37,6 +37,7 @@ test("the paper's study is submitted in the form and watched until it has finish
   await list.getByRole("row").filter({ hasText: "paper" }).getByText("running", { exact: true }).waitFor();
   await list.getByText(/[1-9] succeeded/).waitFor({ timeout: 2 * minutes });
   await picture(list, "list_running");
+  await page.locator(".chart canvas").nth(2).waitFor();
   await page.getByText(/^running: .*[1-9]\d* succeeded/).waitFor({ timeout: 2 * minutes });
   await picture(page, "sweep_running", { fullPage: true });
   await page.getByText("succeeded: 18 succeeded of 18 jobs").waitFor({ timeout: 8 * minutes });
@@ -119,6 +120,7 @@ test("the orbit is brushed in time, and every spike survives", async () => {
   await page.locator("canvas.scene[data-instant]").waitFor();
   await page.getByRole("button", { name: "Lay over the ideal linkage" }).click();
   await page.getByText("ideal linkage", { exact: true }).waitFor({ timeout: minutes });
+  await page.getByLabel("Instant [s]").fill("3.65");
   await picture(page, "job", { clip: { x: 0, y: 0, width: 1360, height: 1400 }, fullPage: true });
   // What is drawn of the whole run has the peak that the metrics tell.
   const job = await ask(`/v1/jobs/${id}`);

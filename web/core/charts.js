@@ -23,6 +23,10 @@ function inPageColours(option) {
     tooltip: option.tooltip && { renderMode: "richText", confine: true, backgroundColor: colour("card"), borderColor: colour("line"), textStyle: text, ...option.tooltip } };
 }
 
+function nothingYet() {
+  return { title: { text: "No job has such a result yet.", left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, fontWeight: "normal" } } };
+}
+
 /// How an axis looks.
 export function axisLook() {
   const line = { lineStyle: { color: colour("line") } };
@@ -30,7 +34,7 @@ export function axisLook() {
 }
 
 /// A chart that fills its element and follows its size and the page's colours.
-/// @param makeOption  gives ECharts' option, anew for each drawing
+/// @param makeOption  gives ECharts' option, anew for each drawing; null if there is nothing to draw
 /// @param label       what a screen reader says of it
 export async function makeChart(element, makeOption, label, signal) {
   const echarts = await loadCharts();
@@ -38,10 +42,7 @@ export async function makeChart(element, makeOption, label, signal) {
   element.setAttribute("role", "img");
   element.setAttribute("aria-label", label);
   const draw = () => {
-    const option = makeOption();
-    if (option) chart.setOption(inPageColours(option), { notMerge: true });
-    else chart.clear();
-    element.setAttribute("aria-label", label);
+    chart.setOption(inPageColours(makeOption() ?? nothingYet()), { notMerge: true });
   };
   const sizes = new ResizeObserver(() => chart.resize());
   sizes.observe(element);
@@ -52,7 +53,7 @@ export async function makeChart(element, makeOption, label, signal) {
   });
   draw();
   return { chart, draw, savePng: (name) => saveCanvas(chart.renderToCanvas({ pixelRatio: 2, backgroundColor: colour("card") }), `${name}.png`),
-    saveSvg: (name) => saveSvg(echarts, element, inPageColours(makeOption()), name) };
+    saveSvg: (name) => saveSvg(echarts, element, inPageColours(makeOption() ?? nothingYet()), name) };
 }
 
 function saveSvg(echarts, element, option, name) {

@@ -24,6 +24,11 @@ export function choice(label, options, value, onchange) {
   return h("label", { class: "choice" }, h("span", {}, label), select);
 }
 
+/// Resolves once the element has a width, which it has not before it stands in the page.
+export async function laidOut(element, signal) {
+  while (element.clientWidth === 0 && !signal.aborted) await new Promise(requestAnimationFrame);
+}
+
 let nextId = 0;
 
 /// An id that no other element has.

@@ -112,7 +112,7 @@ class SweepPage {
 
   drawHead() {
     const { counts, eta_s: eta } = this.sweep;
-    const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0).map(([state, count]) => `${count} ${state}`);
+    const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0).map(([state, count]) => `${count.toLocaleString("en")} ${state}`);
     const left = isUnderWay(this.sweep) && eta !== null ? `; about ${span(eta)} left` : "";
     this.status.textContent = `${this.sweep.state}: ${parts.join(", ")} of ${plural(counts.total, "job")}${left}`;
     const act = (text, run) => h("button", { onclick: () => run(this.sweep.id).then(() => this.reload()).then(() => isUnderWay(this.sweep) && this.followIt()).catch((error) => notify(error.message, "trouble")) }, text);

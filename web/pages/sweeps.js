@@ -3,7 +3,7 @@ import { cancelSweep, deleteSweep, findSweep, listSweeps, retrySweep } from "/co
 import { loadCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
-import { plural } from "/core/format.js";
+import { nameOf, plural } from "/core/format.js";
 import { follow, isUnderWay } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { sweepRow } from "/study/sweep_row.js";
@@ -94,7 +94,7 @@ class SweepList {
   }
 
   matches(sweep) {
-    const text = [sweep.name, sweep.id, ...sweep.axes].join(" ").toLowerCase();
+    const text = [sweep.name, sweep.id, ...sweep.axes, ...sweep.axes.map(nameOf)].join(" ").toLowerCase();
     return this.search.toLowerCase().split(/\s+/).every((word) => text.includes(word));
   }
 

@@ -1,5 +1,5 @@
 // The whole run in a strip. The stretch that all plots show is marked in it; drawing over the strip sets another one.
-import { h } from "/core/dom.js";
+import { h, laidOut } from "/core/dom.js";
 import { colour, lineColour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
 import { loadAligned } from "/run/plot_data.js";
@@ -14,6 +14,7 @@ export function overview(job, times, signal) {
 
 async function make(element, job, times, signal) {
   const uPlot = await loadUplot();
+  await laidOut(element, signal);
   // Only the extremes: between them lies the acceleration itself.
   const [trace, other] = ["max", "min"].map((extreme) => ({ job: job.id, channel: `slider_acceleration_${extreme}_m_s2` }));
   const whole = { isWhole: true, from: 0, to: times.end, end: times.end };

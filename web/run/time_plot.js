@@ -1,5 +1,5 @@
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
-import { h } from "/core/dom.js";
+import { h, laidOut } from "/core/dom.js";
 import { seldom, settled } from "/core/live.js";
 import { colour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
@@ -14,6 +14,7 @@ const settleMs = 250;  // where it only gets finer
 /// @param times   the window that all plots share
 export async function timePlot(element, { traces, times, height = 260, label, signal }) {
   const uPlot = await loadUplot();
+  await laidOut(element, signal);
   let plot = null;
   let data = null;
   let asked = 0;

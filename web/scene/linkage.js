@@ -32,9 +32,11 @@ export class Linkage {
   drawBush(factor) {
     const { cross, clearance, bearing } = this.measures;
     const inner = cross.radius + factor * clearance;
+    const wall = bushWall * (cross.radius + clearance);
+    this.bushReach = inner + wall / 2;
     for (const child of this.bush.children) child.geometry.dispose();
     this.bush.clear();
-    this.bush.add(bushAlongZ(this.THREE, { inner, outer: inner + bushWall * (cross.radius + clearance), length: bearing.length }, this.couplerMaterial));
+    this.bush.add(bushAlongZ(this.THREE, { inner, outer: inner + wall, length: bearing.length }, this.couplerMaterial));
     this.bushFactor = factor;
   }
 
@@ -47,14 +49,15 @@ export class Linkage {
     const end = points.at(-1);
     const journal = new THREE.Vector3(...frames["2_2"]);
     const shift = end.clone().sub(journal).multiplyScalar(clearance - 1);
+    if (clearance !== this.bushFactor) this.drawBush(clearance);
     const drawn = exaggerate(points, bend, shift);
+    setFrame(this.bush, frames[this.elements.at(-1)]);
+    this.bush.position.copy(drawn.at(-1));
+    endBefore(drawn, this.bushReach);
     const curve = drawn.length > 2 ? new THREE.CatmullRomCurve3(drawn) : new THREE.LineCurve3(...drawn);
     this.coupler.geometry.dispose();
     this.coupler.geometry = new THREE.TubeGeometry(curve, drawn.length > 2 ? couplerPoints : 1, this.measures.coupler.radius, 16);
     this.ball.position.copy(points[0]);
-    setFrame(this.bush, frames[this.elements.at(-1)]);
-    this.bush.position.copy(drawn.at(-1));
-    if (clearance !== this.bushFactor) this.drawBush(clearance);
   }
 
   /// The coupler's axis: the origins of its elements, and its end. The first and the last element have half the others' length.
@@ -83,4 +86,10 @@ function exaggerate(points, factor, shift) {
     const foot = start.clone().addScaledVector(chord, part);
     return foot.add(point.clone().sub(foot).multiplyScalar(factor)).addScaledVector(shift, part);
   });
+}
+
+/// Takes the last point of a line back by a distance: the coupler ends at its bush, not in the bore.
+function endBefore(points, distance) {
+  const [before, end] = points.slice(-2);
+  end.lerp(before, Math.min(distance / end.distanceTo(before), 0.9));
 }

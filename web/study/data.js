@@ -8,6 +8,9 @@ export function metricsOf(rows, axes) {
   return [...columns].filter((column) => !notMetrics.has(column) && !axes.includes(column));
 }
 
+/// What stands where a row has no value.
+export const none = "–";
+
 function compare(a, b) {
   return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en");
 }
@@ -24,7 +27,7 @@ export function valuesOf(rows, axis) {
 
 export function valueOf(row, axis) {
   const value = row[axis];
-  return value !== null && typeof value === "object" ? JSON.stringify(value) : value ?? "–";
+  return value !== null && typeof value === "object" ? JSON.stringify(value) : value ?? none;
 }
 
 /// Mean and extremes of a metric over each set of rows that agree in the keys.

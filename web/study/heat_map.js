@@ -32,6 +32,7 @@ function planOf({ rows, view, selection }) {
   const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
   const means = groups.map((group) => group.mean);
+  if (groups.length === 0) return { cells, option: null };
   return { cells, option: {
     ...gridsOf(view, xs, ys, panels),
     tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
@@ -61,21 +62,21 @@ const places = (values) => new Map(values.map((value, place) => [value, place]))
 const shortly = (value) => number(value, 4);
 
 /// Labels at so many of the values that they stand apart.
-function withRoom(values, most) {
+function withRoom(values, most, show = true) {
   const look = axisLook();
-  return { ...look, axisLabel: { ...look.axisLabel, interval: Math.ceil(values.length / most) - 1 } };
+  return { ...look, axisLabel: { ...look.axisLabel, show, interval: Math.ceil(values.length / most) - 1 } };
 }
 
 function gridsOf(view, xs, ys, panels) {
   const columns = Math.min(panels.length, 3);
   const lines = Math.ceil(panels.length / columns);
-  const place = (index) => ({ left: `${8 + (index % columns) * (90 / columns)}%`, width: `${90 / columns - 7}%`,
+  const place = (index) => ({ left: `${12 + (index % columns) * (87 / columns)}%`, width: `${87 / columns - 3}%`,
     top: `${8 + Math.floor(index / columns) * (76 / lines)}%`, height: `${76 / lines - 16}%` });
   return {
     title: panels.map((panel, index) => ({ text: view.panel ? pointOf(view.panel, panel) : "", left: place(index).left,
       top: `${Math.floor(index / columns) * (76 / lines)}%`, textStyle: { fontSize: 13, color: colour("text") } })),
     grid: panels.map((_, index) => place(index)),
     xAxis: panels.map((_, index) => ({ gridIndex: index, type: "category", data: xs.map(shortly), name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...withRoom(xs, mostLabels / columns) })),
-    yAxis: panels.map((_, index) => ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0 && view.y ? titleOf(view.y) : "", nameLocation: "middle", nameGap: 40, ...withRoom(ys, mostLabels) })),
+    yAxis: panels.map((_, index) => ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0 && view.y ? titleOf(view.y) : "", nameLocation: "middle", nameGap: 52, ...withRoom(ys, mostLabels, index % columns === 0) })),
   };
 }

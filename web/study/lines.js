@@ -2,11 +2,11 @@
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
-import { groupBy, valuesOf } from "/study/data.js";
+import { groupBy, none, valuesOf } from "/study/data.js";
 
 const mostLines = 30;
 const fewPoints = 400;  // whose marks do not hide the lines
-const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "pin"];
+const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow"];
 
 export function linesChart(element, study, signal) {
   let groups = [];
@@ -25,13 +25,15 @@ export function linesChart(element, study, signal) {
 function planOf({ rows, view, selection, others }) {
   const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
   const numeric = xs.every((x) => typeof x === "number");
-  const all = [...linesOf(rows, view, ""), ...(others ? linesOf(others.rows, view, ` (${others.name})`) : [])];
+  const all = [...linesOf(rows, view, ""), ...(others ? linesOf(others.rows, view, others.name) : [])];
   const lines = all.slice(0, mostLines);
   const few = lines.reduce((sum, line) => sum + line.groups.length, 0) <= fewPoints;
   const at = (value) => (numeric ? value : xs.indexOf(value));
   const x = numeric ? { type: "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
-  return { groups: lines.map((line) => line.groups), option: {
-    grid: { left: 75, right: 20, top: 40, bottom: 50 },
+  const groups = lines.map((line) => line.groups);
+  if (lines.length === 0) return { groups, option: null };
+  return { groups, option: {
+    grid: { left: 75, right: 20, top: 40, bottom: all.length > mostLines ? 75 : 50 },
     legend: { top: 0 },
     title: { show: all.length > mostLines, text: `The first ${mostLines} of ${all.length} lines: choose fewer values, or another axis for them.`, bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
@@ -42,7 +44,8 @@ function planOf({ rows, view, selection, others }) {
   } };
 }
 
-function linesOf(rows, view, suffix) {
+/// @param sweep  its name, where it is not the one that is looked at
+function linesOf(rows, view, sweep) {
   const keys = [view.y, view.panel].filter(Boolean);
   const byLine = new Map();
   for (const group of groupBy(rows, [...keys, view.x], view.metric)) {
@@ -51,10 +54,10 @@ function linesOf(rows, view, suffix) {
     if (!byLine.has(key)) byLine.set(key, []);
     byLine.get(key).push(group);
   }
-  const nameOfLine = ([{ values }]) => (keys.map((key, i) => pointOf(key, values[i])).join(", ") || nameOf(view.metric)) + suffix;
+  const nameOfLine = ([{ values }]) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), sweep].filter(Boolean).join(", ") || nameOf(view.metric);
   const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
   const x = (group) => order.get(group.values.at(-1));
-  return [...byLine.values()].map((groups) => ({ name: nameOfLine(groups), dashed: suffix !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+  return [...byLine.values()].map((groups) => ({ name: nameOfLine(groups), dashed: sweep !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
 }
 
 function lineSeries(line, index, at, few) {

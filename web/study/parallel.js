@@ -2,7 +2,7 @@
 import { makeChart } from "/core/charts.js";
 import { exact, number, titleOf } from "/core/format.js";
 import { colour, palette } from "/core/theme.js";
-import { valueOf, valuesOf } from "/study/data.js";
+import { none, valueOf, valuesOf } from "/study/data.js";
 
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
 
@@ -34,10 +34,11 @@ function planOf({ rows, axes, metrics, view, selection }) {
   const shown = rows.filter((row) => row.state === "succeeded");
   const dimensions = columns.map((column, dim) => {
     const values = valuesOf(shown, column);
-    const numeric = values.every((value) => typeof value === "number" || value === "–");
+    const numeric = values.every((value) => typeof value === "number" || value === none);
     return { dim, name: titleOf(column), nameTextStyle: { color: colour("text") }, axisLabel: { color: colour("text"), formatter: (value) => (numeric ? number(value, 3) : exact(value)), ...(numeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
       axisLine: { lineStyle: { color: colour("quiet") } }, ...(numeric ? roomy : { type: "category", data: values.map(String) }) };
   });
+  if (shown.length === 0) return { shown, option: null };
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
   const chosenFew = selection.size > 0;
   return { shown, option: {
@@ -54,5 +55,5 @@ function planOf({ rows, axes, metrics, view, selection }) {
 
 function cellOf(row, column) {
   const value = valueOf(row, column);
-  return typeof value === "number" ? value : value === "–" ? "-" : String(value);
+  return typeof value === "number" ? value : value === none ? "-" : String(value);
 }

@@ -1,7 +1,7 @@
 // One sweep in the list: its row is made once and then kept up to date.
 import { findResults } from "/core/api.js";
 import { h } from "/core/dom.js";
-import { moment, number, span } from "/core/format.js";
+import { moment, nameOf, number, span } from "/core/format.js";
 import { isUnderWay } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
@@ -30,13 +30,13 @@ export function sweepRow(act, signal) {
     if (text === drawn) return;
     drawn = text;
     const name = sweep.name || sweep.id;
-    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id) }, name), h("span", { class: "small quiet" }, sweep.axes.join(" × ")));
+    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id) }, name), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
     cells.state.replaceChildren(h("span", { class: sweep.state }, sweep.state));
     const part = `${Math.floor(100 * sweep.progress)} %`;
     bar.value = sweep.progress;
     bar.setAttribute("aria-label", `Progress of ${name}`);
     percent.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `${part}, about ${span(sweep.eta_s)} left` : part;
-    cells.jobs.textContent = jobStates.filter((state) => sweep.counts[state] > 0).map((state) => `${sweep.counts[state]} ${state}`).join(", ");
+    cells.jobs.textContent = jobStates.filter((state) => sweep.counts[state] > 0).map((state) => `${sweep.counts[state].toLocaleString("en")} ${state}`).join(", ");
     cells.created.textContent = moment(sweep.created_at);
     buttons.cancel.hidden = !isUnderWay(sweep);
     buttons.retry.hidden = sweep.counts.failed + sweep.counts.cancelled === 0;
