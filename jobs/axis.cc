@@ -3,21 +3,94 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <set>
 
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
+#include "jobs/span.h"
 
 namespace jobs {
 namespace {
 
 using nlohmann::json;
 
-constexpr Range kCountRange{.minimum = 1, .maximum = 1e9};
+/// Adds the faults of {"from", "to", "count", "scale"}. Returns whether there are none.
+bool check_span(const json& axis, const std::string& pointer, std::vector<Fault>& faults) {
+  constexpr std::array<std::string_view, 1> kCount{"count"};
+  const std::size_t before = faults.size();
+  (void)read_span(axis, kCount, pointer, faults);
+  std::string detail = axis.contains("count") ? describe_integer_fault(kCountRange, axis.at("count")) : "is missing";
+  if (detail.empty() && axis.at("count") == 1 && axis.value("from", json()) != axis.value("to", json())) {
+    detail = "must be 2 or more, since from and to differ";
+  }
+  if (!detail.empty()) faults.push_back({pointer + "/count", std::move(detail)});
+  return faults.size() == before;
+}
 
-/// Adds the fault of an axis that is no parameter. Returns whether it is one.
+/// The values of a span that has no faults, each made when it is asked for.
+class SpanValues {
+ public:
+  explicit SpanValues(const json& span)
+      : ends_{.from = span.at("from").get<double>(), .to = span.at("to").get<double>(), .logarithmic = span.value("scale", "linear") == "log"},
+        count_(span.at("count").get<std::uint64_t>()) {}
+
+  [[nodiscard]] std::uint64_t size() const { return count_; }
+
+  [[nodiscard]] double operator[](std::uint64_t k) const {
+    if (k == 0) return ends_.from;
+    if (k + 1 == count_) return ends_.to;
+    const auto a = static_cast<double>(count_ - 1 - k);
+    const auto b = static_cast<double>(k);
+    const auto n = static_cast<double>(count_ - 1);
+    return ends_.logarithmic ? ends_.from * std::pow(ends_.to / ends_.from, b / n) : (ends_.from * a + ends_.to * b) / n;
+  }
+
+  /// They rise or fall, so that a billion of them need not be looked at.
+  [[nodiscard]] bool contains(double x) const {
+    const bool rises = ends_.from <= ends_.to;
+    const auto numbers = std::views::iota(std::uint64_t{0}, count_);
+    const auto found = std::ranges::partition_point(numbers, [&](std::uint64_t k) { return rises ? (*this)[k] < x : (*this)[k] > x; });
+    return found != numbers.end() && (*this)[*found] == x;
+  }
+
+ private:
+  Span ends_;
+  std::uint64_t count_;
+};
+
+void add_span_values(const SpanValues& span, const std::string& pointer, Axis& axis) {
+  for (std::uint64_t k = 0; k < span.size(); ++k) {
+    axis.values.emplace_back(span[k]);
+    axis.pointers.push_back(k == 0 ? pointer + "/from" : k + 1 == span.size() ? pointer + "/to" : pointer);
+  }
+}
+
+void add_list_values(const json& list, const std::string& pointer, Axis& axis) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    axis.values.push_back(list[k]);
+    axis.pointers.push_back(pointer + pointer_token(std::to_string(k)));
+  }
+}
+
+void find_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, std::vector<Fault>& faults) {
+  std::set<std::string> seen;
+  for (std::size_t k = 0; k < axis.values.size(); ++k) {
+    json alone = json::object();
+    set_at_path(alone, axis.path, axis.values[k]);
+    const auto value_faults = find_value_faults(alone);
+    const std::string which = is_span ? "value " + axis.values[k].dump() + ": " : "";
+    for (const Fault& fault : value_faults) faults.push_back({axis.pointers[k], which + fault.detail});
+    if (repeats == Repeats::kRefused && value_faults.empty() && !seen.insert(value_identity(axis.path, axis.values[k])).second) {
+      faults.push_back({axis.pointers[k], which + "is in this axis already"});
+    }
+  }
+}
+
+}  // namespace
+
 bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults) {
   const auto& known = known_paths();
   if (std::find(known.begin(), known.end(), path) != known.end()) return true;
@@ -35,76 +108,11 @@ bool is_numeric(const std::string& path) {
   return info != nullptr ? info->kind != ParameterKind::kChoice : path.ends_with("mass_kg");
 }
 
-std::string describe_end_fault(const json& axis, const char* end, bool logarithmic) {
-  if (!axis.contains(end)) return "is missing";
-  Range range;
-  if (logarithmic) range = {.minimum = 0.0, .lower = Bound::kExclusive};
-  return describe_number_fault(range, "", axis.at(end)).empty() ? "" : logarithmic ? "must be a number above 0" : "must be a number";
+std::string value_identity(const std::string& path, const json& value) {
+  const ParameterInfo* info = find_parameter(path);
+  if (info != nullptr) return canonical_value(*info, value).dump();
+  return value.is_number() ? json(value.get<double>()).dump() : value.dump();
 }
-
-/// Adds the faults of {"from", "to", "count", "scale"}. Returns whether there are none.
-bool check_span(const json& axis, const std::string& pointer, std::vector<Fault>& faults) {
-  constexpr std::array<std::string_view, 4> kKeys{"from", "to", "count", "scale"};
-  const std::size_t before = faults.size();
-  for (const auto& [key, value] : axis.items()) {
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) faults.push_back({pointer + pointer_token(key), describe_unknown_key(key, kKeys)});
-  }
-  const json scale = axis.value("scale", json("linear"));
-  if (scale != "linear" && scale != "log") faults.push_back({pointer + "/scale", "must be \"linear\" or \"log\""});
-  for (const char* end : {"from", "to"}) {
-    std::string detail = describe_end_fault(axis, end, scale == "log");
-    if (!detail.empty()) faults.push_back({pointer + "/" + end, std::move(detail)});
-  }
-  std::string detail = axis.contains("count") ? describe_integer_fault(kCountRange, axis.at("count")) : "is missing";
-  if (detail.empty() && axis.at("count") == 1 && axis.value("from", json()) != axis.value("to", json())) {
-    detail = "must be 2 or more, since from and to differ";
-  }
-  if (!detail.empty()) faults.push_back({pointer + "/count", std::move(detail)});
-  return faults.size() == before;
-}
-
-double span_value(double from, double to, std::uint64_t k, std::uint64_t last, bool logarithmic) {
-  if (k == 0) return from;
-  if (k == last) return to;
-  const auto a = static_cast<double>(last - k);
-  const auto b = static_cast<double>(k);
-  const auto n = static_cast<double>(last);
-  return logarithmic ? from * std::pow(to / from, b / n) : (from * a + to * b) / n;
-}
-
-void add_span_values(const json& span, const std::string& pointer, Axis& axis) {
-  const auto count = span.at("count").get<std::uint64_t>();
-  const auto from = span.at("from").get<double>();
-  const auto to = span.at("to").get<double>();
-  const bool logarithmic = span.value("scale", "linear") == "log";
-  for (std::uint64_t k = 0; k < count; ++k) {
-    axis.values.emplace_back(span_value(from, to, k, count - 1, logarithmic));
-    axis.pointers.push_back(k == 0 ? pointer + "/from" : k + 1 == count ? pointer + "/to" : pointer);
-  }
-}
-
-void add_list_values(const json& list, const std::string& pointer, Axis& axis) {
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    axis.values.push_back(list[k]);
-    axis.pointers.push_back(pointer + pointer_token(std::to_string(k)));
-  }
-}
-
-void find_axis_value_faults(const Axis& axis, bool is_span, std::vector<Fault>& faults) {
-  std::set<std::string> seen;
-  for (std::size_t k = 0; k < axis.values.size(); ++k) {
-    json alone = json::object();
-    set_at_path(alone, axis.path, axis.values[k]);
-    const auto value_faults = find_value_faults(alone);
-    const std::string which = is_span ? "value " + axis.values[k].dump() + ": " : "";
-    for (const Fault& fault : value_faults) faults.push_back({axis.pointers[k], which + fault.detail});
-    if (value_faults.empty() && !seen.insert(value_identity(axis.path, axis.values[k])).second) {
-      faults.push_back({axis.pointers[k], which + "is in this axis already"});
-    }
-  }
-}
-
-}  // namespace
 
 std::uint64_t count_axis_values(const std::string& path, const json& axis, const std::string& pointer, std::vector<Fault>& faults) {
   if (!is_known_path(path, pointer, faults)) return 0;
@@ -115,21 +123,24 @@ std::uint64_t count_axis_values(const std::string& path, const json& axis, const
   return 0;
 }
 
-Axis make_axis(const std::string& path, const json& axis, const std::string& pointer, std::vector<Fault>& faults) {
+bool axis_contains(const std::string& path, const json& axis, const json& value) {
+  if (axis.is_object()) return SpanValues(axis).contains(value.get<double>());
+  return std::ranges::any_of(axis, [&](const json& other) {
+    json alone = json::object();
+    set_at_path(alone, path, other);
+    return find_value_faults(alone).empty() && value_identity(path, other) == value_identity(path, value);
+  });
+}
+
+Axis make_axis(const std::string& path, const json& axis, const std::string& pointer, std::vector<Fault>& faults, Repeats repeats) {
   Axis made{.path = path, .values = {}, .pointers = {}};
   if (axis.is_array()) {
     add_list_values(axis, pointer, made);
   } else {
-    add_span_values(axis, pointer, made);
+    add_span_values(SpanValues(axis), pointer, made);
   }
-  find_axis_value_faults(made, axis.is_object(), faults);
+  find_axis_value_faults(made, axis.is_object(), repeats, faults);
   return made;
-}
-
-std::string value_identity(const std::string& path, const json& value) {
-  const ParameterInfo* info = find_parameter(path);
-  if (info != nullptr) return canonical_value(*info, value).dump();
-  return value.is_number() ? json(value.get<double>()).dump() : value.dump();
 }
 
 }  // namespace jobs

@@ -7,8 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/errors.h"
+#include "jobs/range.h"
 
 namespace jobs {
+
+/// How many values one axis may be asked for; far fewer make a sweep that is too large.
+inline constexpr Range kCountRange{.minimum = 1, .maximum = 1e9};
 
 /// One swept parameter and its values, in the order of the request.
 struct Axis {
@@ -17,17 +21,32 @@ struct Axis {
   std::vector<std::string> pointers;    ///< where each value stands in the request
 };
 
+/// Whether a value may stand in an axis twice.
+enum class Repeats { kRefused, kAllowed };
+
+/// Whether an axis may have this path; if not, the fault is added.
+[[nodiscard]] bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults);
+
+/// Whether a path's values are single numbers. @param path  a known one
+[[nodiscard]] bool is_numeric(const std::string& path);
+
+/// A value in the form in which equal values are equal: 5 and 5.0 are one number. @param value  has no faults
+[[nodiscard]] std::string value_identity(const std::string& path, const nlohmann::json& value);
+
 /// How many values an axis has, without making them. 0 if it has faults, which are added.
 /// @param pointer  where the axis stands in the request
 [[nodiscard]] std::uint64_t count_axis_values(const std::string& path, const nlohmann::json& axis, const std::string& pointer,
                                               std::vector<Fault>& faults);
 
+/// Whether one of an axis' values is this one, without making them.
+/// @param axis   has passed count_axis_values
+/// @param value  has no faults
+[[nodiscard]] bool axis_contains(const std::string& path, const nlohmann::json& axis, const nlohmann::json& value);
+
 /// The values of an axis whose count is known to be affordable. Faults of single values are added.
 ///
 ///     linear:  (from (n - 1 - k) + to k) / (n - 1),    log:  from (to / from)^(k / (n - 1)),    both with exact ends.
-[[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer, std::vector<Fault>& faults);
-
-/// A value of an axis in the form in which equal values are equal: 5 and 5.0 are one number. @param value  one without faults
-[[nodiscard]] std::string value_identity(const std::string& path, const nlohmann::json& value);
+[[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer, std::vector<Fault>& faults,
+                             Repeats repeats = Repeats::kRefused);
 
 }  // namespace jobs

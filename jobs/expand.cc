@@ -1,5 +1,6 @@
 #include "jobs/expand.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "jobs/parameters.h"
 #include "jobs/program_info.h"
 #include "jobs/service.h"
+#include "jobs/splitmix64.h"
 #include "jobs/sweep_request.h"
 
 namespace jobs {
@@ -22,6 +24,7 @@ constexpr std::string_view kStiffnessKey = "contact_stiffness_scale";
 /// Where a point lies in its sweep.
 struct Position {
   std::size_t case_index = 0;
+  std::size_t design_point = 0;
   std::vector<std::size_t> values;  ///< one index an axis
 
   /// Moves on to the next point. False after the last.
@@ -30,6 +33,8 @@ struct Position {
       if (++values[axis] < sweep.axes[axis].values.size()) return true;
       values[axis] = 0;
     }
+    if (++design_point < sweep.design.points.size()) return true;
+    design_point = 0;
     return ++case_index < sweep.cases.size();
   }
 };
@@ -37,6 +42,9 @@ struct Position {
 json parameters_at(const SweepRequest& sweep, const Position& position) {
   json given = sweep.parameters;
   if (!sweep.cases.empty()) given.merge_patch(sweep.cases[position.case_index]);
+  for (std::size_t i = 0; i < sweep.design.paths.size(); ++i) {
+    set_at_path(given, sweep.design.paths[i], sweep.design.points[position.design_point][i]);
+  }
   for (std::size_t axis = 0; axis < sweep.axes.size(); ++axis) {
     set_at_path(given, sweep.axes[axis].path, sweep.axes[axis].values[position.values[axis]]);
   }
@@ -77,6 +85,7 @@ class PointFaults {
     for (const Axis& axis : sweep_.axes) {
       if (axis.path == path) return "/sweep" + pointer_token(path);
     }
+    if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end()) return "/design/over" + pointer_token(path);
     if (!sweep_.cases.empty() && sweep_.cases[position.case_index].contains(json::json_pointer(pointer))) {
       return "/cases" + pointer_token(std::to_string(position.case_index)) + pointer;
     }
@@ -136,11 +145,7 @@ void add_jobs(const json& completed, const SweepRequest& sweep, SweepPlan& plan)
 
 double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation) {
   if (k == 0) return 1.0;
-  std::uint64_t z = seed + k * 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  z ^= z >> 31U;
-  const double u = static_cast<double>(z >> 11U) * 0x1p-52 - 1.0;
+  const double u = static_cast<double>(splitmix64(seed, k) >> 11U) * 0x1p-52 - 1.0;
   return 1.0 + perturbation * u;
 }
 

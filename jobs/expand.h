@@ -30,7 +30,8 @@ struct SweepPlan {
   std::vector<PlannedJob> jobs;
 };
 
-/// All jobs of a sweep: cases outermost, then the axes in their order, the last one fastest, replicates innermost.
+/// All jobs of a sweep: cases outermost, then the points of the design, then the axes in their order, the last one fastest,
+/// replicates innermost.
 /// @throws InvalidRequest with every fault; one that several points have is told once, with the first of them
 [[nodiscard]] SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs);
 

@@ -54,7 +54,9 @@ class Union {
       if (std::ranges::find(kKeys, key) == kKeys.end()) fault(pointer_token(key), describe_unknown_key(key, kKeys));
     }
     if (addition_.contains("sweep") && !addition_.at("sweep").is_object()) fault("/sweep", "must be an object of axes");
-    if (addition_.contains("cases") && !addition_.at("cases").is_array()) fault("/cases", "must be a list of parameter objects");
+    if (!addition_.contains("cases")) return;
+    const ordered_json& cases = addition_.at("cases");
+    if (!cases.is_array() || cases.empty()) fault("/cases", "must be a list of one parameter object or more");
   }
 
   void add_values() {

@@ -10,9 +10,8 @@
 namespace jobs {
 
 PageChecker::PageChecker(const PageQuery& query, std::string_view id_prefix, std::span<const std::string> keys) {
-  constexpr std::size_t kLargestPage = 10'000;
   std::vector<Fault> faults;
-  if (query.limit < 1 || query.limit > kLargestPage) faults.push_back({"/limit", "must be an integer in [1, " + std::to_string(kLargestPage) + "]"});
+  if (query.limit < 1 || query.limit > PageQuery::kLargestLimit) faults.push_back({"/limit", "must be an integer in [1, " + std::to_string(PageQuery::kLargestLimit) + "]"});
   if (!query.cursor.empty() && !is_id(query.cursor, id_prefix)) faults.push_back({"/cursor", "must be the next_cursor of another page"});
   if (!query.state.empty() && std::ranges::find(kJobStates, query.state) == kJobStates.end()) {
     faults.push_back({"/state", "must be one of queued, running, succeeded, failed, cancelled"});

@@ -19,6 +19,9 @@ struct Range {
   [[nodiscard]] std::string text() const;  ///< for the user: "in (0, 3600]"
 };
 
+/// Seeds: the integers that every reader of JSON keeps.
+inline constexpr Range kSeedRange{.minimum = 0, .maximum = 9007199254740991.0};
+
 /// A number in a sentence: without an exponent where that is easy to read. Reads back as the same double, too.
 [[nodiscard]] std::string readable_number(double x);
 

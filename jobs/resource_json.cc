@@ -36,7 +36,7 @@ json error_json(const std::string& reason, const std::string& detail, const std:
 
 json run_json(const RunRow& run, std::int64_t attempts, bool reused) {
   return {{"wall_time_s", run.wall_time_s}, {"cpu_time_s", run.cpu_time_s}, {"attempts", attempts}, {"host", run.host}, {"cpu", run.cpu},
-          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}}},
+          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}, {"engine", run.engine}}},
           {"reused", reused}};
 }
 
@@ -171,7 +171,7 @@ json unstored_job_json(const json& parameters, const RunRecord& record, std::int
     error = error_json(record.error_reason, record.error_detail, record.error_t_s);
   }
   const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = host_name(), .cpu = cpu_name(),
-                   .version = std::string(kProgramVersion), .commit = std::string(kProgramCommit), .compiler = std::string(kProgramCompiler)};
+                   .version = std::string(kProgramVersion), .commit = std::string(kProgramCommit), .compiler = std::string(kProgramCompiler), .engine = std::string(kEngineVersion)};
   return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics}, {"error", error},
           {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)}, {"ended_at", time_text(ended_ms)},
           {"run", run_json(run, 1, false)}};

@@ -154,6 +154,8 @@ class Service::Impl {
     return news;
   }
 
+  [[nodiscard]] Load find_load() const { return store_.find_load(); }
+
   [[nodiscard]] std::uint64_t activity() const { return activity_; }
 
   [[nodiscard]] bool copy_store_to(const std::filesystem::path& file) const {
@@ -283,6 +285,7 @@ const std::filesystem::path& Service::store_file() const { return impl_->store_f
 std::optional<engine::Trajectory> Service::find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const {
   return impl_->find_trajectory(job_id, query);
 }
+Load Service::find_load() const { return impl_->find_load(); }
 std::optional<json> Service::cancel_sweep(const std::string& id) { return impl_->cancel_sweep(id); }
 std::optional<json> Service::cancel_job(const std::string& id) { return impl_->cancel_job(id); }
 bool Service::delete_sweep(const std::string& id) { return impl_->delete_sweep(id); }

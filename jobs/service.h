@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -41,8 +42,10 @@ struct ServiceOptions {
 
 /// A page of a listing.
 struct PageQuery {
+  static constexpr std::size_t kLargestLimit = 10'000;
+
   std::string state;            ///< only these; empty: all
-  std::size_t limit = 50;       ///< 1 .. 10,000
+  std::size_t limit = 50;       ///< 1 .. kLargestLimit
   std::string cursor;           ///< next_cursor of the page before; empty: the newest
   std::string fields{};         ///< keys of the items, with commas between; empty: all
 };
@@ -89,6 +92,12 @@ struct SweepNews {
   std::vector<EndedJob> jobs;            ///< by change
 };
 
+/// How much there is to do, and what the store takes.
+struct Load {
+  std::int64_t queued = 0, running = 0;  ///< jobs
+  std::int64_t store_bytes = 0;          ///< on disk, with its log
+};
+
 /// The study queue: validates, stores, computes and hands out sweeps and jobs. One per store.
 ///
 /// Every JSON it returns is the resource as the HTTP interface and the command line show it.
@@ -128,6 +137,8 @@ class Service {
   [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id, const ResultQuery& query = {}) const;
   /// Empty if there is no such job or it has no trajectory (yet).
   [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const;
+
+  [[nodiscard]] Load find_load() const;
 
   /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there is none.
   /// Cancelling what is already cancelled changes nothing; what has ended otherwise throws WrongState.

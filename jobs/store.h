@@ -46,7 +46,7 @@ struct SweepRow {
 /// The run behind a result.
 struct RunRow {
   double wall_time_s = 0.0, cpu_time_s = 0.0;
-  std::string host, cpu, version, commit, compiler;
+  std::string host, cpu, version, commit, compiler, engine;
 };
 
 struct JobRow {
@@ -167,6 +167,7 @@ class Store {
   [[nodiscard]] std::optional<SweepResults> find_results(const std::string& sweep_id, bool parameters) const;
   /// What has ended after that change; 0: everything.
   [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
+  [[nodiscard]] Load find_load() const;
   /// The packed trajectory of a job that has one.
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
 

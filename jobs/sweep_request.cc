@@ -15,12 +15,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kLongestName = 200;
-constexpr Range kReplicateCount{.minimum = 1, .maximum = 1e9};
-constexpr Range kPerturbation{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
-constexpr Range kPriority{.minimum = -100, .maximum = 100};
-constexpr Range kSeed{.minimum = 0, .maximum = 9007199254740991.0};  // integers that every JSON reader keeps
-
 /// Reads one request; a member function a part of it.
 class Parser {
  public:
@@ -37,6 +31,7 @@ class Parser {
     check_cases_shape();
     check_size();
     read_cases();
+    read_design();
     read_axes();
     if (faults_.empty()) check_places();
     if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
@@ -47,11 +42,10 @@ class Parser {
   void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
 
   void check_keys() {
-    constexpr std::array<std::string_view, 7> kKeys{"name", "parameters", "sweep", "cases", "replicates", "reuse", "priority"};
     for (const auto& [key, value] : request_.items()) {
-      if (std::ranges::find(kKeys, key) != kKeys.end()) continue;
+      if (std::ranges::find(kSweepRequestKeys, key) != kSweepRequestKeys.end()) continue;
       const bool is_parameter = std::ranges::find(known_paths(), key) != known_paths().end();
-      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\"" : describe_unknown_key(key, kKeys));
+      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\"" : describe_unknown_key(key, kSweepRequestKeys));
     }
   }
 
@@ -74,7 +68,7 @@ class Parser {
   void read_priority() {
     if (!request_.contains("priority")) return;
     const json priority = request_.at("priority");
-    const std::string detail = describe_integer_fault(kPriority, priority);
+    const std::string detail = describe_integer_fault(kPriorityRange, priority);
     if (!detail.empty()) return fault("/priority", detail);
     sweep_.priority = priority.get<std::int64_t>();
   }
@@ -85,9 +79,9 @@ class Parser {
     if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation and seed");
     constexpr std::array<std::string_view, 3> kKeys{"count", "perturbation", "seed"};
     for (const auto& [key, value] : replicates.items()) {
-      const std::string detail = key == "count"          ? describe_integer_fault(kReplicateCount, value)
-                                 : key == "perturbation" ? describe_number_fault(kPerturbation, "", value)
-                                 : key == "seed"         ? describe_integer_fault(kSeed, value)
+      const std::string detail = key == "count"          ? describe_integer_fault(kCountRange, value)
+                                 : key == "perturbation" ? describe_number_fault(kPerturbationRange, "", value)
+                                 : key == "seed"         ? describe_integer_fault(kSeedRange, value)
                                                          : describe_unknown_key(key, kKeys);
       if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
     }
@@ -102,7 +96,9 @@ class Parser {
   void read_parameters() {
     if (!request_.contains("parameters")) return;
     sweep_.parameters = request_.at("parameters");
-    for (const Fault& found : find_value_faults(sweep_.parameters)) fault("/parameters" + found.pointer, found.detail);
+    const auto found = find_value_faults(sweep_.parameters);
+    for (const Fault& each : found) fault("/parameters" + each.pointer, each.detail);
+    if (!found.empty()) sweep_.parameters = json::object();  // what follows may rely on them
   }
 
   void check_cases_shape() {
@@ -123,10 +119,17 @@ class Parser {
         overflow |= values > 0 && __builtin_mul_overflow(jobs, values, &jobs);
       }
     }
+    if (request_.contains("design")) {
+      design_points_ = count_design_points(request_.at("design"), sweep_.parameters, faults_);
+      overflow |= design_points_ > 0 && __builtin_mul_overflow(jobs, design_points_, &jobs);
+    }
     if (!overflow && jobs <= max_jobs_) return;
     const std::string size = overflow ? "more than " + std::to_string(std::numeric_limits<std::uint64_t>::max()) : std::to_string(jobs);
-    throw InvalidRequest(std::vector<Fault>{{request_.contains("sweep") ? "/sweep" : request_.contains("cases") ? "/cases" : "/replicates/count",
-                           "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed"}});
+    const char* const pointer = request_.contains("sweep")    ? "/sweep"
+                                : request_.contains("design") ? "/design"
+                                : request_.contains("cases")  ? "/cases"
+                                                              : "/replicates/count";
+    throw InvalidRequest(std::vector<Fault>{{pointer, "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed"}});
   }
 
   void read_cases() {
@@ -141,6 +144,12 @@ class Parser {
     }
   }
 
+  void read_design() {
+    if (design_points_ == 0) return;
+    sweep_.design = make_design(request_.at("design"), sweep_.parameters, faults_);
+    sweep_.swept = sweep_.design.paths;
+  }
+
   void read_axes() {
     if (!request_.contains("sweep") || !request_.at("sweep").is_object()) return;
     for (const auto& [path, axis] : request_.at("sweep").items()) {
@@ -152,21 +161,28 @@ class Parser {
     }
   }
 
-  /// Every value has one place: parameters, an axis, or the cases.
+  /// Every value has one place: parameters, the design, an axis, or the cases.
   void check_places() {
     std::set<std::string> fixed;
     if (request_.contains("parameters")) {
       for (const std::string& path : paths_of(request_.at("parameters"))) fixed.insert(path);
     }
-    const std::set<std::string> axes(sweep_.swept.begin(), sweep_.swept.end());
-    for (const std::string& path : sweep_.swept) {
-      if (fixed.contains(path)) fault("/sweep" + pointer_token(path), "stands in parameters, too");
+    const std::set<std::string> design(sweep_.design.paths.begin(), sweep_.design.paths.end());
+    for (const std::string& path : design) {
+      if (fixed.contains(path)) fault("/design/over" + pointer_token(path), "stands in parameters, too");
+    }
+    std::set<std::string> axes;
+    for (const Axis& axis : sweep_.axes) {
+      axes.insert(axis.path);
+      if (fixed.contains(axis.path)) fault("/sweep" + pointer_token(axis.path), "stands in parameters, too");
+      if (design.contains(axis.path)) fault("/sweep" + pointer_token(axis.path), "stands in the design, too");
     }
     for (std::size_t i = 0; i < sweep_.cases.size(); ++i) {
       for (const std::string& path : paths_of(request_.at("cases")[i])) {
         const std::string pointer = "/cases" + pointer_token(std::to_string(i)) + pointer_of_path(path);
         if (fixed.contains(path)) fault(pointer, "stands in parameters, too");
         if (axes.contains(path)) fault(pointer, "is an axis of sweep, too");
+        if (design.contains(path)) fault(pointer, "stands in the design, too");
         if (std::ranges::find(sweep_.swept, path) == sweep_.swept.end()) sweep_.swept.push_back(path);
       }
     }
@@ -175,6 +191,7 @@ class Parser {
   const ordered_json& request_;
   std::size_t max_jobs_;
   std::uint64_t case_count_ = 1;
+  std::uint64_t design_points_ = 0;  ///< 0: there is no design, or it has faults
   SweepRequest sweep_;
   std::vector<Fault> faults_;
 };

@@ -101,7 +101,7 @@ class HttpServer::Impl {
       : options(std::move(http_options)),
         limits(http_limits),
         routes_(routes),
-        origin_check_(options.address),
+        origin_check_(options.address, options.cors_origins),
         guard(http_limits, make_refusal) {
     guard.set_default_headers(kSecurityHeaders);
     guard.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
@@ -114,7 +114,10 @@ class HttpServer::Impl {
     guard.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
       copy_to(response, make_problem(500, "something went wrong"));
     });
-    guard.set_post_routing_handler([](const httplib::Request&, httplib::Response& response) { tidy_headers(response); });
+    guard.set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+      tidy_headers(response);
+      add_cors_headers(request, response);
+    });
   }
 
   HttpOptions options;
@@ -140,9 +143,38 @@ class HttpServer::Impl {
     if (response.status == 204 || response.status == 304) response.headers.erase("Content-Length");
   }
 
+  /// Lets the page of another site read the answer, if it is one that may.
+  void add_cors_headers(const httplib::Request& request, httplib::Response& response) const {
+    if (options.cors_origins.empty()) return;
+    response.set_header("Vary", "Origin");
+    const std::string origin = request.get_header_value("Origin");
+    if (!origin_check_.is_allowed(origin)) return;
+    response.set_header("Access-Control-Allow-Origin", origin);
+    response.set_header("Access-Control-Expose-Headers", "ETag, Location, Retry-After, X-Request-Id");
+  }
+
+  /// What a browser asks on behalf of such a page before it sends the request itself.
+  bool is_preflight(const httplib::Request& request) const {
+    return request.method == "OPTIONS" && request.has_header("Access-Control-Request-Method") &&
+           origin_check_.is_allowed(request.get_header_value("Origin"));
+  }
+
+  static void answer_preflight(const httplib::Request& request, httplib::Response& response) {
+    response.status = 204;
+    response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
+    response.set_header("Access-Control-Allow-Headers", "Authorization, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID, Prefer");
+    response.set_header("Access-Control-Max-Age", "600");
+    // Chrome asks this where a page from elsewhere speaks to this machine.
+    if (request.has_header("Access-Control-Request-Private-Network")) response.set_header("Access-Control-Allow-Private-Network", "true");
+  }
+
   Handled route_without_body(const httplib::Request& request, httplib::Response& response) {
     if (const auto fault = find_origin_fault(request)) {
       copy_to(response, make_problem(fault->status, fault->detail));
+      return Handled::Handled;
+    }
+    if (is_preflight(request)) {
+      answer_preflight(request, response);
       return Handled::Handled;
     }
     if (request.method == "POST") return Handled::Unhandled;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "server/routes.h"
 
@@ -12,6 +13,7 @@ namespace server {
 struct HttpOptions {
   std::string address = "127.0.0.1";  ///< an IP address, not a name
   int port = 8080;                    ///< 0: any free one
+  std::vector<std::string> cors_origins{};  ///< other sites whose pages may ask, as "https://lab.example.org", in lower case
 };
 
 struct HttpLimits;

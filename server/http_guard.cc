@@ -23,18 +23,34 @@ namespace {
 constexpr std::size_t kThreads = 32;  // they wait for clients most of the time
 constexpr int kBacklog = 511;         // the library's 5 makes clients wait for a second when a few come at once
 
+/// The library's threads, and how many connections wait for one.
+class CountingPool final : public httplib::TaskQueue {
+ public:
+  explicit CountingPool(std::atomic<int>& waiting) : waiting_(waiting), pool_(kThreads) {}
+
+  void enqueue(std::function<void()> task) override {
+    ++waiting_;
+    pool_.enqueue([&waiting = waiting_, task = std::move(task)] {
+      --waiting;
+      task();
+    });
+  }
+
+  void shutdown() override { pool_.shutdown(); }
+
+ private:
+  std::atomic<int>& waiting_;
+  httplib::ThreadPool pool_;
+};
+
 void set_reuse_address(socket_t socket) {
   // Not SO_REUSEPORT, the library's choice: with it a second server on the port would start without a word.
   const int yes = 1;
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// Takes out of a request what makes the library do much work for little: compressing with brotli at its slowest
-/// setting, and answering any number of ranges.
-void disarm(httplib::Request& request) {
-  request.ranges.clear();
-  request.headers.erase("Accept-Encoding");
-}
+/// Takes out of a request what makes the library do much work for little: compressing with brotli at its slowest setting.
+void disarm(httplib::Request& request) { request.headers.erase("Accept-Encoding"); }
 
 /// What the handler wants to follow the head of the answer. The library calls a handler on the thread that serves the connection,
 /// and tells it nothing of the connection.
@@ -52,7 +68,7 @@ std::string to_wire(const Response& response) {
 
 GuardedServer::GuardedServer(const HttpLimits& limits, std::function<Response(int, const std::string&)> make_refusal)
     : limits_(limits), make_refusal_(std::move(make_refusal)) {
-  new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  new_task_queue = [this] { return new CountingPool(waiting_); };
   set_socket_options(set_reuse_address);
   set_tcp_nodelay(true);
   set_payload_max_length(limits.body_bytes);
@@ -71,7 +87,7 @@ int GuardedServer::bind(const std::string& address, int port) {
 }
 
 bool GuardedServer::process_and_close_socket(socket_t socket) {
-  HttpStream stream(socket, limits_, draining_);
+  HttpStream stream(socket, limits_, draining_, waiting_);
   events_of_this_connection.reset();
   // Called on a thread of the library's pool, where an exception would end the process.
   try {
@@ -104,6 +120,8 @@ void GuardedServer::serve(HttpStream& stream) {
   if (const auto fault = find_fault_in_head(stream.head(), limits_.body_bytes)) {
     return refuse(stream, fault->status, fault->detail);
   }
+  // The library would answer any number of ranges, and refuse those that it does not understand; whoever does not serve ranges ignores them.
+  stream.replace_head(without_header(stream.head(), "range"));
   bool connection_closed = true;
   process_request(stream, true, connection_closed, disarm);
 }

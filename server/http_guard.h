@@ -47,6 +47,7 @@ class GuardedServer final : public httplib::Server {
   HttpLimits limits_;
   std::function<Response(int, const std::string&)> make_refusal_;
   std::atomic<bool> draining_ = false;
+  std::atomic<int> waiting_ = 0;  ///< connections that no thread has taken yet
   EventHub hub_;
 };
 

@@ -43,8 +43,13 @@ void read_address(NameOf name_of, int socket, std::string& ip, int& port) {
 
 }  // namespace
 
-HttpStream::HttpStream(int socket, const HttpLimits& limits, const std::atomic<bool>& draining)
-    : socket_(socket), limits_(limits), draining_(draining), read_deadline_(Clock::now() + limits.head_time) {}
+HttpStream::HttpStream(int socket, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting)
+    : socket_(socket),
+      limits_(limits),
+      draining_(draining),
+      waiting_(waiting),
+      read_deadline_(Clock::now() + limits.head_time),
+      crowded_deadline_(Clock::now() + limits.crowded_time) {}
 
 HttpStream::Head HttpStream::read_head() {
   for (;;) {
@@ -59,10 +64,16 @@ HttpStream::Head HttpStream::read_head() {
     if (end != std::string::npos && end + 4 <= limits_.head_bytes) {
       head_size_ = end + 4;
       read_deadline_ = Clock::now() + limits_.body_time;
+      crowded_deadline_ = Clock::now() + limits_.crowded_time;
       return Head::kComplete;
     }
     if (buffer_.size() > limits_.head_bytes) return Head::kTooLarge;
   }
+}
+
+void HttpStream::replace_head(const std::string& head) {
+  buffer_.replace(0, head_size_, head);
+  head_size_ = head.size();
 }
 
 bool HttpStream::send_all(std::string_view text) {
@@ -77,6 +88,7 @@ bool HttpStream::send_all(std::string_view text) {
 void HttpStream::close_gently() {
   ::shutdown(socket_, SHUT_WR);
   const auto deadline = Clock::now() + limits_.linger_time;
+  crowded_deadline_ = Clock::now() + limits_.crowded_time;
   std::array<char, kReadBytes> unread;
   while (receive(unread.data(), unread.size(), deadline) > 0) {
   }
@@ -85,7 +97,7 @@ void HttpStream::close_gently() {
 bool HttpStream::is_readable() const { return consumed_ < buffer_.size() || wait_for(POLLIN, read_deadline_); }
 
 bool HttpStream::is_writable() const {
-  return wait_for(POLLOUT, write_deadline_.value_or(Clock::now() + limits_.response_time));
+  return wait_for(POLLOUT, std::min(stall_deadline(), write_deadline_.value_or(Clock::now() + limits_.response_time)));
 }
 
 ssize_t HttpStream::read(char* to, std::size_t size) {
@@ -107,10 +119,16 @@ ssize_t HttpStream::read(char* to, std::size_t size) {
 }
 
 ssize_t HttpStream::write(const char* from, std::size_t size) {
-  if (!write_deadline_) write_deadline_ = Clock::now() + limits_.response_time;
-  while (wait_for(POLLOUT, *write_deadline_)) {
+  const auto start = Clock::now();
+  if (!write_deadline_) write_deadline_ = start + limits_.response_time;
+  const auto deadline = std::min(*write_deadline_, stall_deadline());
+  while (wait_for(POLLOUT, deadline)) {
     const ssize_t sent = ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
-    if (sent >= 0) return sent;
+    if (sent >= 0) {
+      sent_bytes_ += static_cast<std::size_t>(sent);
+      waited_ += Clock::now() - start;
+      return sent;
+    }
     if (errno != EAGAIN && errno != EINTR) return -1;
   }
   return -1;
@@ -128,7 +146,9 @@ bool HttpStream::wait_for(short events, Clock::time_point deadline) const {
   for (;;) {
     const auto now = Clock::now();
     if (draining_ && !drain_deadline_) drain_deadline_ = now + limits_.drain_time;
-    const auto end = drain_deadline_ ? std::min(deadline, *drain_deadline_) : deadline;
+    auto end = drain_deadline_ ? std::min(deadline, *drain_deadline_) : deadline;
+    // A few clients that send slowly may do so; many of them are not to hold every thread.
+    if (events == POLLIN && waiting_ > 0) end = std::min(end, crowded_deadline_);
     if (now >= end) return false;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
     pollfd entry{socket_, events, 0};
@@ -136,6 +156,11 @@ bool HttpStream::wait_for(short events, Clock::time_point deadline) const {
     if (ready > 0) return true;
     if (ready < 0 && errno != EINTR) return false;
   }
+}
+
+HttpStream::Clock::time_point HttpStream::stall_deadline() const {
+  const auto earned = std::chrono::milliseconds(1000 * sent_bytes_ / limits_.least_bytes_per_s);
+  return Clock::now() + limits_.stall_time + earned - waited_;
 }
 
 ssize_t HttpStream::receive(char* to, std::size_t size, Clock::time_point deadline) const {

@@ -19,7 +19,10 @@ struct HttpLimits {
   std::chrono::milliseconds head_time{5'000};
   std::chrono::milliseconds body_time{10'000};
   std::chrono::milliseconds response_time{60'000};
+  std::chrono::milliseconds stall_time{10'000};    ///< waiting, all in all, until the client takes more of the answer
+  std::size_t least_bytes_per_s = 1024;            ///< what the client takes buys it more of that time
   std::chrono::milliseconds linger_time{2'000};    ///< waiting for the client to close its end
+  std::chrono::milliseconds crowded_time{500};     ///< in place of each longer wait for a client while others wait for a thread
   std::chrono::milliseconds drain_time{1'000};     ///< what is left to every connection once the server is ending
 };
 
@@ -30,11 +33,15 @@ class HttpStream final : public httplib::Stream {
 
   /// @param socket    stays the caller's
   /// @param draining  set once the server is ending; outlives this
-  HttpStream(int socket, const HttpLimits& limits, const std::atomic<bool>& draining);
+  /// @param waiting   connections that no thread has taken yet; outlives this
+  HttpStream(int socket, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting);
 
   /// Reads up to the empty line that ends the head; what follows it is kept for read().
   Head read_head();
   [[nodiscard]] std::string_view head() const { return std::string_view(buffer_).substr(0, head_size_); }
+
+  /// Puts another head in the place of the one that was read. Not after read().
+  void replace_head(const std::string& head);
 
   /// Sends all of a text. False if the client is gone or too slow.
   bool send_all(std::string_view text);
@@ -55,19 +62,25 @@ class HttpStream final : public httplib::Stream {
 
   /// Waits until the socket has one of these poll events. False when the deadline passes first.
   bool wait_for(short events, Clock::time_point deadline) const;
+  /// When a client that takes nothing now has been waited for long enough.
+  [[nodiscard]] Clock::time_point stall_deadline() const;
   /// Like recv(), after waiting. 0: closed by the client; negative: deadline or error.
   ssize_t receive(char* to, std::size_t size, Clock::time_point deadline) const;
 
   int socket_;
   HttpLimits limits_;
   const std::atomic<bool>& draining_;
+  const std::atomic<int>& waiting_;
   mutable std::optional<Clock::time_point> drain_deadline_;  ///< set when draining is first noticed
   std::string buffer_;                ///< bytes received and not yet given to httplib, from consumed_ on
   std::size_t consumed_ = 0;
   std::size_t head_size_ = 0;
   std::size_t raw_body_bytes_ = 0;
   Clock::time_point read_deadline_;
+  Clock::time_point crowded_deadline_;  ///< of reads, while others wait for a thread
   std::optional<Clock::time_point> write_deadline_;  ///< set by the first write
+  std::size_t sent_bytes_ = 0;
+  Clock::duration waited_{};  ///< for the client to take what it was sent
 };
 
 }  // namespace server

@@ -96,6 +96,8 @@ Json parse_strictly(std::string_view text) {
 
 nlohmann::ordered_json parse_json(std::string_view text) {
   if (text.empty()) throw BadJson("there is no JSON: the text is empty");
+  // The parser takes it for the end of the text, whatever comes after.
+  if (const auto nul = text.find('\0'); nul != std::string_view::npos) throw BadJson("not JSON at byte " + std::to_string(nul + 1) + ": a NUL character");
   try {
     return parse_strictly(text);
   } catch (const BadJson&) {

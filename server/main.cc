@@ -1,10 +1,19 @@
+#include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "jobs/parameter_help.h"
 #include "server/commands/command.h"
+#include "server/commands/completion.h"
+#include "server/commands/config_file.h"
 #include "server/commands/export.h"
+#include "server/commands/man_page.h"
+#include "server/commands/option_table.h"
+#include "server/commands/remote_command_line.h"
 #include "server/commands/serve.h"
 #include "server/commands/simulate.h"
 #include "server/commands/sweep.h"
@@ -12,6 +21,7 @@
 
 namespace {
 
+using server::commands::Command;
 using server::commands::ExportOptions;
 using server::commands::ServeOptions;
 using server::commands::SimulateOptions;
@@ -20,12 +30,18 @@ using server::commands::ValidateOptions;
 
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   CLI::App* const command = app.add_subcommand("simulate", "Compute one job and print it as JSON");
-  command->add_option("file", options.file, "JSON file with the parameters; - reads standard input")->required();
+  command->add_option("file", options.file, "JSON file with the parameters; - reads standard input")->required()->type_name("FILE");
   command->add_option("--trajectory", options.trajectory, "File for the trajectory, .csv, .json or .npz")
+      ->type_name("FILE")
       ->envname("RPSUP_TRAJECTORY");
   command->add_option("--channels", options.channels, "Channels of the trajectory, with commas between; all if left out")
       ->delimiter(',')
       ->envname("RPSUP_CHANNELS");
+  command->add_option("--plot", options.plot, "Draw the slider's acceleration into a file that ends in .svg; without one, or -, on the terminal (standard error)")
+      ->expected(0, 1)
+      ->type_name("FILE.svg")
+      ->envname("RPSUP_PLOT");
+  command->footer("Parameters, each with its default and what is allowed:\n" + jobs::parameter_help());
   return command;
 }
 
@@ -39,15 +55,17 @@ void add_threads_option(CLI::App& command, int& threads) {
 void add_store_options(CLI::App& command, std::string& store, int& threads) {
   command.add_option("--db", store, "SQLite file that keeps sweeps and results; made if missing")
       ->required()
+      ->type_name("FILE")
       ->envname("RPSUP_DB");
   add_threads_option(command, threads);
 }
 
 CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
   CLI::App* const command = app.add_subcommand("sweep", "Compute a sweep without a server");
-  command->add_option("file", options.file, "JSON file with the sweep request; - reads standard input")->required();
+  command->add_option("file", options.file, "JSON file with the sweep request; - reads standard input")->required()->type_name("FILE");
   add_store_options(*command, options.store, options.threads);
   command->add_option("--results", options.results, "CSV file for the table of results; - writes standard output")
+      ->type_name("FILE")
       ->capture_default_str()
       ->envname("RPSUP_RESULTS");
   return command;
@@ -63,6 +81,9 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str()
       ->envname("RPSUP_PORT");
+  command->add_option("--cors-origin", options.cors_origins, "Other sites whose pages may use the service, as https://lab.example.org, with commas between")
+      ->delimiter(',')
+      ->envname("RPSUP_CORS_ORIGIN");
   command->add_option("--log-level", options.log_level, "What the log on standard error holds")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()
@@ -73,9 +94,11 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
 CLI::App* add_validate(CLI::App& app, ValidateOptions& options) {
   CLI::App* const command = app.add_subcommand("validate", "Compare the engine with results that it did not compute itself");
   command->add_option("--report", options.report, "Markdown file for the report; figures go into validation/figures beside it")
+      ->type_name("FILE")
       ->envname("RPSUP_REPORT");
-  command->add_option("--check", options.check, "Report whose numbers must be those of this run")->envname("RPSUP_CHECK");
+  command->add_option("--check", options.check, "Report whose numbers must be those of this run")->type_name("FILE")->envname("RPSUP_CHECK");
   command->add_option("--db", options.store, "SQLite file that keeps the study's jobs for the next time; a temporary one if left out")
+      ->type_name("FILE")
       ->envname("RPSUP_STUDY_DB");
   add_threads_option(*command, options.threads);
   command->add_flag("--quick", options.quick, "Leave out the study and whatever else takes long")->envname("RPSUP_QUICK");
@@ -84,51 +107,91 @@ CLI::App* add_validate(CLI::App& app, ValidateOptions& options) {
 
 CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   CLI::App* const command = app.add_subcommand("export", "Write a consistent copy of a store, also while a service uses it");
-  command->add_option("file", options.file, "SQLite file for the copy; must not exist")->required();
-  command->add_option("--db", options.store, "SQLite file that keeps sweeps and results")->required()->envname("RPSUP_DB");
+  command->add_option("file", options.file, "SQLite file for the copy; must not exist")->required()->type_name("FILE");
+  command->add_option("--db", options.store, "SQLite file that keeps sweeps and results")->required()->type_name("FILE")->envname("RPSUP_DB");
   return command;
 }
 
-void describe(CLI::App& app) {
-  app.set_version_flag("--version", "rpsup " RPSUP_VERSION);
+CLI::App* add_completion(CLI::App& app, std::string& shell) {
+  CLI::App* const command = app.add_subcommand("completion", "Print what makes a shell complete this command line");
+  command->add_option("shell", shell, "The shell")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  return command;
+}
+
+int print_completion(const CLI::App& app, const std::string& shell) {
+  const auto commands = server::commands::describe_commands(app);
+  server::commands::write_text("-", shell == "bash"  ? server::commands::make_bash_completion(commands)
+                                    : shell == "zsh" ? server::commands::make_zsh_completion(commands)
+                                                     : server::commands::make_fish_completion(commands));
+  return server::commands::kDone;
+}
+
+/// The arguments, last one first as the parser takes them. It would take what follows --plot for its value, the file with the
+/// parameters say: only the name of a picture is.
+std::vector<std::string> read_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
+    if (*argument != "--plot") continue;
+    const auto next = argument + 1;
+    const bool named = next != arguments.end() && (*next == "-" || next->ends_with(".svg"));
+    *argument = "--plot=" + (named ? *next : "-");
+    if (named) arguments.erase(next);
+  }
+  std::ranges::reverse(arguments);
+  return arguments;
+}
+
+int print_man_page(const CLI::App& app) {
+  server::commands::write_text("-", server::commands::make_man_page(server::commands::describe_commands(app), RPSUP_VERSION));
+  return server::commands::kDone;
+}
+
+void describe(CLI::App& app, const std::vector<Command>& remote) {
+  app.set_version_flag("--version", "rpsup " RPSUP_VERSION, "Print the version and exit");
+  std::vector<std::string> remote_names;
+  for (const Command& command : remote) remote_names.push_back(command.line->get_name());
+  app.config_formatter(std::make_shared<server::commands::ConfigFile>(app, std::move(remote_names)));
   // The library reads this file before the environment, so the name in the environment is its default.
   const char* const named = std::getenv("RPSUP_CONFIG");
-  app.set_config("--config", named == nullptr ? "" : named,
-                 "File with options: a [section] a command, a line name=value an option (Env:RPSUP_CONFIG)",
-                 named != nullptr);
+  app.set_config("--config", named == nullptr ? server::commands::find_user_config() : named,
+                 "File with options: a [section] a command, a line name=value an option; url and token may stand above the sections. "
+                 "rpsup/config.ini in $XDG_CONFIG_HOME (~/.config) if there is one (Env:RPSUP_CONFIG)",
+                 named != nullptr)
+      ->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.require_subcommand(1);
-  app.fallthrough();
   app.footer(
-      "Each option can also be given in the environment (see the names above) or in the --config file.\n"
-      "Exit codes: 0 done, 1 a job (or a comparison) failed, 2 bad input, 3 the machine failed (disk, port, store in use), 130 interrupted.");
+      "Each option can also be given in the environment (see the names above) or in the --config file; the command line goes before the "
+      "environment, and that before the file.\n"
+      "Exit codes: 0 done, 1 a job (or a comparison) failed, 2 bad input, 3 the machine or the network failed (disk, port, store in use, "
+      "service not reached), 130 interrupted.");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Parameter studies of the dynamics of the RPSUP spatial linkage", "rpsup"};
-  describe(app);
+  app.fallthrough();  // before the commands, which take it over
   SimulateOptions simulate_options;
   SweepOptions sweep_options;
   ServeOptions serve_options;
   ValidateOptions validate_options;
   ExportOptions export_options;
-  const CLI::App* const simulate = add_simulate(app, simulate_options);
-  const CLI::App* const sweep = add_sweep(app, sweep_options);
-  const CLI::App* const validate = add_validate(app, validate_options);
-  const CLI::App* const exporting = add_export(app, export_options);
-  add_serve(app, serve_options);
+  std::string shell;
+  std::vector<Command> commands = server::commands::add_remote_commands(app);
+  describe(app, commands);
+  commands.push_back({add_simulate(app, simulate_options), [&] { return simulate(simulate_options); }});
+  commands.push_back({add_sweep(app, sweep_options), [&] { return sweep(sweep_options); }});
+  commands.push_back({add_validate(app, validate_options), [&] { return validate(validate_options); }});
+  commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
+  commands.push_back({add_export(app, export_options), [&] { return export_store(export_options); }});
+  commands.push_back({add_completion(app, shell), [&] { return print_completion(app, shell); }});
+  commands.push_back({app.add_subcommand("man", "Print the manual page: rpsup man | man -l -"), [&] { return print_man_page(app); }});
   try {
-    app.parse(argc, argv);
+    app.parse(read_arguments(argc, argv));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? server::commands::kDone : server::commands::kBadInput;
   }
-  return server::commands::run_guarded([&] {
-    if (simulate->parsed()) return server::commands::simulate(simulate_options);
-    if (sweep->parsed()) return server::commands::sweep(sweep_options);
-    if (validate->parsed()) return server::commands::validate(validate_options);
-    if (exporting->parsed()) return server::commands::export_store(export_options);
-    return server::commands::serve(serve_options);
-  });
+  const auto parsed = std::ranges::find_if(commands, [](const Command& command) { return command.line->parsed(); });
+  return server::commands::run_guarded(parsed->run);
 }

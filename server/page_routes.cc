@@ -4,6 +4,7 @@
 
 #include "server/error_answer.h"
 #include "server/problem.h"
+#include "server/query.h"
 #include "server/web_files.h"
 
 namespace server {
@@ -28,6 +29,14 @@ Response get_readiness(const Call& call) {
   // Throws if the store cannot be read.
   static_cast<void>(call.service.list_sweeps({.state = {}, .limit = 1, .cursor = {}}));
   return make_json(200, R"({"status":"ready"})");
+}
+
+Response get_metrics(const Call& call) {
+  Query(call.request, {}).check();
+  return {.status = 200,
+          .content_type = "text/plain; version=0.0.4; charset=utf-8",
+          .body = call.metrics.text(call.service.find_load()),
+          .headers = {{"Cache-Control", "no-store"}}};
 }
 
 }  // namespace server

@@ -123,10 +123,23 @@ std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t bod
   return find_fault_in_framing(framing, body_bytes);
 }
 
-OriginCheck::OriginCheck(std::string bound_host) : bound_host_(lower(bound_host)) {}
+std::string without_header(std::string_view head, std::string_view name) {
+  std::string kept;
+  while (!head.empty()) {
+    const std::string_view line = head.substr(0, head.find("\r\n") + 2);
+    head.remove_prefix(line.size());
+    if (lower(line.substr(0, line.find(':'))) != name) kept += line;
+  }
+  return kept;
+}
+
+OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed) : bound_host_(lower(bound_host)), allowed_(std::move(allowed)) {}
+
+bool OriginCheck::is_allowed(const std::string& origin) const { return std::ranges::find(allowed_, lower(origin)) != allowed_.end(); }
 
 std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
   if (!names_this_server(headers.host)) return Refusal{403, "this service does not answer under the name in Host"};
+  if (is_allowed(headers.origin)) return std::nullopt;
   if (!headers.origin.empty() && lower(headers.origin) != "http://" + lower(headers.host)) {
     return Refusal{403, "requests of other sites are refused"};
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace server {
 
@@ -24,12 +25,17 @@ inline constexpr std::size_t kMaxLineBytes = 8000;
 /// @returns what is wrong with it, if anything
 [[nodiscard]] std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes);
 
+/// A head that has passed find_fault_in_head without the lines of one header.
+/// @param name  in lower case
+[[nodiscard]] std::string without_header(std::string_view head, std::string_view name);
+
 /// Examines what names this server and where a request comes from. A page of another site that a user's browser shows
 /// must not reach this service, neither under a name that resolves to it nor by a form or a script.
 class OriginCheck {
  public:
   /// @param bound_host  the address the server is bound to; it and the names of the loopback are good
-  explicit OriginCheck(std::string bound_host);
+  /// @param allowed     other sites whose pages may ask, as "https://lab.example.org"
+  explicit OriginCheck(std::string bound_host, std::vector<std::string> allowed = {});
 
   /// What a request says about its origin; an empty text is a header that is missing.
   struct Headers {
@@ -42,10 +48,14 @@ class OriginCheck {
 
   [[nodiscard]] std::optional<Refusal> find_fault(const Headers& headers) const;
 
+  /// Whether that is one of the other sites whose pages may ask.
+  [[nodiscard]] bool is_allowed(const std::string& origin) const;
+
  private:
   [[nodiscard]] bool names_this_server(const std::string& host) const;
 
   std::string bound_host_;
+  std::vector<std::string> allowed_;
 };
 
 /// True for an address or name that only this machine reaches: 127.0.0.0/8, ::1, localhost.

@@ -1,52 +1,21 @@
 #include "server/routes.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <chrono>
 #include <exception>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "server/error_answer.h"
-#include "server/job_routes.h"
 #include "server/page_routes.h"
 #include "server/problem.h"
-#include "server/store_route.h"
-#include "server/sweep_events.h"
-#include "server/sweep_routes.h"
+#include "server/route_table.h"
 
 namespace server {
 
 namespace {
-
-struct Route {
-  std::string_view method;
-  std::string_view pattern;  ///< {id} stands for one segment that is_id
-  Response (*handler)(const Call&);
-};
-
-constexpr std::array kRoutes = {
-    Route{"POST", "/v1/sweeps", post_sweep},
-    Route{"GET", "/v1/sweeps", get_sweeps},
-    Route{"GET", "/v1/sweeps/{id}", get_sweep},
-    Route{"DELETE", "/v1/sweeps/{id}", delete_sweep},
-    Route{"GET", "/v1/sweeps/{id}/results", get_results},
-    Route{"GET", "/v1/sweeps/{id}/events", get_events},
-    Route{"POST", "/v1/sweeps/{id}/cancel", cancel_sweep},
-    Route{"POST", "/v1/sweeps/{id}/retry", retry_sweep},
-    Route{"POST", "/v1/sweeps/{id}/extend", extend_sweep},
-    Route{"POST", "/v1/jobs", post_job},
-    Route{"GET", "/v1/jobs", get_jobs},
-    Route{"GET", "/v1/jobs/{id}", get_job},
-    Route{"POST", "/v1/jobs/{id}/cancel", cancel_job},
-    Route{"GET", "/v1/jobs/{id}/trajectory", get_trajectory},
-    Route{"GET", "/v1/parameters", get_parameters},
-    Route{"GET", "/v1/store", get_store},
-    Route{"GET", "/healthz", get_health},
-    Route{"GET", "/readyz", get_readiness},
-    Route{"GET", "/", get_page_file},
-};
 
 /// The text in the place of {id} (empty for a pattern without one), if the path is of this pattern.
 std::optional<std::string> match(std::string_view pattern, std::string_view path) {
@@ -72,26 +41,35 @@ Response make_wrong_method(const std::string& allowed) {
 }  // namespace
 
 Response Routes::answer(const Request& request) const {
+  const auto start = std::chrono::steady_clock::now();
+  std::string_view pattern;
+  Response response;
   try {
-    return dispatch(request);
+    response = dispatch(request, pattern);
   } catch (...) {
-    return make_error_answer(std::current_exception(), request.id);
+    response = make_error_answer(std::current_exception(), request.id);
   }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  metrics_->add_request(request.method, pattern, response.status, took.count());
+  return response;
 }
 
-Response Routes::dispatch(const Request& request) const {
+Response Routes::dispatch(const Request& request, std::string_view& pattern) const {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
   std::string allowed;
-  for (const Route& route : kRoutes) {
+  for (const Route& route : route_table()) {
     auto id = match(route.pattern, request.path);
     if (!id) continue;
+    pattern = route.pattern;
     if (route.method == method) {
       if (draining_ && changes_something(method)) return make_retry_later(503, "the service is shutting down");
-      return route.handler({service_, request, std::move(*id), draining_, waiting_room_, copying_});
+      return route.handler({service_, request, std::move(*id), draining_, *metrics_, waiting_room_, copying_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }
+  // What the page is made of; only the page names it.
   if (allowed.empty() && is_page_file(request.path)) {
+    pattern = "/";
     if (method == "GET") return make_file_answer(request.path);
     allowed = "GET, HEAD";
   }

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "jobs/service.h"
 #include "server/message.h"
+#include "server/metrics.h"
 #include "server/preference.h"
 
 namespace server {
@@ -14,7 +18,9 @@ namespace server {
 /// May be called from any thread.
 class Routes {
  public:
-  explicit Routes(jobs::Service& service) : service_(service) {}
+  /// @param metrics  counts the requests
+  explicit Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>())
+      : service_(service), metrics_(std::move(metrics)) {}
 
   /// Never throws: whatever goes wrong becomes an answer of type application/problem+json.
   [[nodiscard]] Response answer(const Request& request) const;
@@ -23,9 +29,11 @@ class Routes {
   void start_draining() { draining_ = true; }
 
  private:
-  [[nodiscard]] Response dispatch(const Request& request) const;
+  /// @param pattern  set to that of the route, if there is one
+  [[nodiscard]] Response dispatch(const Request& request, std::string_view& pattern) const;
 
   jobs::Service& service_;
+  std::shared_ptr<Metrics> metrics_;
   std::atomic<bool> draining_ = false;
   mutable WaitingRoom waiting_room_;
   mutable std::mutex copying_;
@@ -37,6 +45,7 @@ struct Call {
   const Request& request;
   std::string id;  ///< what stands in the place of {id} in the route's pattern
   bool draining;
+  const Metrics& metrics;
   WaitingRoom& waiting_room;
   std::mutex& copying;  ///< held by the one request that copies the store
 };

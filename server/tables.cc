@@ -65,16 +65,13 @@ void append_optional_to(std::string& text, const std::optional<double>& value) {
   }
 }
 
-/// {"count", "mean", "spread", "min", "max", "of"}
+/// The keys are the columns of the CSV.
 void append_replicates_to(std::string& text, const jobs::ReplicateStatistics& set) {
-  text += "{\"count\":" + std::to_string(set.count);
+  text += "\"replicates_count\":" + std::to_string(set.count);
   for (const auto& [key, value] : {std::pair{"mean", set.mean}, {"spread", set.spread}, {"min", set.min}, {"max", set.max}}) {
-    text += std::string(",\"") + key + "\":";
+    text += std::string(",\"replicates_") + key + "\":";
     append_optional_to(text, value);
   }
-  text += ",\"of\":";
-  append_string_to(text, std::string(jobs::kReplicateMetric));
-  text += '}';
 }
 
 /// `"key":` of every column, made once for all rows.
@@ -101,7 +98,7 @@ std::string joined_rows(const jobs::ResultTable& table, const char* before_first
       append_cell_to(text, table.rows[r].at(c));
     }
     if (!table.replicates.empty()) {
-      text += keys.empty() ? "\"replicates\":" : ",\"replicates\":";
+      if (!keys.empty()) text += ',';
       append_replicates_to(text, table.replicates.at(r));
     }
     text += '}';

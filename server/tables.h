@@ -17,7 +17,7 @@ enum class TableFormat { kJson, kCsv, kNdjson, kNpz };
 [[nodiscard]] TableFormat find_column_format(const Request& request, Query& query);
 
 /// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each has, after the
-/// metrics, `replicates`: {"count", "mean", "spread", "min", "max", "of"} of its set, `of` the metric that they are of.
+/// metrics, replicates_count, _mean, _spread, _min and _max of its set.
 [[nodiscard]] std::string to_json_rows(const jobs::ResultTable& table);
 
 /// The same objects, each on a line of its own and nothing between them: NDJSON.

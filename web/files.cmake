@@ -13,6 +13,8 @@ set(page_files
   core/route.js
   core/theme.js
   core/uplot.js
+  docs/docs.js
+  docs/index.html
   form/estimate.js
   form/field.js
   form/fields.js
@@ -55,6 +57,8 @@ set(page_files
 
 # Of the packages: SERVED=FILE.
 set(page_packages
+  docs/swagger-ui-bundle.js=swagger-ui-dist/swagger-ui-bundle.js
+  docs/swagger-ui.css=swagger-ui-dist/swagger-ui.css
   lib/echarts.js=echarts/dist/echarts.esm.min.js
   lib/orbit_controls.js=three/examples/jsm/controls/OrbitControls.js
   lib/three.core.js=three/build/three.core.js

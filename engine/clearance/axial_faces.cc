@@ -25,14 +25,21 @@ bool AxialFaces::advance(const JournalMotion& start, const JournalMotion& end, d
   const double p_z = end.p_bj.z();
   const double most = limit();
   bool changed = false;
+  const std::size_t count = points_.size() / 2;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const FacePoint& point = points_[k];
+    int& touching = touching_[k / count];
+    if (k % count == 0 && touching == 0 && calc_reach(point.side, p_z, axial.x(), axial.y(), axial.z()) <= most) {
+      k += count - 1;
+      continue;
+    }
     const double r_z = point.x * axial.x() + point.y * axial.y() + point.z * axial.z();
     const bool touches = point.side * (p_z + r_z) - most > 0.0;
     if (touches == latches_[k].in_contact()) continue;
     const FacePenetration<double, double> at_end = calc_face_penetration(to_relative_motion(end), point, most);
     const FacePenetration<double, double> at_start = calc_face_penetration(to_relative_motion(start), point, most);
     changed |= latches_[k].advance({at_start.delta, at_start.rate}, {at_end.delta, at_end.rate}, dt, joint_.minimum_onset_rate);
+    touching += static_cast<int>(latches_[k].in_contact()) - static_cast<int>(!touches);
   }
   return changed;
 }

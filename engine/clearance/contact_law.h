@@ -30,6 +30,9 @@ struct JointLoad {
   double max_penetration = 0.0;      ///< of radial contacts, [m]
   double elastic_energy = 0.0;       ///< [J]
 
+  /// Called when all that one touch does has been added. @param bristle  its place in the state
+  RPSUP_INLINE void close_touch(int /*bristle*/) {}
+
   template <typename P>
   RPSUP_INLINE void add_force(const Vec3<P>& r, const Vec3<V>& f) {
     force += f;

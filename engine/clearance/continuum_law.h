@@ -39,9 +39,10 @@ template <typename P, typename V>
 /// Radial contact in closed form: each ring of the journal against the bore, one force a ring.
 ///
 ///     e offset of the ring's centre from the bearing axis,  delta = |e| - c_r,  n = e / |e|,  f_e = K / n_r delta^1.5
-template <typename P, typename V>
+/// @tparam Load  a JointLoad<V>
+template <typename P, typename V, typename Load>
 RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
-                                JointLoad<V>& load) {
+                                Load& load) {
   const ClearanceParameters& joint = contact.parameters();
   for (int i = 0; i < joint.n_r; ++i) {
     bristle_rates[2 * i] = bristle_rates[2 * i + 1] = V(0.0);
@@ -57,6 +58,7 @@ RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMo
               bristle_rates + 2 * i, load);
     load.elastic_energy += 0.4 * value_of(elastic) * value_of(delta);
     load.max_penetration = std::max(load.max_penetration, value_of(delta));
+    load.close_touch(2 * i);
   }
 }
 

@@ -78,9 +78,10 @@ template <typename P, typename V>
 ///     Delta = rho - r_b,  f_e = s Delta,  s = K / n_r * 3 sqrt(c_r) / (4 sqrt 2) * 2 pi / n_ce
 ///
 /// Only elements on the arc that can touch are looked at. @returns false if one touched that has no bristle in the state
-template <typename P, typename V>
+/// @tparam Load  a JointLoad<V>
+template <typename P, typename V, typename Load>
 [[nodiscard]] RPSUP_INLINE bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
-                                             JointLoad<V>& load) {
+                                             Load& load) {
   const ClearanceParameters& joint = elements.parameters();
   const double stiffness = elements.element_stiffness();
   const int count = elements.bristle_count();
@@ -107,6 +108,7 @@ template <typename P, typename V>
                 place < 0 ? nullptr : bristles + place, place < 0 ? nullptr : bristle_rates + place, load);
       load.elastic_energy += 0.5 * value_of(elastic) * value_of(element.delta);
       load.max_penetration = std::max(load.max_penetration, value_of(element.delta));
+      if (place >= 0) load.close_touch(place);
     }
   }
   return inside;

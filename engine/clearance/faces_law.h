@@ -30,8 +30,12 @@ RPSUP_INLINE void add_faces(const AxialFaces& faces, const RelativeMotion<P, V>&
   const double x_z = value_of(journal.R.x.z), y_z = value_of(journal.R.y.z), z_z = value_of(journal.R.z.z);
   const double p_z = value_of(journal.p.z);
   const FacePoint* points = faces.points();
-  const int count = faces.point_count();
-  for (int k = 0; k < count; ++k) {
+  const int count = faces.face_points();
+  for (int k = 0; k < 2 * count; ++k) {
+    if (k % count == 0 && !(faces.calc_reach(points[k].side, p_z, x_z, y_z, z_z) > limit)) {
+      k += count - 1;  // none of this face's points touches
+      continue;
+    }
     const double z = p_z + (points[k].x * x_z + points[k].y * y_z + points[k].z * z_z);
     if (!(points[k].side * z > limit)) continue;
     const FacePenetration<P, V> touch = calc_face_penetration(journal, points[k], limit);

@@ -26,15 +26,14 @@ struct SpatialAcceleration {
 /// force passes: A alone is left, a matrix of three. All accelerations here are what the free coordinates add to those of the frames.
 /// Source: R. Featherstone, Rigid Body Dynamics Algorithms, chapter 7.
 ///
-/// P: scalar of positions and inertias. Shapes: the tree's joints, AnyShapes or known ones.
-template <typename P, typename Shapes>
+/// Shapes: the tree's joints, AnyShapes or known ones.
+template <typename Shapes>
 class ArticulatedBodies {
  public:
   explicit ArticulatedBodies(const TreeModel& model) : model_(model), answers_(model.joints.size()), eliminated_(model.joints.size()) {}
 
   /// Computes the articulated inertias. False if one is not positive definite.
-  template <typename V>
-  [[nodiscard]] RPSUP_INLINE bool factor(const Frame<P, V>* frames, const JointAxes<P>* axes) {
+  [[nodiscard]] RPSUP_INLINE bool factor(const Frame<double, double>* frames, const JointAxes* axes) {
     bool definite = true;
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.moves) return;
@@ -59,7 +58,7 @@ class ArticulatedBodies {
   /// @param tau  generalised force on each coordinate
   /// @param qdd  one a coordinate; only free ones are written
   template <typename T>
-  RPSUP_INLINE void solve(const JointAxes<P>* axes, const T* tau, Scratch<T>& scratch, T* qdd) const {
+  RPSUP_INLINE void solve(const JointAxes* axes, const T* tau, Scratch<T>& scratch, T* qdd) const {
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       SpatialForce<T>& force = scratch.forces[i];
       if (!joint.driven) transmit(joint, axes[i], eliminated_[i], tau + joint.first, scratch.own[i], force);
@@ -75,7 +74,7 @@ class ArticulatedBodies {
 
   /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE T calc_drive_force(int index, const JointAxes<P>& axes, const Scratch<T>& scratch) const {
+  [[nodiscard]] RPSUP_INLINE T calc_drive_force(int index, const JointAxes& axes, const Scratch<T>& scratch) const {
     const auto k = static_cast<std::size_t>(index);
     const TreeJoint& joint = model_.joints[k];
     SpatialForce<T> force = scratch.forces[k];
@@ -90,26 +89,26 @@ class ArticulatedBodies {
  private:
   /// What a joint's body, and all that it carries, answers to an acceleration.
   struct Answer {
-    Sym3<P> A;
-    Mat3<P> C;
-    Sym3<P> J;
+    Sym3<double> A;
+    Mat3<double> C;
+    Sym3<double> J;
   };
   /// What eliminating a joint's coordinates left behind.
   struct Eliminated {
-    Mat3<P> C;             ///< spherical
-    Sym3<P> J_inverse;     ///< spherical
-    Vec3<P> U_a, U_alpha;  ///< single: force and moment of a unit acceleration of the coordinate
-    P D_inverse;           ///< single
+    Mat3<double> C;             ///< spherical
+    Sym3<double> J_inverse;     ///< spherical
+    Vec3<double> U_a, U_alpha;  ///< single: force and moment of a unit acceleration of the coordinate
+    double D_inverse;           ///< single
   };
 
   /// C of a body alone: alpha x mc.
-  [[nodiscard]] RPSUP_INLINE static Mat3<P> cross_matrix(const Vec3<P>& mc) {
-    return {{P(0.0), -mc.z, mc.y}, {mc.z, P(0.0), -mc.x}, {-mc.y, mc.x, P(0.0)}};
+  [[nodiscard]] RPSUP_INLINE static Mat3<double> cross_matrix(const Vec3<double>& mc) {
+    return {{0.0, -mc.z, mc.y}, {mc.z, 0.0, -mc.x}, {-mc.y, mc.x, 0.0}};
   }
 
   /// Adds the body to what its children have left, or puts it there where none has.
   template <typename Joint>
-  RPSUP_INLINE void add_body(const Joint& joint, const Mat3<P>& R, Answer& answer) const {
+  RPSUP_INLINE void add_body(const Joint& joint, const Mat3<double>& R, Answer& answer) const {
     if (!joint.carries_moving) answer = Answer{};
     answer.A.xx += joint.numbers().mass;
     answer.A.yy += joint.numbers().mass;
@@ -120,7 +119,7 @@ class ArticulatedBodies {
   }
 
   template <typename Joint>
-  RPSUP_INLINE bool eliminate(const Joint& joint, const Mat3<P>& R, Answer& answer, const Vec3<P>& axis, Eliminated& eliminated) const {
+  RPSUP_INLINE bool eliminate(const Joint& joint, const Mat3<double>& R, Answer& answer, const Vec3<double>& axis, Eliminated& eliminated) const {
     if (joint.driven) return true;
     if (joint.kind != JointShape::Kind::kSpherical) return eliminate_single(joint, axis, answer, eliminated);
     if (joint.is_bare_rod()) {
@@ -131,8 +130,8 @@ class ArticulatedBodies {
       eliminated.J_inverse.yy += across;
       eliminated.J_inverse.zz += across;
     } else {
-      const Sym3Inverse<P> inverse = invert(answer.J);
-      if (!(value_of(inverse.determinant) > 0.0)) return false;
+      const Sym3Inverse<double> inverse = invert(answer.J);
+      if (!(inverse.determinant > 0.0)) return false;
       eliminated.J_inverse = inverse.matrix;
     }
     eliminated.C = answer.C;
@@ -141,9 +140,9 @@ class ArticulatedBodies {
   }
 
   /// A <- A - C J^-1 C^T: all three rotations at once, whatever their axes.
-  RPSUP_INLINE void subtract_turning(const Eliminated& e, Sym3<P>& A) const {
-    const Vec3<P> row_x{e.C.x.x, e.C.y.x, e.C.z.x}, row_y{e.C.x.y, e.C.y.y, e.C.z.y}, row_z{e.C.x.z, e.C.y.z, e.C.z.z};
-    const Vec3<P> x = e.J_inverse * row_x, y = e.J_inverse * row_y, z = e.J_inverse * row_z;
+  RPSUP_INLINE void subtract_turning(const Eliminated& e, Sym3<double>& A) const {
+    const Vec3<double> row_x{e.C.x.x, e.C.y.x, e.C.z.x}, row_y{e.C.x.y, e.C.y.y, e.C.z.y}, row_z{e.C.x.z, e.C.y.z, e.C.z.z};
+    const Vec3<double> x = e.J_inverse * row_x, y = e.J_inverse * row_y, z = e.J_inverse * row_z;
     A.xx -= dot(row_x, x);
     A.yy -= dot(row_y, y);
     A.zz -= dot(row_z, z);
@@ -153,7 +152,7 @@ class ArticulatedBodies {
   }
 
   template <typename Joint>
-  RPSUP_INLINE bool eliminate_single(const Joint& joint, const Vec3<P>& axis, Answer& answer, Eliminated& e) const {
+  RPSUP_INLINE bool eliminate_single(const Joint& joint, const Vec3<double>& axis, Answer& answer, Eliminated& e) const {
     if (joint.rotates()) {
       e.U_a = answer.C * axis;
       e.U_alpha = answer.J * axis;
@@ -161,27 +160,27 @@ class ArticulatedBodies {
       e.U_a = answer.A * axis;
       if (joint.answers_turning) e.U_alpha = transpose_times(answer.C, axis);
     }
-    const P D = joint.rotates() ? dot(axis, e.U_alpha) : dot(axis, e.U_a);
+    const double D = joint.rotates() ? dot(axis, e.U_alpha) : dot(axis, e.U_a);
     e.D_inverse = 1.0 / D;
     if (joint.parent_moves) {
-      const P minus = -e.D_inverse;
+      const double minus = -e.D_inverse;
       add_outer(answer.A, minus, e.U_a);
       if (joint.parent_answers_turning) {
         add_outer(answer.J, minus, e.U_alpha);
-        const Vec3<P> scaled = minus * e.U_a;
-        answer.C += Mat3<P>{e.U_alpha.x * scaled, e.U_alpha.y * scaled, e.U_alpha.z * scaled};
+        const Vec3<double> scaled = minus * e.U_a;
+        answer.C += Mat3<double>{e.U_alpha.x * scaled, e.U_alpha.y * scaled, e.U_alpha.z * scaled};
       }
     }
-    return value_of(D) > 0.0;
+    return D > 0.0;
   }
 
   /// Adds what is left of a joint to its parent, whose origin sees the joint's at r.
   template <typename Joint>
-  RPSUP_INLINE void carry(const Joint& joint, const Answer& answer, const Vec3<P>& r, Answer& parent) {
+  RPSUP_INLINE void carry(const Joint& joint, const Answer& answer, const Vec3<double>& r, Answer& parent) {
     if (joint.last_child) parent = Answer{};
     parent.A += answer.A;
     if (!joint.parent_answers_turning) return;
-    const Mat3<P> B = times_cross(answer.A, r);
+    const Mat3<double> B = times_cross(answer.A, r);
     parent.C.x -= B.x;
     parent.C.y -= B.y;
     parent.C.z -= B.z;
@@ -193,14 +192,14 @@ class ArticulatedBodies {
   }
 
   /// A [r]x
-  [[nodiscard]] RPSUP_INLINE static Mat3<P> times_cross(const Sym3<P>& A, const Vec3<P>& r) {
+  [[nodiscard]] RPSUP_INLINE static Mat3<double> times_cross(const Sym3<double>& A, const Vec3<double>& r) {
     return {{A.xy * r.z - A.xz * r.y, A.yy * r.z - A.yz * r.y, A.yz * r.z - A.zz * r.y},
             {A.xz * r.x - A.xx * r.z, A.yz * r.x - A.xy * r.z, A.zz * r.x - A.xz * r.z},
             {A.xx * r.y - A.xy * r.x, A.xy * r.y - A.yy * r.x, A.xz * r.y - A.yz * r.x}};
   }
 
   /// J <- J - [r]x B, which is symmetric.
-  RPSUP_INLINE static void subtract_cross(const Vec3<P>& r, const Mat3<P>& B, Sym3<P>& J) {
+  RPSUP_INLINE static void subtract_cross(const Vec3<double>& r, const Mat3<double>& B, Sym3<double>& J) {
     J.xx -= r.y * B.x.z - r.z * B.x.y;
     J.yy -= r.z * B.y.x - r.x * B.y.z;
     J.zz -= r.x * B.z.y - r.y * B.z.x;
@@ -210,8 +209,8 @@ class ArticulatedBodies {
   }
 
   /// J <- J + [r]x C + its transpose
-  RPSUP_INLINE static void add_cross_both(const Vec3<P>& r, const Mat3<P>& C, Sym3<P>& J) {
-    const Vec3<P> x = cross(r, C.x), y = cross(r, C.y), z = cross(r, C.z);
+  RPSUP_INLINE static void add_cross_both(const Vec3<double>& r, const Mat3<double>& C, Sym3<double>& J) {
+    const Vec3<double> x = cross(r, C.x), y = cross(r, C.y), z = cross(r, C.z);
     J.xx += 2.0 * x.x;
     J.yy += 2.0 * y.y;
     J.zz += 2.0 * z.z;
@@ -222,7 +221,7 @@ class ArticulatedBodies {
 
   /// The force and moment that a joint passes on before its parent accelerates.
   template <typename Joint, typename T>
-  RPSUP_INLINE void transmit(const Joint& joint, const JointAxes<P>& axes, const Eliminated& e, const T* tau, Vec3<T>& own,
+  RPSUP_INLINE void transmit(const Joint& joint, const JointAxes& axes, const Eliminated& e, const T* tau, Vec3<T>& own,
                              SpatialForce<T>& force) const {
     if (joint.kind == JointShape::Kind::kSpherical) {
       const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
@@ -238,7 +237,7 @@ class ArticulatedBodies {
 
   /// A joint's acceleration, after its parent's.
   template <typename Joint, typename T>
-  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes<P>& axes, Scratch<T>& scratch, T* qdd) const {
+  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes& axes, Scratch<T>& scratch, T* qdd) const {
     const Eliminated& e = eliminated_[k];
     SpatialAcceleration<T> own;
     if (joint.parent_moves) {

@@ -4,12 +4,13 @@
 #include <memory>
 
 #include "engine/dynamics/equations_of_motion.h"
+#include "engine/dynamics/direction_plan.h"
+#include "engine/dynamics/varied_equations.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// The equations of motion in plain numbers, and twice in numbers with derivatives: once where positions vary, once (much less work)
-/// where only rates and bristles do.
+/// The equations of motion and their derivatives between the plain arrays of states.
 template <typename Shapes>
 class CompiledEquations final : public Equations {
  public:
@@ -19,14 +20,11 @@ class CompiledEquations final : public Equations {
         drives_(static_cast<int>(model.drives.size())),
         bristles_(static_cast<int>(bristles)),
         plain_(model, joints, bristles),
-        by_position_(model, joints, bristles),
-        by_rate_(model, joints, bristles),
-        directions_(static_cast<std::size_t>(2 * free_ + 1) + bristles) {}
+        varied_(model, joints, plain_),
+        plan_(model, bristles) {}
 
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
-    set_state(y, drives, plain_);
-    plain_.drives_moved = drives_moved;
-    const EvaluationStatus status = plain_.evaluate(drives);
+    const EvaluationStatus status = solve(y, drives, drives_moved);
     if (status == EvaluationStatus::kOk) write_rates(dydt);
     return status;
   }
@@ -34,51 +32,43 @@ class CompiledEquations final : public Equations {
   void read_out(Evaluation& at) const override;
 
   EvaluationStatus linearise(const double* y, const DrivenMotion* drives, bool drives_moved, Linearisation& result) override {
-    set_state(y, drives, plain_);
-    plain_.drives_moved = drives_moved;
-    const EvaluationStatus status = plain_.evaluate(drives);
+    const EvaluationStatus status = solve(y, drives, drives_moved);
     if (status != EvaluationStatus::kOk) return status;
     find_acting_bristles(y, result);
-    const int positions = free_ + 1;
-    const int count = list_directions(result);
-    by_rate_.drives_moved = true;  // in the first of its chunks
-    for (int first = 0; first < count; first += Dual::kDirections) {
-      const Chunk chunk{directions_.data() + first, std::min(Dual::kDirections, count - first)};
-      const EvaluationStatus sought =
-          first < positions ? differentiate_chunk(chunk, y, drives, by_position_, result) : differentiate_chunk(chunk, y, drives, by_rate_, result);
-      if (sought != EvaluationStatus::kOk) return sought;
+    varied_.hold(y + 2 * free_);
+    plan_.start(drives, result.bristles, result.bristle_count);
+    for (int group = 0; group < plan_.groups(); ++group) {
+      const int bristle = plan_.first_bristle(group);
+      varied_.differentiate(plan_.coordinates(group), plan_.bristles() + bristle, plan_.end_bristle(group) - bristle, plan_.time(group), drives);
+      take_outputs(group, result);
     }
+    plan_.sort(result);
     return EvaluationStatus::kOk;
   }
 
  private:
-  enum class Variable { kPosition, kTime, kRate, kBristle };
-  struct Direction {
-    Variable variable;
-    int index;
-  };
-  struct Chunk {
-    const Direction* directions;
-    int count;
-  };
+  EvaluationStatus solve(const double* y, const DrivenMotion* drives, bool drives_moved) {
+    set_state(y, drives);
+    plain_.drives_moved = drives_moved;
+    return plain_.evaluate(drives);
+  }
 
   /// Sets q, qd, the driven qdd and the bristles; the free qdd to zero.
-  template <typename P, typename V>
-  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives, EquationsOfMotion<P, V, Shapes>& equations) const {
+  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives) {
     for (int a = 0; a < free_; ++a) {
       const auto i = static_cast<std::size_t>(model_.free[static_cast<std::size_t>(a)]);
-      equations.q[i] = P(y[a]);
-      equations.qd[i] = V(y[free_ + a]);
-      equations.qdd[i] = V(0.0);
+      plain_.q[i] = y[a];
+      plain_.qd[i] = y[free_ + a];
+      plain_.qdd[i] = 0.0;
     }
     if (!model_.drive_rows)
       for (int k = 0; k < drives_; ++k) {
         const auto i = static_cast<std::size_t>(model_.drives[static_cast<std::size_t>(k)]);
-        equations.q[i] = P(drives[k].q);
-        equations.qd[i] = V(drives[k].qd);
-        equations.qdd[i] = V(drives[k].qdd);
+        plain_.q[i] = drives[k].q;
+        plain_.qd[i] = drives[k].qd;
+        plain_.qdd[i] = drives[k].qdd;
       }
-    for (int b = 0; b < bristles_; ++b) equations.bristles[static_cast<std::size_t>(b)] = V(y[2 * free_ + b]);
+    for (int b = 0; b < bristles_; ++b) plain_.bristles[static_cast<std::size_t>(b)] = y[2 * free_ + b];
   }
 
   void write_rates(double* dydt) const {
@@ -89,16 +79,13 @@ class CompiledEquations final : public Equations {
     }
     double* next = dydt + 2 * free_;
     for (int b = 0; b < bristles_; ++b) *next++ = plain_.bristle_rates[static_cast<std::size_t>(b)];
-    for (int k = 0; k < drives_; ++k) *next++ = calc_power(plain_, k);
+    for (int k = 0; k < drives_; ++k) {
+      const auto drive = static_cast<std::size_t>(k);
+      *next++ = plain_.drive_force[drive] * plain_.qd[static_cast<std::size_t>(model_.drives[drive])];
+    }
     *next++ = plain_.losses.impact;
     *next++ = plain_.losses.friction;
     *next++ = plain_.losses.structural;
-  }
-
-  template <typename P, typename V>
-  [[nodiscard]] RPSUP_INLINE V calc_power(const EquationsOfMotion<P, V, Shapes>& equations, int drive) const {
-    const auto k = static_cast<std::size_t>(drive);
-    return equations.drive_force[k] * equations.qd[static_cast<std::size_t>(model_.drives[k])];
   }
 
   /// Bristles whose contacts touch: the others neither move nor act.
@@ -115,79 +102,25 @@ class CompiledEquations final : public Equations {
     result.outputs = free_ + count + drives_ + 3;
   }
 
-  int list_directions(const Linearisation& result) {
-    int count = 0;
-    const auto add = [&](Variable variable, int index) { directions_[static_cast<std::size_t>(count++)] = {variable, index}; };
-    for (int a = 0; a < free_; ++a) add(Variable::kPosition, a);
-    add(Variable::kTime, 0);
-    for (int a = 0; a < free_; ++a) add(Variable::kRate, a);
-    for (int b = 0; b < result.bristle_count; ++b) add(Variable::kBristle, b);
-    return count;
-  }
-
-  template <typename P>
-  EvaluationStatus differentiate_chunk(const Chunk& chunk, const double* y, const DrivenMotion* drives, EquationsOfMotion<P, Dual, Shapes>& equations,
-                                       Linearisation& result) {
-    set_state(y, drives, equations);
-    for (int lane = 0; lane < chunk.count; ++lane) seed(chunk.directions[lane], lane, drives, result, equations);
-    const EvaluationStatus status = equations.evaluate(drives);
-    equations.time = P(0.0);
-    if constexpr (std::is_same_v<P, double>) equations.drives_moved = false;
-    if (status != EvaluationStatus::kOk) return status;
+  void take_outputs(int group, const Linearisation& result) {
     int row = 0;
-    const auto take = [&](const Dual& output) {
-      for (int lane = 0; lane < chunk.count; ++lane) *find_entry(chunk.directions[lane], row, result) = output.derivative(lane);
-      ++row;
-    };
-    for (const int i : model_.free) take(equations.qdd[static_cast<std::size_t>(i)]);
-    for (int b = 0; b < result.bristle_count; ++b) take(equations.bristle_rates[static_cast<std::size_t>(result.bristles[b])]);
-    for (int k = 0; k < drives_; ++k) take(calc_power(equations, k));
-    take(equations.losses.impact);
-    take(equations.losses.friction);
-    take(equations.losses.structural);
-    return EvaluationStatus::kOk;
-  }
-
-  template <typename P>
-  RPSUP_INLINE void seed(const Direction& direction, int lane, const DrivenMotion* drives, const Linearisation& result,
-                         EquationsOfMotion<P, Dual, Shapes>& equations) const {
-    const auto coordinate = [&] { return static_cast<std::size_t>(model_.free[static_cast<std::size_t>(direction.index)]); };
-    if (direction.variable == Variable::kRate) equations.qd[coordinate()].set_derivative(lane, 1.0);
-    if (direction.variable == Variable::kBristle)
-      equations.bristles[static_cast<std::size_t>(result.bristles[direction.index])].set_derivative(lane, 1.0);
-    if constexpr (std::is_same_v<P, Dual>) {
-      if (direction.variable == Variable::kPosition) equations.q[coordinate()].set_derivative(lane, 1.0);
-      if (direction.variable == Variable::kTime) seed_time(lane, drives, equations);
+    for (const int i : model_.free) plan_.output(row++, group) = varied_.qdd[static_cast<std::size_t>(i)];
+    for (int b = 0; b < result.bristle_count; ++b) plan_.output(row++, group) = varied_.bristle_rates[static_cast<std::size_t>(result.bristles[b])];
+    for (std::size_t k = 0; k < model_.drives.size(); ++k) {
+      const int drive = model_.drives[k];
+      plan_.output(row++, group) = plain_.qd[static_cast<std::size_t>(drive)] * varied_.drive_force[k] +
+                                   plain_.drive_force[k] * plan_.coordinates(group)[drive].qd;
     }
-  }
-
-  RPSUP_INLINE void seed_time(int lane, const DrivenMotion* drives, EquationsOfMotion<Dual, Dual, Shapes>& equations) const {
-    equations.time.set_derivative(lane, 1.0);
-    if (model_.drive_rows) return;
-    for (int k = 0; k < drives_; ++k) {
-      const auto i = static_cast<std::size_t>(model_.drives[static_cast<std::size_t>(k)]);
-      equations.q[i].set_derivative(lane, drives[k].qd);
-      equations.qd[i].set_derivative(lane, drives[k].qdd);
-      equations.qdd[i].set_derivative(lane, drives[k].qddd);
-    }
-  }
-
-  RPSUP_INLINE double* find_entry(const Direction& direction, int row, Linearisation& result) const {
-    switch (direction.variable) {
-      case Variable::kPosition: return result.by_q + row * free_ + direction.index;
-      case Variable::kTime: return result.by_t + row;
-      case Variable::kRate: return result.by_v + row * free_ + direction.index;
-      case Variable::kBristle: break;
-    }
-    return result.by_bristle + row * bristles_ + direction.index;
+    plan_.output(row++, group) = varied_.losses.impact;
+    plan_.output(row++, group) = varied_.losses.friction;
+    plan_.output(row++, group) = varied_.losses.structural;
   }
 
   const TreeModel& model_;
   int free_, drives_, bristles_;
-  EquationsOfMotion<double, double, Shapes> plain_;
-  EquationsOfMotion<Dual, Dual, Shapes> by_position_;
-  EquationsOfMotion<double, Dual, Shapes> by_rate_;
-  Buffer<Direction> directions_;
+  EquationsOfMotion<Shapes> plain_;
+  VariedEquations<Shapes> varied_;
+  DirectionPlan plan_;
 };
 
 /// Copies numbers one by one: functions of Eigen would be shared between instruction sets by the linker.
@@ -211,7 +144,7 @@ void CompiledEquations<Shapes>::read_out(Evaluation& at) const {
   for (std::size_t i = 0; i < model_.joints.size(); ++i) {
     const TreeJoint& joint = model_.joints[i];
     const Frame<double, double>& from = plain_.frames[i];
-    const JointAxes<double>& axes = plain_.axes[i];
+    const JointAxes& axes = plain_.axes[i];
     for (int k = 0; k < joint.count(); ++k) {
       FrameMotion& to = at.frames.data()[joint.first + k];
       copy(axes.axis[k], to.axis.data());

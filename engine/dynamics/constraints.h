@@ -19,8 +19,8 @@ class Constraints {
   const Mechanism& mechanism_;
   TreeModel model_;
   Buffer<Frame<double, double>> frames_;
-  Buffer<JointAxes<double>> axes_;
-  ConstraintRows<double, double> rows_;
+  Buffer<JointAxes> axes_;
+  ConstraintRows rows_;
 
  public:
   explicit Constraints(const Mechanism& mechanism);

@@ -1,37 +1,25 @@
 #pragma once
 
-#include <variant>
 #include <vector>
 
-#include "engine/clearance/continuum_law.h"
-#include "engine/clearance/elements_law.h"
-#include "engine/clearance/faces_law.h"
+#include "engine/clearance/joint_contact.h"
 #include "engine/dynamics/articulated_bodies.h"
 #include "engine/dynamics/constraint_rows.h"
+#include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/equations.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A cut joint at one instant.
-template <typename P, typename V>
-struct CutJointMotion {
-  Frame<P, V> b, j;                ///< bearing and journal
-  RelativeMotion<P, V> journal;    ///< {j} seen from {b}
-  JointLoad<V> load;               ///< of a joint with clearance
-  Vec3<V> reaction;                ///< force on the journal, in W, [N]
-};
-
 /// Work and losses by time.
-template <typename V>
+template <typename T>
 struct LossPowers {
-  V impact{}, friction{}, structural{};
+  T impact{}, friction{}, structural{};
 };
 
 /// The equations of motion of a mechanism at one instant, Eqs. (1)-(13), with room for all that they need.
-/// P: scalar of positions and what follows from them; V: scalar of rates and what follows from those too.
 /// Shapes: the tree's joints, AnyShapes or known ones.
-template <typename P, typename V, typename Shapes>
+template <typename Shapes>
 class EquationsOfMotion {
  public:
   EquationsOfMotion(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristle_room)
@@ -44,28 +32,26 @@ class EquationsOfMotion {
         frames(model.joints.size()),
         axes(model.joints.size()),
         cuts(model.cut_joints.size()),
+        bodies(model),
+        rows(model),
+        lambda(static_cast<std::size_t>(model.rows)),
         model_(model),
         joints_(joints),
-        ground_(make_ground<P, V>(model)),
-        bodies_(model),
+        ground_(make_ground(model)),
         scratch_(model),
-        response_scratch_(model),
         tau_(q.size()),
         turns_(q.size()),
         given_(model.joints.size()),
         needed_(model.joints.size()),
-        rows_(model),
         response_(static_cast<std::size_t>(model.rows) * q.size()),
-        A_(static_cast<std::size_t>(model.rows * model.rows)),
-        lambda_(static_cast<std::size_t>(model.rows)) {}
+        A_(static_cast<std::size_t>(model.rows * model.rows)) {}
 
   /// Computes everything below from q, qd, the driven qdd (free ones: zero) and the bristles.
   [[nodiscard]] RPSUP_INLINE EvaluationStatus evaluate(const DrivenMotion* drives) {
     calc_frames();
-    const bool complete = calc_contacts();
-    if (!complete) return EvaluationStatus::kBristleMissing;
+    if (!calc_contacts()) return EvaluationStatus::kBristleMissing;
     calc_needed_forces();
-    if (!bodies_.factor(frames.data(), axes.data())) return EvaluationStatus::kNonFinite;
+    if (!bodies.factor(frames.data(), axes.data())) return EvaluationStatus::kNonFinite;
     calc_free_accelerations();
     if (model_.rows > 0 && !solve_multipliers(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
@@ -73,18 +59,39 @@ class EquationsOfMotion {
     return is_finite() ? EvaluationStatus::kOk : EvaluationStatus::kNonFinite;
   }
 
+  /// What the constraints lack of the accelerations that they want: lambda <- (Phi_q M^-1 Phi_q^T)^-1 (wanted - Phi_q qdd). After evaluate().
+  /// @param multipliers  in: wanted  @tparam T  a number, or several side by side
+  template <typename T>
+  RPSUP_INLINE void find_multipliers(const T* accelerations, T* multipliers) const {
+    for (int r = 0; r < rows.count; ++r)
+      for (const int i : model_.free) multipliers[r] -= rows.row(r)[i] * accelerations[i];
+    solve_cholesky(rows.count, A_.data(), multipliers);
+  }
+
+  /// tau <- tau + Phi_q^T lambda
+  template <typename T>
+  RPSUP_INLINE void add_reactions(const T* multipliers, T* tau) const {
+    for (int r = 0; r < rows.count; ++r)
+      for (const int i : model_.free) tau[i] += rows.row(r)[i] * multipliers[r];
+  }
+
+  [[nodiscard]] const Frame<double, double>& ground() const { return ground_; }
+
   // In
-  Buffer<P> q;                       ///< one a coordinate, as the following
-  Buffer<V> qd, qdd;                 ///< qdd of free coordinates: out
-  Buffer<V> bristles;
-  bool drives_moved = true;          ///< whether the driven coordinates are others than in the last evaluation
+  Buffer<double> q;                             ///< one a coordinate, as the following
+  Buffer<double> qd, qdd;                       ///< qdd of free coordinates: out
+  Buffer<double> bristles;
+  bool drives_moved = true;                     ///< whether the driven coordinates are others than in the last evaluation
   // Out
-  Buffer<V> bristle_rates;
-  Buffer<V> drive_force;             ///< one a drive, [N] or [N m]
-  Buffer<Frame<P, V>> frames;        ///< of each joint's body, with the accelerations that free coordinates do not add to
-  Buffer<JointAxes<P>> axes;
-  Buffer<CutJointMotion<P, V>> cuts;
-  LossPowers<V> losses;
+  Buffer<double> bristle_rates;
+  Buffer<double> drive_force;                   ///< one a drive, [N] or [N m]
+  Buffer<Frame<double, double>> frames;         ///< of each joint's body, with the accelerations that free coordinates do not add to
+  Buffer<JointAxes> axes;
+  Buffer<CutJointMotion<double, double>> cuts;
+  LossPowers<double> losses;
+  ArticulatedBodies<Shapes> bodies;
+  ConstraintRows rows;
+  Buffer<double> lambda;                        ///< the rows' multipliers
 
  private:
   /// All frames, root to tip. The joints that stand on driven ones alone move with time only.
@@ -96,7 +103,7 @@ class EquationsOfMotion {
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.moves && !drives_moved) return;
       const auto first = static_cast<std::size_t>(joint.first);
-      Frame<P, V> f = joint.parent < 0 ? ground_ : frames[static_cast<std::size_t>(joint.parent)];
+      Frame<double, double> f = joint.parent < 0 ? ground_ : frames[static_cast<std::size_t>(joint.parent)];
       calc_joint_frame(joint, &q[first], &turns_[first], &qd[first], &qdd[first], f, axes[i]);
       frames[i] = f;
       if (!joint.moves) given_[i] = calc_body_force(joint, f);
@@ -108,57 +115,19 @@ class EquationsOfMotion {
     std::size_t bristle = 0;
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
-      CutJointMotion<P, V>& cut = cuts[k];
-      cut.b = place(joint.bearing, frame_of(joint.bearing_joint), joint.clearance < 0);
-      cut.j = place(joint.journal, frame_of(joint.journal_joint), joint.clearance < 0);
-      calc_relative_motion(cut);
+      place_parts(joint, frame_of(joint.bearing_joint), frame_of(joint.journal_joint), cuts[k]);
       if (joint.clearance < 0) continue;
       const ClearanceJoint& contact = joints_[static_cast<std::size_t>(joint.clearance)];
-      cut.load = {};
-      add_faces(contact.faces(), cut.journal, cut.load);
-      V* z = bristles.data() + bristle;
-      V* zd = bristle_rates.data() + bristle;
-      if (const RadialElements* elements = contact.elements())
-        complete = add_elements(*elements, cut.journal, z, zd, cut.load) && complete;
-      else
-        add_continuum(*contact.continuum(), cut.journal, z, zd, cut.load);
+      cuts[k].load = {};
+      complete = add_contacts(contact, cuts[k].journal, bristles.data() + bristle, bristle_rates.data() + bristle, cuts[k].load) && complete;
+      cuts[k].reaction = cuts[k].b.R * cuts[k].load.force;
       bristle += static_cast<std::size_t>(contact.bristle_count());
-      cut.reaction = cut.b.R * cut.load.force;
     }
     return complete;
   }
 
-  [[nodiscard]] RPSUP_INLINE const Frame<P, V>& frame_of(int joint) const { return joint < 0 ? ground_ : frames[static_cast<std::size_t>(joint)]; }
-
-  /// A bearing or journal on its body. @param accelerations  whether they are wanted
-  [[nodiscard]] RPSUP_INLINE static Frame<P, V> place(const TreePlacement& placement, const Frame<P, V>& body, bool accelerations) {
-    Frame<P, V> placed;
-    placed.R = placement.turned ? multiply_constant(body.R, placement.R) : body.R;
-    placed.p = body.p;
-    placed.w = body.w;
-    placed.v = body.v;
-    if (accelerations) {
-      placed.wd = body.wd;
-      placed.vd = body.vd;
-    }
-    if (!placement.shifted) return placed;
-    const Vec3<P> r = rotate_constant(body.R, placement.p, placement.along_x);
-    if (accelerations) {
-      shift_frame(r, true, placed);
-    } else {
-      placed.p += r;
-      placed.v += cross(body.w, r);
-    }
-    return placed;
-  }
-
-  RPSUP_INLINE static void calc_relative_motion(CutJointMotion<P, V>& cut) {
-    const Vec3<P> offset = cut.j.p - cut.b.p;
-    const Mat3<P>& R = cut.b.R;
-    cut.journal.R = {transpose_times(R, cut.j.R.x), transpose_times(R, cut.j.R.y), transpose_times(R, cut.j.R.z)};
-    cut.journal.p = transpose_times(R, offset);
-    cut.journal.v = transpose_times(R, cut.j.v - cut.b.v - cross(cut.b.w, offset));
-    cut.journal.w = transpose_times(R, cut.j.w - cut.b.w);
+  [[nodiscard]] RPSUP_INLINE const Frame<double, double>& frame_of(int joint) const {
+    return joint < 0 ? ground_ : frames[static_cast<std::size_t>(joint)];
   }
 
   /// What moves each joint's body as its frame moves, less the contacts' loads on it.
@@ -169,17 +138,17 @@ class EquationsOfMotion {
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (joint.clearance < 0) continue;
-      const CutJointMotion<P, V>& cut = cuts[k];
-      const Vec3<V> moment = cut.b.R * cut.load.moment;
+      const CutJointMotion<double, double>& cut = cuts[k];
+      const Vec3<double> moment = cut.b.R * cut.load.moment;
       // Both act at the journal's centre: on the journal, and the opposite on the bearing.
       if (joint.journal_joint >= 0) {
-        SpatialForce<V>& needed = needed_[static_cast<std::size_t>(joint.journal_joint)];
+        SpatialForce<double>& needed = needed_[static_cast<std::size_t>(joint.journal_joint)];
         needed.force -= cut.reaction;
         needed.moment -= moment;
         if (joint.journal.shifted) needed.moment -= cross(cut.j.p - frames[static_cast<std::size_t>(joint.journal_joint)].p, cut.reaction);
       }
       if (joint.bearing_joint >= 0) {
-        SpatialForce<V>& needed = needed_[static_cast<std::size_t>(joint.bearing_joint)];
+        SpatialForce<double>& needed = needed_[static_cast<std::size_t>(joint.bearing_joint)];
         needed.force += cut.reaction;
         needed.moment += moment + cross(cut.j.p - frames[static_cast<std::size_t>(joint.bearing_joint)].p, cut.reaction);
       }
@@ -191,46 +160,41 @@ class EquationsOfMotion {
       const auto first = static_cast<std::size_t>(joint.first);
       for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k)
         tau_[first + k] =
-            joint.sprung ? -(joint.numbers().stiffness[k] * q[first + k] + joint.numbers().damping[k] * qd[first + k]) : V(0.0);
+            joint.sprung ? -(joint.numbers().stiffness[k] * q[first + k] + joint.numbers().damping[k] * qd[first + k]) : 0.0;
     });
     solve();
   }
 
   RPSUP_INLINE void solve() {
     for (std::size_t i = 0; i < needed_.size(); ++i) scratch_.forces[i] = needed_[i];
-    bodies_.solve(axes.data(), tau_.data(), scratch_, qdd.data());
+    bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data());
   }
 
   /// (Phi_q M^-1 Phi_q^T) lambda = -(Phi_q qdd_0 + bias) - 2 alpha Phi_d - beta^2 Phi, with qdd_0 the accelerations without constraints.
   RPSUP_INLINE bool solve_multipliers(const DrivenMotion* drives) {
     calc_rows(drives);
     const int n = model_.coordinates;
-    const int count = rows_.count;
+    const int count = rows.count;
     for (int r = 0; r < count; ++r) {
-      response_scratch_.forces.fill({});
-      bodies_.solve(axes.data(), rows_.row(r), response_scratch_, response_.data() + r * n);
-    }
-    for (int r = 0; r < count; ++r) {
-      V sum = -(rows_.bias[static_cast<std::size_t>(r)] + 2.0 * model_.alpha * rows_.Phi_d[static_cast<std::size_t>(r)] +
-                model_.beta * model_.beta * rows_.Phi[static_cast<std::size_t>(r)]);
-      for (const int i : model_.free) sum -= rows_.row(r)[i] * qdd[static_cast<std::size_t>(i)];
-      lambda_[static_cast<std::size_t>(r)] = sum;
+      scratch_.forces.fill({});
+      bodies.solve(axes.data(), rows.row(r), scratch_, response_.data() + r * n);
       for (int c = 0; c <= r; ++c) {
-        P entry(0.0);
-        for (const int i : model_.free) entry += rows_.row(r)[i] * response_[static_cast<std::size_t>(c * n + i)];
+        double entry = 0.0;
+        for (const int i : model_.free) entry += rows.row(r)[i] * response_[static_cast<std::size_t>(c * n + i)];
         A_[static_cast<std::size_t>(r * count + c)] = entry;
       }
     }
     constexpr double kSingular = 1e-12;  // of a pivot, relative to its row: the loop stands at the end of its reach
     if (!factor_cholesky(count, kSingular, A_.data())) return false;
-    solve_cholesky(count, A_.data(), lambda_.data());
-    for (int r = 0; r < count; ++r)
-      for (const int i : model_.free) tau_[static_cast<std::size_t>(i)] += rows_.row(r)[i] * lambda_[static_cast<std::size_t>(r)];
+    for (std::size_t r = 0; r < lambda.size(); ++r)
+      lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
+    find_multipliers(qdd.data(), lambda.data());
+    add_reactions(lambda.data(), tau_.data());
     solve();
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const int first = model_.cut_joints[k].first_row;
       if (first < 0) continue;
-      const V* force = lambda_.data() + first;
+      const double* force = lambda.data() + first;
       cuts[k].reaction = {force[0], force[1], force[2]};
     }
     return true;
@@ -238,49 +202,44 @@ class EquationsOfMotion {
 
   RPSUP_INLINE void calc_rows(const DrivenMotion* drives) {
     for (std::size_t k = 0; k < cuts.size(); ++k)
-      if (model_.cut_joints[k].first_row >= 0) calc_joint_rows(model_, model_.cut_joints[k], frames.data(), axes.data(), cuts[k].b, cuts[k].j, rows_);
+      if (model_.cut_joints[k].first_row >= 0) calc_joint_rows(model_, model_.cut_joints[k], frames.data(), axes.data(), cuts[k].b, cuts[k].j, rows);
     if (!model_.drive_rows) return;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const auto d = static_cast<std::size_t>(model_.drives[k]);
       const std::size_t row = static_cast<std::size_t>(model_.first_drive_row) + k;
-      rows_.Phi[row] = q[d] - wanted_q(drives[k]);
-      rows_.Phi_d[row] = qd[d] - wanted_qd(drives[k]);
-      rows_.bias[row] = -wanted_qdd(drives[k]);
-      rows_.row(static_cast<int>(row))[d] = P(1.0);
+      rows.Phi[row] = q[d] - drives[k].q;
+      rows.Phi_d[row] = qd[d] - drives[k].qd;
+      rows.bias[row] = -drives[k].qdd;
+      rows.row(static_cast<int>(row))[d] = 1.0;
     }
   }
-
-  /// The drives' motion varies in time, and by nothing else.
-  RPSUP_INLINE P wanted_q(const DrivenMotion& drive) const { return differentiate(time, drive.q, drive.qd); }
-  RPSUP_INLINE V wanted_qd(const DrivenMotion& drive) const { return V(differentiate(time, drive.qd, drive.qdd)); }
-  RPSUP_INLINE V wanted_qdd(const DrivenMotion& drive) const { return V(differentiate(time, drive.qdd, drive.qddd)); }
 
   RPSUP_INLINE void calc_drive_forces() {
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const auto d = static_cast<std::size_t>(model_.drives[k]);
       if (model_.drive_rows) {
-        drive_force[k] = lambda_[static_cast<std::size_t>(model_.first_drive_row) + k];
+        drive_force[k] = lambda[static_cast<std::size_t>(model_.first_drive_row) + k];
         continue;
       }
       const auto index = static_cast<std::size_t>(model_.drive_joints[k]);
       const TreeJoint& joint = model_.joints[index];
-      V force = bodies_.calc_drive_force(model_.drive_joints[k], axes[index], scratch_);
+      double force = bodies.calc_drive_force(model_.drive_joints[k], axes[index], scratch_);
       if (joint.sprung) force += joint.stiffness[0] * q[d] + joint.damping[0] * qd[d];
-      for (int r = 0; r < rows_.count; ++r) force -= rows_.row(r)[d] * lambda_[static_cast<std::size_t>(r)];
+      for (int r = 0; r < rows.count; ++r) force -= rows.row(r)[d] * lambda[static_cast<std::size_t>(r)];
       drive_force[k] = force;
     }
   }
 
   RPSUP_INLINE void calc_losses() {
     losses = {};
-    for (const CutJointMotion<P, V>& cut : cuts) {
+    for (const CutJointMotion<double, double>& cut : cuts) {
       losses.impact += cut.load.impact_power;
       losses.friction += cut.load.friction_power;
     }
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.sprung) return;
       for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {
-        const V& rate = qd[static_cast<std::size_t>(joint.first) + k];
+        const double rate = qd[static_cast<std::size_t>(joint.first) + k];
         losses.structural += joint.numbers().damping[k] * (rate * rate);
       }
     });
@@ -288,28 +247,21 @@ class EquationsOfMotion {
 
   [[nodiscard]] RPSUP_INLINE bool is_finite() const {
     double sum = 0.0;
-    for (const int i : model_.free) sum += value_of(qdd[static_cast<std::size_t>(i)]) * 0.0;
+    for (const int i : model_.free) sum += qdd[static_cast<std::size_t>(i)] * 0.0;
     return sum == 0.0;
   }
-
- public:
-  P time{};                          ///< carries the direction of time, where it is one
 
  private:
   const TreeModel& model_;
   const std::vector<ClearanceJoint>& joints_;
-  const Frame<P, V> ground_;
-  ArticulatedBodies<P, Shapes> bodies_;
-  typename ArticulatedBodies<P, Shapes>::template Scratch<V> scratch_;
-  typename ArticulatedBodies<P, Shapes>::template Scratch<P> response_scratch_;
-  Buffer<V> tau_;
-  Buffer<Turn<P>> turns_;            ///< one a coordinate
-  Buffer<SpatialForce<V>> given_;    ///< needed by the bodies that move with time only
-  Buffer<SpatialForce<V>> needed_;
-  ConstraintRows<P, V> rows_;
-  Buffer<P> response_;               ///< M^-1 Phi_q^T, row after row of Phi
-  Buffer<P> A_;                      ///< Phi_q M^-1 Phi_q^T
-  Buffer<V> lambda_;
+  const Frame<double, double> ground_;
+  typename ArticulatedBodies<Shapes>::template Scratch<double> scratch_;
+  Buffer<double> tau_;
+  Buffer<Turn> turns_;                          ///< one a coordinate
+  Buffer<SpatialForce<double>> given_;          ///< needed by the bodies that move with time only
+  Buffer<SpatialForce<double>> needed_;
+  Buffer<double> response_;                     ///< M^-1 Phi_q^T, row after row of Phi
+  Buffer<double> A_;                            ///< Phi_q M^-1 Phi_q^T, factored
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

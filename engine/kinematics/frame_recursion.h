@@ -20,24 +20,21 @@ struct Frame {
 };
 
 /// Sine and cosine of a coordinate.
-template <typename P>
 struct Turn {
-  P sine, cosine;
+  double sine, cosine;
 };
 
 /// How a joint stands: what the equations of motion need beside its frame.
-template <typename P>
 struct JointAxes {
-  Vec3<P> r;        ///< the frame's origin seen from that of the parent's, [m]
-  Vec3<P> axis[3];  ///< of its coordinates
-  Mat3<P> dual;     ///< spherical: the basis reciprocal to the three axes; not a number where two of them meet
+  Vec3<double> r;        ///< the frame's origin seen from that of the parent's, [m]
+  Vec3<double> axis[3];  ///< of its coordinates
+  Mat3<double> dual;     ///< spherical: the basis reciprocal to the three axes; not a number where two of them meet
 };
 
-template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE Frame<P, V> make_ground(const TreeModel& model) {
-  Frame<P, V> ground;
-  ground.R.x.x = ground.R.y.y = ground.R.z.z = P(1.0);
-  ground.vd = {V(-model.gravity[0]), V(-model.gravity[1]), V(-model.gravity[2])};
+[[nodiscard]] RPSUP_INLINE Frame<double, double> make_ground(const TreeModel& model) {
+  Frame<double, double> ground;
+  ground.R.x.x = ground.R.y.y = ground.R.z.z = 1.0;
+  ground.vd = {-model.gravity[0], -model.gravity[1], -model.gravity[2]};
   return ground;
 }
 
@@ -61,12 +58,19 @@ RPSUP_INLINE void shift_frame(const Vec3<P>& r, bool turns, Frame<P, V>& f) {
   f.vd += cross(f.wd, r) + cross(f.w, carried);
 }
 
-/// Turns a frame about its own axis: the two columns beside it change, the rest follows from the rate.
+/// Adds a rate of turning about the axis s, which the frame carries.
 template <typename P, typename V>
-RPSUP_INLINE void turn_frame(int axis, bool turns, const Turn<P>& q, const V& qd, Frame<P, V>& f, Vec3<P>& s) {
-  const auto turn = [&](const Vec3<P>& own, Vec3<P>& i, Vec3<P>& j) {
+RPSUP_INLINE void add_turning(const Vec3<double>& s, bool turns, const V& qd, Frame<P, V>& f) {
+  const Vec3<V> rate = qd * s;
+  if (turns) f.wd += cross(f.w, rate);
+  f.w += rate;
+}
+
+/// Turns a frame about its own axis: the two columns beside it change, the rest follows from the rate.
+RPSUP_INLINE void turn_frame(int axis, bool turns, const Turn& q, double qd, Frame<double, double>& f, Vec3<double>& s) {
+  const auto turn = [&](const Vec3<double>& own, Vec3<double>& i, Vec3<double>& j) {
     s = own;
-    const Vec3<P> old_i = i;
+    const Vec3<double> old_i = i;
     i = q.cosine * old_i + q.sine * j;
     j = q.cosine * j - q.sine * old_i;
   };
@@ -76,33 +80,35 @@ RPSUP_INLINE void turn_frame(int axis, bool turns, const Turn<P>& q, const V& qd
     turn(f.R.y, f.R.z, f.R.x);
   else
     turn(f.R.z, f.R.x, f.R.y);
-  const Vec3<V> rate = qd * s;
-  if (turns) f.wd += cross(f.w, rate);
-  f.w += rate;
+  add_turning(s, turns, qd, f);
 }
 
-/// Slides a frame along an axis.
+/// Adds a rate of sliding along the axis s, which the frame carries.
 template <typename P, typename V>
-RPSUP_INLINE void slide_frame(const Vec3<P>& s, bool turns, const P& q, const V& qd, Frame<P, V>& f, Vec3<P>& r) {
-  const Vec3<P> along = q * s;
-  r += along;
-  shift_frame(along, turns, f);
+RPSUP_INLINE void add_sliding(const Vec3<double>& s, bool turns, const V& qd, Frame<P, V>& f) {
   const Vec3<V> rate = qd * s;
   f.v += rate;
   if (turns) f.vd += 2.0 * cross(f.w, rate);
 }
 
-template <typename P>
-[[nodiscard]] RPSUP_INLINE const Vec3<P>& axis_of(const Mat3<P>& R, int axis) {
+/// Slides a frame along an axis.
+RPSUP_INLINE void slide_frame(const Vec3<double>& s, bool turns, double q, double qd, Frame<double, double>& f, Vec3<double>& r) {
+  const Vec3<double> along = q * s;
+  r += along;
+  shift_frame(along, turns, f);
+  add_sliding(s, turns, qd, f);
+}
+
+[[nodiscard]] RPSUP_INLINE const Vec3<double>& axis_of(const Mat3<double>& R, int axis) {
   return axis == 0 ? R.x : axis == 1 ? R.y : R.z;
 }
 
 /// From the frame of a joint's parent to its own, Eq. (2) and its derivatives by time; accelerations without those of free coordinates.
 /// @param f  in: the parent's frame
 /// @param q, turns, qd, qdd  of the joint's first coordinate on; turns of rotations only, qdd of a driven one only
-template <typename Joint, typename P, typename V>
-RPSUP_INLINE void calc_joint_frame(const Joint& joint, const P* q, const Turn<P>* turns, const V* qd, const V* qdd, Frame<P, V>& f,
-                                   JointAxes<P>& axes) {
+template <typename Joint>
+RPSUP_INLINE void calc_joint_frame(const Joint& joint, const double* q, const Turn* turns, const double* qd, const double* qdd,
+                                   Frame<double, double>& f, JointAxes& axes) {
   if (joint.shifted) {
     axes.r = rotate_constant(f.R, joint.numbers().placement.p, joint.shifted_along_x);
     shift_frame(axes.r, joint.parent_turns, f);
@@ -119,20 +125,15 @@ RPSUP_INLINE void calc_joint_frame(const Joint& joint, const P* q, const Turn<P>
     if (joint.driven) f.wd += qdd[0] * axes.axis[0];
   } else {
     turn_frame(2, joint.parent_turns, turns[0], qd[0], f, axes.axis[0]);
-    const Vec3<P> x = f.R.x;
+    const Vec3<double> x = f.R.x;
     turn_frame(1, true, turns[1], qd[1], f, axes.axis[1]);
-    const P inverse = 1.0 / dot(axes.axis[0], f.R.z);  // 1 / cos theta
+    const double inverse = 1.0 / dot(axes.axis[0], f.R.z);  // 1 / cos theta
     axes.dual = {inverse * f.R.z, axes.axis[1], inverse * x};
     turn_frame(0, true, turns[2], qd[2], f, axes.axis[2]);
   }
 }
 
-template <typename P>
-[[nodiscard]] RPSUP_INLINE Turn<P> calc_turn(const P& q) {
-  const double sine = std::sin(value_of(q));
-  const double cosine = std::cos(value_of(q));
-  return {differentiate(q, sine, cosine), differentiate(q, cosine, -sine)};
-}
+[[nodiscard]] RPSUP_INLINE Turn calc_turn(double q) { return {std::sin(q), std::cos(q)}; }
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

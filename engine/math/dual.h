@@ -16,10 +16,18 @@ struct Lanes {
 #else
   static constexpr int kWidth = 2;
 #endif
-  static constexpr int kParts = 8 / kWidth;
+  static constexpr int kCount = 8;
+  static constexpr int kParts = kCount / kWidth;
   using Part = double __attribute__((vector_size(8 * kWidth), aligned(8)));
 
   Part part[kParts];
+
+  /// One in a lane, zero in the others.
+  [[nodiscard]] RPSUP_INLINE static Lanes unit(int lane) {
+    Lanes lanes{};
+    lanes.set(lane, 1.0);
+    return lanes;
+  }
 
   [[nodiscard]] RPSUP_INLINE double operator[](int lane) const { return part[lane / kWidth][lane % kWidth]; }
   RPSUP_INLINE void set(int lane, double value) { part[lane / kWidth][lane % kWidth] = value; }
@@ -43,6 +51,9 @@ template <typename Operation>
 [[nodiscard]] RPSUP_INLINE Lanes operator*(double s, const Lanes& a) {
   return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i]; });
 }
+[[nodiscard]] RPSUP_INLINE Lanes operator*(const Lanes& a, double s) { return s * a; }
+RPSUP_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
+RPSUP_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
 /// s a + t b
 [[nodiscard]] RPSUP_INLINE Lanes combine(double s, const Lanes& a, double t, const Lanes& b) {
   return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i] + t * b.part[i]; });
@@ -51,16 +62,12 @@ template <typename Operation>
 /// A number with its derivatives in eight directions: forward differentiation, exact to rounding. What is computed with these is
 /// computed together with its derivatives, from the same lines of code.
 struct Dual {
-  static constexpr int kDirections = 8;
   double value;
   Lanes d;
 
   Dual() = default;
   RPSUP_INLINE Dual(double constant) : value(constant), d{} {}  // NOLINT: a constant is a Dual
   RPSUP_INLINE Dual(double v, const Lanes& lanes) : value(v), d(lanes) {}
-
-  [[nodiscard]] double derivative(int direction) const { return d[direction]; }
-  void set_derivative(int direction, double derivative) { d.set(direction, derivative); }
 
   RPSUP_INLINE Dual& operator+=(const Dual& b) {
     value += b.value;
@@ -121,10 +128,6 @@ struct Dual {
 /// The number alone: for decisions, which have no derivative.
 [[nodiscard]] RPSUP_INLINE double value_of(double a) { return a; }
 [[nodiscard]] RPSUP_INLINE double value_of(const Dual& a) { return a.value; }
-
-/// The derivative that comes with a value and, where it is a plain number, none.
-[[nodiscard]] RPSUP_INLINE double differentiate(double, double f, double) { return f; }
-[[nodiscard]] RPSUP_INLINE Dual differentiate(const Dual& a, double f, double df) { return chain(a, f, df); }
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

@@ -27,13 +27,15 @@ struct Vec3 {
 
 template <typename A, typename B>
 using Mixed = decltype(std::declval<A>() * std::declval<B>());
+template <typename A, typename B>
+using MixedSum = decltype(std::declval<A>() + std::declval<B>());
 
 template <typename A, typename B>
-[[nodiscard]] RPSUP_INLINE Vec3<Mixed<A, B>> operator+(const Vec3<A>& a, const Vec3<B>& b) {
+[[nodiscard]] RPSUP_INLINE Vec3<MixedSum<A, B>> operator+(const Vec3<A>& a, const Vec3<B>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <typename A, typename B>
-[[nodiscard]] RPSUP_INLINE Vec3<Mixed<A, B>> operator-(const Vec3<A>& a, const Vec3<B>& b) {
+[[nodiscard]] RPSUP_INLINE Vec3<MixedSum<A, B>> operator-(const Vec3<A>& a, const Vec3<B>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <typename A>

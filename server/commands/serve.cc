@@ -1,20 +1,27 @@
 #include "server/commands/serve.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <csignal>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "jobs/run_record.h"
 #include "jobs/service.h"
 #include "server/commands/command.h"
 #include "server/commands/signals.h"
 #include "server/http.h"
+#include "server/http_client.h"
+#include "server/metrics.h"
 #include "server/request_head.h"
 #include "server/routes.h"
 
@@ -43,6 +50,28 @@ std::string url(const std::string& address, int port) {
   return "http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
 }
 
+/// Origins as browsers send them: scheme, host, perhaps a port, in lower case, nothing else.
+const std::vector<std::string>& checked_origins(const std::vector<std::string>& origins) {
+  for (const std::string& origin : origins) {
+    const auto url = parse_service_url(origin);
+    const bool upper = std::ranges::any_of(origin, [](unsigned char c) { return std::isupper(c) != 0; });
+    if (!url || url->origin != origin || upper) {
+      throw BadInput("--cors-origin " + origin + ": must be like https://lab.example.org or http://127.0.0.1:3000, in lower case and without a path; "
+                     "there is no word for all of them, since whatever page a user opens could then use the service");
+    }
+  }
+  return origins;
+}
+
+/// Each connection and each file of the store takes one, and many systems allow 1024 unless they are asked.
+void raise_file_limit() {
+  constexpr rlim_t kFiles = 4096;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= kFiles) return;
+  limit.rlim_cur = std::min(kFiles, limit.rlim_max);
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
 /// Serves on a thread of its own until a signal comes.
 /// @throws std::runtime_error if the server ended by itself
 void serve_until_signal(HttpServer& http, Routes& routes, jobs::Service& service, const EndSignals& signals) {
@@ -64,7 +93,9 @@ void serve_until_signal(HttpServer& http, Routes& routes, jobs::Service& service
 
 int serve(const ServeOptions& options) {
   const std::string address = loopback_address(options.host);
+  const std::vector<std::string>& cors_origins = checked_origins(options.cors_origins);
   start_log(options.log_level);
+  raise_file_limit();
   // Before the first thread: threads take over which signals are blocked.
   const EndSignals signals;
   jobs::ServiceOptions service_options;
@@ -72,9 +103,11 @@ int serve(const ServeOptions& options) {
   service_options.threads = options.threads;
   service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
+  const auto metrics = std::make_shared<Metrics>();
+  service_options.runner = metrics->measured(jobs::engine_runner());
   jobs::Service service(service_options);
-  Routes routes(service);
-  HttpServer http(routes, {.address = address, .port = options.port});
+  Routes routes(service, metrics);
+  HttpServer http(routes, {.address = address, .port = options.port, .cors_origins = cors_origins});
   const int port = http.bind();
   if (port == 0) {
     throw std::runtime_error("cannot listen on " + url(address, options.port) + ": another program has this port, "

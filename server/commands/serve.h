@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace server::commands {
 
@@ -9,6 +10,7 @@ struct ServeOptions {
   std::string host = "127.0.0.1";  ///< an address of this machine that only this machine reaches
   int port = 8080;                 ///< 0: any free one
   int threads = 2;
+  std::vector<std::string> cors_origins;  ///< other sites whose pages may ask
   std::string log_level = "info";
 };
 

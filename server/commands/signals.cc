@@ -21,9 +21,9 @@ void EndSignals::wait() const {
   sigwait(&set_, &signal);
 }
 
-bool EndSignals::arrived() const {
-  const timespec at_once{};
-  return sigtimedwait(&set_, nullptr, &at_once) > 0;
+bool EndSignals::arrived(std::chrono::milliseconds within) const {
+  const timespec time{.tv_sec = within.count() / 1000, .tv_nsec = within.count() % 1000 * 1'000'000};
+  return sigtimedwait(&set_, nullptr, &time) > 0;
 }
 
 }  // namespace server::commands

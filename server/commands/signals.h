@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <csignal>
 
 namespace server::commands {
@@ -15,8 +16,8 @@ class EndSignals {
   /// Blocks until one of them comes.
   void wait() const;
 
-  /// True if one of them has come.
-  [[nodiscard]] bool arrived() const;
+  /// True if one of them has come, or comes within that time.
+  [[nodiscard]] bool arrived(std::chrono::milliseconds within = std::chrono::milliseconds(0)) const;
 
  private:
   sigset_t set_{}, before_{};

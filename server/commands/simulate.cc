@@ -1,6 +1,10 @@
 #include "server/commands/simulate.h"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -9,6 +13,7 @@
 #include "jobs/service.h"
 #include "jobs/trajectory_codec.h"
 #include "server/commands/command.h"
+#include "server/commands/plot.h"
 #include "server/json_text.h"
 #include "server/tables.h"
 
@@ -25,6 +30,41 @@ void check_trajectory_file(const std::string& path) {
   }
   const auto folder = std::filesystem::absolute(path).parent_path();
   if (!std::filesystem::is_directory(folder)) throw BadInput("--trajectory " + path + ": there is no folder " + folder.string());
+}
+
+void check_plot_file(const std::string& plot) {
+  if (plot.empty() || plot == "-") return;
+  if (!plot.ends_with(".svg")) throw BadInput("--plot " + plot + ": the name must end in .svg; - draws on the terminal");
+  const auto folder = std::filesystem::absolute(plot).parent_path();
+  if (!std::filesystem::is_directory(folder)) throw BadInput("--plot " + plot + ": there is no folder " + folder.string());
+}
+
+/// The size of the terminal at standard error; a usual one if there is none.
+TerminalSize terminal_size() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return {};
+  return {.columns = size.ws_col, .rows = size.ws_row};
+}
+
+/// What the user's locale can show.
+Characters terminal_characters() {
+  for (const char* const name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* const value = std::getenv(name);
+    if (value == nullptr || *value == '\0') continue;
+    const std::string locale = value;
+    const bool utf8 = locale.find("UTF-8") != std::string::npos || locale.find("utf8") != std::string::npos;
+    return utf8 ? Characters::kBraille : Characters::kAscii;
+  }
+  return Characters::kAscii;
+}
+
+void plot_to_file(const std::string& file, const engine::Trajectory& trajectory) {
+  write_text(file, draw_svg(calc_acceleration_band(trajectory, kSvgColumns)));
+}
+
+void plot_on_terminal(const engine::Trajectory& trajectory) {
+  const TerminalSize size = terminal_size();
+  std::cerr << draw_for_terminal(calc_acceleration_band(trajectory, plot_columns(size)), size, terminal_characters());
 }
 
 void check_channels(const SimulateOptions& options, const engine::RpsupParameters& parameters) {
@@ -65,14 +105,19 @@ engine::Trajectory select(engine::Trajectory all, const std::vector<std::string>
 
 int simulate(const SimulateOptions& options) {
   check_trajectory_file(options.trajectory);
+  check_plot_file(options.plot);
   const nlohmann::json parameters = read_json(options.file);
   check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")).parameters);
-  jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
+  const jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
   if (!options.trajectory.empty()) {
-    const auto trajectory = select(jobs::rounded_to_stored(std::move(outcome.trajectory)), options.channels);  // as the service would give it
+    const auto trajectory = select(jobs::rounded_to_stored(outcome.trajectory), options.channels);  // as the service would give it
     write_text(options.trajectory, trajectory_text(options.trajectory, trajectory));
   }
+  const bool on_terminal = options.plot == "-";
+  if (!options.plot.empty() && !on_terminal) plot_to_file(options.plot, outcome.trajectory);
   write_text("-", to_text(outcome.job, 2) + "\n");
+  // Last, since the job takes more lines than a terminal has.
+  if (on_terminal) plot_on_terminal(outcome.trajectory);
   return outcome.job.at("state") == "succeeded" ? kDone : kJobFailed;
 }
 

@@ -25,8 +25,8 @@ forbid() {
 
 sqlite='sqlite3|SQLiteCpp'
 http='httplib'
-forbid engine "(\.\./)*(jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CLI|zstd|openssl"
-forbid jobs "(\.\./)*(server|web|tests)/|$http|spdlog|CLI"
+forbid engine "(\.\./)*(jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CLI|zstd|openssl|prometheus"
+forbid jobs "(\.\./)*(server|web|tests)/|$http|spdlog|CLI|prometheus"
 forbid server "(\.\./)*(web|tests)/|$sqlite|zstd"
 forbid server "$http" '^server/http(_[a-z]+)?\.(h|cc)$'
 # What proves the engine right is no part of what computes.

@@ -56,6 +56,19 @@ TEST(PlanExtension, AddsCasesTimesAllAxes) {
   EXPECT_EQ(swept_values(extension), (Strings{"[0.1,0.8]", "[0.2,0.8]"}));
 }
 
+TEST(PlanExtension, KeepsThePointsOfADesign) {
+  const char* const former = R"({"design": {"type": "latin_hypercube", "count": 3, "over": {"restitution": {"from": 0.6, "to": 0.9}}}, "sweep": {"coupler": ["rigid"]}})";
+  const auto extension = extension_of(former, R"({"sweep": {"coupler": ["flexible"]}})");
+  const auto before = jobs::plan_sweep(request_of(former), kMaxJobs);
+  EXPECT_EQ(extension.request.at("design"), request_of(former).at("design"));
+  ASSERT_EQ(extension.jobs.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    nlohmann::json point = nlohmann::json::parse(before.jobs[k].swept);
+    point.back() = "flexible";
+    EXPECT_EQ(nlohmann::json::parse(extension.jobs[k].swept), point);
+  }
+}
+
 TEST(PlanExtension, RunsNewSetsAsOftenAsTheOthers) {
   const auto extension = extension_of(R"({"sweep": {"clearance_mm": [0.1]}, "replicates": {"count": 3}})", R"({"sweep": {"clearance_mm": [0.2]}})");
   ASSERT_EQ(extension.jobs.size(), 3U);
@@ -88,6 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
                     RefusalCase{"TooManyTogether", kGrid, R"({"sweep": {"clearance_mm": {"from": 1, "to": 2, "count": 100}}})", {"/sweep"}},
                     RefusalCase{"NoCasesBefore", kGrid, R"({"cases": [{"restitution": 0.5}]})", {"/cases"}},
                     RefusalCase{"OtherParametersInACase", kCases, R"({"cases": [{"clearance_mm": 0.5}]})", {"/cases/0/clearance_mm"}},
+                    RefusalCase{"NoCasesAtAll", kCases, R"({"cases": []})", {"/cases"}}, RefusalCase{"NoListOfCases", kCases, R"({"cases": {}})", {"/cases"}},
                     RefusalCase{"BadCases", kCases, R"({"cases": [{"restitution": 0.9}, {"restitution": 2}]})", {"/cases/1/restitution"}},
                     // Larger than the bearing: a fault of the set, found in the union, where the case has another number.
                     RefusalCase{"CasesThatCannotBe", R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 2}]})",

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/errors.h"
+#include "jobs/program_info.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
@@ -88,7 +89,8 @@ TEST(Service, ShowsAJobWithAllItsParameters) {
   EXPECT_EQ(job.at("run").at("attempts"), 1);
   EXPECT_EQ(job.at("run").at("reused"), false);
   EXPECT_FALSE(job.at("run").at("host").get<std::string>().empty());
-  EXPECT_EQ(job.at("run").at("program").size(), 3U);
+  EXPECT_EQ(job.at("run").at("program").size(), 4U);
+  EXPECT_EQ(job.at("run").at("program").at("engine"), std::string(jobs::kEngineVersion));
   EXPECT_GE(job.at("run").at("wall_time_s").get<double>(), 0.0);
   EXPECT_EQ(job.at("links").at("sweep"), "/v1/sweeps/" + sweep);
 }

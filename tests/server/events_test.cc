@@ -11,6 +11,7 @@
 
 #include "server/event_hub.h"
 #include "server/http.h"
+#include "server/http_stream.h"
 #include "tests/server/raw_client.h"
 #include "tests/server/service_fixture.h"
 
@@ -42,7 +43,7 @@ std::vector<std::string> lines_of(const std::string& text, const std::string& na
 server::Response follow(Bench& bench, const std::string& id, const std::string& last_event_id = "") {
   server::Request request{.method = "GET", .path = "/v1/sweeps/" + id + "/events", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.last_event_id = last_event_id;
-  return bench.routes().answer(request);
+  return bench.call(request);
 }
 
 TEST(SweepEvents, TellOfEveryJobThenOfTheEnd) {
@@ -96,7 +97,9 @@ TEST(SweepEvents, RefuseWhatTheyDoNotKnow) {
 
 class EventsOverHttp : public testing::Test {
  protected:
-  EventsOverHttp() : http_(bench_.routes(), {.address = "127.0.0.1", .port = 0}), port_(http_.bind()) {
+  static constexpr std::chrono::milliseconds kResponseTime{500};
+
+  EventsOverHttp() : http_(bench_.routes(), {.address = "127.0.0.1", .port = 0}, {.response_time = kResponseTime}), port_(http_.bind()) {
     listener_ = std::jthread([this] { http_.listen(); });
     id_ = bench_.submit(kSweep);
   }
@@ -121,6 +124,15 @@ TEST_F(EventsOverHttp, ArriveAsTheyHappen) {
   EXPECT_NE(answer.find("Content-Type: text/event-stream\r\n"), std::string::npos);
   EXPECT_EQ(answer.find("Content-Length"), std::string::npos);
   EXPECT_EQ(lines_of(body_of(answer), "event").back(), "done");
+}
+
+TEST_F(EventsOverHttp, GoOnForLongerThanAnAnswerMayTake) {
+  RawClient client(port_);
+  send_request(client);
+  ASSERT_TRUE(client.answered_within(5s));
+  std::this_thread::sleep_for(2 * kResponseTime);
+  bench_.call("POST", "/v1/sweeps/" + id_ + "/cancel");
+  EXPECT_EQ(lines_of(body_of(client.read_all()), "event").back(), "done");
 }
 
 TEST_F(EventsOverHttp, TakeNoThreadFromOthersAndHaveABound) {

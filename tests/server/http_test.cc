@@ -126,6 +126,26 @@ TEST_F(Http, ServesOthersWhileManyHeadsComeSlowly) {
   EXPECT_LT(Clock::now() - start, 5s);
 }
 
+TEST(HttpCrowd, ServesOthersSoonAlthoughHundredsHoldTheirConnections) {
+  Bench bench;
+  HttpLimits limits;  // as they are: 5 s for a head, 10 s for a body
+  limits.crowded_time = 100ms;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, limits);
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
+  std::list<RawClient> slow;
+  for (int i = 0; i < 100; ++i) slow.emplace_back(port).send("GET / HTTP/1.1\r\n");
+  for (int i = 0; i < 100; ++i) slow.emplace_back(port).send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n{");
+  const auto start = Clock::now();
+  RawClient client(port);
+  client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(status_of(client.read_all()), 200);
+  // Seven turns of 32 threads at some 0.3 s; with the whole time for each it would be a minute.
+  EXPECT_LT(Clock::now() - start, 9s);
+  http.stop();
+}
+
 TEST_F(Http, RefusesAHeadThatIsTooLarge) {
   EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(20'000, 'a') + "\r\n")), 431);
   std::string many;
@@ -242,6 +262,10 @@ TEST_F(Http, IgnoresRangesAndCompression) {
   EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos);
 }
 
+TEST_F(Http, IgnoresRangesThatAreNone) {
+  for (const char* const range : {"bytes=a-b", "bytes=9-1", "lines=1-2", ""}) EXPECT_EQ(status_of(get("/", std::string("range: ") + range + "\r\n")), 200) << range;
+}
+
 TEST_F(Http, RefusesOtherNamesAndOtherSites) {
   EXPECT_EQ(status_of(ask("GET /v1/sweeps HTTP/1.1\r\nHost: evil.com\r\n\r\n")), 403);
   const std::string request = R"({"sweep": {"clearance_mm": [0.1]}})";
@@ -249,6 +273,48 @@ TEST_F(Http, RefusesOtherNamesAndOtherSites) {
   EXPECT_EQ(status_of(post("/v1/sweeps", request, "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: navigate\r\n")), 403);
   EXPECT_EQ(sweep_count(), 0U);
   EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://localhost\r\n")), 201);
+}
+
+TEST_F(Http, SaysNothingToOtherSitesUnlessTheyAreAllowed) {
+  const std::string preflight =
+      ask("OPTIONS /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nOrigin: https://lab.example.org\r\nAccess-Control-Request-Method: POST\r\n\r\n");
+  EXPECT_EQ(status_of(preflight), 403);
+  EXPECT_EQ(preflight.find("Access-Control-"), std::string::npos);
+  EXPECT_EQ(get("/healthz").find("Access-Control-"), std::string::npos);
+}
+
+TEST(HttpCors, LetsTheSitesOnTheListIn) {
+  Bench bench;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0, .cors_origins = {"https://lab.example.org"}}, short_limits());
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
+  const auto ask = [port](const std::string& line, const std::string& origin, const std::string& headers = "", const std::string& body = "") {
+    RawClient client(port);
+    client.send(line + " HTTP/1.1\r\nHost: localhost\r\nSec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: cors\r\nOrigin: " + origin + "\r\n" + headers + "\r\n" + body);
+    return client.read_all();
+  };
+  const std::string good = "https://lab.example.org";
+  const std::string preflight = ask("OPTIONS /v1/sweeps", good, "Access-Control-Request-Method: POST\r\nAccess-Control-Request-Private-Network: true\r\n");
+  EXPECT_EQ(status_of(preflight), 204);
+  for (const char* const header : {"Access-Control-Allow-Origin: https://lab.example.org\r\n", "Access-Control-Allow-Methods: GET, HEAD, POST, DELETE\r\n",
+                                   "Access-Control-Allow-Headers: Authorization, Content-Type,", "Access-Control-Allow-Private-Network: true\r\n", "Vary: Origin\r\n"}) {
+    EXPECT_NE(preflight.find(header), std::string::npos) << header << preflight;
+  }
+  const std::string body = R"({"sweep": {"clearance_mm": [0.1]}})";
+  const std::string posted = ask("POST /v1/sweeps", good, "Content-Length: " + std::to_string(body.size()) + "\r\n", body);
+  EXPECT_EQ(status_of(posted), 201);
+  EXPECT_NE(posted.find("Access-Control-Allow-Origin: https://lab.example.org\r\n"), std::string::npos);
+  EXPECT_NE(posted.find("Access-Control-Expose-Headers: ETag, Location,"), std::string::npos);
+  // A page may read what it did wrong, too.
+  EXPECT_NE(ask("GET /v1/nothing", good).find("Access-Control-Allow-Origin: https://lab.example.org\r\n"), std::string::npos);
+  for (const char* const bad : {"https://evil.com", "null"}) {
+    const std::string refused = ask("GET /v1/sweeps", bad);
+    EXPECT_EQ(status_of(refused), 403) << bad;
+    EXPECT_EQ(refused.find("Access-Control-"), std::string::npos) << refused;
+    EXPECT_EQ(status_of(ask("OPTIONS /v1/sweeps", bad, "Access-Control-Request-Method: POST\r\n")), 403) << bad;
+  }
+  http.stop();
 }
 
 TEST_F(Http, DecodesThePathAndTheQuery) {

@@ -62,6 +62,11 @@ TEST(ParseJson, ReadsWordsForWhatIsNoNumberAsNull) {
   EXPECT_NE(message_of("[Nan]"), "accepted");
 }
 
+TEST(ParseJson, RefusesANulWhereverItStands) {
+  EXPECT_EQ(message_of(std::string("{}\0 and more", 12)), "not JSON at byte 3: a NUL character");
+  EXPECT_NE(message_of(std::string("[\"\0\"]", 5)), "accepted");
+}
+
 TEST(ParseJson, RefusesBytesThatAreNoUtf8) { EXPECT_NE(message_of("\"\xff\""), "accepted"); }
 
 TEST(AppendNumber, ReadsBackExactly) {

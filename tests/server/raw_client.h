@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "tests/server/exchange_log.h"
+
 namespace server_tests {
 
 /// A connection that sends exactly the bytes it is given: no HTTP library would send what the guard is there for.
@@ -34,6 +36,7 @@ class RawClient {
 
   /// False if the server has closed its end.
   bool send(std::string_view bytes) {
+    sent_ += bytes;
     while (!bytes.empty()) {
       const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
       if (sent <= 0) return false;
@@ -49,7 +52,10 @@ class RawClient {
     pollfd entry{socket_, POLLIN, 0};
     while (::poll(&entry, 1, 10'000) > 0) {
       const ssize_t got = ::recv(socket_, bytes, sizeof bytes, 0);
-      if (got <= 0) return text;
+      if (got <= 0) {
+        log_raw_exchange(sent_, text);
+        return text;
+      }
       text.append(bytes, static_cast<std::size_t>(got));
     }
     return text + " [no end of the connection within 10 s]";
@@ -69,6 +75,7 @@ class RawClient {
 
  private:
   int socket_;
+  std::string sent_;
 };
 
 /// The status in an answer's first line; 0 if there is no answer.

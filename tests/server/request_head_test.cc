@@ -97,6 +97,22 @@ INSTANTIATE_TEST_SUITE_P(
         OriginCase{"TypedAddress", {"GET", "localhost:80", "", "none", "navigate"}, true}),
     [](const auto& case_info) { return case_info.param.name; });
 
+TEST(Origin, MayBeAnotherSiteThatIsAllowed) {
+  const OriginCheck check("127.0.0.1", {"https://lab.example.org"});
+  EXPECT_FALSE(check.find_fault({"POST", "localhost:80", "https://lab.example.org", "cross-site", "cors"}));
+  EXPECT_FALSE(check.find_fault({"GET", "localhost:80", "HTTPS://LAB.example.org", "cross-site", "cors"}));
+  // Neither does a name that begins or ends like it, nor a page that hides where it is from.
+  for (const char* const origin : {"https://lab.example.org.evil.com", "http://lab.example.org", "https://lab.example.org:444", "null", ""}) {
+    EXPECT_TRUE(check.find_fault({"POST", "localhost:80", origin, "cross-site", "cors"})) << origin;
+  }
+  // And it does not make another name of this server good.
+  EXPECT_TRUE(check.find_fault({"GET", "evil.com", "https://lab.example.org", "cross-site", "cors"}));
+}
+
+TEST(WithoutHeader, LeavesTheOtherLinesAsTheyAre) {
+  EXPECT_EQ(server::without_header("GET / HTTP/1.1\r\nRANGE: a\r\nHost: b\r\nX: range\r\nrange:c\r\n\r\n", "range"), "GET / HTTP/1.1\r\nHost: b\r\nX: range\r\n\r\n");
+}
+
 TEST(Loopback, IsWhatOnlyThisMachineReaches) {
   for (const char* const host : {"127.0.0.1", "127.1.2.3", "::1", "localhost"}) EXPECT_TRUE(server::is_loopback(host)) << host;
   for (const char* const host : {"0.0.0.0", "::", "128.0.0.1", "10.0.0.1", "127.0.0.1.evil.com", "", "example.org"}) {

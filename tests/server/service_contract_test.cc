@@ -1,6 +1,7 @@
 // What the routes promise beyond their bodies: idempotency, conditional requests, waiting, forms of a table.
 
 #include <chrono>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -29,27 +30,27 @@ TEST(IdempotencyKey, GivesTheSameBytesAgain) {
   Bench bench;
   for (const std::string path : {"/v1/sweeps", "/v1/jobs"}) {
     const std::string body = path == "/v1/jobs" ? R"({"clearance_mm": 0.1})" : kSweep;
-    const auto first = bench.routes().answer(with_key(path, body, "key-of" + path));
-    const auto again = bench.routes().answer(with_key(path, body, "\"key-of" + path + "\""));
+    const auto first = bench.call(with_key(path, body, "key-of" + path));
+    const auto again = bench.call(with_key(path, body, "\"key-of" + path + "\""));
     EXPECT_EQ(first.status, 201);
     EXPECT_EQ(again.status, 201);
     EXPECT_EQ(again.body, first.body);
     EXPECT_EQ(header(again, "Location"), header(first, "Location"));
-    EXPECT_EQ(bench.routes().answer(with_key(path, "{}", "key-of" + path)).status, 422);
+    EXPECT_EQ(bench.call(with_key(path, "{}", "key-of" + path)).status, 422);
   }
 }
 
 TEST(IdempotencyKey, HasToBeAKey) {
   Bench bench;
   for (const std::string& key : {std::string(), std::string("a b"), std::string("\x01"), std::string(256, 'k')}) {
-    EXPECT_EQ(bench.routes().answer(with_key("/v1/sweeps", kSweep, key)).status, 400) << key;
+    EXPECT_EQ(bench.call(with_key("/v1/sweeps", kSweep, key)).status, 400) << key;
   }
 }
 
 server::Response get_if_none_match(Bench& bench, const std::string& path, const std::string& tags) {
   server::Request request{.method = "GET", .path = path, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.if_none_match = tags;
-  return bench.routes().answer(request);
+  return bench.call(request);
 }
 
 TEST(ETag, SparesWhatTheClientHas) {
@@ -92,7 +93,7 @@ TEST(Prefer, WaitsForTheEndOfASweep) {
   Bench bench;
   server::Request request{.method = "POST", .path = "/v1/sweeps", .query = {}, .accept = {}, .body = kSweep, .id = "test-1"};
   request.prefer = "wait=20";
-  const auto created = bench.routes().answer(request);
+  const auto created = bench.call(request);
   EXPECT_EQ(created.status, 201);
   EXPECT_EQ(json::parse(created.body).at("state"), "succeeded");
   EXPECT_EQ(header(created, "Preference-Applied"), "wait=20");
@@ -104,7 +105,7 @@ TEST(Prefer, WaitsNoLongerThanItIsTold) {
   server::Request request{.method = "GET", .path = "/v1/sweeps/" + id, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.prefer = "wait=1";
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(json::parse(bench.routes().answer(request).body).at("state"), "running");
+  EXPECT_EQ(json::parse(bench.call(request).body).at("state"), "running");
   EXPECT_GE(std::chrono::steady_clock::now() - start, 1s);
 }
 
@@ -166,6 +167,20 @@ TEST(RetryAndExtend, AnswerWithTheSweep) {
   EXPECT_EQ(bench.call("POST", path + "/extend", "").status, 400);
   EXPECT_EQ(bench.call("POST", "/v1/sweeps/swp_none/extend", "{}").status, 404);
   EXPECT_EQ(bench.call("POST", "/v1/sweeps/swp_none/retry").status, 404);
+}
+
+TEST(GetStore, IsAFileThatNobodyElseSees) {
+  Bench bench;
+  (void)bench.run(kSweep);
+  const auto copy = bench.call("GET", "/v1/store");
+  EXPECT_EQ(copy.status, 200);
+  EXPECT_EQ(copy.content_type, "application/vnd.sqlite3");
+  ASSERT_NE(copy.file, nullptr);
+  std::string start(16, '\0');
+  EXPECT_EQ(copy.file->read(0, start.data(), start.size()), start.size());
+  EXPECT_EQ(start, std::string("SQLite format 3") + '\0');
+  EXPECT_FALSE(std::filesystem::exists(bench.service().store_file().string() + ".copy"));
+  EXPECT_EQ(bench.call("GET", "/v1/store", "", {{"format", "csv"}}).status, 422);
 }
 
 }  // namespace

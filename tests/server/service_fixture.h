@@ -14,6 +14,7 @@
 #include "jobs/service.h"
 #include "server/message.h"
 #include "server/routes.h"
+#include "tests/server/exchange_log.h"
 
 namespace server_tests {
 
@@ -70,7 +71,13 @@ class Bench {
 
   server::Response call(const std::string& method, const std::string& path, const std::string& body = "",
                         std::vector<std::pair<std::string, std::string>> query = {}, const std::string& accept = "") {
-    return routes_.answer({method, path, std::move(query), accept, body, "test-1"});
+    return call({method, path, std::move(query), accept, body, "test-1"});
+  }
+
+  server::Response call(const server::Request& request) {
+    server::Response response = routes_.answer(request);
+    log_exchange(request.method, request.path, response);
+    return response;
   }
 
   /// Submits a sweep that must be accepted, and gives its id.

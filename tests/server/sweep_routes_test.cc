@@ -123,6 +123,13 @@ engine::RunResult stiffness_run(const jobs::JobSpec& spec, const engine::StopQue
   return result;
 }
 
+/// What a row says of its set.
+json statistics_of(const json& row) {
+  json statistics;
+  for (const char* const key : {"count", "mean", "spread", "min", "max"}) statistics[key] = row.at(std::string("replicates_") + key);
+  return statistics;
+}
+
 TEST(GetResults, CarryTheStatisticsOfReplicates) {
   Bench bench(stiffness_run);
   const std::string path = "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.25]}, "replicates": {"count": 3, "perturbation": 0.1}})") + "/results";
@@ -130,9 +137,10 @@ TEST(GetResults, CarryTheStatisticsOfReplicates) {
   ASSERT_EQ(rows.size(), 6U);
   std::vector<double> peaks;
   for (std::size_t i = 0; i < 3; ++i) peaks.push_back(rows[i].at("peak_slider_acceleration_m_s2"));
-  const json& first = rows[0].at("replicates");
-  EXPECT_EQ(first.size(), 6U);
-  EXPECT_EQ(first.at("of"), "peak_slider_acceleration_m_s2");
+  for (const json& row : rows) {
+    for (const auto& [key, value] : row.items()) EXPECT_TRUE(value.is_primitive()) << key;
+  }
+  const json first = statistics_of(rows[0]);
   EXPECT_EQ(first.at("count"), 3);
   EXPECT_EQ(first.at("min"), *std::min_element(peaks.begin(), peaks.end()));
   EXPECT_EQ(first.at("max"), *std::max_element(peaks.begin(), peaks.end()));
@@ -141,9 +149,9 @@ TEST(GetResults, CarryTheStatisticsOfReplicates) {
   const double ab = peaks[0] - peaks[1], bc = peaks[1] - peaks[2], ca = peaks[2] - peaks[0];
   EXPECT_GT(std::abs(ab), 1.0);
   EXPECT_NEAR(first.at("spread").get<double>(), std::sqrt((ab * ab + bc * bc + ca * ca) / 6.0), 1e-9);
-  EXPECT_EQ(rows[2].at("replicates"), first);
+  EXPECT_EQ(statistics_of(rows[2]), first);
   EXPECT_EQ(rows[4].at("state"), "failed");
-  EXPECT_EQ(rows[4].at("replicates"), json::parse(R"({"count": 1, "mean": 1000, "spread": null, "min": 1000, "max": 1000, "of": "peak_slider_acceleration_m_s2"})"));
+  EXPECT_EQ(statistics_of(rows[4]), json::parse(R"({"count": 1, "mean": 1000, "spread": null, "min": 1000, "max": 1000})"));
 
   const std::string csv = bench.call("GET", path, "", {{"format", "csv"}}).body;
   const std::string head = csv.substr(0, csv.find("\r\n"));

@@ -45,8 +45,8 @@ TEST(JsonRows, EndWithTheStatisticsOfReplicates) {
   jobs::ResultTable table{{"job_id"}, {{"j1"}, {"j2"}}};
   table.replicates = {{.count = 2, .mean = 1.5, .spread = 0.5, .min = 1.0, .max = 2.0}, {.count = 0, .mean = {}, .spread = {}, .min = {}, .max = {}}};
   EXPECT_EQ(server::to_json_rows(table),
-            "[\n{\"job_id\":\"j1\",\"replicates\":{\"count\":2,\"mean\":1.5,\"spread\":0.5,\"min\":1,\"max\":2,\"of\":\"peak_slider_acceleration_m_s2\"}},"
-            "\n{\"job_id\":\"j2\",\"replicates\":{\"count\":0,\"mean\":null,\"spread\":null,\"min\":null,\"max\":null,\"of\":\"peak_slider_acceleration_m_s2\"}}\n]\n");
+            "[\n{\"job_id\":\"j1\",\"replicates_count\":2,\"replicates_mean\":1.5,\"replicates_spread\":0.5,\"replicates_min\":1,\"replicates_max\":2},"
+            "\n{\"job_id\":\"j2\",\"replicates_count\":0,\"replicates_mean\":null,\"replicates_spread\":null,\"replicates_min\":null,\"replicates_max\":null}\n]\n");
 }
 
 TEST(JsonRows, AreAnEmptyArrayForNoRows) { EXPECT_EQ(json::parse(server::to_json_rows({{"a"}, {}})), json::array()); }

@@ -8,6 +8,7 @@ for variable in $(compgen -e RPSUP_ || true); do unset "$variable"; done
 rpsup=$(realpath "$1")
 folder=$(mktemp -d)
 service=
+export XDG_CONFIG_HOME=$folder/config  # the file with options of whoever runs it is not part of a test either
 
 # Ends what this test has started, and says where it stood if it fails.
 leave() {

@@ -2,6 +2,7 @@
 # rpsup serve: a session with curl, a second instance, and how it ends.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 
+ulimit -S -n 256
 start_service store.db
 expect_equal "$(cat ready)" "rpsup listens on $url" "what stands on standard output"
 expect_equal "$(get "$url/readyz" | jq -r .status)" ready "readiness"
@@ -69,6 +70,11 @@ get --include "$url/" >page
 expect_text page "^Content-Security-Policy: default-src 'none';"
 ! grep -E '(src|href)="(https?:)?//' page || fail "the page asks another site"
 
+# A sweep above 8 KiB as `curl -d` sends it, as a form; and it may have many connections, whatever the shell allows.
+{ cat sweep.json; head -c 20000 /dev/zero | tr '\0' ' '; } >padded.json
+expect_equal "$(status_of --data @padded.json "$url/v1/sweeps")" 201 "a large request without a header of its own"
+[ "$(awk '/^Max open files/ { print $4 }' "/proc/$service/limits")" -ge 4096 ] || fail "few files may be open"
+
 # What is refused.
 expect_equal "$(status_of --data '{' "$url/v1/sweeps")" 400 "broken JSON"
 expect_equal "$(status_of --data '{"sweep": {"clearance_mm": [-1]}}' "$url/v1/sweeps")" 422 "a clearance below zero"
@@ -84,6 +90,11 @@ expect_text err 'rpsup: '
 expect_code 3 "$rpsup" serve --db other.db --port "${url##*:}"
 expect_text err 'cannot listen'
 expect_code 3 "$rpsup" sweep sweep.json --db store.db
+
+expect_code 2 "$rpsup" serve --db never.db --cors-origin 'https://lab.example.org,*'
+expect_text err "cors-origin \*: must be like https://"
+expect_code 2 "$rpsup" serve --db never.db --cors-origin https://lab.example.org/
+[ ! -e never.db ] || fail "a refused command has made a store"
 
 # Cancelling ends a running job soon, although nothing is sent but the request line.
 echo '{"parameters": {"duration_s": 500, "coupler": "flexible"}, "sweep": {"clearance_mm": [0.3, 0.4, 0.5]}}' >long.json

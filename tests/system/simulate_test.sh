@@ -41,6 +41,22 @@ for column, key in enumerate(header):
     assert numpy.array_equal(arrays[key], table[:, column], equal_nan=True), key
 assert json.load(open("t.json"))["columns"]["slider_position_m"] == arrays["slider_position_m"].tolist()
 PYTHON
+# Drawn in characters below the JSON, on standard error, or into a file; beside the trajectory, too.
+expect_code 0 "$rpsup" simulate --plot job.json --trajectory plotted.csv
+cmp plotted.csv second.csv
+expect_text err '^slider acceleration, m/s\^2$'
+expect_text err ' 0 \|[^ ]*'
+expect_text err '0\.1 s$'
+jq -e .metrics out >/dev/null || fail "the plot has got into the JSON"
+LC_ALL=C.UTF-8 expect_code 0 "$rpsup" simulate job.json --plot
+grep -q $'\xe2\xa0\|\xe2\xa1\|\xe2\xa2\|\xe2\xa3' err || fail "no Braille in a UTF-8 locale"
+expect_code 0 "$rpsup" simulate job.json --plot plot.svg
+expect_text plot.svg '^<svg '
+expect_text plot.svg '</svg>$'
+expect_equal "$(wc -c <err | tr -d ' ')" 0 "bytes on standard error beside a plot in a file"
+expect_code 2 "$rpsup" simulate job.json --plot=plot.png
+expect_text err 'must end in .svg'
+expect_code 2 "$rpsup" simulate job.json --plot nowhere/plot.svg
 
 # Bad input: 2, each fault on a line with its pointer, nothing on standard output.
 echo '{"clearance_mm": -1, "nonsense": 1}' >bad.json

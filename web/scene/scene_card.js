@@ -23,11 +23,11 @@ export function sceneCard(job, links, times, signal) {
   const instant = h("output", { class: "small" });
   const player = new Player(times, signal);
   const play = h("button", { class: "main", "aria-keyshortcuts": "Space", onclick: () => player.toggle() }, "Play");
-  const scrub = h("input", { type: "range", class: "wide", "aria-label": "Instant [s]", oninput: () => times.pointAt(Number(scrub.value)) });
+  const scrub = h("input", { type: "range", step: "any", class: "wide", "aria-label": "Instant [s]", oninput: () => times.pointAt(Number(scrub.value)) });
   let draw = () => {};
 
   function showInstant() {
-    Object.assign(scrub, { min: times.from, max: times.to, step: (times.to - times.from) / 5000, value: times.instant });
+    Object.assign(scrub, { min: times.from, max: times.to, value: times.instant });
     instant.textContent = `t = ${times.instant.toFixed(4)} s`;
     draw();
   }

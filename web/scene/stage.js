@@ -36,8 +36,8 @@ export class Stage {
 
   lookAtAll() {
     this.followed = null;
-    this.controls.target.set(0.38 * this.reach, 0.03 * this.reach, 0.14 * this.reach);
-    this.camera.position.set(0.7 * this.reach, 0.5 * this.reach, 1.75 * this.reach);
+    this.controls.target.set(0.42 * this.reach, 0.03 * this.reach, 0.14 * this.reach);
+    this.camera.position.set(0.7 * this.reach, 0.5 * this.reach, 1.95 * this.reach);
     this.controls.update();
     this.request();
   }

@@ -1,0 +1,129 @@
+#pragma once
+
+#include "engine/clearance/joint_contact.h"
+#include "engine/math/buffer.h"
+#include "engine/math/dual_vec3.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// How the journal's motion as seen from the bearing varies in eight directions, all in {b}.
+struct JournalVariation {
+  Vec3<Lanes> turn, p;  ///< of {j}; of the journal's centre
+  Vec3<Lanes> v, w;
+};
+
+/// How what the contacts of a joint do varies in eight directions.
+struct LoadVariation {
+  Vec3<Lanes> force, moment;
+  Lanes impact_power{}, friction_power{};
+};
+
+/// The derivatives of all that a joint's contacts do, by the twelve numbers of the journal's motion and by the bristles. Each touch reads its
+/// own two bristles alone: those of all touches share two directions.
+class ContactDerivative {
+ public:
+  explicit ContactDerivative(std::size_t bristles)
+      : constant_bristles_(bristles), bristles_(bristles), rates_(bristles), by_bristle_(bristles), rate_rows_(bristles) {
+    for (std::size_t b = 0; b < bristles; ++b) bristles_[b].d = Lanes::unit(kOwnBristle + static_cast<int>(b % 2));
+  }
+
+  /// @param bristles  of this joint
+  RPSUP_INLINE void calc(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal, const double* bristles) {
+    for (std::size_t b = 0; b < bristles_.size(); ++b) {
+      constant_bristles_[b] = Dual(bristles[b]);
+      bristles_[b].value = bristles[b];
+    }
+    differentiate_by_position(joint, journal);
+    differentiate_by_rate(joint, journal);
+  }
+
+  /// What comes of a variation of the journal's motion, the bristles held.
+  [[nodiscard]] RPSUP_INLINE LoadVariation apply(const JournalVariation& varies) const {
+    const auto row = [&](int i) RPSUP_INLINE_LAMBDA { return rows_[i].apply(varies); };
+    return {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, row(kImpactPower), row(kFrictionPower)};
+  }
+  [[nodiscard]] RPSUP_INLINE Lanes apply_to_bristle(int bristle, const JournalVariation& varies) const {
+    return rate_rows_[static_cast<std::size_t>(bristle)].apply(varies);
+  }
+
+  /// Adds what comes of a bristle that varies by `lanes`.
+  RPSUP_INLINE void add_bristle(int bristle, const Lanes& lanes, LoadVariation& load) const {
+    const double* by = by_bristle_[static_cast<std::size_t>(bristle)].output;
+    load.force += Vec3<Lanes>{by[0] * lanes, by[1] * lanes, by[2] * lanes};
+    load.moment += Vec3<Lanes>{by[3] * lanes, by[4] * lanes, by[5] * lanes};
+    load.friction_power += by[kFrictionPower] * lanes;
+  }
+  /// Of a bristle's rate, by one of the two that its touch reads.
+  [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
+    return by / 2 == bristle / 2 ? rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2] : 0.0;
+  }
+
+ private:
+  static constexpr int kImpactPower = 6, kFrictionPower = 7, kOutputs = 8;
+  static constexpr int kOwnBristle = 6;  ///< the first of its lanes in by_rate
+
+  struct Row {
+    Lanes by_position;  ///< turn, p
+    Lanes by_rate;      ///< v, w, and the touch's own two bristles
+
+    [[nodiscard]] RPSUP_INLINE Lanes apply(const JournalVariation& varies) const {
+      return dot3(by_position, 0, varies.turn) + dot3(by_position, 3, varies.p) + dot3(by_rate, 0, varies.v) + dot3(by_rate, 3, varies.w);
+    }
+    [[nodiscard]] RPSUP_INLINE static Lanes dot3(const Lanes& by, int first, const Vec3<Lanes>& v) {
+      return by[first] * v.x + by[first + 1] * v.y + by[first + 2] * v.z;
+    }
+  };
+  struct ByBristle {
+    double output[kOutputs];
+  };
+
+  /// A load that takes note of what each touch's own bristles do.
+  struct TouchedLoad : JointLoad<Dual> {
+    RPSUP_INLINE void close_touch(int bristle) {
+      const Lanes now[kOutputs] = {force.x.d, force.y.d, force.z.d, moment.x.d, moment.y.d, moment.z.d, impact_power.d, friction_power.d};
+      for (int i = 0; i < kOutputs; ++i)
+        for (int k = 0; k < 2; ++k) {
+          by_bristle[bristle + k].output[i] = now[i][kOwnBristle + k] - before[k][i];
+          before[k][i] = now[i][kOwnBristle + k];
+        }
+    }
+    ByBristle* by_bristle = nullptr;
+    double before[2][kOutputs] = {};
+  };
+
+  RPSUP_INLINE void differentiate_by_position(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal) {
+    const Vec3<Lanes> turn{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
+    const auto turned = [&](const Vec3<double>& u) RPSUP_INLINE_LAMBDA { return join(u, cross(turn, u)); };
+    const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)},
+                                            join(journal.p, {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)}), join(journal.v, {}), join(journal.w, {})};
+    JointLoad<Dual> load;
+    (void)add_contacts(joint, varied, constant_bristles_.data(), rates_.data(), load);
+    store(load, &Row::by_position);
+  }
+
+  RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal) {
+    const RelativeMotion<double, Dual> varied{journal.R, journal.p, join(journal.v, {Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
+                                              join(journal.w, {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
+    TouchedLoad load;
+    load.by_bristle = by_bristle_.data();
+    by_bristle_.fill({});
+    (void)add_contacts(joint, varied, bristles_.data(), rates_.data(), load);
+    store(load, &Row::by_rate);
+  }
+
+  RPSUP_INLINE void store(const JointLoad<Dual>& load, Lanes Row::*part) {
+    const Dual* outputs[kOutputs] = {&load.force.x, &load.force.y, &load.force.z, &load.moment.x, &load.moment.y, &load.moment.z,
+                                     &load.impact_power, &load.friction_power};
+    for (int i = 0; i < kOutputs; ++i) rows_[i].*part = outputs[i]->d;
+    for (std::size_t b = 0; b < rates_.size(); ++b) rate_rows_[b].*part = rates_[b].d;
+  }
+
+  Buffer<Dual> constant_bristles_, bristles_, rates_;
+  Row rows_[kOutputs];                ///< force, moment, powers
+  Buffer<ByBristle> by_bristle_;      ///< of the same, by each bristle
+  Buffer<Row> rate_rows_;
+};
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

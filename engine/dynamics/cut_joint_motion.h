@@ -1,0 +1,57 @@
+#pragma once
+
+#include "engine/clearance/contact_law.h"
+#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/frame_recursion.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// A cut joint at one instant.
+template <typename P, typename V>
+struct CutJointMotion {
+  Frame<P, V> b, j;                ///< bearing and journal
+  RelativeMotion<P, V> journal;    ///< {j} seen from {b}
+  JointLoad<V> load;               ///< of a joint with clearance
+  Vec3<V> reaction;                ///< force on the journal, in W, [N]
+};
+
+/// A bearing or journal on its body. @param accelerations  whether they are wanted
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE Frame<P, V> place(const TreePlacement& placement, const Frame<P, V>& body, bool accelerations) {
+  Frame<P, V> placed;
+  placed.R = placement.turned ? multiply_constant(body.R, placement.R) : body.R;
+  placed.p = body.p;
+  placed.w = body.w;
+  placed.v = body.v;
+  if (accelerations) {
+    placed.wd = body.wd;
+    placed.vd = body.vd;
+  }
+  if (!placement.shifted) return placed;
+  const Vec3<P> r = rotate_constant(body.R, placement.p, placement.along_x);
+  if (accelerations) {
+    shift_frame(r, true, placed);
+  } else {
+    placed.p += r;
+    placed.v += cross(body.w, r);
+  }
+  return placed;
+}
+
+/// Sets both parts from the frames of the bodies that they sit on, and how the one moves in the other.
+template <typename P, typename V>
+RPSUP_INLINE void place_parts(const TreeCutJoint& joint, const Frame<P, V>& bearing_body, const Frame<P, V>& journal_body, CutJointMotion<P, V>& cut) {
+  const bool ideal = joint.clearance < 0;
+  cut.b = place(joint.bearing, bearing_body, ideal);
+  cut.j = place(joint.journal, journal_body, ideal);
+  const Vec3<P> offset = cut.j.p - cut.b.p;
+  const Mat3<P>& R = cut.b.R;
+  cut.journal.R = {transpose_times(R, cut.j.R.x), transpose_times(R, cut.j.R.y), transpose_times(R, cut.j.R.z)};
+  cut.journal.p = transpose_times(R, offset);
+  cut.journal.v = transpose_times(R, cut.j.v - cut.b.v - cross(cut.b.w, offset));
+  cut.journal.w = transpose_times(R, cut.j.w - cut.b.w);
+}
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

@@ -1,0 +1,363 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/clearance/contact_derivative.h"
+#include "engine/dynamics/equations_of_motion.h"
+#include "engine/dynamics/varied_frame.h"
+#include "engine/math/dual_vec3.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// A bristle that varies: by one in one lane.
+struct BristleVariation {
+  int bristle;
+  Lanes lanes;
+};
+
+/// How the solution of the equations of motion varies with the state, in eight directions at once, exact to rounding.
+///
+/// The forces that hold the motion, R(q, qd, qdd, lambda) = M qdd + bias - tau - Phi_q^T lambda, vary with qdd and lambda held where they are;
+/// what then is missing is made up for by the accelerations: M dqdd = Phi_q^T dlambda - dR. So no matrix is ever differentiated. Where a joint
+/// turns all that it carries, the forces there turn with it, and need not be found again: see VariedFrame.
+/// Source: A. Jain, G. Rodriguez, Linearization of manipulator dynamics using spatial operators (1993).
+template <typename Shapes>
+class VariedEquations {
+ public:
+  /// @param solved  the equations; evaluate() before hold()
+  VariedEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, const EquationsOfMotion<Shapes>& solved)
+      : qdd(static_cast<std::size_t>(model.coordinates)),
+        bristle_rates(solved.bristles.size()),
+        drive_force(model.drives.size()),
+        model_(model),
+        joints_(joints),
+        solved_(solved),
+        held_(model.joints.size()),
+        held_coordinates_(qdd.size()),
+        frames_(model.joints.size()),
+        own_turns_(model.joints.size()),
+        still_(model.joints.size()),
+        forces_(model.joints.size()),
+        scratch_(model),
+        tau_(qdd.size()),
+        lambda_(static_cast<std::size_t>(model.rows)) {
+    ground_.vd = {-model.gravity[0], -model.gravity[1], -model.gravity[2]};
+    for (const ClearanceJoint& joint : joints)
+      contacts_.push_back(std::make_unique<ContactDerivative>(static_cast<std::size_t>(joint.bristle_count())));
+  }
+
+  /// Takes up the solution: what all directions share.
+  RPSUP_INLINE void hold(const double* bristles) {
+    hold_motion();
+    hold_loads(bristles);
+    Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (joint.parent < 0) return;
+      const SpatialForce<double>& force = held_[i].force;
+      SpatialForce<double>& parent = held_[static_cast<std::size_t>(joint.parent)].force;
+      parent.force += force.force;
+      parent.moment += force.moment + cross(solved_.axes[i].r, force.force);
+    });
+  }
+
+  /// @param coordinates  one a coordinate; qdd of driven ones only
+  /// @param time         lane in which time varies, the drives' coordinates with it
+  RPSUP_INLINE void differentiate(const CoordinateVariation* coordinates, const BristleVariation* bristles, int bristle_count, const Lanes& time,
+                                  const DrivenMotion* drives) {
+    coordinates_ = coordinates;
+    bristles_ = bristles;
+    bristle_count_ = bristle_count;
+    vary_frames();
+    vary_loads();
+    carry_forces();
+    vary_applied_forces();
+    solve();
+    if (model_.rows > 0) vary_multipliers(time, drives);
+    vary_drive_forces();
+    vary_losses();
+  }
+
+  // Out
+  Buffer<Lanes> qdd;                        ///< of free coordinates
+  Buffer<Lanes> bristle_rates;
+  Buffer<Lanes> drive_force;
+  LossPowers<Lanes> losses;
+
+ private:
+  RPSUP_INLINE void hold_motion() {
+    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      const auto first = static_cast<std::size_t>(joint.first);
+      const HeldJoint& parent = joint.parent < 0 ? ground_ : held_[static_cast<std::size_t>(joint.parent)];
+      hold_joint(joint, parent, solved_.axes[i], &solved_.qd[first], &solved_.qdd[first], &held_coordinates_[first], held_[i]);
+      hold_force(joint, solved_.frames[i].R, held_[i]);
+    });
+  }
+
+  RPSUP_INLINE void hold_loads(const double* bristles) {
+    for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
+      const TreeCutJoint& joint = model_.cut_joints[k];
+      const CutJointMotion<double, double>& cut = solved_.cuts[k];
+      if (joint.clearance < 0) {
+        const double* multipliers = solved_.lambda.data() + joint.first_row;
+        const Vec3<double> moment = multipliers[3] * cross(cut.j.R.x, cut.b.R.z) + multipliers[4] * cross(cut.j.R.y, cut.b.R.z);
+        hold_load(joint.journal_joint, cut.j.p, cut.reaction, moment);
+        hold_load(joint.bearing_joint, cut.b.p, -cut.reaction, -moment);
+        continue;
+      }
+      const ClearanceJoint& clearance = joints_[static_cast<std::size_t>(joint.clearance)];
+      contacts_[static_cast<std::size_t>(joint.clearance)]->calc(clearance, cut.journal, bristles);
+      bristles += clearance.bristle_count();
+      const Vec3<double> moment = cut.b.R * cut.load.moment;
+      hold_load(joint.journal_joint, cut.j.p, cut.reaction, moment);
+      hold_load(joint.bearing_joint, cut.j.p, -cut.reaction, -moment);
+    }
+  }
+
+  /// A force at p, with a moment about it, on a joint's body.
+  RPSUP_INLINE void hold_load(int joint, const Vec3<double>& p, const Vec3<double>& force, const Vec3<double>& moment) {
+    if (joint < 0) return;
+    SpatialForce<double>& needed = held_[static_cast<std::size_t>(joint)].force;
+    needed.force -= force;
+    needed.moment -= moment + cross(p - solved_.frames[static_cast<std::size_t>(joint)].p, force);
+  }
+
+  RPSUP_INLINE void vary_frames() {
+    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      const auto first = static_cast<std::size_t>(joint.first);
+      const bool parent_still = joint.parent < 0 || still_[static_cast<std::size_t>(joint.parent)];
+      bool still = parent_still;
+      for (int k = 0; k < joint.count(); ++k) still = still && !coordinates_[joint.first + k].varies;
+      still_[i] = still;
+      if (still) {
+        forces_[i] = {};
+        return;
+      }
+      VariedFrame f;
+      if (!parent_still) f = frames_[static_cast<std::size_t>(joint.parent)];
+      vary_joint_frame(joint, solved_.axes[i], held_[i], &held_coordinates_[first], coordinates_ + joint.first, f, own_turns_[i]);
+      forces_[i] = vary_body_force(joint, solved_.frames[i].R, held_[i], f);
+      frames_[i] = f;
+    });
+  }
+
+  [[nodiscard]] RPSUP_INLINE bool is_still(int joint) const { return joint < 0 || still_[static_cast<std::size_t>(joint)]; }
+
+  /// How the frame of a joint's body varies, with the origin at p.
+  [[nodiscard]] RPSUP_INLINE VariedFrame see_at(int joint, const Vec3<double>& p) const {
+    VariedFrame f;
+    if (is_still(joint)) return f;
+    f = frames_[static_cast<std::size_t>(joint)];
+    const Vec3<double> r = p - solved_.frames[static_cast<std::size_t>(joint)].p;
+    f.shift += cross(f.turn, r);
+    f.v += cross(f.w, r);
+    return f;
+  }
+
+  RPSUP_INLINE void vary_loads() {
+    losses = {};
+    bristle_rates.fill({});
+    int first_bristle = 0;
+    for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
+      const TreeCutJoint& joint = model_.cut_joints[k];
+      if (joint.clearance < 0) {
+        vary_reaction(joint, solved_.cuts[k]);
+        continue;
+      }
+      vary_contact(joint, solved_.cuts[k], first_bristle);
+      first_bristle += joints_[static_cast<std::size_t>(joint.clearance)].bristle_count();
+    }
+  }
+
+  /// All in W as an observer sees it who turns with the bearing, until the journal's own is needed.
+  RPSUP_INLINE void vary_contact(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut, int first_bristle) {
+    const ContactDerivative& contact = *contacts_[static_cast<std::size_t>(joint.clearance)];
+    const int bristles = joints_[static_cast<std::size_t>(joint.clearance)].bristle_count();
+    LoadVariation load;
+    Vec3<Lanes> turn, offset;
+    if (!is_still(joint.bearing_joint) || !is_still(joint.journal_joint)) {
+      const VariedFrame b = see_at(joint.bearing_joint, cut.b.p);
+      const VariedFrame j = see_at(joint.journal_joint, cut.j.p);
+      const Vec3<double> d = cut.j.p - cut.b.p;
+      turn = j.turn - b.turn;
+      offset = j.shift - b.shift - cross(b.turn, d);
+      const Vec3<Lanes> w = j.w + cross(turn, cut.j.w) - b.w;
+      const Vec3<Lanes> v = j.v + cross(turn, cut.j.v) - b.v - cross(b.w, d) - cross(cut.b.w, offset);
+      const Mat3<double>& R = cut.b.R;
+      const JournalVariation varies{transpose_times(R, turn), transpose_times(R, offset), transpose_times(R, v), transpose_times(R, w)};
+      load = contact.apply(varies);
+      for (int b_own = 0; b_own < bristles; ++b_own)
+        bristle_rates[static_cast<std::size_t>(first_bristle + b_own)] = contact.apply_to_bristle(b_own, varies);
+    }
+    for (int i = 0; i < bristle_count_; ++i) {
+      const int own = bristles_[i].bristle - first_bristle;
+      if (own < 0 || own >= bristles) continue;
+      contact.add_bristle(own, bristles_[i].lanes, load);
+      for (const int other : {own & ~1, own | 1})
+        bristle_rates[static_cast<std::size_t>(first_bristle + other)] += contact.rate_by_bristle(other, own) * bristles_[i].lanes;
+    }
+    losses.impact += load.impact_power;
+    losses.friction += load.friction_power;
+    const Vec3<Lanes> force = cut.b.R * load.force;
+    const Vec3<Lanes> moment = cut.b.R * load.moment;
+    if (joint.bearing_joint >= 0) {
+      SpatialForce<Lanes>& on_bearing = forces_[static_cast<std::size_t>(joint.bearing_joint)];
+      on_bearing.force += force;
+      on_bearing.moment += moment + cross(arm_of(joint.bearing_joint, cut.j.p), force) + cross(offset, cut.reaction);
+    }
+    if (joint.journal_joint >= 0) {
+      const Vec3<Lanes> own_force = force - cross(turn, cut.reaction);
+      const Vec3<Lanes> own_moment = moment - cross(turn, cut.b.R * cut.load.moment);
+      SpatialForce<Lanes>& on_journal = forces_[static_cast<std::size_t>(joint.journal_joint)];
+      on_journal.force -= own_force;
+      on_journal.moment -= own_moment;
+      if (joint.journal.shifted) on_journal.moment -= cross(arm_of(joint.journal_joint, cut.j.p), own_force);
+    }
+  }
+
+  [[nodiscard]] RPSUP_INLINE Vec3<double> arm_of(int joint, const Vec3<double>& p) const {
+    return p - solved_.frames[static_cast<std::size_t>(joint)].p;
+  }
+
+  /// What an ideal joint exerts with its multipliers held, and what its rows lack then.
+  RPSUP_INLINE void vary_reaction(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut) {
+    const Frame<Dual, Dual> b = place(joint.bearing, see_at_rest(joint.bearing_joint), true);
+    const Frame<Dual, Dual> j = place(joint.journal, see_at_rest(joint.journal_joint), true);
+    const JointViolation<Dual, Dual> violation = calc_joint_violation(b, j);
+    const auto first = static_cast<std::size_t>(joint.first_row);
+    for (std::size_t r = 0; r < 5; ++r)
+      lambda_[first + r] =
+          -(violation.Phi_dd[r].d + 2.0 * model_.alpha * violation.Phi_d[r].d + (model_.beta * model_.beta) * violation.Phi[r].d);
+    const double* multipliers = solved_.lambda.data() + first;
+    const Vec3<Dual> moment = multipliers[3] * violation.x_z + multipliers[4] * violation.y_z;
+    const Vec3<Dual> force = join(cut.reaction, {});
+    vary_load(joint.journal_joint, j.p, force, moment);
+    vary_load(joint.bearing_joint, b.p, -force, -moment);
+  }
+
+  /// The frame of a joint's body, with all accelerations, as an observer at rest sees it.
+  [[nodiscard]] RPSUP_INLINE Frame<Dual, Dual> see_at_rest(int joint) const {
+    const VariedFrame& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
+    const HeldJoint& held = joint < 0 ? ground_ : held_[static_cast<std::size_t>(joint)];
+    const Frame<double, double>& stands = joint < 0 ? solved_.ground() : solved_.frames[static_cast<std::size_t>(joint)];
+    const auto turned = [&](const Vec3<double>& v) RPSUP_INLINE_LAMBDA { return join(v, cross(f.turn, v)); };
+    const auto turned_too = [&](const Vec3<double>& v, const Vec3<Lanes>& own) RPSUP_INLINE_LAMBDA { return join(v, own + cross(f.turn, v)); };
+    return {{turned(stands.R.x), turned(stands.R.y), turned(stands.R.z)}, join(stands.p, f.shift), turned_too(held.w, f.w), turned_too(held.v, f.v),
+            turned_too(held.wd, f.wd), turned_too(held.vd, f.vd)};
+  }
+
+  /// A force at p, with a moment about it, as an observer at rest sees them, on a joint's body.
+  RPSUP_INLINE void vary_load(int joint, const Vec3<Dual>& p, const Vec3<Dual>& force, const Vec3<Dual>& moment) {
+    if (joint < 0) return;
+    const VariedFrame& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
+    const Vec3<Dual> origin = join(solved_.frames[static_cast<std::size_t>(joint)].p, f.shift);
+    const Vec3<Dual> about_origin = moment + cross(p - origin, force);
+    forces_[static_cast<std::size_t>(joint)].force -= derivatives_of(force) - cross(f.turn, values_of(force));
+    forces_[static_cast<std::size_t>(joint)].moment -= derivatives_of(about_origin) - cross(f.turn, values_of(about_origin));
+  }
+
+  /// What the joints transmit turns with them.
+  RPSUP_INLINE void carry_forces() {
+    tau_.fill({});
+    Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      const CoordinateVariation* varies = coordinates_ + joint.first;
+      bool own = false;
+      for (int k = 0; k < joint.count(); ++k) own = own || varies[k].varies;
+      if (!own) return;
+      const SpatialForce<double>& held = held_[i].force;
+      const JointAxes& axes = solved_.axes[i];
+      if (joint.kind == JointShape::Kind::kTranslation) {
+        if (joint.parent >= 0) forces_[static_cast<std::size_t>(joint.parent)].moment += varies[0].q * cross(axes.axis[0], held.force);
+        return;
+      }
+      forces_[i].force += cross(own_turns_[i], held.force);
+      forces_[i].moment += cross(own_turns_[i], held.moment);
+      Lanes* tau = &tau_[static_cast<std::size_t>(joint.first)];
+      for (int k = 1; k < joint.count(); ++k)  // but an axis turns with those before it
+        for (int m = 0; m < k; ++m) tau[k] += dot(axes.axis[k], cross(axes.axis[m], held.moment)) * varies[m].q;
+    });
+  }
+
+  RPSUP_INLINE void vary_applied_forces() {
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.sprung) return;
+      const auto first = static_cast<std::size_t>(joint.first);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {
+        const CoordinateVariation& coordinate = coordinates_[first + k];
+        if (coordinate.varies) tau_[first + k] -= joint.numbers().stiffness[k] * coordinate.q + joint.numbers().damping[k] * coordinate.qd;
+      }
+    });
+  }
+
+  RPSUP_INLINE void solve() {
+    for (std::size_t i = 0; i < forces_.size(); ++i) scratch_.forces[i] = forces_[i];
+    solved_.bodies.solve(solved_.axes.data(), tau_.data(), scratch_, qdd.data());
+  }
+
+  RPSUP_INLINE void vary_multipliers(const Lanes& time, const DrivenMotion* drives) {
+    if (model_.drive_rows) vary_drive_rows(time, drives);
+    solved_.find_multipliers(qdd.data(), lambda_.data());
+    solved_.add_reactions(lambda_.data(), tau_.data());
+    solve();
+  }
+
+  /// The drives' motion varies in time, and by nothing else.
+  RPSUP_INLINE void vary_drive_rows(const Lanes& time, const DrivenMotion* drives) {
+    for (std::size_t k = 0; k < model_.drives.size(); ++k) {
+      const CoordinateVariation& varies = coordinates_[model_.drives[k]];
+      lambda_[static_cast<std::size_t>(model_.first_drive_row) + k] = drives[k].qddd * time - 2.0 * model_.alpha * (varies.qd - drives[k].qdd * time) -
+                                                                      (model_.beta * model_.beta) * (varies.q - drives[k].qd * time);
+    }
+  }
+
+  RPSUP_INLINE void vary_drive_forces() {
+    for (std::size_t k = 0; k < model_.drives.size(); ++k) {
+      const auto d = static_cast<std::size_t>(model_.drives[k]);
+      if (model_.drive_rows) {
+        drive_force[k] = lambda_[static_cast<std::size_t>(model_.first_drive_row) + k];
+        continue;
+      }
+      const auto index = static_cast<std::size_t>(model_.drive_joints[k]);
+      const TreeJoint& joint = model_.joints[index];
+      Lanes force = solved_.bodies.calc_drive_force(model_.drive_joints[k], solved_.axes[index], scratch_);
+      if (joint.sprung) force += joint.stiffness[0] * coordinates_[d].q + joint.damping[0] * coordinates_[d].qd;
+      for (int r = 0; r < solved_.rows.count; ++r) force -= solved_.rows.row(r)[d] * lambda_[static_cast<std::size_t>(r)];
+      drive_force[k] = force;
+    }
+  }
+
+  RPSUP_INLINE void vary_losses() {
+    losses.structural = {};
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.sprung) return;
+      const auto first = static_cast<std::size_t>(joint.first);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k)
+        if (coordinates_[first + k].varies)
+          losses.structural += (2.0 * joint.numbers().damping[k] * solved_.qd[first + k]) * coordinates_[first + k].qd;
+    });
+  }
+
+  const TreeModel& model_;
+  const std::vector<ClearanceJoint>& joints_;
+  const EquationsOfMotion<Shapes>& solved_;
+  // Of the solution
+  HeldJoint ground_;
+  Buffer<HeldJoint> held_;
+  Buffer<HeldCoordinate> held_coordinates_;
+  std::vector<std::unique_ptr<ContactDerivative>> contacts_;
+  // Of the directions at hand
+  const CoordinateVariation* coordinates_ = nullptr;
+  const BristleVariation* bristles_ = nullptr;
+  int bristle_count_ = 0;
+  const VariedFrame at_rest_{};
+  Buffer<VariedFrame> frames_;
+  Buffer<Vec3<Lanes>> own_turns_;           ///< of each joint against its parent
+  Buffer<bool> still_;                      ///< joints that no direction moves: their frames are not set
+  Buffer<SpatialForce<Lanes>> forces_;      ///< how what each joint's body needs varies
+  typename ArticulatedBodies<Shapes>::template Scratch<Lanes> scratch_;
+  Buffer<Lanes> tau_;
+  Buffer<Lanes> lambda_;                    ///< variation of the multipliers; before that, of what their rows lack
+};
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

@@ -1,0 +1,22 @@
+#include "jobs/design_kinds.h"
+
+#include <array>
+
+#include "jobs/listed_designs.h"
+#include "jobs/sampled_designs.h"
+
+namespace jobs {
+
+std::span<const DesignKind> design_kinds() {
+  static const std::array<DesignKind, 4> kinds{{
+      {"latin_hypercube", "count points; each of count equal parts of every range has one, at a random place", {"count", "seed"}, count_samples,
+       make_latin_hypercube},
+      {"sobol", "the first count points of Sobol's sequence, shifted at random if there is a seed; a power of two fills the space best",
+       {"count", "seed"}, count_samples, make_sobol},
+      {"zip", "the first values of all lists, then the second ones, and so on", {}, count_zip, make_zip},
+      {"one_at_a_time", "the centre, then each parameter alone with each of its values", {"centre"}, count_one_at_a_time, make_one_at_a_time},
+  }};
+  return kinds;
+}
+
+}  // namespace jobs

@@ -1,0 +1,60 @@
+#include "server/commands/config_file.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace server::commands {
+
+namespace {
+
+std::filesystem::path config_home() {
+  const char* const home = std::getenv("XDG_CONFIG_HOME");
+  // A path that is not absolute is to be ignored, says the specification of that variable.
+  if (home != nullptr && std::filesystem::path(home).is_absolute()) return home;
+  const char* const user = std::getenv("HOME");
+  return user == nullptr ? std::filesystem::path() : std::filesystem::path(user) / ".config";
+}
+
+/// "++" and "--" are the parser's marks of where a section begins and ends.
+bool is_mark(const CLI::ConfigItem& item) { return item.name == "++" || item.name == "--"; }
+
+}  // namespace
+
+std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
+  std::vector<CLI::ConfigItem> given;
+  std::vector<CLI::ConfigItem> shared;
+  for (CLI::ConfigItem& item : CLI::ConfigTOML::from_config(input)) {
+    const bool of_program = app_.get_option_no_throw("--" + item.name) != nullptr;
+    (item.parents.empty() && !is_mark(item) && !of_program ? shared : given).push_back(std::move(item));
+  }
+  // After the sections, since the first value counts.
+  for (const CLI::ConfigItem& item : shared) {
+    for (const std::string& command : remote_) {
+      given.push_back(item);
+      given.back().parents = {command};
+    }
+  }
+  std::erase_if(given, [&](const CLI::ConfigItem& item) { return is_in_environment(item); });
+  return given;
+}
+
+bool ConfigFile::is_in_environment(const CLI::ConfigItem& item) const {
+  const CLI::App* command = &app_;
+  for (const std::string& name : item.parents) {
+    const auto found = command->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == name; });
+    if (found.empty()) return false;  // the parser tells the user
+    command = found.front();
+  }
+  const CLI::Option* const option = command->get_option_no_throw("--" + item.name);
+  return option != nullptr && !option->get_envname().empty() && std::getenv(option->get_envname().c_str()) != nullptr;
+}
+
+std::string find_user_config() {
+  const std::filesystem::path home = config_home();
+  if (home.empty()) return "";
+  const auto file = home / "rpsup" / "config.ini";
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) ? file.string() : "";
+}
+
+}  // namespace server::commands

@@ -1,0 +1,180 @@
+#include "server/commands/plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string_view>
+
+namespace server::commands {
+
+namespace {
+
+constexpr std::size_t kMargin = 10;          // characters for the numbers at the left
+constexpr std::size_t kDotsAcross = 2, kDotsDown = 4;  // of one character
+
+const std::vector<double>& column(const engine::Trajectory& trajectory, std::string_view key) {
+  for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
+    if (trajectory.channels[c].key == key) return trajectory.columns.at(c);
+  }
+  throw std::logic_error("no channel " + std::string(key));
+}
+
+/// Where the axis of values begins and ends: multiples of a round step around the values and zero.
+struct Axis {
+  double bottom = -1.0, top = 1.0, step = 1.0;
+};
+
+/// 1, 2 or 5 times a power of ten, at least a fifth of the span.
+double round_step(double span) {
+  const double raw = span / 5.0;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= raw) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+Axis make_axis(const AccelerationBand& band) {
+  if (band.least.empty()) return {};
+  const double least = std::min(0.0, std::ranges::min(band.least));
+  const double most = std::max(0.0, std::ranges::max(band.most));
+  if (!(most > least)) return {};
+  const double step = round_step(most - least);
+  return {.bottom = step * std::floor(least / step), .top = step * std::ceil(most / step), .step = step};
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value == 0.0 ? 0.0 : value);  // no "-0"
+  return text;
+}
+
+/// Dots behind a grid of characters.
+class Canvas {
+ public:
+  Canvas(std::size_t columns, std::size_t rows) : columns_(columns), rows_(rows), cells_(columns * rows, 0) {}
+
+  [[nodiscard]] std::size_t dots_across() const { return kDotsAcross * columns_; }
+  [[nodiscard]] std::size_t dots_down() const { return kDotsDown * rows_; }
+
+  void set(std::size_t x, std::size_t y) {
+    // The order in which Unicode numbers the dots of a Braille character.
+    static constexpr std::array<std::array<unsigned, kDotsAcross>, kDotsDown> kBits{{{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
+    cells_.at(y / kDotsDown * columns_ + x / kDotsAcross) |= kBits[y % kDotsDown][x % kDotsAcross];
+  }
+
+  [[nodiscard]] std::string row(std::size_t y, Characters characters) const {
+    std::string text;
+    for (std::size_t x = 0; x < columns_; ++x) {
+      const unsigned dots = cells_[y * columns_ + x];
+      if (dots == 0) text += ' ';
+      else if (characters == Characters::kAscii) text += ascii(dots);
+      else text += {static_cast<char>(0xE2), static_cast<char>(0xA0 | dots >> 6), static_cast<char>(0x80 | (dots & 0x3F))};
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+  }
+
+ private:
+  static char ascii(unsigned dots) {
+    constexpr unsigned kUpper = 0x1B;
+    if ((dots & kUpper) == 0) return '.';
+    return (dots & ~kUpper) == 0 ? '\'' : '|';
+  }
+
+  std::size_t columns_, rows_;
+  std::vector<unsigned> cells_;  ///< the dots of each character
+};
+
+void draw(const AccelerationBand& band, const Axis& axis, Canvas& canvas) {
+  const auto dot_of = [&](double value) {
+    const double down = (axis.top - value) / (axis.top - axis.bottom) * static_cast<double>(canvas.dots_down());
+    return std::min(static_cast<std::size_t>(std::max(down, 0.0)), canvas.dots_down() - 1);
+  };
+  for (std::size_t x = 0; x < canvas.dots_across(); ++x) {
+    const std::size_t i = x * band.least.size() / canvas.dots_across();
+    for (std::size_t y = dot_of(band.most[i]); y <= dot_of(band.least[i]); ++y) canvas.set(x, y);
+  }
+}
+
+std::size_t plot_rows(const TerminalSize& size) { return std::clamp<std::size_t>(size.rows, 10, 40) - 5; }
+
+std::string right_aligned(const std::string& text, std::size_t width) { return std::string(width - std::min(width, text.size()), ' ') + text; }
+
+}  // namespace
+
+AccelerationBand calc_acceleration_band(const engine::Trajectory& trajectory, std::size_t columns) {
+  const auto& t = column(trajectory, "t_s");
+  const auto& least = column(trajectory, "slider_acceleration_min_m_s2");
+  const auto& most = column(trajectory, "slider_acceleration_max_m_s2");
+  if (t.empty()) return {};
+  const std::size_t n = std::min(columns, t.size());
+  AccelerationBand band{.t_begin = t.front(), .t_end = t.back(), .least = {}, .most = {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto from = static_cast<std::ptrdiff_t>(i * t.size() / n);
+    const auto to = static_cast<std::ptrdiff_t>((i + 1) * t.size() / n);
+    band.least.push_back(*std::min_element(least.begin() + from, least.begin() + to));
+    band.most.push_back(*std::max_element(most.begin() + from, most.begin() + to));
+  }
+  return band;
+}
+
+std::size_t plot_columns(const TerminalSize& size) {
+  return kDotsAcross * (std::clamp<std::size_t>(size.columns, 40, 200) - kMargin - 1);
+}
+
+std::string draw_for_terminal(const AccelerationBand& band, const TerminalSize& size, Characters characters) {
+  if (band.least.empty()) return "the run has no samples to draw\n";
+  const Axis axis = make_axis(band);
+  Canvas canvas(plot_columns(size) / kDotsAcross, plot_rows(size));
+  draw(band, axis, canvas);
+  const std::size_t rows = plot_rows(size);
+  const double per_row = (axis.top - axis.bottom) / static_cast<double>(rows);
+  const auto zero_row = std::min(static_cast<std::size_t>(axis.top / per_row), rows - 1);
+  std::string text = "slider acceleration, m/s^2\n";
+  for (std::size_t y = 0; y < rows; ++y) {
+    std::string label;
+    if (y == 0) label = number(axis.top);
+    else if (y == rows - 1) label = number(axis.bottom);
+    else if (y == zero_row) label = "0";
+    const std::string row = canvas.row(y, characters);
+    text += right_aligned(label, kMargin - 2) + " |" + row + "\n";
+  }
+  const std::string begin = number(band.t_begin);
+  const std::string end = number(band.t_end) + " s";
+  text += std::string(kMargin, ' ') + begin + right_aligned(end, plot_columns(size) / kDotsAcross - begin.size()) + "\n";
+  return text;
+}
+
+std::string draw_svg(const AccelerationBand& band) {
+  constexpr double kLeft = 70, kTop = 30, kHeight = 320, kWidth = kSvgColumns;
+  const Axis axis = make_axis(band);
+  const auto y_of = [&](double value) { return kTop + kHeight * (axis.top - value) / (axis.top - axis.bottom); };
+  const auto text_at = [](double x, double y, const char* anchor, const std::string& text) {
+    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text + "</text>\n";
+  };
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 400\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\">\n"
+      "<rect width=\"900\" height=\"400\" fill=\"#fff\"/>\n";
+  for (int i = 0; axis.bottom + i * axis.step <= axis.top + 0.5 * axis.step; ++i) {
+    const double y = y_of(axis.bottom + i * axis.step);
+    svg += "<path d=\"M70 " + number(y) + "H870\" stroke=\"#ddd\"/>\n" + text_at(62, y + 4, "end", number(axis.bottom + i * axis.step));
+  }
+  std::string path;
+  for (std::size_t i = 0; i < band.least.size(); ++i) {
+    const double x = kLeft + kWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(band.least.size());
+    // Half a pixel more at both ends: a line that lies still would else be none.
+    path += "M" + number(x) + " " + number(y_of(band.most[i]) - 0.5) + "V" + number(y_of(band.least[i]) + 0.5);
+  }
+  const double stroke = band.least.empty() ? 1.0 : kWidth / static_cast<double>(band.least.size());
+  svg += "<path d=\"" + path + "\" stroke=\"#d95f02\" stroke-width=\"" + number(stroke) + "\" fill=\"none\"/>\n";
+  for (int i = 0; i <= 4; ++i) {
+    const double part = 0.25 * i;
+    svg += text_at(kLeft + part * kWidth, 368, "middle", number(band.t_begin + part * (band.t_end - band.t_begin)));
+  }
+  return svg + text_at(kLeft + 0.5 * kWidth, 390, "middle", "time, s") + text_at(kLeft, 18, "start", "slider acceleration, m/s\u00b2") + "</svg>\n";
+}
+
+}  // namespace server::commands

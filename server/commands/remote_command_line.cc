@@ -1,0 +1,82 @@
+#include "server/commands/remote_command_line.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "server/commands/remote_commands.h"
+
+namespace server::commands {
+
+namespace {
+
+void add_remote_options(CLI::App& command, RemoteOptions& options) {
+  command.add_option("--url", options.url, "Where the service is")->type_name("URL")->capture_default_str()->envname("RPSUP_URL");
+  command.add_option("--token", options.token, "Sent as Authorization: Bearer; safer in the environment or in the file with options, since others see command lines")
+      ->envname("RPSUP_TOKEN");
+}
+
+/// A command with the options that all of them have.
+template <typename Options>
+CLI::App* add_command(CLI::App& app, const char* name, const char* help, Options& options) {
+  CLI::App* const command = app.add_subcommand(name, help);
+  add_remote_options(*command, options.remote);
+  return command;
+}
+
+/// @param options  shared, since they live as long as what runs with them
+template <typename Options>
+Command make_command(CLI::App* line, std::shared_ptr<Options> options, int (*run)(const Options&)) {
+  return {line, [options = std::move(options), run] { return run(*options); }};
+}
+
+Command add_submit(CLI::App& app) {
+  const auto options = std::make_shared<SubmitOptions>();
+  CLI::App* const command = add_command(app, "submit", "Submit a sweep to a running service and print its id", *options);
+  command->add_option("file", options->file, "JSON file with the sweep request; - reads standard input")->required()->type_name("FILE");
+  command->add_flag("--job", options->job, "The file holds the parameters of one job instead");
+  command->add_flag("--watch", options->watch, "Wait for the end, as rpsup watch does");
+  return make_command(command, options, submit);
+}
+
+Command add_status(CLI::App& app) {
+  const auto options = std::make_shared<StatusOptions>();
+  CLI::App* const command = add_command(app, "status", "Print how far a sweep or a job is, or list the newest sweeps", *options);
+  command->add_option("id", options->id, "Of a sweep or a job; if left out, the newest sweeps are listed");
+  command->add_flag("--json", options->json, "As the service gives it");
+  return make_command(command, options, status);
+}
+
+Command add_watch(CLI::App& app) {
+  const auto options = std::make_shared<WatchOptions>();
+  CLI::App* const command = add_command(app, "watch", "Show how far a sweep or a job is until it has ended", *options);
+  command->add_option("id", options->id, "Of a sweep or a job")->required();
+  return make_command(command, options, watch);
+}
+
+Command add_results(CLI::App& app) {
+  const auto options = std::make_shared<ResultsOptions>();
+  CLI::App* const command = add_command(app, "results", "Print the table of results of a sweep, as far as it has come", *options);
+  command->add_option("id", options->sweep, "Of a sweep")->required();
+  command->add_option("--format", options->format, "Form of the table")->check(CLI::IsMember({"csv", "json"}))->capture_default_str()->envname("RPSUP_FORMAT");
+  command->add_option("--output", options->output, "File for the table; - writes standard output")
+      ->type_name("FILE")
+      ->capture_default_str()
+      ->envname("RPSUP_OUTPUT");
+  return make_command(command, options, results);
+}
+
+Command add_cancel(CLI::App& app) {
+  const auto options = std::make_shared<CancelOptions>();
+  CLI::App* const command = add_command(app, "cancel", "Cancel what has not ended of sweeps or jobs", *options);
+  command->add_option("id", options->ids, "Of sweeps or jobs")->required();
+  return make_command(command, options, cancel);
+}
+
+}  // namespace
+
+std::vector<Command> add_remote_commands(CLI::App& app) {
+  return {add_submit(app), add_status(app), add_watch(app), add_results(app), add_cancel(app)};
+}
+
+}  // namespace server::commands

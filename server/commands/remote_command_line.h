@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace server::commands {
+
+/// A command of the program: how it is written, and what it does.
+struct Command {
+  CLI::App* line;
+  std::function<int()> run;  ///< returns an exit code
+};
+
+/// The commands that speak to a running service: submit, status, watch, results, cancel.
+[[nodiscard]] std::vector<Command> add_remote_commands(CLI::App& app);
+
+}  // namespace server::commands

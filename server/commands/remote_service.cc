@@ -1,0 +1,125 @@
+#include "server/commands/remote_service.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "jobs/errors.h"
+#include "server/commands/command.h"
+#include "server/json_text.h"
+#include "server/routes.h"
+
+namespace server::commands {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kUnauthorized = 401;
+constexpr int kForbidden = 403;
+constexpr int kNotFound = 404;
+constexpr int kTooManyRequests = 429;
+
+ServiceUrl checked_url(const std::string& url) {
+  const auto parsed = parse_service_url(url);
+  if (!parsed) throw BadInput("--url " + url + ": must be like http://127.0.0.1:8080 or https://lab.example.org/rpsup");
+  return *parsed;
+}
+
+const std::string& checked_token(const std::string& token) {
+  const bool visible = std::ranges::all_of(token, [](unsigned char c) { return c > ' ' && c < 0x7f; });
+  if (!visible) throw BadInput("--token: must hold visible ASCII characters only, no blanks");
+  return token;
+}
+
+std::string text_at(const Json& object, const char* key) {
+  const bool there = object.is_object() && object.contains(key) && object.at(key).is_string();
+  return there ? object.at(key).get<std::string>() : "";
+}
+
+/// The body of a problem (RFC 9457); empty if it is none.
+std::optional<Json> find_problem(const HttpClient::Answer& answer) {
+  if (!answer.content_type.starts_with("application/problem+json")) return std::nullopt;
+  try {
+    Json problem = parse_json(answer.body);
+    if (!text_at(problem, "detail").empty()) return problem;
+  } catch (const BadJson&) {
+    // Then something else has answered, with our media type.
+  }
+  return std::nullopt;
+}
+
+std::vector<jobs::Fault> faults_of(const Json& problem) {
+  std::vector<jobs::Fault> faults;
+  if (!problem.contains("errors")) return faults;
+  for (const Json& error : problem.at("errors")) faults.push_back({text_at(error, "pointer"), text_at(error, "detail")});
+  return faults;
+}
+
+const char* path_of(RemoteService::Kind kind) { return kind == RemoteService::Kind::kSweep ? "/v1/sweeps" : "/v1/jobs"; }
+
+/// What is no id is no part of a path either.
+const std::string& checked_id(const std::string& id) {
+  if (!is_id(id)) throw BadInput("\"" + id + "\" is no id of a sweep or a job");
+  return id;
+}
+
+}  // namespace
+
+RemoteService::RemoteService(const RemoteOptions& options) : url_(options.url), client_(checked_url(options.url), checked_token(options.token)) {}
+
+Json RemoteService::submit(Kind kind, const Json& request) { return read(client_.post(path_of(kind), to_text(request))); }
+
+Json RemoteService::list_sweeps() { return read(client_.get("/v1/sweeps", "application/json")); }
+
+RemoteService::Resource RemoteService::find(const std::string& id) {
+  for (const Kind kind : {Kind::kSweep, Kind::kJob}) {
+    const auto answer = client_.get(path_of(kind) + ("/" + checked_id(id)), "application/json");
+    if (answer.status != kNotFound || !find_problem(answer)) return {kind, read(answer)};
+  }
+  throw BadInput("there is no sweep and no job " + id + " at " + url_);
+}
+
+RemoteService::Resource RemoteService::cancel(const std::string& id) {
+  const Kind kind = find(id).kind;
+  return {kind, read(client_.post(path_of(kind) + ("/" + id) + "/cancel", ""))};
+}
+
+std::string RemoteService::results(const std::string& sweep_id, const std::string& media_type) {
+  auto answer = client_.get("/v1/sweeps/" + checked_id(sweep_id) + "/results", media_type);
+  check(answer);
+  if (!answer.content_type.starts_with(media_type)) {
+    throw std::runtime_error(url_ + " answers, but not as this service does: no " + media_type + ". Is --url right?");
+  }
+  return std::move(answer.body);
+}
+
+Json RemoteService::read(const HttpClient::Answer& answer) const {
+  check(answer);
+  try {
+    Json json = parse_json(answer.body);
+    if (json.is_object()) return json;
+  } catch (const BadJson&) {
+    // Told below.
+  }
+  throw std::runtime_error(url_ + " answers, but not as this service does: no JSON object. Is --url right?");
+}
+
+void RemoteService::check(const HttpClient::Answer& answer) const {
+  if (answer.status >= 200 && answer.status < 300) return;
+  const std::string status = std::to_string(answer.status);
+  const auto problem = find_problem(answer);
+  // Not of this service but of what stands in front of it.
+  if (answer.status == kUnauthorized || (answer.status == kForbidden && !problem)) {
+    throw BadInput(url_ + " refuses the request (" + status + "): give the right --token or RPSUP_TOKEN");
+  }
+  if (!problem) throw std::runtime_error(url_ + " answers " + status + ", but not as this service does. Is --url right?");
+  const std::string detail = text_at(*problem, "detail");
+  if (answer.status >= 500 || answer.status == kTooManyRequests) throw std::runtime_error(url_ + " cannot do it now (" + status + "): " + detail);
+  auto faults = faults_of(*problem);
+  if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
+  throw BadInput(detail);
+}
+
+}  // namespace server::commands

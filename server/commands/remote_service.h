@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "server/http_client.h"
+
+namespace server::commands {
+
+/// Where the service is that a command speaks to.
+struct RemoteOptions {
+  std::string url = "http://127.0.0.1:8080";
+  std::string token;  ///< empty: none is sent
+};
+
+/// A service that runs elsewhere, as the commands use it. Its refusals become what run_guarded() tells:
+/// jobs::InvalidRequest where it names faults, BadInput for what else is the user's to mend, std::runtime_error for what
+/// is the service's or the network's.
+class RemoteService {
+ public:
+  enum class Kind { kSweep, kJob };
+
+  struct Resource {
+    Kind kind = Kind::kSweep;
+    nlohmann::ordered_json json;
+  };
+
+  /// @throws BadInput for a URL or a token that cannot be used
+  explicit RemoteService(const RemoteOptions& options);
+
+  [[nodiscard]] nlohmann::ordered_json submit(Kind kind, const nlohmann::ordered_json& request);
+  /// The newest sweeps, {"items": [...], "next_cursor": ...}.
+  [[nodiscard]] nlohmann::ordered_json list_sweeps();
+  /// The sweep or job of that id. @throws BadInput if there is neither
+  [[nodiscard]] Resource find(const std::string& id);
+  [[nodiscard]] Resource cancel(const std::string& id);
+  /// The table of results, byte for byte as the service gives it. @param media_type  text/csv or application/json
+  [[nodiscard]] std::string results(const std::string& sweep_id, const std::string& media_type);
+
+ private:
+  [[nodiscard]] nlohmann::ordered_json read(const HttpClient::Answer& answer) const;
+  void check(const HttpClient::Answer& answer) const;
+
+  std::string url_;
+  HttpClient client_;
+};
+
+}  // namespace server::commands

@@ -1,0 +1,117 @@
+#include "server/metrics.h"
+
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+
+#include "jobs/program_info.h"
+
+namespace server {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const prometheus::Histogram::BucketBoundaries kJobSeconds{0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000, 3600};
+const prometheus::Histogram::BucketBoundaries kRequestSeconds{0.001, 0.003, 0.01, 0.03, 0.1, 0.25, 1, 3, 10};
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+const char* kind_of(const jobs::JobSpec& spec) { return spec.parameters.coupler == engine::Coupler::kFlexible ? "flexible" : "rigid"; }
+
+/// A method that no route knows is a text of the client's: not one more series for each.
+std::string known_method(const std::string& method) {
+  for (const char* const known : {"GET", "HEAD", "POST", "DELETE", "OPTIONS"}) {
+    if (method == known) return method;
+  }
+  return "other";
+}
+
+}  // namespace
+
+class Metrics::Impl {
+ public:
+  Impl() {
+    prometheus::BuildGauge()
+        .Name("rpsup_build_info")
+        .Help("Always 1; the labels say which program this is")
+        .Register(registry_)
+        .Add({{"version", std::string(jobs::kProgramVersion)}, {"commit", std::string(jobs::kProgramCommit)}, {"compiler", std::string(jobs::kProgramCompiler)}})
+        .Set(1);
+    // Series that may come are there from the beginning: a rate needs the zero before the first.
+    for (const char* const kind : {"rigid", "flexible"}) job_seconds_.Add({{"kind", kind}}, kJobSeconds);
+    failures_.Add({{"reason", "internal"}});
+  }
+
+  void add_run(const jobs::JobSpec& spec, const engine::RunResult& result, double seconds) {
+    if (result.status == engine::RunStatus::kStopped) return;
+    job_seconds_.Add({{"kind", kind_of(spec)}}, kJobSeconds).Observe(seconds);
+    if (result.status != engine::RunStatus::kSucceeded) add_failure(std::string(engine::status_name(result.status)));
+  }
+
+  void add_failure(const std::string& reason) { failures_.Add({{"reason", reason}}).Increment(); }
+
+  void add_request(const std::string& method, std::string_view route, int status, double seconds) {
+    request_seconds_
+        .Add({{"method", known_method(method)}, {"route", route.empty() ? "none" : std::string(route)}, {"status", std::to_string(status)}}, kRequestSeconds)
+        .Observe(seconds);
+  }
+
+  std::string text(const jobs::Load& load) {
+    const std::lock_guard lock(load_mutex_);
+    queued_.Set(static_cast<double>(load.queued));
+    running_.Set(static_cast<double>(load.running));
+    store_bytes_.Set(static_cast<double>(load.store_bytes));
+    return prometheus::TextSerializer().Serialize(registry_.Collect());
+  }
+
+ private:
+  prometheus::Gauge& add_gauge(const char* name, const char* help) { return prometheus::BuildGauge().Name(name).Help(help).Register(registry_).Add({}); }
+
+  prometheus::Registry registry_;  // before all that stands in it
+  std::mutex load_mutex_;          // guards the gauges of the load between being set and being written
+  prometheus::Gauge& queued_ = add_gauge("rpsup_jobs_queued", "Jobs that wait");
+  prometheus::Gauge& running_ = add_gauge("rpsup_jobs_running", "Jobs that are being computed");
+  prometheus::Gauge& store_bytes_ = add_gauge("rpsup_store_bytes", "Size of the store on disk, with its log");
+  prometheus::Family<prometheus::Histogram>& job_seconds_ = prometheus::BuildHistogram()
+                                                                .Name("rpsup_job_duration_seconds")
+                                                                .Help("Time that jobs took which were computed to their end, by kind of coupler")
+                                                                .Register(registry_);
+  prometheus::Family<prometheus::Counter>& failures_ =
+      prometheus::BuildCounter().Name("rpsup_job_failures_total").Help("Runs of jobs that failed since the program began, by reason").Register(registry_);
+  prometheus::Family<prometheus::Histogram>& request_seconds_ = prometheus::BuildHistogram()
+                                                                    .Name("rpsup_http_request_duration_seconds")
+                                                                    .Help("Time in which requests were answered, from their last byte on")
+                                                                    .Register(registry_);
+};
+
+Metrics::Metrics() : impl_(std::make_unique<Impl>()) {}
+Metrics::~Metrics() = default;
+
+jobs::Runner Metrics::measured(jobs::Runner runner) {
+  return [this, runner = std::move(runner)](const jobs::JobSpec& spec, const engine::StopQuery& stop_requested) {
+    const auto start = Clock::now();
+    try {
+      engine::RunResult result = runner(spec, stop_requested);
+      impl_->add_run(spec, result, seconds_since(start));
+      return result;
+    } catch (...) {
+      impl_->add_failure("internal");
+      throw;
+    }
+  };
+}
+
+void Metrics::add_request(const std::string& method, std::string_view route, int status, double seconds) {
+  impl_->add_request(method, route, status, seconds);
+}
+
+std::string Metrics::text(const jobs::Load& load) const { return impl_->text(load); }
+
+}  // namespace server

@@ -1,0 +1,127 @@
+#include "server/openapi/document.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <string>
+
+#include "jobs/program_info.h"
+#include "server/openapi/request_parameters.h"
+#include "server/openapi/request_schemas.h"
+#include "server/openapi/resource_schemas.h"
+#include "server/openapi/schema_parts.h"
+#include "server/problem.h"
+#include "server/route_table.h"
+
+namespace server::openapi {
+
+namespace {
+
+constexpr std::array kProblemsOfAll{400, 403, 408, 413, 414, 431, 500, 501, 503};
+
+/// What a request can meet before or while it is answered, whatever the route.
+std::set<int> problems_of(const Route& route) {
+  std::set<int> problems(kProblemsOfAll.begin(), kProblemsOfAll.end());
+  problems.insert(route.problems.begin(), route.problems.end());
+  if (route.method == "POST") problems.insert(415);
+  if (route.method != "GET") problems.insert(507);
+  return problems;
+}
+
+/// "NotFound" for 404.
+std::string problem_name(int status) {
+  std::string name(status_phrase(status));
+  std::erase(name, ' ');
+  return name;
+}
+
+Json make_problem_answer(int status) {
+  Json answer{{"description", status_phrase(status)}, {"content", {{"application/problem+json", {{"schema", ref("Problem")}}}}}};
+  if (status == 429 || status == 503) {
+    answer["headers"]["Retry-After"] = {{"description", "Seconds after which to try again"}, {"schema", {{"type", "integer"}}}};
+  }
+  return answer;
+}
+
+Json make_success(const Route& route) {
+  Json answer{{"description", status_phrase(route.success)}};
+  if (route.success == 201) {
+    answer["headers"]["Location"] = {{"description", "The path of what was made"}, {"required", true}, {"schema", {{"type", "string"}, {"pattern", "^/v1/"}}}};
+  }
+  if (std::ranges::find(route.bodiless, 304) != route.bodiless.end()) {
+    answer["headers"]["ETag"] = {{"description", "For If-None-Match; only on what has ended"}, {"schema", {{"type", "string"}}}};
+  }
+  for (const AnswerForm& form : route.answers) answer["content"][std::string(form.media_type)]["schema"] = ref(form.schema);
+  return answer;
+}
+
+Json make_operation(const Route& route) {
+  Json operation{{"operationId", route.operation_id}, {"tags", {route.tag}}, {"summary", route.summary}};
+  if (route.pattern.find("{id}") != std::string_view::npos) operation["parameters"].push_back({{"$ref", "#/components/parameters/id"}});
+  for (const auto* ids : {&route.query, &route.headers}) {
+    for (const std::string_view id : *ids) operation["parameters"].push_back({{"$ref", "#/components/parameters/" + std::string(id)}});
+  }
+  if (!route.body.empty()) {
+    operation["requestBody"] = {{"required", true}, {"content", {{"application/json", {{"schema", ref(route.body)}}}}}};
+  }
+  operation["responses"][std::to_string(route.success)] = make_success(route);
+  for (const int status : route.bodiless) operation["responses"][std::to_string(status)] = {{"description", status_phrase(status)}};
+  for (const int status : problems_of(route)) {
+    operation["responses"][std::to_string(status)] = {{"$ref", "#/components/responses/" + problem_name(status)}};
+  }
+  return operation;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+Json make_paths() {
+  Json paths = Json::object();
+  for (const Route& route : route_table()) paths[std::string(route.pattern)][lower_case(route.method)] = make_operation(route);
+  return paths;
+}
+
+Json make_parameters() {
+  Json parameters{{"id", {{"name", "id"}, {"in", "path"}, {"required", true}, {"schema", ref("Id")}}}};
+  for (const RequestParameter& parameter : request_parameters()) {
+    Json& made = parameters[std::string(parameter.id)];
+    made = {{"name", parameter.name}, {"in", parameter.in}, {"description", parameter.help}, {"schema", parameter.schema}};
+    // Lists are one key with commas; of an object each member is a key.
+    if (parameter.in == "query") made["explode"] = parameter.schema.value("type", "") == "object";
+  }
+  return parameters;
+}
+
+Json make_problem_answers() {
+  std::set<int> met;
+  for (const Route& route : route_table()) met.merge(problems_of(route));
+  Json answers = Json::object();
+  for (const int status : met) answers[problem_name(status)] = make_problem_answer(status);
+  return answers;
+}
+
+Json make_schemas() {
+  Json schemas = make_request_schemas();
+  schemas.update(make_resource_schemas());
+  return schemas;
+}
+
+}  // namespace
+
+nlohmann::ordered_json make_document() {
+  return {{"openapi", "3.1.0"},
+          {"info",
+           {{"title", "RPSUP parameter studies"},
+            {"version", jobs::kProgramVersion},
+            {"description", "Simulates the RPSUP linkage over sweeps of its parameters, keeps peaks and trajectories, and hands them out. Units stand in "
+                            "the names; whatever answers GET answers HEAD, too."}}},
+          {"servers", {{{"url", "/"}}}},
+          {"paths", make_paths()},
+          {"components", {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"responses", make_problem_answers()}}}};
+}
+
+}  // namespace server::openapi

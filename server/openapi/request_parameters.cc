@@ -1,0 +1,60 @@
+#include "server/openapi/request_parameters.h"
+
+#include <vector>
+
+#include "jobs/decimate.h"
+#include "jobs/service.h"
+
+namespace server::openapi {
+
+namespace {
+
+const Json kText{{"type", "string"}};
+const Json kNames{{"type", "array"}, {"minItems", 1}, {"items", kText}};
+
+Json words(std::initializer_list<const char*> allowed) { return {{"type", "string"}, {"enum", allowed}}; }
+
+std::vector<RequestParameter> make_query_parameters() {
+  return {
+      {"state", "query", "state", "Only those in this state", ref("State")},
+      {"limit", "query", "limit", "How many at most",
+       {{"type", "integer"}, {"minimum", 1}, {"maximum", jobs::PageQuery::kLargestLimit}, {"default", jobs::PageQuery{}.limit}}},
+      {"row_limit", "query", "limit", "How many rows at most; all if left out", {{"type", "integer"}, {"minimum", 0}}},
+      {"cursor", "query", "cursor", "next_cursor of the page before; without it the newest", kText},
+      {"fields", "query", "fields", "Only these keys, in this order; all if left out", kNames},
+      {"order_by", "query", "order_by", "Columns to order by; after a '-' the largest first, and null last", kNames},
+      {"filters", "query", "filters",
+       "Any column or parameter as a key: key=value, key_gt=, key_lt=, key_ge=, key_le=. A row stays if all of them hold",
+       {{"type", "object"}, {"additionalProperties", kText}}},
+      {"row_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "ndjson"})},
+      {"column_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "npz"})},
+      {"channels", "query", "channels", "These columns, after t_s; all if left out", kNames},
+      {"from", "query", "from", "Only samples from this time on, in s", {{"type", "number"}}},
+      {"to", "query", "to", "Only samples up to this time, in s", {{"type", "number"}}},
+      {"points", "query", "points", "Thinned out to so many samples at most, the smallest and the largest of each channel in each stretch of time among them; two for each channel at least",
+       {{"type", "integer"}, {"minimum", jobs::fewest_points(0)}}},
+  };
+}
+
+std::vector<RequestParameter> make_header_parameters() {
+  return {
+      {"idempotency_key", "header", "Idempotency-Key", "The same key with the same request is answered as before; nothing is made twice",
+       {{"type", "string"}, {"minLength", 1}, {"maxLength", 255}, {"pattern", "^[!-~]+$"}}},
+      {"if_none_match", "header", "If-None-Match", "An ETag: 304 if nothing has changed", kText},
+      {"last_event_id", "header", "Last-Event-ID", "The id of the last event that was received", kText},
+      {"prefer", "header", "Prefer", "wait=N: the answer waits for the end of the sweep, N s at most", kText},
+  };
+}
+
+}  // namespace
+
+std::span<const RequestParameter> request_parameters() {
+  static const std::vector<RequestParameter> parameters = [] {
+    auto all = make_query_parameters();
+    for (auto& header : make_header_parameters()) all.push_back(std::move(header));
+    return all;
+  }();
+  return parameters;
+}
+
+}  // namespace server::openapi

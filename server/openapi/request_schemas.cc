@@ -1,0 +1,134 @@
+#include "server/openapi/request_schemas.h"
+
+#include "jobs/axis.h"
+#include "jobs/design_kinds.h"
+#include "jobs/parameter_path.h"
+#include "jobs/service.h"
+#include "jobs/sweep_request.h"
+
+namespace server::openapi {
+
+namespace {
+
+const Json kScale{{"type", "string"}, {"enum", {"linear", "log"}}, {"default", "linear"}};
+
+Json integer_in(const jobs::Range& range) {
+  return {{"type", "integer"}, {"minimum", static_cast<std::int64_t>(range.minimum)}, {"maximum", static_cast<std::int64_t>(range.maximum)}};
+}
+
+Json make_span() {
+  Json span = object_of({{"from", {{"type", "number"}}}, {"to", {{"type", "number"}}}, {"count", integer_in(jobs::kCountRange)}, {"scale", kScale}}, {"scale"});
+  span["description"] = "count values in equal steps, or in equal ratios, both ends included";
+  return span;
+}
+
+Json make_range() {
+  Json range = object_of({{"from", {{"type", "number"}}}, {"to", {{"type", "number"}}}, {"scale", kScale}}, {"scale"});
+  range["description"] = "what lies between two values; of integers both ends, too";
+  return range;
+}
+
+/// An object with a key a parameter, each of which has a list of values, or what stands for one.
+/// @param instead  the schema that numbers may have in the place of a list
+Json make_lists(std::string_view instead) {
+  Json properties = Json::object();
+  for (const std::string& path : jobs::known_paths()) {
+    Json list = list_of(parameter_ref(path));
+    list["minItems"] = 1;
+    properties[path] = jobs::is_numeric(path) ? Json{{"anyOf", Json::array({std::move(list), ref(instead)})}} : std::move(list);
+  }
+  return options_of(std::move(properties));
+}
+
+Json make_values() {
+  Json properties = Json::object();
+  for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
+  return options_of(std::move(properties));
+}
+
+/// What a key of a design may be.
+Json make_design_key(std::string_view key) {
+  if (key == "count") return integer_in(jobs::kCountRange);
+  if (key == "seed") return integer_in(jobs::kSeedRange);
+  return ref("Values");
+}
+
+Json make_design(const jobs::DesignKind& kind) {
+  const bool sampled = std::ranges::find(kind.keys, "count") != kind.keys.end();
+  Json over = ref(sampled ? "Ranges" : "Axes");
+  Json properties{{"type", {{"const", kind.type}}}, {"over", {{"allOf", {over}}, {"minProperties", 1}}}};
+  for (const std::string_view key : kind.keys) properties[std::string(key)] = make_design_key(key);
+  Json design = object_of(std::move(properties), {"seed", "centre"});
+  design["title"] = kind.type;
+  design["description"] = kind.help;
+  return design;
+}
+
+Json make_designs() {
+  Json designs = Json::array();
+  for (const jobs::DesignKind& kind : jobs::design_kinds()) designs.push_back(make_design(kind));
+  return {{"oneOf", std::move(designs)}};
+}
+
+Json make_replicates() {
+  const jobs::Replicates defaults;
+  Json seed = integer_in(jobs::kSeedRange);
+  seed["default"] = defaults.seed;
+  const jobs::Range& perturbation = jobs::kPerturbationRange;
+  Json replicates = object_of({{"count", integer_in(jobs::kCountRange)},
+                               {"perturbation", {{"type", "number"}, {"exclusiveMinimum", perturbation.minimum}, {"maximum", perturbation.maximum},
+                                                 {"default", defaults.perturbation}}},
+                               {"seed", std::move(seed)}},
+                              {"perturbation", "seed"});
+  replicates["description"] = "each set again with its contact stiffness changed by that relative amount";
+  return replicates;
+}
+
+Json make_cases() {
+  Json cases = list_of(ref("Parameters"));
+  cases["minItems"] = 1;
+  cases["description"] = "sets listed one by one";
+  return cases;
+}
+
+Json make_priority() {
+  Json priority = integer_in(jobs::kPriorityRange);
+  priority["default"] = jobs::SweepRequest{}.priority;
+  priority["description"] = "sweeps of a higher one go first, those of the same take turns";
+  return priority;
+}
+
+Json make_extension() {
+  Json extension = options_of({{"sweep", ref("Axes")}, {"cases", make_cases()}});
+  extension["minProperties"] = 1;
+  extension["description"] = "More values for axes that the sweep has, more cases of a sweep that has cases";
+  extension["examples"] = Json::array({{{"sweep", {{"clearance_mm", {0.3}}}}}});
+  return extension;
+}
+
+Json make_sweep_request() {
+  Json request = options_of({{"name", {{"type", "string"}, {"maxLength", jobs::kLongestName}}},
+                             {"parameters", ref("Parameters")},
+                             {"sweep", ref("Axes")},
+                             {"design", ref("Design")},
+                             {"cases", make_cases()},
+                             {"replicates", make_replicates()},
+                             {"priority", make_priority()},
+                             {"reuse", {{"type", "boolean"}, {"default", true}, {"description", "whether what was computed before is taken from the store"}}}});
+  request["description"] = "A job for every combination of the cases, the points of the design, the values of the axes and the replicates";
+  request["examples"] = Json::array({{{"name", "first look"}, {"parameters", {{"duration_s", 0.6}, {"run_up_s", 0.3}}},
+                                      {"sweep", {{"clearance_mm", {0, 0.25}}, {"coupler", {"rigid", "flexible"}}}}}});
+  return request;
+}
+
+}  // namespace
+
+Json make_request_schemas() {
+  Json parameters = jobs::parameter_schema();
+  parameters.erase("$schema");
+  return {{"Parameters", std::move(parameters)}, {"SweepRequest", make_sweep_request()}, {"Extension", make_extension()},
+          {"Axes", make_lists("Span")},          {"Span", make_span()},                  {"Design", make_designs()},
+          {"Ranges", make_lists("Range")},       {"Range", make_range()},                {"Values", make_values()}};
+}
+
+}  // namespace server::openapi

@@ -1,0 +1,143 @@
+#include "server/openapi/resource_schemas.h"
+
+#include "engine/simulate_rpsup.h"
+#include "jobs/parameter_path.h"
+#include "jobs/replicate_statistics.h"
+#include "jobs/store.h"
+
+namespace server::openapi {
+
+namespace {
+
+enum class Detail { kFull, kListing };
+
+const Json kText{{"type", "string"}};
+const Json kNumber{{"type", "number"}};
+const Json kTime{{"type", "string"}, {"format", "date-time"}, {"pattern", "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]{3}Z$"}};
+
+Json described(Json schema, std::string_view description) {
+  schema["description"] = description;
+  return schema;
+}
+
+Json count() { return {{"type", "integer"}, {"minimum", 0}}; }
+
+Json make_problem_schema() {
+  return object_of({{"type", kText}, {"title", kText}, {"status", {{"type", "integer"}, {"minimum", 400}, {"maximum", 599}}}, {"detail", kText},
+                    {"errors", list_of(object_of({{"pointer", described(kText, "where, a JSON pointer into the request")},
+                                                  {"detail", described(kText, "what is wrong, and what is allowed")}}))}},
+                   {"errors"});
+}
+
+Json make_metrics() {
+  Json metrics = Json::object();
+  for (const engine::QuantityInfo& metric : engine::metric_table()) {
+    metrics[metric.key] = {{"type", {metric.integer ? "integer" : "number", "null"}}, {"description", metric.help}};
+  }
+  return metrics;
+}
+
+Json make_error() {
+  return object_of({{"reason", described(kText, "non_finite, step_limit, ...")}, {"detail", kText}, {"t_s", or_null(kNumber)}});
+}
+
+Json make_run() {
+  return object_of({{"wall_time_s", kNumber}, {"cpu_time_s", kNumber}, {"attempts", count()}, {"host", kText}, {"cpu", kText},
+                    {"program", object_of({{"version", kText}, {"commit", kText}, {"compiler", kText}, {"engine", kText}})},
+                    {"reused", {{"type", "boolean"}, {"description", "whether the result was computed for another job"}}}});
+}
+
+Json make_job(Detail detail) {
+  Json properties{{"id", ref("Id")},
+                  {"sweep_id", or_null(ref("Id"))},
+                  {"state", ref("State")},
+                  {"error", or_null(ref("JobError"))},
+                  {"attempts", count()},
+                  {"replicate", count()},
+                  {"created_at", kTime},
+                  {"started_at", or_null(kTime)},
+                  {"ended_at", or_null(kTime)},
+                  {"run", or_null(ref("Run"))},
+                  {"links", object_of({{"self", kText}, {"trajectory", kText}, {"sweep", or_null(kText)}})}};
+  if (detail == Detail::kFull) {
+    properties["parameters"] = ref("Parameters");
+    properties["metrics"] = or_null(ref("Metrics"));
+  }
+  return detail == Detail::kFull ? object_of(std::move(properties), {"replicate"}) : options_of(std::move(properties));
+}
+
+Json make_counts() {
+  Json counts = Json::object();
+  for (const std::string_view state : jobs::kJobStates) counts[std::string(state)] = count();
+  counts["total"] = count();
+  return object_of(std::move(counts));
+}
+
+Json make_sweep(Detail detail) {
+  Json properties{{"id", ref("Id")},
+                  {"name", kText},
+                  {"state", ref("State")},
+                  {"counts", make_counts()},
+                  {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
+                  {"eta_s", described(or_null(kNumber), "seconds until the last job ends; null while that is not known")},
+                  {"eta_low_s", described(or_null(kNumber), "eta_s less two standard deviations")},
+                  {"eta_high_s", described(or_null(kNumber), "eta_s and two standard deviations")},
+                  {"priority", {{"type", "integer"}}},
+                  {"created_at", kTime},
+                  {"started_at", or_null(kTime)},
+                  {"ended_at", or_null(kTime)},
+                  {"axes", described(list_of(kText), "the parameters that differ from job to job")},
+                  {"links", object_of({{"self", kText}, {"results", kText}, {"events", kText}, {"cancel", kText}, {"retry", kText}, {"extend", kText}})}};
+  if (detail == Detail::kFull) properties["request"] = ref("SweepRequest");
+  return detail == Detail::kFull ? object_of(std::move(properties)) : options_of(std::move(properties));
+}
+
+Json make_page(std::string_view item) {
+  return object_of({{"items", list_of(ref(item))}, {"next_cursor", described(kText, "for the next page; empty on the last one")}});
+}
+
+Json make_result_row() {
+  Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", count()}};
+  for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
+  properties.update(make_metrics());
+  properties["replicates_count"] = described(count(), "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
+  for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"}) properties[key] = or_null(kNumber);
+  return described(options_of(std::move(properties)), "Every key stands in every row, save those that fields leaves out, and those of what the sweep does not vary");
+}
+
+Json make_trajectory() {
+  Json columns = Json::object();
+  for (const engine::QuantityInfo& channel : engine::channel_table({})) {
+    columns[channel.key] = described(list_of({{"type", {"number", "null"}}}), channel.help);
+  }
+  return object_of({{"channels", described(list_of(kText), "the columns in their order")},
+                    {"columns", {{"type", "object"}, {"required", {"t_s"}}, {"properties", std::move(columns)},
+                                 {"additionalProperties", list_of({{"type", {"number", "null"}}})}}}});
+}
+
+}  // namespace
+
+Json make_resource_schemas() {
+  return {{"Id", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
+          {"State", {{"type", "string"}, {"enum", jobs::kJobStates}}},
+          {"Problem", make_problem_schema()},
+          {"Metrics", object_of(make_metrics())},
+          {"JobError", make_error()},
+          {"Run", make_run()},
+          {"Job", make_job(Detail::kFull)},
+          {"JobSummary", make_job(Detail::kListing)},
+          {"JobPage", make_page("JobSummary")},
+          {"Sweep", make_sweep(Detail::kFull)},
+          {"SweepSummary", make_sweep(Detail::kListing)},
+          {"SweepPage", make_page("SweepSummary")},
+          {"ResultRow", make_result_row()},
+          {"ResultRows", list_of(ref("ResultRow"))},
+          {"Trajectory", make_trajectory()},
+          {"JsonSchema", {{"type", "object"}, {"required", {"$schema", "properties"}}}},
+          {"OpenApi", {{"type", "object"}, {"required", {"openapi", "info", "paths"}}}},
+          {"Status", object_of({{"status", kText}})},
+          {"Text", kText},
+          {"Binary", Json::object()}};
+}
+
+}  // namespace server::openapi

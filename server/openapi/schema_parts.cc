@@ -1,0 +1,31 @@
+#include "server/openapi/schema_parts.h"
+
+#include <algorithm>
+
+#include "jobs/parameter_path.h"
+
+namespace server::openapi {
+
+Json object_of(Json properties, std::initializer_list<std::string_view> optional) {
+  Json required = Json::array();
+  for (const auto& [key, schema] : properties.items()) {
+    if (std::ranges::find(optional, key) == optional.end()) required.push_back(key);
+  }
+  return {{"type", "object"}, {"additionalProperties", false}, {"required", std::move(required)}, {"properties", std::move(properties)}};
+}
+
+Json options_of(Json properties) {
+  return {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
+}
+
+Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
+
+Json or_null(Json schema) { return {{"anyOf", Json::array({std::move(schema), {{"type", "null"}}})}}; }
+
+Json parameter_ref(std::string_view path) {
+  std::string pointer = jobs::pointer_of_path(path);
+  for (std::size_t slash = 0; (slash = pointer.find('/', slash)) != std::string::npos; slash += sizeof "/properties") pointer.insert(slash, "/properties");
+  return {{"$ref", "#/components/schemas/Parameters" + pointer}};
+}
+
+}  // namespace server::openapi

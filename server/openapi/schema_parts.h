@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace server::openapi {
+
+using Json = nlohmann::ordered_json;
+
+/// A schema of the document, by its name.
+[[nodiscard]] inline Json ref(std::string_view schema) { return {{"$ref", "#/components/schemas/" + std::string(schema)}}; }
+
+/// An object of exactly these properties, all of which are there unless `optional` names them.
+[[nodiscard]] Json object_of(Json properties, std::initializer_list<std::string_view> optional = {});
+
+/// An object of these properties and no others, none of which needs to be there.
+[[nodiscard]] Json options_of(Json properties);
+
+[[nodiscard]] Json list_of(Json items);
+
+/// What a schema describes, or null.
+[[nodiscard]] Json or_null(Json schema);
+
+/// The schema of the value of a parameter, by its path: "clearance_mm", "links.1,3.mass_kg".
+[[nodiscard]] Json parameter_ref(std::string_view path);
+
+}  // namespace server::openapi

@@ -1,0 +1,107 @@
+#include "server/route_table.h"
+
+#include "server/document_routes.h"
+#include "server/job_routes.h"
+#include "server/page_routes.h"
+#include "server/store_route.h"
+#include "server/sweep_events.h"
+#include "server/sweep_routes.h"
+
+namespace server {
+
+namespace {
+
+constexpr std::string_view kJson = "application/json";
+constexpr std::string_view kCsv = "text/csv";
+constexpr std::string_view kNdjson = "application/x-ndjson";
+constexpr std::string_view kNpz = "application/x-npz";
+constexpr std::string_view kHtml = "text/html";
+
+std::vector<Route> make_sweep_routes() {
+  return {
+      {.method = "POST", .pattern = "/v1/sweeps", .handler = post_sweep, .operation_id = "submitSweep", .tag = "sweeps",
+       .summary = "Store a sweep and queue its jobs, or refuse all of it with every fault",
+       .headers = {"idempotency_key", "prefer"}, .body = "SweepRequest", .success = 201, .answers = {{kJson, "Sweep"}}, .problems = {409, 422, 429}},
+      {.method = "GET", .pattern = "/v1/sweeps", .handler = get_sweeps, .operation_id = "listSweeps", .tag = "sweeps",
+       .summary = "Sweeps, the newest first", .query = {"state", "limit", "cursor", "fields"}, .answers = {{kJson, "SweepPage"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}", .handler = get_sweep, .operation_id = "getSweep", .tag = "sweeps",
+       .summary = "State, progress and time left of a sweep, and what was asked for", .headers = {"prefer", "if_none_match"},
+       .answers = {{kJson, "Sweep"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "DELETE", .pattern = "/v1/sweeps/{id}", .handler = delete_sweep, .operation_id = "deleteSweep", .tag = "sweeps",
+       .summary = "Delete a sweep that has ended, and the results that no other shares", .success = 204, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/results", .handler = get_results, .operation_id = "getResults", .tag = "sweeps",
+       .summary = "Flat rows, one a job: what was swept, and every metric",
+       .query = {"row_format", "fields", "order_by", "row_limit", "filters"}, .headers = {"if_none_match"},
+       .answers = {{kJson, "ResultRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/events", .handler = get_events, .operation_id = "followSweep", .tag = "sweeps",
+       .summary = "Server-sent events: job, progress and, at the end, done. 204: all has been told, do not connect again",
+       .headers = {"last_event_id"}, .answers = {{"text/event-stream", "Text"}}, .bodiless = {204}, .problems = {404, 422}},
+      {.method = "POST", .pattern = "/v1/sweeps/{id}/cancel", .handler = cancel_sweep, .operation_id = "cancelSweep", .tag = "sweeps",
+       .summary = "Cancel those jobs of a sweep that have not ended", .answers = {{kJson, "Sweep"}}, .problems = {404, 409, 422}},
+      {.method = "POST", .pattern = "/v1/sweeps/{id}/retry", .handler = retry_sweep, .operation_id = "retrySweep", .tag = "sweeps",
+       .summary = "Queue the failed and cancelled jobs of a sweep again", .answers = {{kJson, "Sweep"}}, .problems = {404, 409, 422, 429}},
+      {.method = "POST", .pattern = "/v1/sweeps/{id}/extend", .handler = extend_sweep, .operation_id = "extendSweep", .tag = "sweeps",
+       .summary = "Add values to the axes of a sweep, or cases; only new jobs run",
+       .body = "Extension", .answers = {{kJson, "Sweep"}}, .problems = {404, 409, 422, 429}},
+  };
+}
+
+std::vector<Route> make_job_routes() {
+  return {
+      {.method = "POST", .pattern = "/v1/jobs", .handler = post_job, .operation_id = "submitJob", .tag = "jobs",
+       .summary = "Store one job and queue it, or refuse it with every fault",
+       .headers = {"idempotency_key"}, .body = "Parameters", .success = 201, .answers = {{kJson, "Job"}}, .problems = {409, 422, 429}},
+      {.method = "GET", .pattern = "/v1/jobs", .handler = get_jobs, .operation_id = "listJobs", .tag = "jobs",
+       .summary = "Jobs, the newest first", .query = {"state", "limit", "cursor", "fields"}, .answers = {{kJson, "JobPage"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/v1/jobs/{id}", .handler = get_job, .operation_id = "getJob", .tag = "jobs",
+       .summary = "State, parameters, metrics and error of a job, and how it was run", .headers = {"if_none_match"},
+       .answers = {{kJson, "Job"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "POST", .pattern = "/v1/jobs/{id}/cancel", .handler = cancel_job, .operation_id = "cancelJob", .tag = "jobs",
+       .summary = "Cancel a job that has not ended", .answers = {{kJson, "Job"}}, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/jobs/{id}/trajectory", .handler = get_trajectory, .operation_id = "getTrajectory", .tag = "jobs",
+       .summary = "Columns of a job's trajectory", .query = {"channels", "from", "to", "points", "column_format"}, .headers = {"if_none_match"},
+       .answers = {{kJson, "Trajectory"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304}, .problems = {404, 422}},
+  };
+}
+
+std::vector<Route> make_other_routes() {
+  return {
+      {.method = "GET", .pattern = "/v1/parameters", .handler = get_parameters, .operation_id = "getParameters", .tag = "interface",
+       .summary = "JSON Schema of the parameters of a job", .answers = {{kJson, "JsonSchema"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/v1/openapi.json", .handler = get_openapi, .operation_id = "getOpenApi", .tag = "interface",
+       .summary = "This document", .answers = {{kJson, "OpenApi"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/docs", .handler = get_docs, .operation_id = "getDocs", .tag = "interface",
+       .summary = "A page to try the interface with", .answers = {{kHtml, "Text"}}, .problems = {404}},
+      {.method = "GET", .pattern = "/docs/docs.js", .handler = get_docs, .operation_id = "getDocsScript", .tag = "interface",
+       .summary = "A part of that page", .answers = {{"text/javascript", "Text"}}, .problems = {404}},
+      {.method = "GET", .pattern = "/docs/swagger-ui-bundle.js", .handler = get_docs, .operation_id = "getDocsBundle", .tag = "interface",
+       .summary = "A part of that page", .answers = {{"text/javascript", "Text"}}, .problems = {404}},
+      {.method = "GET", .pattern = "/docs/swagger-ui.css", .handler = get_docs, .operation_id = "getDocsStyle", .tag = "interface",
+       .summary = "A part of that page", .answers = {{"text/css", "Text"}}, .problems = {404}},
+      {.method = "GET", .pattern = "/v1/store", .handler = get_store, .operation_id = "getStore", .tag = "service",
+       .summary = "A consistent copy of the whole store, an SQLite file", .answers = {{"application/vnd.sqlite3", "Binary"}}, .problems = {422, 507}},
+      {.method = "GET", .pattern = "/metrics", .handler = get_metrics, .operation_id = "getMetrics", .tag = "service",
+       .summary = "Metrics of the service for Prometheus", .answers = {{"text/plain", "Text"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/healthz", .handler = get_health, .operation_id = "getHealth", .tag = "service",
+       .summary = "Whether the program answers at all", .answers = {{kJson, "Status"}}},
+      {.method = "GET", .pattern = "/readyz", .handler = get_readiness, .operation_id = "getReadiness", .tag = "service",
+       .summary = "Whether the store can be read and the service is not ending", .answers = {{kJson, "Status"}}},
+      {.method = "GET", .pattern = "/", .handler = get_page_file, .operation_id = "getPage", .tag = "page",
+       .summary = "The page of the service", .answers = {{kHtml, "Text"}}},
+  };
+}
+
+std::vector<Route> make_table() {
+  std::vector<Route> table;
+  for (auto& part : {make_sweep_routes(), make_job_routes(), make_other_routes()}) table.insert(table.end(), part.begin(), part.end());
+  return table;
+}
+
+}  // namespace
+
+std::span<const Route> route_table() {
+  static const std::vector<Route> table = make_table();
+  return table;
+}
+
+}  // namespace server

@@ -1,0 +1,130 @@
+// What an OpenAPI document allows a service to answer.
+
+import Ajv2020 from "ajv/dist/2020.js";
+
+const documentId = "openapi.json";
+// May meet any request, also one that no operation is for.
+const refusals = [400, 403, 404, 405, 408, 413, 414, 415, 431, 501];
+
+function pointerOf(...keys) {
+  return `${documentId}#/${keys.map((key) => encodeURIComponent(key.replaceAll("~", "~0").replaceAll("/", "~1"))).join("/")}`;
+}
+
+function patternOf(path) {
+  return new RegExp(`^${path.replaceAll(/[.]/g, "\\.").replaceAll("{id}", "[A-Za-z0-9_-]{1,64}")}$`);
+}
+
+/** A browser asks this before what it is going to ask: it is of HTTP, not of the interface. */
+function isPreflight({ method, status, headers }) {
+  return method === "OPTIONS" && status === 204 && "access-control-allow-methods" in headers;
+}
+
+/** What the page is made of is not of the interface: only the page names it. */
+function isPartOfPage({ target }) {
+  return /[.](js|css|svg|html)$/.test(target.split("?")[0]);
+}
+
+function decoded(target) {
+  const path = target.split("?")[0];
+  try {
+    return decodeURIComponent(path);
+  } catch {
+    return path;
+  }
+}
+
+export class Contract {
+  constructor(document) {
+    this.document = document;
+    this.ajv = new Ajv2020({ strict: false, allErrors: true, validateFormats: false });
+    this.ajv.addSchema(document, documentId);
+    this.paths = Object.keys(document.paths).map((path) => ({ path, pattern: patternOf(path) }));
+    this.validators = new Map();
+  }
+
+  /** Every operation: {path, method, operation}. */
+  operations() {
+    return Object.entries(this.document.paths).flatMap(([path, item]) =>
+      Object.entries(item).map(([method, operation]) => ({ path, method, operation })));
+  }
+
+  /** The object that a reference stands for; anything else as it is. */
+  resolve(value) {
+    if (!value?.$ref) return value;
+    return value.$ref.slice(2).split("/").reduce((at, key) => at[decodeURIComponent(key).replaceAll("~1", "/").replaceAll("~0", "~")], this.document);
+  }
+
+  /** What is wrong with a value, as texts. */
+  faultsOf(value, ...schemaAt) {
+    const pointer = pointerOf(...schemaAt);
+    if (!this.validators.has(pointer)) this.validators.set(pointer, this.ajv.compile({ $ref: pointer }));
+    const validate = this.validators.get(pointer);
+    if (validate(value)) return [];
+    return validate.errors.map((error) => `${error.instancePath || "the value"} ${error.message} ${JSON.stringify(error.params)}`);
+  }
+
+  /** Where the schema of the JSON that an operation takes stands; undefined if it takes none. */
+  bodySchemaOf(path, method) {
+    const body = this.document.paths[path][method].requestBody;
+    return body && ["paths", path, method, "requestBody", "content", "application/json", "schema"];
+  }
+
+  /**
+   * What is wrong with an answer, as texts; none if the document allows it.
+   * @param exchange {method, target, status, headers (lower case), body (text)}
+   */
+  check(exchange) {
+    const method = exchange.method.toLowerCase() === "head" ? "get" : exchange.method.toLowerCase();
+    const path = this.paths.find(({ pattern }) => pattern.test(decoded(exchange.target)))?.path;
+    const operation = path && this.document.paths[path][method];
+    if (isPreflight(exchange)) return exchange.body ? ["a body where there should be none"] : [];
+    if (!path && isPartOfPage(exchange)) return exchange.status === 200 ? [] : this.#checkProblem(exchange);
+    return operation ? this.#checkAnswer(exchange, path, method) : this.#checkRefusal(exchange, path);
+  }
+
+  #checkRefusal(exchange, path) {
+    if (!refusals.includes(exchange.status)) return [`${exchange.status} where there is no operation`];
+    const faults = this.#checkProblem(exchange);
+    if (exchange.status === 405 && !exchange.headers.allow) faults.push("405 without Allow");
+    if (exchange.status === 405 && !path) faults.push("405 for a path that is in no operation");
+    return faults;
+  }
+
+  #checkProblem(exchange) {
+    if (exchange.headers["content-type"] !== "application/problem+json") return [`an error of type ${exchange.headers["content-type"]}`];
+    if (exchange.method === "HEAD") return [];
+    const { value, fault } = parsed(exchange.body);
+    if (fault) return [fault];
+    const faults = this.faultsOf(value, "components", "schemas", "Problem");
+    if (value.status !== exchange.status) faults.push(`a problem that says ${value.status}`);
+    return faults;
+  }
+
+  #checkAnswer(exchange, path, method) {
+    const status = String(exchange.status);
+    const given = this.document.paths[path][method].responses[status];
+    if (!given) return [`${status} is none of the responses of ${method} ${path}`];
+    if (exchange.status >= 400) return this.#checkProblem(exchange);
+    const faults = Object.entries(this.resolve(given).headers ?? {})
+      .filter(([name, header]) => header.required && !exchange.headers[name.toLowerCase()])
+      .map(([name]) => `there is no header ${name}`);
+    return [...faults, ...this.#checkContent(exchange, path, method, given)];
+  }
+
+  #checkContent(exchange, path, method, response) {
+    if (!response.content) return exchange.body ? ["a body where there should be none"] : [];
+    const type = exchange.headers["content-type"]?.split(";")[0];
+    if (!response.content[type]) return [`the content type ${type}`];
+    if (exchange.method === "HEAD" || type !== "application/json") return [];
+    const { value, fault } = parsed(exchange.body);
+    return fault ? [fault] : this.faultsOf(value, "paths", path, method, "responses", String(exchange.status), "content", type, "schema");
+  }
+}
+
+export function parsed(text) {
+  try {
+    return { value: JSON.parse(text) };
+  } catch (error) {
+    return { fault: `a body that is no JSON: ${error.message}` };
+  }
+}

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# rpsup completion: what the shells offer. zsh and fish are skipped, with a word, where they are not installed.
+source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
+skipped=
+
+expect_code 2 "$rpsup" completion tcsh
+expect_text err 'bash'
+touch run.json other.txt
+
+# bash: the function is called as bash would call it.
+"$rpsup" completion bash >rpsup.bash
+offer() {
+  bash --norc -euo pipefail -c 'source rpsup.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _rpsup; printf "%s " "${COMPREPLY[@]}"' _ "$@"
+}
+expect_equal "$(offer rpsup si)" 'simulate ' "commands"
+expect_equal "$(offer rpsup --v)" '--version ' "options of the program"
+expect_equal "$(offer rpsup simulate --tr)" '--trajectory ' "options of a command"
+expect_equal "$(offer rpsup --config x.ini serve --po)" '--port ' "options of a command after one of the program"
+expect_equal "$(offer rpsup serve --log-level w)" 'warning ' "words of an option"
+expect_equal "$(offer rpsup simulate --trajectory run)" 'run.json ' "files for an option"
+expect_equal "$(offer rpsup submit ru)" 'run.json ' "files for an argument"
+expect_equal "$(offer rpsup completion z)" 'zsh ' "words of an argument"
+expect_equal "$(offer rpsup serve --port '')" ' ' "nothing for a number"
+
+if command -v fish >/dev/null; then
+  "$rpsup" completion fish >rpsup.fish
+  offer_fish() { HOME=$folder fish --no-config --command "source rpsup.fish; complete --do-complete '$1'" | cut -f1 | tr '\n' ' '; }
+  expect_equal "$(offer_fish 'rpsup simu')" 'simulate ' "commands in fish"
+  expect_equal "$(offer_fish 'rpsup serve --log-level w')" 'warning ' "words in fish"
+  expect_equal "$(offer_fish 'rpsup serve --por')" '--port ' "options in fish"
+  expect_equal "$(offer_fish 'rpsup submit run')" 'run.json ' "files in fish"
+else
+  skipped="$skipped fish"
+fi
+
+if command -v zsh >/dev/null; then
+  "$rpsup" completion zsh >_rpsup
+  zsh -n _rpsup || fail "zsh does not read it"
+  # Stands in for the parts of the completion system that look at a terminal, and says what they were given.
+  cat >ask.zsh <<'ZSH'
+compdef() { }
+_arguments() { if [[ $1 == -C ]]; then state=$wanted; line=($command); else print -rl -- "$@"; fi }
+_describe() { print -rl -- "${(@P)4}" }
+source ./_rpsup
+_rpsup
+ZSH
+  wanted=command command= zsh -f ask.zsh >commands.txt
+  expect_text commands.txt '^simulate:Compute one job'
+  wanted=argument command=serve zsh -f ask.zsh >options.txt
+  expect_text options.txt '^--log-level\[.*\]:TEXT:\(debug info warning error\)$'
+  expect_text options.txt '^--db\[.*\]:FILE:_files$'
+  # And the completion system itself takes it.
+  zsh -f -c 'autoload -Uz compinit && compinit -D -u && source ./_rpsup && [[ $_comps[rpsup] == _rpsup ]]' || fail "zsh does not take it"
+else
+  skipped="$skipped zsh"
+fi
+
+[ -z "$skipped" ] || { echo "skipped, because not installed:$skipped"; exit 77; }
+echo "completion works"

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Every answer that the tests of the server meet is one that the OpenAPI document allows.   openapi_test.sh RPSUP SERVER_TESTS TESTS/OPENAPI
+source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
+[ -d "$3/../node_modules" ] || fail "the npm packages of tests/ are missing: script/setup fetches them"
+
+start_service openapi.db
+get "$url/v1/openapi.json" >openapi.json
+RPSUP_TEST_EXCHANGES=$folder/exchanges.ndjson "$2" --gtest_brief=1 >tests.out || { cat tests.out; fail "the tests of the server"; }
+node "$3/check_exchanges.mjs" openapi.json exchanges.ndjson
+node "$3/query_keys.mjs" "$url"
+
+# What is written down wrongly is found.
+jq -cn 'first(inputs | select(.status == 201) | .status = 202)' exchanges.ndjson >wrong
+jq -cn 'first(inputs | select(.target == "/healthz") | .body = "{\"status\": 1}")' exchanges.ndjson >>wrong
+expect_equal "$(wc -l <wrong)" 2 "answers to spoil"
+cat exchanges.ndjson wrong >spoilt
+expect_code 1 node "$3/check_exchanges.mjs" openapi.json spoilt
+expect_text out '202 is none of the responses of post /v1/'
+expect_text out '/status must be string'
+stop_service TERM
+expect_equal "$code" 0 "exit code of the service"

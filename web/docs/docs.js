@@ -1,0 +1,8 @@
+// Shows the OpenAPI document of this service, with a form for each request. Nothing is asked of another site.
+window.SwaggerUIBundle({
+  url: "/v1/openapi.json",
+  domNode: document.querySelector("#interface"),
+  validatorUrl: null,
+  tryItOutEnabled: true,
+  deepLinking: true,
+});
