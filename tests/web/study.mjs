@@ -167,7 +167,7 @@ test("the linkage is scrubbed, played, and looked at closely", async () => {
   await page.getByRole("button", { name: "Pause" }).click();
   const paused = await scene.getAttribute("data-instant");
   assert.ok(Number(paused) > peak - 0.02 && Number(paused) <= peak + 0.02);
-  await page.getByLabel("Instant [s]").fill(String(peak));
+  await page.getByLabel("Instant [s]").fill(peak.toFixed(6));
   await picture(page, "joint");
   await page.getByLabel("Clearance drawn").selectOption("100");
   await page.getByLabel("Bend drawn").selectOption("100");
