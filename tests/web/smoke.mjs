@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, textOf, visit } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, textOf, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const short = { duration_s: 0.4, run_up_s: 0.1 };
@@ -40,6 +40,23 @@ test("the form shows what is wrong where it is wrong, and submits what it shows"
   const sweep = await ask(`/v1/sweeps/${page.url().split("/").at(-1)}`);
   assert.deepEqual(sweep.request, shown);
   await page.getByText("2 succeeded of 2 jobs").waitFor();
+  await leave(page, /422/);
+});
+
+test("a request is used again whole", async () => {
+  const request = { name: "whole", priority: 3, reuse: false, parameters: short, sweep: { coupler: ["rigid", "flexible"], youngs_modulus_pa: { from: 1e11, to: 2e11, count: 2, scale: "log" } },
+    design: { type: "sobol", count: 3, over: { clearance_mm: { from: 0.1, to: 0.5 } } }, cases: [{ restitution: 0.8 }], replicates: { count: 2, perturbation: 1e-6, seed: 4 } };
+  const sweep = await runSweep(request);
+  assert.equal(sweep.counts.total, 24);
+  const page = await visit(`#/new?from=${sweep.id}`);
+  await page.getByText("24 jobs").waitFor();
+  assert.deepEqual(JSON.parse(await page.locator("aside pre").first().textContent()), sweep.request);
+  await page.getByLabel(/^Design:/).fill('{"type": "sobol", "count": 0, "over": {"clearance_mm": {"from": 0.1, "to": 0.5}}}');
+  await page.getByRole("button", { name: "Submit" }).click();
+  await page.getByRole("alert").getByText("/design/count").waitFor();
+  await page.goto(`${url}/#/sweeps/${sweep.id}`);
+  await page.locator(".chart canvas").nth(2).waitFor();
+  await picture(page, "designed", { fullPage: true });
   await leave(page, /422/);
 });
 
@@ -90,7 +107,7 @@ test("the list follows, searches, and deletes after asking", async () => {
   await page.getByRole("button", { name: "Delete later" }).click();
   await page.getByRole("button", { name: "Delete", exact: true }).click();
   await page.getByText("No sweep is like that").waitFor();
-  assert.equal((await fetch(`${page.url().split("/#")[0]}/v1/sweeps/${later.id}`)).status, 404);
+  assert.equal((await fetch(`${url}/v1/sweeps/${later.id}`)).status, 404);
   await leave(page);
 });
 

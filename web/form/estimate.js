@@ -33,7 +33,7 @@ export function estimate(request, defaults, jobs, costs) {
   let size = 0;
   let sets = 0;
   for (const each of cases) {
-    const values = (path) => axisValues(request.sweep?.[path]) ?? [each[path] ?? request.parameters?.[path] ?? defaults[path]];
+    const values = (path) => axisValues(request.sweep?.[path] ?? request.design?.over?.[path]) ?? [each[path] ?? request.parameters?.[path] ?? defaults[path]];
     for (const coupler of values("coupler")) for (const clearance of values("clearance_mm")) for (const duration of values("duration_s")) {
       const kind = kindOf({ coupler, clearance_mm: clearance });
       const cost = costs.get(kind);
@@ -49,6 +49,7 @@ export function estimate(request, defaults, jobs, costs) {
 
 function axisValues(axis) {
   if (axis === undefined || Array.isArray(axis)) return axis;
+  if (axis.count === undefined) return [axis.from, axis.to];  // of a design: anywhere between
   const ratio = (k) => (axis.count > 1 ? k / (axis.count - 1) : 0);
   const at = (k) => (axis.scale === "log" ? axis.from * (axis.to / axis.from) ** ratio(k) : axis.from + (axis.to - axis.from) * ratio(k));
   return Array.from({ length: Math.min(axis.count, 10000) }, (_, k) => at(k));

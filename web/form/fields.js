@@ -38,6 +38,7 @@ export function faultOf(field, value) {
 /// The field that a pointer of the service's answer means: "/sweep/clearance_mm/1" is clearance_mm's.
 export function pathOfPointer(pointer, fields) {
   const parts = pointer.split("/").slice(1).map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
+  if (parts[0] === "cases" || parts[0] === "design") return parts[0];
   if (parts[0] !== "sweep" && parts[0] !== "parameters") return "";
   const path = parts.slice(1).join(".");
   return fields.map((field) => field.path).find((known) => path === known || path.startsWith(`${known}.`)) ?? "";

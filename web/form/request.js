@@ -5,7 +5,7 @@ export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", coun
 
 const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
 
-/// @param state  {name, priority, reuse, cases, replicates: {count, perturbation, seed}, entries: {path: entry}}
+/// @param state  {name, priority, reuse, cases, design, replicates: {count, perturbation, seed}, entries: {path: entry}}
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
   const problems = [];
@@ -16,7 +16,8 @@ export function buildRequest(fields, state) {
   }
   if (Object.keys(request.parameters).length === 0) delete request.parameters;
   if (Object.keys(request.sweep).length === 0) delete request.sweep;
-  addCases(state.cases, request, problems);
+  addJson("cases", state.cases, request, problems);
+  addJson("design", state.design, request, problems);
   if (Number(state.replicates.count) > 1) {
     request.replicates = { count: Number(state.replicates.count), perturbation: Number(state.replicates.perturbation), seed: Number(state.replicates.seed) };
   }
@@ -52,14 +53,21 @@ function addRange(field, entry, request, refuse) {
   else request.sweep[field.path] = entry.scale === "log" ? { ...range, scale: "log" } : range;
 }
 
-function addCases(text, request, problems) {
+const jsonKinds = {
+  cases: { fits: Array.isArray, detail: "must be a JSON list of objects, such as [{\"clearance_mm\": 0.1}]" },
+  design: { fits: (value) => typeof value?.over === "object", detail: "must be a JSON object with a type and parameters, such as {\"type\": \"sobol\", \"count\": 64, \"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
+};
+
+/// What is written as JSON: cases and the design.
+function addJson(key, text, request, problems) {
   if (text.trim() === "") return;
+  const { fits, detail } = jsonKinds[key];
   try {
-    request.cases = JSON.parse(text);
-    if (!Array.isArray(request.cases)) throw new Error("not a list");
+    const value = JSON.parse(text);
+    if (!fits(value)) throw new Error(detail);
+    request[key] = value;
   } catch {
-    delete request.cases;
-    problems.push({ path: "cases", detail: "must be a JSON list of objects, such as [{\"clearance_mm\": 0.1}]" });
+    problems.push({ path: key, detail });
   }
 }
 
@@ -84,7 +92,7 @@ export function readRequest(fields, request = {}) {
     else if (axis !== undefined) entries[field.path] = { ...emptyEntry(), mode: "range", from: String(axis.from), to: String(axis.to), count: String(axis.count), scale: axis.scale ?? "linear" };
   }
   return { name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
-    cases: request.cases ? JSON.stringify(request.cases, null, 1) : "",
+    cases: request.cases ? JSON.stringify(request.cases, null, 1) : "", design: request.design ? JSON.stringify(request.design, null, 1) : "",
     replicates: { count: 1, perturbation: 1e-6, seed: 1, ...request.replicates } };
 }
 
@@ -94,6 +102,16 @@ function entryOf(field, values, mode) {
 
 /// How many jobs a request makes.
 export function countJobs(request) {
-  const sizes = Object.values(request.sweep ?? {}).map((axis) => (Array.isArray(axis) ? axis.length : axis.count));
-  return sizes.reduce((product, size) => product * size, 1) * (request.cases?.length ?? 1) * (request.replicates?.count ?? 1);
+  const sizes = Object.values(request.sweep ?? {}).map(sizeOf);
+  return sizes.reduce((product, size) => product * size, 1) * countPoints(request.design) * (request.cases?.length ?? 1) * (request.replicates?.count ?? 1);
+}
+
+const sizeOf = (axis) => (Array.isArray(axis) ? axis.length : axis.count);
+
+/// Of a design; the service has the last word.
+function countPoints(design) {
+  if (!design) return 1;
+  if (design.count !== undefined) return design.count;
+  const sizes = Object.values(design.over).map(sizeOf);
+  return design.type === "zip" ? sizes[0] : 1 + sizes.reduce((sum, size) => sum + size, 0);
 }

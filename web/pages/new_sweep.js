@@ -60,14 +60,20 @@ class SweepForm {
 
   more() {
     const { replicates } = this.state;
-    const cases = h("textarea", { rows: 3, class: "wide", value: this.state.cases, oninput: () => { this.state.cases = cases.value; this.update(); } });
-    const casesFault = h("p", { class: "trouble small", hidden: true });
-    this.rows.set("cases", { complain: (text) => { casesFault.textContent = text; casesFault.hidden = text === ""; } });
-    return h("details", { open: this.state.cases !== "" || Number(replicates.count) > 1 }, h("summary", {}, "Replicates, cases and order"),
+    return h("details", { open: this.state.cases + this.state.design !== "" || Number(replicates.count) > 1 }, h("summary", {}, "Replicates, cases, designs and order"),
       h("p", { class: "actions" }, this.text("Runs of each set", replicates, "count", { type: "number", min: 1 }), this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
         this.text("Seed", replicates, "seed", { type: "number" }), this.text("Priority", this.state, "priority", { type: "number", min: -100, max: 100 }),
         choice("Results computed before", [["yes", "are used"], ["no", "are computed again"]], this.state.reuse ? "yes" : "no", (value) => { this.state.reuse = value === "yes"; this.update(); })),
-      h("label", { class: "choice" }, h("span", {}, "Cases: a JSON list of parameter sets, each times the axes"), cases), casesFault);
+      ...this.json("cases", "Cases: a JSON list of parameter sets, each times the axes"),
+      ...this.json("design", "Design: points that are no grid, as a JSON object (latin_hypercube, sobol, zip, one_at_a_time), each times the axes"));
+  }
+
+  /// A part of the request that is written as JSON.
+  json(key, label) {
+    const fault = h("p", { class: "trouble small", hidden: true });
+    const area = h("textarea", { rows: 3, class: "wide", value: this.state[key], oninput: () => { this.state[key] = area.value; this.update(); } });
+    this.rows.set(key, { complain: (text) => { fault.textContent = text; fault.hidden = text === ""; } });
+    return [h("label", { class: "choice" }, h("span", {}, label), area), fault];
   }
 
   summary() {
@@ -75,11 +81,11 @@ class SweepForm {
     this.cost = h("p", { class: "quiet small" });
     this.faults = h("div", { class: "trouble", role: "alert" });
     this.send = h("button", { class: "main", onclick: () => this.submit() }, "Submit");
-    this.json = h("code");
+    this.shown = h("code");
     this.curl = h("code");
     const copy = (label, code) => h("button", { onclick: () => navigator.clipboard.writeText(code.textContent).then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
     return [this.count, this.cost, this.faults, h("p", {}, this.send),
-      h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.json), h("p", { class: "actions" }, copy("Copy JSON", this.json), copy("Copy as curl", this.curl)),
+      h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown), h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
       h("details", {}, h("summary", {}, "As a curl command"), h("pre", { tabindex: 0 }, this.curl))];
   }
 
@@ -99,7 +105,7 @@ class SweepForm {
     this.cost.textContent = this.costText(jobs);
     this.send.disabled = problems.length > 0;
     this.faults.replaceChildren();
-    this.json.textContent = JSON.stringify(request, null, 1);
+    this.shown.textContent = JSON.stringify(request, null, 1);
     this.curl.textContent = `curl -d '${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}/v1/sweeps`;
   }
 

@@ -4,11 +4,12 @@ import { loadCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural } from "/core/format.js";
-import { follow, isUnderWay } from "/core/live.js";
+import { follow, isUnderWay, settled } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { sweepRow } from "/study/sweep_row.js";
 
 const pageSize = 25;
+const mostSearched = 1000;
 const pollMs = 4000;
 const followed = 3;  // a browser keeps six connections to a service, and the page needs some to ask
 const states = ["queued", "running", "succeeded", "failed", "cancelled"];
@@ -44,7 +45,8 @@ class SweepList {
       h("p", {}, h("a", { class: "button main", href: "#/new" }, "Set one up"), " ",
         h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study")));
     this.none = h("p", { class: "card", hidden: true }, "No sweep is like that.");
-    const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); } });
+    const refreshSoon = settled(() => this.signal.aborted || this.refresh(), 300);
+    const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
     const tools = h("p", { class: "actions" },
       h("label", { class: "choice" }, h("span", {}, "Search by name, id or axis"), search),
       choice("State", [["", "any"], ...states], this.state, (state) => { this.state = state; this.changed(); this.refresh(); }),
@@ -59,7 +61,7 @@ class SweepList {
 
   async refresh() {
     try {
-      const page = await listSweeps({ limit: this.limit, state: this.state }, this.signal);
+      const page = await listSweeps({ limit: this.search ? mostSearched : this.limit, state: this.state }, this.signal);
       this.sweeps = page.items;
       this.more.hidden = !page.next_cursor;
       this.status.classList.remove("trouble");

@@ -5,7 +5,7 @@ const notMetrics = new Set(["job_id", "state", "replicate", "replicates", "error
 /// The columns of the rows that are numbers of the result.
 export function metricsOf(rows, axes) {
   const columns = new Set(rows.flatMap((row, index) => (index < 50 ? Object.keys(row) : [])));
-  return [...columns].filter((column) => !notMetrics.has(column) && !axes.includes(column));
+  return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_") && !axes.includes(column));
 }
 
 /// What stands where a row has no value.

@@ -75,7 +75,7 @@ export class ResultTable {
 
   cell(row, column) {
     const value = valueOf(row, column);
-    if (column === "state") return h("td", { class: value }, value);
+    if (column === "state") return h("td", { class: value, title: row.error_detail ?? null }, row.error_reason ? `${value}: ${row.error_reason}` : value);
     const given = this.study.axes.includes(column);
     return h("td", { class: typeof value === "number" ? "number" : null }, number(value, given ? 6 : 4));
   }
