@@ -92,6 +92,20 @@ test("a job shows its acceleration, its orbit and its linkage at one instant", a
   await leave(page);
 });
 
+test("a browser without WebGL shows the rest of a job", async () => {
+  const sweep = await runSweep({ parameters: { ...short, clearance_mm: 0.25 } });
+  const [{ job_id: id }] = await resultsOf(sweep);
+  const page = await visit("");
+  await page.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...more) { return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...more); };
+  });
+  await page.goto(`${url}/?#/jobs/${id}`);
+  await page.getByText("The linkage cannot be drawn").waitFor();
+  await page.locator("canvas.orbit[data-samples='401']").waitFor();
+  await leave(page, /WebGL/);
+});
+
 test("the list follows, searches, and deletes after asking", async () => {
   const page = await visit("");
   const row = page.getByRole("row").filter({ hasText: "axes" });

@@ -110,6 +110,9 @@ test("another sweep stands beside it, dashed", async () => {
   await page.waitForURL(new RegExp(`with=${other.id}`));
   await page.locator(".chart canvas").nth(2).waitFor();
   await picture(page, "compared");
+  const again = await visit(page.url().slice(page.url().indexOf("#")));
+  await again.waitForFunction((id) => [...document.querySelectorAll("select")].some((select) => select.value === id), other.id);
+  await leave(again);
   await leave(page);
 });
 

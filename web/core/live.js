@@ -39,14 +39,14 @@ async function poll(id, told, signal) {
   return undefined;
 }
 
-/// A function that runs the given one at most once in so many milliseconds, and always after the last call.
+/// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and always after the last call.
 export function seldom(run, milliseconds) {
   let timer = null;
   return () => {
     timer ??= setTimeout(() => {
       timer = null;
       run();
-    }, milliseconds);
+    }, typeof milliseconds === "function" ? milliseconds() : milliseconds);
   };
 }
 

@@ -2,7 +2,7 @@
 import { cancelSweep, findResults, findSweep, listSweeps, resultsUrl, retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify } from "/core/dom.js";
-import { nameOf, plural, span, titleOf } from "/core/format.js";
+import { plural, span, titleOf } from "/core/format.js";
 import { follow, isUnderWay, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf, valuesOf } from "/study/data.js";
@@ -26,7 +26,7 @@ export async function show(main, { id, query, signal }) {
 
 class SweepPage {
   constructor(sweep, rows, query, signal) {
-    Object.assign(this, { sweep, rows, signal, axes: sweep.axes, others: null, selection: new Selection() });
+    Object.assign(this, { sweep, rows, signal, axes: sweep.axes, others: null, reloadTook: 0, selection: new Selection() });
     this.metrics = metricsOf(rows, this.axes);
     const varied = [...this.axes].sort((a, b) => valuesOf(rows, b).length - valuesOf(rows, a).length);
     const pick = (key, allowed, otherwise) => (allowed.includes(query.get(key)) ? query.get(key) : otherwise ?? "");
@@ -83,15 +83,18 @@ class SweepPage {
   }
 
   followIt() {
-    const reload = seldom(() => this.reload(), reloadMs);
-    follow(this.sweep.id, { progress: (news) => { Object.assign(this.sweep, { ...news, id: this.sweep.id }); this.drawHead(); reload(); }, done: reload }, this.signal);
+    // A large sweep is fetched seldom: what it takes is a small part of the time.
+    const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
+    follow(this.sweep.id, { progress: (news) => { Object.assign(this.sweep, { ...news, id: this.sweep.id }); this.drawHead(); reload(); }, done: () => this.reload() }, this.signal);
   }
 
   async reload() {
+    const start = performance.now();
     try {
       [this.sweep, this.rows] = await Promise.all([findSweep(this.sweep.id, this.signal), findResults(this.sweep.id, {}, this.signal)]);
       this.drawHead();
       this.drawAll();
+      this.reloadTook = performance.now() - start;
     } catch (error) {
       if (error.name !== "AbortError") notify(error.message, "trouble");
     }
@@ -147,6 +150,8 @@ class SweepPage {
     loadCharts().catch(() => {});  // told where a chart would be
   const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);
     this.others = { id, name: sweep.name || sweep.id, rows };
+    const picker = this.compare.querySelector("select");
+    if (picker) picker.value = id;
     this.drawAll();
   }
 
@@ -156,6 +161,6 @@ class SweepPage {
     const [first, ...more] = ids;
     this.chosen.replaceChildren(h("span", {}, `${plural(ids.length, "job")} selected`),
       ids.length > 0 && ids.length <= 6 ? h("a", { class: "button main", href: routeTo("jobs", first, { with: more.join(",") }) }, ids.length === 1 ? "Open it" : "Open them together") : "",
-      h("button", { onclick: () => this.selection.set([]) }, "Select none"), h("span", { class: "quiet small" }, `${nameOf(this.view.metric)} in all parts`));
+      h("button", { onclick: () => this.selection.set([]) }, "Select none"));
   }
 }

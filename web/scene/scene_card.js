@@ -22,7 +22,7 @@ export function sceneCard(job, links, times, signal) {
   const status = h("p", { class: "quiet small" });
   const instant = h("output", { class: "small" });
   const player = new Player(times, signal);
-  const play = h("button", { class: "main", "aria-keyshortcuts": "Space", onclick: () => player.toggle() }, "Play");
+  const play = h("button", { class: "main", onclick: () => player.toggle() }, "Play");
   const scrub = h("input", { type: "range", step: "any", class: "wide", "aria-label": "Instant [s]", oninput: () => times.pointAt(Number(scrub.value)) });
   let draw = () => {};
 

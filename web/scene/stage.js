@@ -1,6 +1,8 @@
 // Camera, lights and ground for the linkage. It draws only when something has changed.
 import { colour, isDark, onColours } from "/core/theme.js";
 
+const usualAspect = 1.25;
+
 /// @param reach  the size of what is shown [m]
 export class Stage {
   constructor({ THREE, OrbitControls }, canvas, reach, signal) {
@@ -22,8 +24,8 @@ export class Stage {
     const sizes = new ResizeObserver(() => this.fit());
     sizes.observe(canvas);
     signal.addEventListener("abort", () => { sizes.disconnect(); this.controls.dispose(); this.renderer.dispose(); this.ended = true; });
-    this.lookAtAll();
     this.fit();
+    this.lookAtAll();
   }
 
   drawGround() {
@@ -37,7 +39,9 @@ export class Stage {
   lookAtAll() {
     this.followed = null;
     this.controls.target.set(0.42 * this.reach, 0.03 * this.reach, 0.14 * this.reach);
-    this.camera.position.set(0.7 * this.reach, 0.5 * this.reach, 1.95 * this.reach);
+    // As far away as the narrower side of the picture needs.
+    const away = this.reach * Math.max(1, usualAspect / this.camera.aspect);
+    this.camera.position.set(0.7 * away, 0.5 * away, 1.95 * away);
     this.controls.update();
     this.request();
   }
