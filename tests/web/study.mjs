@@ -214,6 +214,13 @@ test("it is read in the dark, on a phone, and with the keyboard", async () => {
   await page.waitForURL(/from=1\.75&to=4\.25&/);
   await page.keyboard.press("0");
   await page.waitForURL((address) => !address.href.includes("from="));
+  const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await ground();
+  await page.getByLabel("Colours").selectOption("dark");
+  await page.getByLabel("Palette").selectOption("cividis");
+  assert.notEqual(await ground(), light);
+  await expectAccessible(page);
+  await picture(page, "dark_chosen");
   await leave(page);
 });
 

@@ -24,7 +24,7 @@ function inPageColours(option) {
 }
 
 function nothingYet() {
-  return { title: { text: "No job has such a result yet.", left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, fontWeight: "normal" } } };
+  return { title: { text: "No job has a value of this metric.", left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, fontWeight: "normal" } } };
 }
 
 /// How an axis looks.

@@ -5,8 +5,11 @@ const palettes = {
   cividis: ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"],
 };
 
-// Okabe and Ito's, for lines: told apart with every kind of colour vision, on light ground and on dark.
-const lineColours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f"];
+// Okabe and Ito's, for lines: told apart with every kind of colour vision. The bright ones come first on dark ground.
+const lineColours = {
+  light: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f"],
+  dark: ["#56b4e9", "#e69f00", "#2fbf94", "#cc79a7", "#f0e442", "#e2703a", "#b9c4cf"],
+};
 
 const changed = new EventTarget();
 
@@ -53,7 +56,8 @@ export function palette() {
 }
 
 export function lineColour(index) {
-  return lineColours[index % lineColours.length];
+  const colours = lineColours[isDark() ? "dark" : "light"];
+  return colours[index % colours.length];
 }
 
 const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));

@@ -83,7 +83,7 @@ class JobPage {
   }
 
   drawAcceleration(ideal) {
-    const behind = ideal.map((job) => ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: colour("quiet"), dash: [6, 4] }));
+    const behind = ideal.map((job) => ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: () => colour("quiet"), dash: [6, 4] }));
     const button = h("button", { onclick: () => this.compare(button) }, "Lay over the ideal linkage");
     const tools = isIdeal(this.job) || ideal.length > 0 ? [] : [button];
     this.mainLife?.abort();

@@ -41,7 +41,7 @@ function optionsOf(width, times) {
     series: [{}, line, line], bands: [{ series: [1, 2], fill: line.stroke }],
     axes: [{ size: 22, stroke: colour("text"), font: "11px system-ui", grid: { show: false }, ticks: { show: false }, values: (_, values) => values.map((value) => `${value} s`) }, { show: false }],
     cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: false, setScale: false } },
-    hooks: { setSelect: [(plot) => {
+    hooks: { ready: [(plot) => mark(plot, times)], setSelect: [(plot) => {
       const { left, width: wide } = plot.select;
       if (wide >= 3) times.set(plot.posToVal(left, "x"), plot.posToVal(left + wide, "x"));
       else mark(plot, times);

@@ -23,6 +23,6 @@ export function tracesOf(jobs, channels) {
   return jobs.flatMap((job, j) => channels.map((each, c) => {
     const { channel, envelope } = typeof each === "string" ? { channel: each } : each;
     const name = channels.length > 1 || !several ? nameOf(channel) : "";
-    return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "), colour: lineColour(j * channels.length + c) };
+    return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "), colour: () => lineColour(j * channels.length + c) };
   }));
 }

@@ -33,7 +33,7 @@ function zoomToSelection(plot, times) {
 
 function seriesOf(trace) {
   const unit = unitOf(trace.channel);
-  const common = { scale: unit || "1", stroke: trace.colour, points: { show: false }, value: (_, value) => (value === null || value === undefined ? "–" : `${number(value)} ${unit}`) };
+  const common = { scale: unit || "1", stroke: trace.colour(), points: { show: false }, value: (_, value) => (value === null || value === undefined ? "–" : `${number(value)} ${unit}`) };
   return columnsOf(trace).map((column) => (column === trace.channel
     ? { ...common, label: trace.name, width: 1.3, dash: trace.dash }
     : { ...common, label: `${trace.name}, ${column === trace.envelope[0] ? "least" : "largest"}`, width: 0.7 }));
@@ -45,7 +45,7 @@ function bandsOf(traces) {
   return traces.flatMap((trace) => {
     const low = at;
     at += columnsOf(trace).length;
-    return trace.envelope ? [{ series: [low + 1, low], fill: `${trace.colour}55` }] : [];
+    return trace.envelope ? [{ series: [low + 1, low], fill: `${trace.colour()}55` }] : [];
   });
 }
 

@@ -10,7 +10,7 @@ import { listenToKeys } from "/run/time_window.js";
 const refineMs = 120;  // where nothing is there to be shown yet
 const settleMs = 250;  // where it only gets finer
 
-/// @param traces  a list of {job, channel, name, colour, dash, envelope: [least, largest] or nothing}
+/// @param traces  a list of {job, channel, name, colour (a function), dash, envelope: [least, largest] or nothing}
 /// @param times   the window that all plots share
 export async function timePlot(element, { traces, times, height = 260, label, signal }) {
   const uPlot = await loadUplot();
