@@ -71,13 +71,13 @@ std::vector<Route> make_other_routes() {
       {.method = "GET", .pattern = "/v1/openapi.json", .handler = get_openapi, .operation_id = "getOpenApi", .tag = "interface",
        .summary = "This document", .answers = {{kJson, "OpenApi"}}, .problems = {422}},
       {.method = "GET", .pattern = "/docs", .handler = get_docs, .operation_id = "getDocs", .tag = "interface",
-       .summary = "A page to try the interface with", .answers = {{kHtml, "Text"}}, .problems = {404}},
+       .summary = "A page to try the interface with", .headers = {"if_none_match"}, .answers = {{kHtml, "Text"}}, .bodiless = {304}, .problems = {404}},
       {.method = "GET", .pattern = "/docs/docs.js", .handler = get_docs, .operation_id = "getDocsScript", .tag = "interface",
-       .summary = "A part of that page", .answers = {{"text/javascript", "Text"}}, .problems = {404}},
+       .summary = "A part of that page", .headers = {"if_none_match"}, .answers = {{"text/javascript", "Text"}}, .bodiless = {304}, .problems = {404}},
       {.method = "GET", .pattern = "/docs/swagger-ui-bundle.js", .handler = get_docs, .operation_id = "getDocsBundle", .tag = "interface",
-       .summary = "A part of that page", .answers = {{"text/javascript", "Text"}}, .problems = {404}},
+       .summary = "A part of that page", .headers = {"if_none_match"}, .answers = {{"text/javascript", "Text"}}, .bodiless = {304}, .problems = {404}},
       {.method = "GET", .pattern = "/docs/swagger-ui.css", .handler = get_docs, .operation_id = "getDocsStyle", .tag = "interface",
-       .summary = "A part of that page", .answers = {{"text/css", "Text"}}, .problems = {404}},
+       .summary = "A part of that page", .headers = {"if_none_match"}, .answers = {{"text/css", "Text"}}, .bodiless = {304}, .problems = {404}},
       {.method = "GET", .pattern = "/v1/store", .handler = get_store, .operation_id = "getStore", .tag = "service",
        .summary = "A consistent copy of the whole store, an SQLite file", .answers = {{"application/vnd.sqlite3", "Binary"}}, .problems = {422, 507}},
       {.method = "GET", .pattern = "/metrics", .handler = get_metrics, .operation_id = "getMetrics", .tag = "service",
@@ -87,7 +87,7 @@ std::vector<Route> make_other_routes() {
       {.method = "GET", .pattern = "/readyz", .handler = get_readiness, .operation_id = "getReadiness", .tag = "service",
        .summary = "Whether the store can be read and the service is not ending", .answers = {{kJson, "Status"}}},
       {.method = "GET", .pattern = "/", .handler = get_page_file, .operation_id = "getPage", .tag = "page",
-       .summary = "The page of the service", .answers = {{kHtml, "Text"}}},
+       .summary = "The page of the service", .headers = {"if_none_match"}, .answers = {{kHtml, "Text"}}, .bodiless = {304}},
   };
 }
 

@@ -70,7 +70,7 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
   // What the page is made of; only the page names it.
   if (allowed.empty() && is_page_file(request.path)) {
     pattern = "/";
-    if (method == "GET") return make_file_answer(request.path);
+    if (method == "GET") return make_file_answer(request, request.path);
     allowed = "GET, HEAD";
   }
   if (!allowed.empty()) return make_wrong_method(allowed);

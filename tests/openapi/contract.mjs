@@ -78,7 +78,7 @@ export class Contract {
     const path = this.paths.find(({ pattern }) => pattern.test(decoded(exchange.target)))?.path;
     const operation = path && this.document.paths[path][method];
     if (isPreflight(exchange)) return exchange.body ? ["a body where there should be none"] : [];
-    if (!path && isPartOfPage(exchange)) return exchange.status === 200 ? [] : this.#checkProblem(exchange);
+    if (!path && isPartOfPage(exchange)) return [200, 304].includes(exchange.status) ? [] : this.#checkProblem(exchange);
     return operation ? this.#checkAnswer(exchange, path, method) : this.#checkRefusal(exchange, path);
   }
 

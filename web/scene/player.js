@@ -24,7 +24,8 @@ export class Player extends EventTarget {
     let last = performance.now();
     const tick = (now) => {
       if (!this.playing) return;
-      this.advance(Math.min((now - last) / 1000, longestFrame));
+      // The first frame may have begun before the button was pressed.
+      this.advance(Math.min(Math.max(now - last, 0) / 1000, longestFrame));
       last = now;
       requestAnimationFrame(tick);
     };
