@@ -20,7 +20,7 @@ Response get_docs(const Call& call) {
   if (find_web_file("/docs/swagger-ui-bundle.js") == nullptr) {
     throw HttpError(404, "this program was built without the page to try the interface with; GET /v1/openapi.json describes the interface");
   }
-  return make_file_answer(call.request.path == "/docs" ? "/docs/index.html" : call.request.path);
+  return make_file_answer(call.request, call.request.path == "/docs" ? "/docs/index.html" : call.request.path);
 }
 
 }  // namespace server

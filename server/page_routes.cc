@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "server/conditional.h"
 #include "server/error_answer.h"
 #include "server/problem.h"
 #include "server/query.h"
@@ -9,16 +10,15 @@
 
 namespace server {
 
-Response make_file_answer(std::string_view path) {
+Response make_file_answer(const Request& request, std::string_view path) {
   const WebFile* file = find_web_file(path);
   if (file == nullptr) throw HttpError(404, "there is nothing at " + std::string(path));
-  return {.status = 200,
-          .content_type = std::string(file->content_type),
-          .body = std::string(file->content),
-          .headers = {{"Cache-Control", "no-cache"}}};
+  return with_etag(request, {.status = 200, .content_type = std::string(file->content_type), .body = std::string(file->content), .headers = {}});
 }
 
-Response get_page_file(const Call& call) { return make_file_answer(call.request.path == "/" ? "/index.html" : call.request.path); }
+bool is_page_file(std::string_view path) { return find_web_file(path) != nullptr; }
+
+Response get_page_file(const Call& call) { return make_file_answer(call.request, call.request.path == "/" ? "/index.html" : call.request.path); }
 
 Response get_health(const Call&) { return make_json(200, R"({"status":"ok"})"); }
 

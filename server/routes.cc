@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/error_answer.h"
+#include "server/page_routes.h"
 #include "server/problem.h"
 #include "server/route_table.h"
 
@@ -65,6 +66,12 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
       return route.handler({service_, request, std::move(*id), draining_, *metrics_, waiting_room_, copying_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
+  }
+  // What the page is made of; only the page names it.
+  if (allowed.empty() && is_page_file(request.path)) {
+    pattern = "/";
+    if (method == "GET") return make_file_answer(request, request.path);
+    allowed = "GET, HEAD";
   }
   if (!allowed.empty()) return make_wrong_method(allowed);
   throw HttpError(404, "there is nothing at " + request.path);

@@ -19,6 +19,11 @@ function isPreflight({ method, status, headers }) {
   return method === "OPTIONS" && status === 204 && "access-control-allow-methods" in headers;
 }
 
+/** What the page is made of is not of the interface: only the page names it. */
+function isPartOfPage({ target }) {
+  return /[.](js|css|svg|html)$/.test(target.split("?")[0]);
+}
+
 function decoded(target) {
   const path = target.split("?")[0];
   try {
@@ -73,6 +78,7 @@ export class Contract {
     const path = this.paths.find(({ pattern }) => pattern.test(decoded(exchange.target)))?.path;
     const operation = path && this.document.paths[path][method];
     if (isPreflight(exchange)) return exchange.body ? ["a body where there should be none"] : [];
+    if (!path && isPartOfPage(exchange)) return [200, 304].includes(exchange.status) ? [] : this.#checkProblem(exchange);
     return operation ? this.#checkAnswer(exchange, path, method) : this.#checkRefusal(exchange, path);
   }
 

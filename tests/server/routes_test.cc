@@ -1,6 +1,9 @@
 #include "server/routes.h"
 
+#include <algorithm>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -58,16 +61,18 @@ TEST(Routes, ServeThePage) {
   EXPECT_EQ(page.status, 200);
   EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
   // Whatever the page asks for is there, and nothing in it needs more than the policy of the server allows.
-  for (const char* const part : {"/style.css", "/app.js"}) {
-    EXPECT_NE(page.body.find(std::string("\"") + part + "\""), std::string::npos) << part;
-    EXPECT_EQ(bench.call("GET", part).status, 200) << part;
-  }
+  const std::regex reference(R"re((?:src|href)="(/[^"#]*)")re");
+  std::vector<std::string> parts;
+  for (std::sregex_iterator each(page.body.begin(), page.body.end(), reference), end; each != end; ++each) parts.push_back((*each)[1]);
+  EXPECT_NE(std::find(parts.begin(), parts.end(), "/app.js"), parts.end());
+  for (const std::string& part : parts) EXPECT_EQ(bench.call("GET", part).status, 200) << part;
   EXPECT_EQ(page.body.find("style="), std::string::npos);
   EXPECT_EQ(page.body.find("onclick"), std::string::npos);
   EXPECT_EQ(page.body.find("<script>"), std::string::npos);
   const auto script = bench.call("GET", "/app.js");
   EXPECT_EQ(script.content_type, "text/javascript; charset=utf-8");
   EXPECT_EQ(script.body.find("innerHTML"), std::string::npos);
+  EXPECT_EQ(header(bench.call("POST", "/app.js"), "Allow"), "GET, HEAD");
 }
 
 TEST(Routes, AreHealthyAndReady) {

@@ -57,7 +57,8 @@ TEST(ETag, SparesWhatTheClientHas) {
   Bench bench;
   const std::string id = bench.run(kSweep);
   const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
-  for (const std::string& path : {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results", "/v1/jobs/" + job, "/v1/jobs/" + job + "/trajectory"}) {
+  for (const std::string& path : {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results", "/v1/jobs/" + job, "/v1/jobs/" + job + "/trajectory", std::string("/"),
+                                  std::string("/app.js")}) {
     const std::string tag = header(bench.call("GET", path), "ETag");
     ASSERT_FALSE(tag.empty()) << path;
     const auto spared = get_if_none_match(bench, path, "\"other\", W/" + tag);

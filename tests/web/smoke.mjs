@@ -1,0 +1,132 @@
+// The way through the dashboard with a small study: form, sweep, job, and back to the list.   node smoke.mjs URL FOLDER
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+
+import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, textOf, url, visit } from "./visitor.mjs";
+
+after(endVisits);
+const short = { duration_s: 0.4, run_up_s: 0.1 };
+
+test("an empty service leads to the form", async () => {
+  const page = await visit("");
+  await page.getByRole("heading", { name: "There is no sweep here yet" }).waitFor();
+  await picture(page, "empty");
+  await page.getByRole("link", { name: "Take the paper's study" }).click();
+  await page.getByText("18 jobs").waitFor();
+  await leave(page);
+});
+
+test("the form shows what is wrong where it is wrong, and submits what it shows", async () => {
+  const page = await visit("#/new");
+  const row = (path) => page.locator(`[data-path="${path}"]`);
+  await page.getByLabel("Name", { exact: true }).fill("small");
+  await row("duration_s").getByRole("textbox").fill("0.4");
+  await row("run_up_s").getByRole("textbox").fill("0.1");
+  await row("clearance_mm").getByRole("combobox").selectOption("list");
+  await row("clearance_mm").getByRole("textbox").fill("-1, 0.25");
+  await row("clearance_mm").getByText("-1 is not allowed: must be ≥ 0").waitFor();
+  assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
+  // More than the bearing's radius: only the service knows that.
+  await row("clearance_mm").getByRole("textbox").fill("6, 0.25");
+  await page.getByText("2 jobs").waitFor();
+  await page.getByRole("button", { name: "Submit" }).click();
+  await row("clearance_mm").getByText("must be less than bearing_radius_mm, which is 5 mm").waitFor();
+  await page.getByRole("alert").getByText("/sweep/clearance_mm:").waitFor();
+  await expectAccessible(page);
+  await row("clearance_mm").getByRole("textbox").fill("0, 0.25");
+  const shown = JSON.parse(await page.locator("aside pre").first().textContent());
+  await page.getByRole("button", { name: "Submit" }).click();
+  await page.waitForURL(/#\/sweeps\/swp_/);
+  const sweep = await ask(`/v1/sweeps/${page.url().split("/").at(-1)}`);
+  assert.deepEqual(sweep.request, shown);
+  await page.getByText("2 succeeded of 2 jobs").waitFor();
+  await leave(page, /422/);
+});
+
+test("a request is used again whole", async () => {
+  const request = { name: "whole", priority: 3, reuse: false, parameters: short, sweep: { coupler: ["rigid", "flexible"], youngs_modulus_pa: { from: 1e11, to: 2e11, count: 2, scale: "log" } },
+    design: { type: "sobol", count: 3, over: { clearance_mm: { from: 0.1, to: 0.5 } } }, cases: [{ restitution: 0.8 }], replicates: { count: 2, perturbation: 1e-6, seed: 4 } };
+  const sweep = await runSweep(request);
+  assert.equal(sweep.counts.total, 24);
+  const page = await visit(`#/new?from=${sweep.id}`);
+  await page.getByText("24 jobs").waitFor();
+  assert.deepEqual(JSON.parse(await page.locator("aside pre").first().textContent()), sweep.request);
+  await page.getByLabel(/^Design:/).fill('{"type": "sobol", "count": 0, "over": {"clearance_mm": {"from": 0.1, "to": 0.5}}}');
+  await page.getByRole("button", { name: "Submit" }).click();
+  await page.getByRole("alert").getByText("/design/count").waitFor();
+  await page.goto(`${url}/#/sweeps/${sweep.id}`);
+  await page.locator(".chart canvas").nth(2).waitFor();
+  await picture(page, "designed", { fullPage: true });
+  await leave(page, /422/);
+});
+
+test("a sweep shows its metrics, and what is selected in its table is selected everywhere", async () => {
+  const sweep = await runSweep({ name: "axes", parameters: short, sweep: { clearance_mm: [0.1, 0.2, 0.3], coupler: ["rigid", "flexible"] } });
+  const page = await visit(`#/sweeps/${sweep.id}`);
+  await page.locator(".chart canvas").nth(2).waitFor();
+  await page.getByRole("checkbox", { name: /Select job_/ }).first().check();
+  await page.getByText("1 job selected").waitFor();
+  const [first] = await resultsOf(sweep);
+  assert.match(page.url(), new RegExp(`jobs=${first.job_id}`));
+  await expectAccessible(page);
+  const csv = await textOf(page, () => page.getByRole("link", { name: "CSV" }).click());
+  assert.equal(csv.name, `sweep-${sweep.id}.csv`);
+  assert.equal(csv.text.trim().split("\n").length, 7);
+  await page.getByRole("link", { name: "Open it" }).click();
+  await page.waitForURL(new RegExp(first.job_id));
+  await leave(page);
+});
+
+test("a job shows its acceleration, its orbit and its linkage at one instant", async () => {
+  const sweep = await runSweep({ parameters: { ...short, clearance_mm: 0.25 } });
+  const [{ job_id: id }] = await resultsOf(sweep);
+  const page = await visit(`#/jobs/${id}`);
+  await page.locator("canvas.orbit[data-samples='401']").waitFor();
+  await page.locator("canvas.scene[data-instant='0']").waitFor();
+  await page.locator(".uplot").nth(4).waitFor();
+  await page.getByLabel("Instant [s]").fill("0.2");
+  await page.locator("canvas.scene[data-instant='0.2']").waitFor();
+  await page.getByText("t = 0.2000 s").waitFor();
+  await expectAccessible(page);
+  await picture(page, "small_job", { fullPage: true });
+  await leave(page);
+});
+
+test("a browser without WebGL shows the rest of a job", async () => {
+  const sweep = await runSweep({ parameters: { ...short, clearance_mm: 0.25 } });
+  const [{ job_id: id }] = await resultsOf(sweep);
+  const page = await visit("");
+  await page.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...more) { return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...more); };
+  });
+  await page.goto(`${url}/?#/jobs/${id}`);
+  await page.getByText("The linkage cannot be drawn").waitFor();
+  await page.locator("canvas.orbit[data-samples='401']").waitFor();
+  await leave(page, /WebGL/);
+});
+
+test("the list follows, searches, and deletes after asking", async () => {
+  const page = await visit("");
+  const row = page.getByRole("row").filter({ hasText: "axes" });
+  await row.getByText("6 succeeded").waitFor();
+  await expectAccessible(page);
+  const later = await ask("/v1/sweeps", { name: "later", parameters: short, sweep: { clearance_mm: [0.15, 0.35] } });
+  await page.getByRole("row").filter({ hasText: "later" }).getByText("100 %").waitFor();
+  await page.getByLabel("Search by name, id or axis").fill("later");
+  await row.waitFor({ state: "detached" });
+  await page.getByRole("button", { name: "Delete later" }).click();
+  await page.getByRole("button", { name: "Keep it" }).click();
+  assert.equal((await ask(`/v1/sweeps/${later.id}`)).state, "succeeded");
+  await page.getByRole("button", { name: "Delete later" }).click();
+  await page.getByRole("button", { name: "Delete", exact: true }).click();
+  await page.getByText("No sweep is like that").waitFor();
+  assert.equal((await fetch(`${url}/v1/sweeps/${later.id}`)).status, 404);
+  await leave(page);
+});
+
+test("a view that is not there says so", async () => {
+  const page = await visit("#/jobs/none");
+  await page.getByRole("heading", { name: "This view cannot be shown" }).waitFor();
+  await leave(page, /404/);
+});

@@ -1,0 +1,79 @@
+// The only place that asks the service.
+
+/// What the service refused, with every fault and its place in the request.
+export class Refusal extends Error {
+  constructor(problem, status) {
+    super(problem.detail || problem.title || `The service answered ${status}.`);
+    this.name = "Refusal";
+    this.status = status;
+    this.faults = problem.errors ?? [];
+  }
+}
+
+export async function ask(path, { method = "GET", body, signal } = {}) {
+  const headers = body === undefined ? {} : { "Content-Type": "application/json" };
+  let answer;
+  try {
+    answer = await fetch(path, { method, headers, signal, body: body === undefined ? undefined : JSON.stringify(body) });
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new Error("The service does not answer.");
+  }
+  if (answer.status === 204) return null;
+  const text = await answer.text();
+  if (!answer.ok) throw new Refusal(problemOf(text), answer.status);
+  return JSON.parse(text);
+}
+
+function problemOf(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return {};
+  }
+}
+
+const sweepPath = (id) => `/v1/sweeps/${encodeURIComponent(id)}`;
+const jobPath = (id) => `/v1/jobs/${encodeURIComponent(id)}`;
+const withQuery = (path, query) => {
+  const set = Object.entries(query).filter(([, value]) => value !== undefined && value !== "");
+  return set.length === 0 ? path : `${path}?${new URLSearchParams(set)}`;
+};
+
+export const listSweeps = (query, signal) => ask(withQuery("/v1/sweeps", query), { signal });
+export const listJobs = (query, signal) => ask(withQuery("/v1/jobs", query), { signal });
+export const findSweep = (id, signal) => ask(sweepPath(id), { signal });
+export const submitSweep = (request) => ask("/v1/sweeps", { method: "POST", body: request });
+export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
+export const retrySweep = (id) => ask(`${sweepPath(id)}/retry`, { method: "POST" });
+export const deleteSweep = (id) => ask(sweepPath(id), { method: "DELETE" });
+export const findResults = (id, query, signal) => ask(resultsUrl(id, query), { signal });
+export const findJob = (id, signal) => ask(jobPath(id), { signal });
+export const submitJob = (parameters) => ask("/v1/jobs", { method: "POST", body: parameters });
+export const cancelJob = (id) => ask(`${jobPath(id)}/cancel`, { method: "POST" });
+export const eventsUrl = (id) => `${sweepPath(id)}/events`;
+
+export function resultsUrl(id, query = {}) {
+  return withQuery(`${sweepPath(id)}/results`, query);
+}
+
+export function trajectoryUrl(id, query = {}) {
+  return withQuery(`${jobPath(id)}/trajectory`, query);
+}
+
+/// Columns of a trajectory by their names. @param query  channels (a list), from, to, points
+export async function findTrajectory(id, { channels, ...query }, signal) {
+  const answer = await ask(trajectoryUrl(id, { channels: channels?.join(","), ...query }), { signal });
+  return answer.columns;
+}
+
+let schema = null;
+
+/// The JSON Schema of the parameters, asked for once.
+export function parameterSchema() {
+  schema ??= ask("/v1/parameters").catch((error) => {
+    schema = null;
+    throw error;
+  });
+  return schema;
+}

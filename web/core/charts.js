@@ -1,0 +1,71 @@
+// Makes charts with ECharts, in the page's colours. The library is part of the program unless it was built without npm.
+import { h } from "/core/dom.js";
+import { save, saveCanvas } from "/core/download.js";
+import { colour, onColours } from "/core/theme.js";
+
+let library = null;
+
+/// Loads ECharts; called early, it is there when the data are.
+export function loadCharts() {
+  library ??= import("/lib/echarts.js").catch(() => {
+    library = null;
+    throw new Error("This program was built without its charts: the npm packages of web/ could not be fetched then.");
+  });
+  return library;
+}
+
+/// The parts of an option that all charts share.
+function inPageColours(option) {
+  const text = { color: colour("text") };
+  return { textStyle: { fontFamily: "system-ui, sans-serif" }, backgroundColor: "transparent", animation: false, aria: { enabled: true },
+    ...option,
+    legend: option.legend && { type: "scroll", textStyle: text, pageTextStyle: text, ...option.legend },
+    tooltip: option.tooltip && { renderMode: "richText", confine: true, backgroundColor: colour("card"), borderColor: colour("line"), textStyle: text, ...option.tooltip } };
+}
+
+function nothingYet() {
+  return { title: { text: "No job has a value of this metric.", left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, fontWeight: "normal" } } };
+}
+
+/// How an axis looks.
+export function axisLook() {
+  const line = { lineStyle: { color: colour("line") } };
+  return { axisLine: line, axisTick: line, splitLine: line, axisLabel: { color: colour("text"), hideOverlap: true }, nameTextStyle: { color: colour("text") } };
+}
+
+/// A chart that fills its element and follows its size and the page's colours.
+/// @param makeOption  gives ECharts' option, anew for each drawing; null if there is nothing to draw
+/// @param label       what a screen reader says of it
+export async function makeChart(element, makeOption, label, signal) {
+  const echarts = await loadCharts();
+  const chart = echarts.init(element);
+  element.setAttribute("role", "img");
+  element.setAttribute("aria-label", label);
+  const draw = () => {
+    chart.setOption(inPageColours(makeOption() ?? nothingYet()), { notMerge: true });
+  };
+  const sizes = new ResizeObserver(() => chart.resize());
+  sizes.observe(element);
+  onColours(draw, signal);
+  signal.addEventListener("abort", () => {
+    sizes.disconnect();
+    chart.dispose();
+  });
+  draw();
+  return { chart, draw, savePng: (name) => saveCanvas(chart.renderToCanvas({ pixelRatio: 2, backgroundColor: colour("card") }), `${name}.png`),
+    saveSvg: (name) => saveSvg(echarts, element, inPageColours(makeOption() ?? nothingYet()), name) };
+}
+
+function saveSvg(echarts, element, option, name) {
+  const drawing = echarts.init(null, null, { renderer: "svg", ssr: true, width: element.clientWidth, height: element.clientHeight });
+  drawing.setOption({ ...option, backgroundColor: colour("card") });
+  save(drawing.renderToSVGString(), `${name}.svg`, "image/svg+xml");
+  drawing.dispose();
+}
+
+/// Buttons that save what a chart shows. @param find  gives what makeChart has made
+export function saveButtons(find, name) {
+  return h("span", { class: "actions" },
+    h("button", { onclick: () => find()?.savePng(name()) }, "PNG"),
+    h("button", { onclick: () => find()?.saveSvg(name()) }, "SVG"));
+}

@@ -1,0 +1,78 @@
+// The one place that writes numbers, names and units.
+
+const suffixes = [
+  ["_m_s2", "m/s²"], ["_rad_s", "rad/s"], ["_m_s", "m/s"], ["_n_m", "N m"], ["_kg_m2", "kg m²"], ["_kg", "kg"], ["_mrad", "mrad"],
+  ["_rad", "rad"], ["_mm", "mm"], ["_um", "µm"], ["_hz", "Hz"], ["_pa", "Pa"], ["_n", "N"], ["_j", "J"], ["_s", "s"], ["_m", "m"],
+];
+
+const minus = "−";
+
+/// A number in four significant digits, or as many as asked for.
+export function number(value, digits = 4) {
+  if (value === null || value === undefined) return "–";
+  if (typeof value !== "number") return String(value);
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text = size >= 1e6 || size < 1e-3 ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e") : String(Number(value.toPrecision(digits)));
+  return text.replaceAll("-", minus);
+}
+
+/// A parameter's value as it was given, to the last digit.
+export function exact(value) {
+  return typeof value === "number" ? String(value).replaceAll("-", minus) : value === null || value === undefined ? "–" : String(value);
+}
+
+export function unitOf(column) {
+  return suffixes.find(([suffix]) => column.endsWith(suffix))?.[1] ?? "";
+}
+
+/// "peak_slider_acceleration_m_s2" as "Peak slider acceleration".
+export function nameOf(column) {
+  const suffix = suffixes.find(([ending]) => column.endsWith(ending))?.[0] ?? "";
+  const words = column.slice(0, column.length - suffix.length).replace(/^links\.([^.]+)\./, "link ($1) ").replaceAll("_", " ").trim();
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/// A name with its unit: "Peak slider acceleration [m/s²]". @param unit  where the suffix does not say it rightly
+export function titleOf(column, unit = unitOf(column)) {
+  return unit ? `${nameOf(column)} [${unit}]` : nameOf(column);
+}
+
+export function withUnit(column, value) {
+  const unit = typeof value === "number" ? unitOf(column) : "";
+  return unit ? `${number(value)} ${unit}` : number(value);
+}
+
+/// A value of an axis, short: "10 rad/s", "rigid", "rigid elements 4".
+export function pointOf(axis, value) {
+  const unit = unitOf(axis);
+  if (typeof value !== "number") return String(value);
+  return unit ? `${number(value, 6)} ${unit}` : `${nameOf(axis).toLowerCase()} ${number(value, 6)}`;
+}
+
+/// A time span: "12 s", "3 min 20 s", "2 h 5 min".
+export function span(seconds) {
+  if (seconds === null || seconds === undefined) return "unknown";
+  if (seconds < 10) return `${Number(seconds.toPrecision(2))} s`;
+  const whole = Math.round(seconds);
+  if (whole < 60) return `${whole} s`;
+  if (whole < 3600) return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+  const minutes = Math.round(whole / 60);
+  return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}
+
+export function bytes(count) {
+  const units = ["B", "kB", "MB", "GB", "TB"];
+  let power = 0;
+  let rest = count;
+  for (; rest >= 1000 && power < units.length - 1; power += 1) rest /= 1000;
+  return `${number(rest, 3)} ${units[power]}`;
+}
+
+export function moment(text) {
+  return text ? new Date(text).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "medium" }) : "–";
+}
+
+export function plural(count, word) {
+  return `${count.toLocaleString("en")} ${count === 1 ? word : `${word}s`}`;
+}

@@ -1,0 +1,60 @@
+// Follows sweeps as they run: by server-sent events, and by asking again where those are not to be had.
+import { eventsUrl, findSweep } from "/core/api.js";
+
+const pollMs = 2000;
+
+export const isUnderWay = (sweep) => sweep.counts.queued + sweep.counts.running > 0;
+
+/// Tells each change of a sweep until it has ended or the signal is given.
+/// @param told.progress  gets counts, progress and time left
+/// @param told.job       gets a job that has ended
+/// @param told.done      the sweep has ended
+export function follow(id, told, signal) {
+  const events = new EventSource(eventsUrl(id));
+  const stop = () => events.close();
+  signal.addEventListener("abort", stop, { once: true });
+  events.addEventListener("progress", (event) => told.progress?.(JSON.parse(event.data)));
+  events.addEventListener("job", (event) => told.job?.(JSON.parse(event.data)));
+  events.addEventListener("done", () => {
+    stop();
+    told.done?.();
+  });
+  events.addEventListener("error", () => {
+    // A connection that broke is taken up again by the browser; one that was refused is not.
+    if (events.readyState === EventSource.CLOSED && !signal.aborted) poll(id, told, signal);
+  });
+}
+
+async function poll(id, told, signal) {
+  while (!signal.aborted) {
+    try {
+      const sweep = await findSweep(id, signal);
+      told.progress?.(sweep);
+      if (!isUnderWay(sweep)) return told.done?.();
+    } catch (error) {
+      if (error.name === "AbortError" || error.status === 404) return undefined;
+    }
+    await new Promise((resolve) => { setTimeout(resolve, pollMs); });
+  }
+  return undefined;
+}
+
+/// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and always after the last call.
+export function seldom(run, milliseconds) {
+  let timer = null;
+  return () => {
+    timer ??= setTimeout(() => {
+      timer = null;
+      run();
+    }, typeof milliseconds === "function" ? milliseconds() : milliseconds);
+  };
+}
+
+/// A function that runs the given one once it has not been called for so many milliseconds.
+export function settled(run, milliseconds) {
+  let timer = null;
+  return () => {
+    clearTimeout(timer);
+    timer = setTimeout(run, milliseconds);
+  };
+}

@@ -1,0 +1,45 @@
+// The parameters of the service's JSON Schema as fields of a form.
+
+/// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
+export function fieldsOf(schema, prefix = "") {
+  return Object.entries(schema.properties).flatMap(([key, property]) =>
+    (property.type === "object" ? fieldsOf(property, `${prefix}${key}.`) : [fieldOf(prefix + key, property)]));
+}
+
+function fieldOf(path, property) {
+  const kind = property.enum ? "words" : property.type === "array" ? "numbers" : property.type;
+  return { path, kind, unit: property["x-unit"] ?? "", default: property.default, help: property.description ?? "", source: property["x-default-source"] ?? "", schema: property };
+}
+
+/// What is allowed, in words: "≥ 0, < 1000 mm".
+export function allowed(field) {
+  const { schema } = field;
+  if (field.kind === "words") return schema.enum.join(", ");
+  const bounds = boundsOf(field);
+  const text = [["≥", bounds.minimum], [">", bounds.exclusiveMinimum], ["≤", bounds.maximum], ["<", bounds.exclusiveMaximum]]
+    .filter(([, bound]) => bound !== undefined).map(([sign, bound]) => `${sign} ${bound}`).join(", ");
+  const count = field.kind === "numbers" ? `${schema.minItems} numbers ` : "";
+  return `${count}${text}${field.unit ? ` ${field.unit}` : ""}`;
+}
+
+function boundsOf(field) {
+  return field.kind === "numbers" ? field.schema.items : field.schema;
+}
+
+/// What is wrong with a value of this field; empty if nothing is.
+export function faultOf(field, value) {
+  if (!Number.isFinite(value)) return `must be a number ${allowed(field)}`;
+  const { minimum, exclusiveMinimum, maximum, exclusiveMaximum } = boundsOf(field);
+  const whole = field.kind !== "integer" || Number.isInteger(value);
+  const inside = !(value < minimum) && !(value <= exclusiveMinimum) && !(value > maximum) && !(value >= exclusiveMaximum);
+  return whole && inside ? "" : `${value} is not allowed: must be ${field.kind === "integer" ? "a whole number " : ""}${allowed(field)}`;
+}
+
+/// The field that a pointer of the service's answer means: "/sweep/clearance_mm/1" is clearance_mm's.
+export function pathOfPointer(pointer, fields) {
+  const parts = pointer.split("/").slice(1).map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
+  if (parts[0] === "cases" || parts[0] === "design") return parts[0];
+  if (parts[0] !== "sweep" && parts[0] !== "parameters") return "";
+  const path = parts.slice(1).join(".");
+  return fields.map((field) => field.path).find((known) => path === known || path.startsWith(`${known}.`)) ?? "";
+}

@@ -1,0 +1,117 @@
+// From what stands in the form to a request, and back.
+import { faultOf } from "/form/fields.js";
+
+export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", count: "5", scale: "linear", chosen: [] });
+
+const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
+
+/// @param state  {name, priority, reuse, cases, design, replicates: {count, perturbation, seed}, entries: {path: entry}}
+/// @returns {request, problems: [{path, detail}]}
+export function buildRequest(fields, state) {
+  const problems = [];
+  const request = { name: state.name.trim() || undefined, parameters: {}, sweep: {} };
+  for (const field of fields) {
+    const entry = state.entries[field.path];
+    if (entry) addEntry(field, entry, request, (detail) => problems.push({ path: field.path, detail }));
+  }
+  if (Object.keys(request.parameters).length === 0) delete request.parameters;
+  if (Object.keys(request.sweep).length === 0) delete request.sweep;
+  addJson("cases", state.cases, request, problems);
+  addJson("design", state.design, request, problems);
+  if (Number(state.replicates.count) > 1) {
+    request.replicates = { count: Number(state.replicates.count), perturbation: Number(state.replicates.perturbation), seed: Number(state.replicates.seed) };
+  }
+  if (Number(state.priority) !== 0) request.priority = Number(state.priority);
+  if (!state.reuse) request.reuse = false;
+  return { request: JSON.parse(JSON.stringify(request)), problems };
+}
+
+function addEntry(field, entry, request, refuse) {
+  if (field.kind === "words") {
+    if (entry.chosen.length === 1) setAtPath(request.parameters, field.path, entry.chosen[0]);
+    if (entry.chosen.length > 1) request.sweep[field.path] = entry.chosen;
+    return;
+  }
+  if (entry.mode === "range") return addRange(field, entry, request, refuse);
+  const values = parts(entry.text).map(Number);
+  if (values.length === 0) return;
+  const fault = values.map((value) => faultOf(field, value)).find(Boolean);
+  if (fault) refuse(fault);
+  else if (field.kind === "numbers") setAtPath(request.parameters, field.path, values);
+  else if (entry.mode === "list") request.sweep[field.path] = values;
+  else if (values.length > 1) refuse("is one value; choose “list” for several");
+  else setAtPath(request.parameters, field.path, values[0]);
+}
+
+function addRange(field, entry, request, refuse) {
+  if (entry.from === "" && entry.to === "") return;
+  const range = { from: Number(entry.from || NaN), to: Number(entry.to || NaN), count: Number(entry.count) };
+  const fault = faultOf(field, range.from) || faultOf(field, range.to);
+  if (fault) refuse(fault);
+  else if (!Number.isInteger(range.count) || range.count < 1) refuse("the count of a range is a whole number from 1");
+  else if (entry.scale === "log" && range.from * range.to <= 0) refuse("a logarithmic range cannot reach or cross 0");
+  else request.sweep[field.path] = entry.scale === "log" ? { ...range, scale: "log" } : range;
+}
+
+const jsonKinds = {
+  cases: { fits: Array.isArray, detail: "must be a JSON list of objects, such as [{\"clearance_mm\": 0.1}]" },
+  design: { fits: (value) => typeof value?.over === "object", detail: "must be a JSON object with a type and parameters, such as {\"type\": \"sobol\", \"count\": 64, \"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
+};
+
+/// What is written as JSON: cases and the design.
+function addJson(key, text, request, problems) {
+  if (text.trim() === "") return;
+  const { fits, detail } = jsonKinds[key];
+  try {
+    const value = JSON.parse(text);
+    if (!fits(value)) throw new Error(detail);
+    request[key] = value;
+  } catch {
+    problems.push({ path: key, detail });
+  }
+}
+
+function setAtPath(object, path, value) {
+  const [head, ...rest] = path.split(".");
+  if (rest.length === 0) object[head] = value;
+  else setAtPath(object[head] ??= {}, rest.join("."), value);
+}
+
+function valueAtPath(object, path) {
+  return path.split(".").reduce((inner, key) => inner?.[key], object);
+}
+
+/// The form's state for a request that was sent before.
+export function readRequest(fields, request = {}) {
+  const entries = {};
+  for (const field of fields) {
+    const fixed = valueAtPath(request.parameters, field.path);
+    const axis = request.sweep?.[field.path];
+    if (fixed !== undefined) entries[field.path] = entryOf(field, [fixed].flat(), "one");
+    if (Array.isArray(axis)) entries[field.path] = entryOf(field, axis, "list");
+    else if (axis !== undefined) entries[field.path] = { ...emptyEntry(), mode: "range", from: String(axis.from), to: String(axis.to), count: String(axis.count), scale: axis.scale ?? "linear" };
+  }
+  return { name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
+    cases: request.cases ? JSON.stringify(request.cases, null, 1) : "", design: request.design ? JSON.stringify(request.design, null, 1) : "",
+    replicates: { count: 1, perturbation: 1e-6, seed: 1, ...request.replicates } };
+}
+
+function entryOf(field, values, mode) {
+  return field.kind === "words" ? { ...emptyEntry(), chosen: values } : { ...emptyEntry(), mode, text: values.join(", ") };
+}
+
+/// How many jobs a request makes.
+export function countJobs(request) {
+  const sizes = Object.values(request.sweep ?? {}).map(sizeOf);
+  return sizes.reduce((product, size) => product * size, 1) * countPoints(request.design) * (request.cases?.length ?? 1) * (request.replicates?.count ?? 1);
+}
+
+const sizeOf = (axis) => (Array.isArray(axis) ? axis.length : axis.count);
+
+/// Of a design; the service has the last word.
+function countPoints(design) {
+  if (!design) return 1;
+  if (design.count !== undefined) return design.count;
+  const sizes = Object.values(design.over).map(sizeOf);
+  return design.type === "zip" ? sizes[0] : 1 + sizes.reduce((sum, size) => sum + size, 0);
+}

@@ -1,0 +1,147 @@
+// One job, or several laid over each other: what the slider and the journal did, and why.
+import { cancelJob, findJob, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
+import { choice, h, notify } from "/core/dom.js";
+import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
+import { seldom } from "/core/live.js";
+import { readRoute, rememberQuery, routeTo } from "/core/route.js";
+import { colour } from "/core/theme.js";
+import { lossesCard, metricsCard, runCard } from "/run/facts.js";
+import { idealOf, isIdeal } from "/run/ideal.js";
+import { orbit } from "/run/orbit.js";
+import { overlayPicker } from "/run/overlay.js";
+import { plotCard, tracesOf } from "/run/plot_card.js";
+import { timeBar } from "/run/time_bar.js";
+import { TimeWindow } from "/run/time_window.js";
+import { linksOf } from "/scene/poses.js";
+import { sceneCard } from "/scene/scene_card.js";
+
+const acceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
+const pollMs = 1000;
+const rememberMs = 400;  // browsers refuse to change the address many times a second
+
+export async function show(main, { id, query, signal }) {
+  const others = (query.get("with") ?? "").split(",").filter(Boolean);
+  const [schema, job, ...more] = await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
+  document.title = `RPSUP: job ${id.slice(-5)}`;
+  const page = new JobPage([job, ...more], schema, query, signal);
+  main.replaceChildren(...page.head());
+  if (job.state === "succeeded") main.append(...await page.body());
+  else await page.waitForEnd();
+}
+
+class JobPage {
+  constructor(jobs, schema, query, signal) {
+    Object.assign(this, { jobs, job: jobs[0], schema, query, signal });
+    this.added = (query.get("channels") ?? "").split(",").filter(Boolean);
+  }
+
+  head() {
+    const { job } = this;
+    const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity } = job.parameters;
+    const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "its sweep") : "no sweep";
+    this.state = h("span", { class: job.state }, job.state);
+    const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
+    const links = job.state === "succeeded" ? h("p", { class: "actions" }, ["csv", "json", "npz"].map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
+      : h("p", { class: "actions" }, job.state === "queued" || job.state === "running" ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
+    return [h("div", { class: "head" }, h("div", {}, h("h1", {}, `${coupler} coupler, clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`),
+      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
+  }
+
+  async waitForEnd() {
+    while (["queued", "running"].includes(this.job.state) && !this.signal.aborted) {
+      await new Promise((resolve) => { setTimeout(resolve, pollMs); });
+      this.job = await findJob(this.job.id, this.signal);
+      this.state.textContent = this.job.state;
+    }
+    if (this.job.state === "succeeded" && !this.signal.aborted) dispatchEvent(new Event("hashchange"));
+  }
+
+  async body() {
+    const { duration_s: end, output_rate_hz: rate, clearance_mm: clearance } = this.job.parameters;
+    this.times = new TimeWindow(end, Math.min(end, 5 / rate));
+    const [from, to] = ["from", "to"].map((key) => Number(this.query.get(key) ?? NaN));
+    if (Number.isFinite(from + to)) this.times.set(from, to);
+    if (this.query.has("t")) this.times.pointAt(Number(this.query.get("t")) || 0);
+    const remember = seldom(() => this.signal.aborted || this.remember(), rememberMs);
+    for (const event of ["change", "instant"]) this.times.addEventListener(event, remember, { signal: this.signal });
+    const all = Object.keys(await findTrajectory(this.job.id, { from: 0, to: 0 }, this.signal));
+    // The poses are for drawing.
+    const columns = all.filter((name) => name !== "t_s" && !name.startsWith("pose_"));
+    this.main = h("div");
+    this.drawAcceleration([]);
+    this.extra = h("div");
+    for (const channel of this.added) this.extra.append(this.channelCard(channel));
+    const add = choice("Add a channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
+    const plots = [this.main, clearance > 0 ? this.card("Contact force", ["contact_force_n"]) : null, this.card("Drive torque and force", ["crank_torque_n_m", "rod_force_n"]),
+      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay())];
+    const side = [sceneCard(this.job, linksOf(all), this.times, this.signal), clearance > 0 ? orbit(this.job, this.times, this.signal) : null, metricsCard(this.jobs), runCard(this.job, this.schema)];
+    return [timeBar(this.times, this.job, this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
+  }
+
+  card(title, channels, more = {}) {
+    return plotCard(title, { traces: tracesOf(this.jobs, channels), times: this.times, height: 220, signal: this.signal, ...more });
+  }
+
+  drawAcceleration(ideal) {
+    const behind = ideal.map((job) => ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: () => colour("quiet"), dash: [6, 4] }));
+    const button = h("button", { onclick: () => this.compare(button) }, "Lay over the ideal linkage");
+    const tools = isIdeal(this.job) || ideal.length > 0 ? [] : [button];
+    this.mainLife?.abort();
+    this.mainLife = new AbortController();
+    const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
+    this.main.replaceChildren(plotCard("Slider acceleration", { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], times: this.times, height: 320, signal, tools }));
+  }
+
+  async compare(button) {
+    button.disabled = true;
+    try {
+      this.drawAcceleration([await idealOf(this.job, this.signal)]);
+    } catch (error) {
+      button.disabled = false;
+      if (error.name !== "AbortError") notify(error.message, "trouble");
+    }
+  }
+
+  /// Filled when the other jobs of the sweep are known.
+  overlay() {
+    const place = h("span");
+    overlayPicker(this.jobs, (id) => {
+      const { query } = readRoute();
+      query.set("with", [...this.jobs.slice(1).map((job) => job.id), id].join(","));
+      location.hash = routeTo("jobs", this.job.id, Object.fromEntries(query));
+    }, this.signal).then((picker) => picker && place.append(picker)).catch(() => {});
+    return place;
+  }
+
+  energy() {
+    const card = this.card("Energy account", ["kinetic_energy_j", "potential_energy_j", "drive_work_j"]);
+    card.append(lossesCard(this.job));
+    return card;
+  }
+
+  add(channel, picker) {
+    picker.querySelector("select").value = "";
+    if (!channel || this.added.includes(channel)) return;
+    this.added.push(channel);
+    this.extra.append(this.channelCard(channel));
+    this.remember();
+  }
+
+  channelCard(channel) {
+    const life = new AbortController();
+    const card = this.card(`${nameOf(channel)}${unitOf(channel) ? ` [${unitOf(channel)}]` : ""}`, [channel], { signal: AbortSignal.any([this.signal, life.signal]), close: () => {
+      life.abort();
+      card.remove();
+      this.added = this.added.filter((name) => name !== channel);
+      this.remember();
+    } });
+    return card;
+  }
+
+  remember() {
+    const { times } = this;
+    const short = (value) => Number(value.toPrecision(7));
+    const window = times.isWhole ? {} : { from: short(times.from), to: short(times.to) };
+    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window, t: times.instant > 0 ? short(times.instant) : "" });
+  }
+}

@@ -1,0 +1,166 @@
+// One sweep: its metrics over its axes, in parts that share what is selected.
+import { cancelSweep, findResults, findSweep, listSweeps, resultsUrl, retrySweep } from "/core/api.js";
+import { loadCharts, saveButtons } from "/core/charts.js";
+import { choice, h, notify } from "/core/dom.js";
+import { plural, span, titleOf } from "/core/format.js";
+import { follow, isUnderWay, seldom } from "/core/live.js";
+import { rememberQuery, routeTo } from "/core/route.js";
+import { metricsOf, valuesOf } from "/study/data.js";
+import { heatMap } from "/study/heat_map.js";
+import { linesChart } from "/study/lines.js";
+import { parallelChart } from "/study/parallel.js";
+import { Selection } from "/study/selection.js";
+import { ResultTable } from "/study/table.js";
+
+const mostInAddress = 20;
+const reloadMs = 1500;
+
+export async function show(main, { id, query, signal }) {
+  loadCharts().catch(() => {});  // told where a chart would be
+  const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal)]);
+  const page = new SweepPage(sweep, rows, query, signal);
+  main.replaceChildren(...page.parts());
+  page.start();
+  await page.compareWith(query.get("with") ?? "");
+}
+
+class SweepPage {
+  constructor(sweep, rows, query, signal) {
+    Object.assign(this, { sweep, rows, signal, axes: sweep.axes, others: null, reloadTook: 0, selection: new Selection() });
+    this.metrics = metricsOf(rows, this.axes);
+    const varied = [...this.axes].sort((a, b) => valuesOf(rows, b).length - valuesOf(rows, a).length);
+    const pick = (key, allowed, otherwise) => (allowed.includes(query.get(key)) ? query.get(key) : otherwise ?? "");
+    this.view = { metric: pick("metric", this.metrics, this.metrics[0]), x: pick("x", this.axes, varied[0] ?? "job_id"),
+      y: pick("y", this.axes, query.has("x") ? "" : varied[1]), panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]) };
+    this.selection.set((query.get("jobs") ?? "").split(",").filter(Boolean));
+    this.charts = [];
+  }
+
+  parts() {
+    document.title = `RPSUP: ${this.sweep.name || this.sweep.id}`;
+    this.status = h("p", { role: "status" });
+    this.buttons = h("p", { class: "actions" });
+    this.chosen = h("p", { class: "actions card" });
+    this.pickers = h("p", { class: "actions" });
+    this.table = new ResultTable(this);
+    this.heat = h("div", { class: "chart tall" });
+    this.lines = h("div", { class: "chart tall" });
+    this.parallel = h("div", { class: "chart tall" });
+    this.drawHead();
+    this.drawPickers();
+    return [
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status), this.buttons), this.pickers, this.chosen,
+      h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0), this.card("Lines", this.lines, 1)),
+      this.card("Parallel coordinates", this.parallel, 2, "Draw along an axis to select the jobs between; click there to let them go."),
+      h("section", { class: "card" }, h("h2", {}, "Results"), this.table.element)];
+  }
+
+  card(title, element, index, help = "") {
+    const save = saveButtons(() => this.charts[index], () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
+    return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), save), help && h("p", { class: "quiet small" }, help), element);
+  }
+
+  start() {
+    this.table.draw();
+    this.drawChosen();
+    this.selection.addEventListener("change", () => this.changed());
+    this.makeCharts();
+    if (isUnderWay(this.sweep)) this.followIt();
+  }
+
+  /// One in each frame, so that the first is seen before the last is made.
+  async makeCharts() {
+    for (const [make, element] of [[heatMap, this.heat], [linesChart, this.lines], [parallelChart, this.parallel]]) {
+      await new Promise(requestAnimationFrame);
+      if (this.signal.aborted) return;
+      try {
+        this.charts.push(await make(element, this, this.signal));
+      } catch (error) {
+        this.charts.push(null);
+        element.replaceChildren(h("p", { class: "trouble" }, error.message));
+      }
+    }
+  }
+
+  followIt() {
+    // A large sweep is fetched seldom: what it takes is a small part of the time.
+    const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
+    follow(this.sweep.id, { progress: (news) => { Object.assign(this.sweep, { ...news, id: this.sweep.id }); this.drawHead(); reload(); }, done: () => this.reload() }, this.signal);
+  }
+
+  async reload() {
+    const start = performance.now();
+    try {
+      [this.sweep, this.rows] = await Promise.all([findSweep(this.sweep.id, this.signal), findResults(this.sweep.id, {}, this.signal)]);
+      this.drawHead();
+      this.drawAll();
+      this.reloadTook = performance.now() - start;
+    } catch (error) {
+      if (error.name !== "AbortError") notify(error.message, "trouble");
+    }
+  }
+
+  drawAll() {
+    this.table.draw();
+    for (const chart of this.charts) chart?.draw();
+  }
+
+  changed() {
+    const { metric, x, y, panel } = this.view;
+    const jobs = this.selection.size <= mostInAddress ? this.selection.ids.join(",") : "";
+    rememberQuery({ metric, x, y, panel, jobs, with: this.others?.id });
+    this.drawChosen();
+    this.drawAll();
+  }
+
+  drawHead() {
+    const { counts, eta_s: eta } = this.sweep;
+    const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0).map(([state, count]) => `${count.toLocaleString("en")} ${state}`);
+    const left = isUnderWay(this.sweep) && eta !== null ? `; about ${span(eta)} left` : "";
+    this.status.textContent = `${this.sweep.state}: ${parts.join(", ")} of ${plural(counts.total, "job")}${left}`;
+    const act = (text, run) => h("button", { onclick: () => run(this.sweep.id).then(() => this.reload()).then(() => isUnderWay(this.sweep) && this.followIt()).catch((error) => notify(error.message, "trouble")) }, text);
+    this.buttons.replaceChildren(...[
+      h("a", { class: "button", href: resultsUrl(this.sweep.id, { format: "csv" }), download: `${this.sweep.name || this.sweep.id}.csv` }, "CSV"),
+      isUnderWay(this.sweep) ? act("Cancel", cancelSweep) : null,
+      counts.failed + counts.cancelled > 0 ? act("Retry", retrySweep) : null,
+      h("a", { class: "button", href: routeTo("new", "", { from: this.sweep.id }) }, "Use again")].filter(Boolean));
+  }
+
+  drawPickers() {
+    const set = (key) => (value) => { this.view[key] = value; this.changed(); };
+    const named = (names) => names.map((name) => [name, titleOf(name)]);
+    const axes = named(this.axes);
+    this.compare = h("span");
+    this.pickers.replaceChildren(choice("Metric", named(this.metrics), this.view.metric, set("metric")),
+      ...(this.axes.length === 0 ? [] : [choice("Across", axes, this.view.x, set("x"))]),
+      choice("Up, or a line each", [["", "none"], ...axes], this.view.y, set("y")),
+      choice("A panel each", [["", "none"], ...axes], this.view.panel, set("panel")), this.compare);
+    this.offerComparison();
+  }
+
+  async offerComparison() {
+    const { items } = await listSweeps({ limit: 100 }, this.signal).catch(() => ({ items: [] }));
+    const alike = items.filter(({ id, axes }) => id !== this.sweep.id && axes.includes(this.view.x));
+    if (alike.length === 0) return;
+    this.compare.replaceChildren(choice("Beside it, dashed", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], this.others?.id ?? "", (id) => this.compareWith(id).then(() => this.changed())));
+  }
+
+  async compareWith(id) {
+    if (!id) { this.others = null; return; }
+    loadCharts().catch(() => {});  // told where a chart would be
+  const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);
+    this.others = { id, name: sweep.name || sweep.id, rows };
+    const picker = this.compare.querySelector("select");
+    if (picker) picker.value = id;
+    this.drawAll();
+  }
+
+  drawChosen() {
+    const { ids } = this.selection;
+    this.chosen.hidden = ids.length === 0;
+    const [first, ...more] = ids;
+    this.chosen.replaceChildren(h("span", {}, `${plural(ids.length, "job")} selected`),
+      ids.length > 0 && ids.length <= 6 ? h("a", { class: "button main", href: routeTo("jobs", first, { with: more.join(",") }) }, ids.length === 1 ? "Open it" : "Open them together") : "",
+      h("button", { onclick: () => this.selection.set([]) }, "Select none"));
+  }
+}

@@ -1,0 +1,132 @@
+// The list of sweeps, up to date by itself.
+import { cancelSweep, deleteSweep, findSweep, listSweeps, retrySweep } from "/core/api.js";
+import { loadCharts } from "/core/charts.js";
+import { confirmed } from "/core/dialog.js";
+import { choice, h, notify } from "/core/dom.js";
+import { nameOf, plural } from "/core/format.js";
+import { follow, isUnderWay, settled } from "/core/live.js";
+import { rememberQuery, routeTo } from "/core/route.js";
+import { sweepRow } from "/study/sweep_row.js";
+
+const pageSize = 25;
+const mostSearched = 1000;
+const pollMs = 4000;
+const followed = 3;  // a browser keeps six connections to a service, and the page needs some to ask
+const states = ["queued", "running", "succeeded", "failed", "cancelled"];
+
+export async function show(main, { query, signal }) {
+  const view = new SweepList(query, signal);
+  main.replaceChildren(...view.parts());
+  await view.refresh();
+  view.keepAsking();
+  requestIdleCallback(() => loadCharts().catch(() => {}));  // the next view needs it
+}
+
+class SweepList {
+  constructor(query, signal) {
+    this.signal = signal;
+    this.state = states.includes(query.get("state")) ? query.get("state") : "";
+    this.search = query.get("search") ?? "";
+    this.limit = pageSize;
+    this.sweeps = [];
+    this.rows = new Map();
+    this.followedIds = new Map();
+  }
+
+  parts() {
+    document.title = "RPSUP: sweeps";
+    this.status = h("p", { class: "quiet", role: "status" }, "Loading the sweeps …");
+    this.body = h("tbody");
+    const headings = ["Name", "State", "Progress", "Jobs", "Least and largest peak", "Created", "Actions"];
+    this.table = h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region", "aria-label": "Sweeps" },
+      h("table", {}, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), this.body));
+    this.more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
+    this.empty = h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
+      h("p", {}, h("a", { class: "button main", href: "#/new" }, "Set one up"), " ",
+        h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study")));
+    this.none = h("p", { class: "card", hidden: true }, "No sweep is like that.");
+    const refreshSoon = settled(() => this.signal.aborted || this.refresh(), 300);
+    const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
+    const tools = h("p", { class: "actions" },
+      h("label", { class: "choice" }, h("span", {}, "Search by name, id or axis"), search),
+      choice("State", [["", "any"], ...states], this.state, (state) => { this.state = state; this.changed(); this.refresh(); }),
+      h("a", { class: "button main", href: "#/new" }, "New sweep"));
+    return [h("h1", {}, "Sweeps of the RPSUP linkage"), this.status, tools, this.table, this.none, this.more, this.empty];
+  }
+
+  changed() {
+    rememberQuery({ state: this.state, search: this.search });
+    this.draw();
+  }
+
+  async refresh() {
+    try {
+      const page = await listSweeps({ limit: this.search ? mostSearched : this.limit, state: this.state }, this.signal);
+      this.sweeps = page.items;
+      this.more.hidden = !page.next_cursor;
+      this.status.classList.remove("trouble");
+      this.draw();
+      this.followSome();
+    } catch (error) {
+      if (error.name === "AbortError") return;
+      this.status.textContent = `${error.message} Trying again …`;
+      this.status.classList.add("trouble");
+    }
+  }
+
+  keepAsking() {
+    const timer = setInterval(() => this.refresh(), pollMs);
+    this.signal.addEventListener("abort", () => clearInterval(timer));
+  }
+
+  followSome() {
+    for (const sweep of this.sweeps.filter(isUnderWay)) {
+      if (this.followedIds.size >= followed || this.followedIds.has(sweep.id)) continue;
+      this.followedIds.set(sweep.id, true);
+      follow(sweep.id, {
+        progress: (news) => this.update({ ...this.sweeps.find(({ id }) => id === sweep.id) ?? sweep, ...news, id: sweep.id }),
+        done: () => { this.followedIds.delete(sweep.id); this.refresh(); },
+      }, this.signal);
+    }
+  }
+
+  update(sweep) {
+    this.sweeps = this.sweeps.map((known) => (known.id === sweep.id ? sweep : known));
+    this.draw();
+  }
+
+  matches(sweep) {
+    const text = [sweep.name, sweep.id, ...sweep.axes, ...sweep.axes.map(nameOf)].join(" ").toLowerCase();
+    return this.search.toLowerCase().split(/\s+/).every((word) => text.includes(word));
+  }
+
+  draw() {
+    const shown = this.sweeps.filter((sweep) => this.matches(sweep));
+    const actions = { cancel: cancelSweep, retry: retrySweep, delete: deleteSweep };
+    const rows = shown.map((sweep) => {
+      const row = this.rows.get(sweep.id) ?? sweepRow((action) => this.act(actions[action], action, sweep.id), this.signal);
+      this.rows.set(sweep.id, row);
+      row.update(sweep);
+      return row.element;
+    });
+    // Rows that stay are left in their places, with the keyboard's focus in them.
+    if (rows.length !== this.body.children.length || rows.some((row, i) => this.body.children[i] !== row)) this.body.replaceChildren(...rows);
+    this.table.hidden = shown.length === 0;
+    this.empty.hidden = shown.length > 0 || this.search !== "" || this.state !== "";
+    this.none.hidden = shown.length > 0 || !this.empty.hidden;
+    const busy = shown.filter(isUnderWay).length;
+    this.status.textContent = `${this.more.hidden ? "" : "The newest "}${plural(shown.length, "sweep")}, ${busy} under way`;
+  }
+
+  async act(run, action, id) {
+    const sweep = await findSweep(id).catch(() => ({ name: "", id }));
+    const question = `Delete “${sweep.name || id}”? The results that no other sweep shares go with it.`;
+    if (action === "delete" && !(await confirmed(question, "Delete"))) return;
+    try {
+      await run(id);
+    } catch (error) {
+      notify(error.message, "trouble");
+    }
+    this.refresh();
+  }
+}

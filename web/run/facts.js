@@ -1,0 +1,31 @@
+// What a job's result is, in tables: metrics, how it was run, its parameters.
+import { h } from "/core/dom.js";
+import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
+import { labelsOf } from "/run/labels.js";
+
+export function metricsCard(jobs) {
+  const names = Object.keys(jobs[0].metrics ?? {});
+  const labels = labelsOf(jobs);
+  const head = h("tr", {}, h("th", { scope: "col" }, "Metric"), labels.map((_, index) => h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index])), h("th", { scope: "col" }, "Unit"));
+  return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"), h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
+    names.map((name) => h("tr", {}, h("td", {}, nameOf(name)), jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))));
+}
+
+/// Where the energy went: what the drives gave, what was lost to what, and what the account misses.
+export function lossesCard({ metrics }) {
+  const losses = ["friction_work_j", "impact_loss_j", "structural_loss_j"].map((name) => [name, Math.abs(metrics[name] ?? 0)]);
+  const largest = Math.max(...losses.map(([, value]) => value), Number.MIN_VALUE);
+  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Energy lost in the whole run"), h("tbody", {}, losses.map(([name, value]) => h("tr", {}, h("th", { scope: "row" }, titleOf(name)),
+    h("td", {}, h("progress", { value: value / largest, "aria-label": nameOf(name) })), h("td", { class: "number" }, number(metrics[name])))))),
+    h("p", { class: "small" }, `What the account misses: ${number(metrics.energy_residual, 2)} of the work turned over.`));
+}
+
+export function runCard(job, schema) {
+  const defaults = (name) => JSON.stringify(schema.properties[name]?.default) === JSON.stringify(job.parameters[name]);
+  const set = Object.entries(job.parameters).filter(([, value]) => typeof value !== "object");
+  const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)), h("td", { class: "number" }, exact(value)), h("td", {}, schema.properties[name]?.["x-unit"] ?? ""));
+  const facts = job.run ? `${span(job.run.wall_time_s)} on ${job.run.cpu}, ${job.run.host}; version ${job.run.program.version} (${job.run.program.commit}), ${job.run.program.compiler}${job.run.reused ? "; taken from an earlier run" : ""}` : "not run yet";
+  return h("section", { class: "card" }, h("h2", {}, "Parameters"), h("p", { class: "small quiet" }, `Run: ${facts}.`),
+    h("table", {}, h("tbody", {}, set.filter(([name]) => !defaults(name)).map(row))),
+    h("details", {}, h("summary", {}, "Those left at their defaults"), h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
+}

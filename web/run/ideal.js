@@ -1,0 +1,19 @@
+// The run of the ideal linkage that a job is compared with: same drives, rigid coupler, no clearance.
+import { findJob, submitJob } from "/core/api.js";
+
+const pollMs = 300;
+
+/// Has it computed, or takes it from the store if it was computed before. Resolves to the job, when it has succeeded.
+export async function idealOf(job, signal) {
+  let ideal = await submitJob({ ...job.parameters, clearance_mm: 0, axial_clearance_mm: 0, coupler: "rigid", drive: "prescribed" });
+  while (ideal.state === "queued" || ideal.state === "running") {
+    await new Promise((resolve) => { setTimeout(resolve, pollMs); });
+    ideal = await findJob(ideal.id, signal);
+  }
+  if (ideal.state !== "succeeded") throw new Error(`The ideal linkage's run is ${ideal.state}.`);
+  return ideal;
+}
+
+export function isIdeal({ parameters }) {
+  return parameters.clearance_mm === 0 && parameters.coupler === "rigid";
+}

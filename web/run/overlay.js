@@ -1,0 +1,18 @@
+// Chooses another job of the same sweep, to be laid over this one.
+import { findResults, findSweep } from "/core/api.js";
+import { choice } from "/core/dom.js";
+import { pointOf } from "/core/format.js";
+
+const mostOffered = 500;
+
+/// A labelled select that calls back with a job's id; null if the job stands alone.
+export async function overlayPicker(jobs, chosen, signal) {
+  const { sweep_id: id } = jobs[0];
+  if (!id) return null;
+  const { axes } = await findSweep(id, signal);
+  const rows = await findResults(id, { fields: ["job_id", "state", ...axes].join(","), limit: mostOffered }, signal);
+  const others = rows.filter((row) => row.state === "succeeded" && !jobs.some((job) => job.id === row.job_id));
+  if (others.length === 0) return null;
+  const textOf = (row) => axes.map((axis) => pointOf(axis, row[axis])).join(", ") || `…${row.job_id.slice(-5)}`;
+  return choice("Lay over another job", [["", "choose …"], ...others.map((row) => [row.job_id, textOf(row)])], "", (job) => job && chosen(job));
+}

@@ -1,0 +1,28 @@
+// A plot over time in a card, with its buttons.
+import { h } from "/core/dom.js";
+import { saveCanvas } from "/core/download.js";
+import { nameOf } from "/core/format.js";
+import { lineColour } from "/core/theme.js";
+import { labelsOf } from "/run/labels.js";
+import { timePlot } from "/run/time_plot.js";
+
+/// @param close  is called to take the card away; without it there is no such button
+export function plotCard(title, { traces, times, height, signal, close, tools = [] }) {
+  const element = h("div");
+  let made = null;
+  timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; }).catch((error) => { element.textContent = error.message; });
+  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
+    h("span", { class: "actions" }, tools, h("button", { onclick: () => made && saveCanvas(made.canvas(), `${title}.png`) }, "PNG"),
+      close ? h("button", { onclick: close, "aria-label": `Take ${title} away` }, "✕") : null)), element);
+}
+
+/// Traces of some channels for each of the jobs. @param channels  names, or {channel, envelope}
+export function tracesOf(jobs, channels) {
+  const several = jobs.length > 1;
+  const labels = labelsOf(jobs);
+  return jobs.flatMap((job, j) => channels.map((each, c) => {
+    const { channel, envelope } = typeof each === "string" ? { channel: each } : each;
+    const name = channels.length > 1 || !several ? nameOf(channel) : "";
+    return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "), colour: () => lineColour(j * channels.length + c) };
+  }));
+}

@@ -1,0 +1,34 @@
+// Sets the stretch of time that all plots show.
+import { h } from "/core/dom.js";
+import { number } from "/core/format.js";
+import { overview } from "/run/overview.js";
+
+const aroundPeak = 0.02;
+
+/// @param job  with parameters and metrics; the buttons lead to its steady window and its peak
+export function timeBar(times, job, signal) {
+  const slider = (label, moved) => {
+    const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label, oninput: () => moved(Number(input.value)) });
+    return input;
+  };
+  const from = slider("From [s]", (value) => times.set(value, Math.max(times.to, value + times.least)));
+  const to = slider("To [s]", (value) => times.set(Math.min(times.from, value - times.least), value));
+  const text = h("output", { class: "small" });
+  const draw = () => {
+    from.value = times.from;
+    to.value = times.to;
+    text.textContent = `${number(times.from, 6)} s to ${number(times.to, 6)} s`;
+  };
+  times.addEventListener("change", draw, { signal });
+  draw();
+  const { run_up_s: runUp } = job.parameters;
+  const peak = job.metrics?.peak_slider_acceleration_time_s;
+  const jump = (name, go) => h("button", { onclick: go }, name);
+  return h("section", { class: "card tight", "aria-label": "Time" },
+    h("p", { class: "actions" }, h("strong", {}, "Time"), text, jump("Whole run", () => times.reset()),
+      runUp < times.end ? jump("Steady part", () => times.set(runUp, times.end)) : null,
+      typeof peak === "number" ? jump("Around the peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null),
+    overview(job, times, signal),
+    h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from), h("label", { class: "small quiet" }, "to", to)),
+    h("p", { class: "quiet small" }, "In a plot or in the strip: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run. Keys: ← → + − 0."));
+}

@@ -1,0 +1,106 @@
+// Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
+import { h, laidOut } from "/core/dom.js";
+import { seldom, settled } from "/core/live.js";
+import { colour, onColours } from "/core/theme.js";
+import { loadUplot } from "/core/uplot.js";
+import { loadAligned } from "/run/plot_data.js";
+import { plotOptions } from "/run/plot_options.js";
+import { listenToKeys } from "/run/time_window.js";
+
+const refineMs = 120;  // where nothing is there to be shown yet
+const settleMs = 250;  // where it only gets finer
+
+/// @param traces  a list of {job, channel, name, colour (a function), dash, envelope: [least, largest] or nothing}
+/// @param times   the window that all plots share
+export async function timePlot(element, { traces, times, height = 260, label, signal }) {
+  const uPlot = await loadUplot();
+  await laidOut(element, signal);
+  let plot = null;
+  let data = null;
+  let asked = 0;
+  const now = h("div", { class: "now", hidden: true });
+
+  async function load() {
+    const number = ++asked;
+    try {
+      const fresh = await loadAligned(uPlot, traces, times, element.clientWidth, signal);
+      if (number !== asked) return;
+      data = fresh;
+      if (plot) plot.setData(data, false);
+      else make();
+      follow();
+    } catch (error) {
+      if (error.name !== "AbortError") element.textContent = error.message;
+    }
+  }
+
+  function make() {
+    plot?.destroy();
+    plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, element);
+    plot.over.append(now);
+    watchPointer(plot, times);
+  }
+
+  function showInstant() {
+    if (!plot) return;
+    const inside = times.instant >= times.from && times.instant <= times.to;
+    now.hidden = !inside;
+    if (inside) now.style.transform = `translateX(${plot.valToPos(times.instant, "x")}px)`;
+  }
+
+  function follow() {
+    if (plot) plot.batch(() => {
+      plot.setScale("x", { min: times.from, max: times.to });
+    });
+    showInstant();
+  }
+
+  const fetchSoon = seldom(() => signal.aborted || load(), refineMs);
+  const fetchLater = settled(() => signal.aborted || load(), settleMs);
+  // What moves inside the data that are there is drawn from them at every frame, and made finer when it stands still.
+  const isThere = () => data && times.from >= data[0][0] && times.to <= data[0].at(-1);
+  times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });
+  times.addEventListener("instant", showInstant, { signal });
+  onColours(() => data && make(), signal);
+  const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });
+  sizes.observe(element);
+  signal.addEventListener("abort", () => { sizes.disconnect(); plot?.destroy(); });
+  element.setAttribute("role", "group");
+  element.setAttribute("aria-label", `${label}, over time. Arrow keys move, plus and minus zoom, 0 shows the whole run.`);
+  listenToKeys(element, times);
+  await load();
+  return { plot: () => plot, canvas: () => paint(plot) };
+}
+
+/// The plot on the page's ground, as an image to save.
+function paint(plot) {
+  const source = plot.ctx.canvas;
+  const copy = document.createElement("canvas");
+  Object.assign(copy, { width: source.width, height: source.height });
+  const context = copy.getContext("2d");
+  context.fillStyle = colour("card");
+  context.fillRect(0, 0, copy.width, copy.height);
+  context.drawImage(source, 0, 0);
+  return copy;
+}
+
+/// The wheel zooms about the pointer; dragging with Shift, or with two fingers on a pad, moves.
+function watchPointer(plot, times) {
+  const { over } = plot;
+  over.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) times.pan(event.deltaX / over.clientWidth);
+    else times.zoom(event.deltaY < 0 ? 0.8 : 1.25, plot.posToVal(event.offsetX, "x"));
+  }, { passive: false });
+  over.addEventListener("pointerdown", (event) => {
+    if (!event.shiftKey) return;
+    over.setPointerCapture(event.pointerId);
+    let last = event.clientX;
+    const move = (moved) => {
+      times.pan((last - moved.clientX) / over.clientWidth);
+      last = moved.clientX;
+    };
+    over.addEventListener("pointermove", move);
+    over.addEventListener("pointerup", () => over.removeEventListener("pointermove", move), { once: true });
+  });
+}

@@ -1,0 +1,54 @@
+// The stretch of time that is looked at, and the instant pointed at: the same for all plots of a job.
+
+export class TimeWindow extends EventTarget {
+  /// @param end   of the run [s]
+  /// @param least the shortest stretch that makes sense [s]
+  constructor(end, least) {
+    super();
+    Object.assign(this, { end, least, from: 0, to: end, instant: 0 });
+  }
+
+  get length() { return this.to - this.from; }
+
+  get isWhole() { return this.from === 0 && this.to === this.end; }
+
+  /// Looks at another stretch; one outside the run is moved into it.
+  set(from, to) {
+    const length = Math.min(Math.max(to - from, this.least), this.end);
+    const start = Math.min(Math.max(from, 0), this.end - length);
+    if (!Number.isFinite(start) || (start === this.from && start + length === this.to)) return;
+    this.from = start;
+    this.to = start + length;
+    this.instant = Math.min(Math.max(this.instant, this.from), this.to);
+    this.dispatchEvent(new Event("change"));
+  }
+
+  reset() { this.set(0, this.end); }
+
+  /// @param factor  below 1 looks closer  @param about  the instant that stays in its place
+  zoom(factor, about = (this.from + this.to) / 2) {
+    this.set(about - (about - this.from) * factor, about + (this.to - about) * factor);
+  }
+
+  pan(part) { this.set(this.from + part * this.length, this.to + part * this.length); }
+
+  pointAt(instant) {
+    this.instant = Math.min(Math.max(instant, 0), this.end);
+    this.dispatchEvent(new Event("instant"));
+  }
+}
+
+const keys = {
+  ArrowLeft: (times) => times.pan(-0.2), ArrowRight: (times) => times.pan(0.2), "+": (times) => times.zoom(0.5), "-": (times) => times.zoom(2), 0: (times) => times.reset(),
+};
+
+/// Lets an element that has the keyboard's focus move the window: arrows, + and -, 0 for all of it.
+export function listenToKeys(element, times) {
+  element.tabIndex = 0;
+  element.addEventListener("keydown", (event) => {
+    const act = keys[event.key];
+    if (!act || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    act(times);
+  });
+}

@@ -1,0 +1,95 @@
+// The linkage as three.js sees it: made once from the parameters, then moved from instant to instant.
+import { bushAlongZ, glassBox, measuresOf, rodAlongX, rodAlongZ } from "/scene/shapes.js";
+
+export const linkColours = [["crank (1,1)", "#0072b2"], ["sliding rod (1,2)", "#56b4e9"], ["coupler (1,3) with bearing", "#e69f00"], ["slider (2,1)", "#009e73"],
+  ["cross link (2,2) with journal", "#d55e00"]];
+const couplerPoints = 40;
+const bushWall = 0.6;  // of the bearing's radius
+
+export class Linkage {
+  /// @param links  names as in the channels of the poses
+  constructor(THREE, parameters, links) {
+    this.THREE = THREE;
+    this.measures = measuresOf(parameters);
+    this.elements = links.filter((link) => link.startsWith("1_3"));
+    this.group = new THREE.Group();
+    const [crank, rod, coupler, slider, cross] = linkColours.map(([, colour]) => new THREE.MeshStandardMaterial({ color: colour, roughness: 0.55, metalness: 0.1 }));
+    Object.assign(slider, { transparent: true, opacity: 0.25, depthWrite: false });
+    const { measures } = this;
+    this.bodies = { "1_1": rodAlongX(THREE, measures.crank, crank), "1_2": rodAlongX(THREE, measures.rod, rod), "2_1": glassBox(THREE, measures.slider, slider), "2_2": rodAlongZ(THREE, measures.cross, cross) };
+    this.couplerMaterial = coupler;
+    this.coupler = new THREE.Mesh(new THREE.BufferGeometry(), coupler);
+    this.ball = new THREE.Mesh(new THREE.SphereGeometry(1.6 * measures.coupler.radius, 32, 16), coupler);
+    this.bush = new THREE.Group();
+    const pivot = rodAlongZ(THREE, { length: 5 * measures.crank.radius, radius: 0.8 * measures.crank.radius }, new THREE.MeshStandardMaterial({ color: "#7a8590" }));
+    const guide = rodAlongX(THREE, { length: 2 * (measures.crank.length + measures.coupler.length), radius: 0.002 }, pivot.material);
+    guide.position.set(-(measures.crank.length + measures.coupler.length), measures.guide.y, measures.guide.z);
+    this.group.add(...Object.values(this.bodies), this.coupler, this.ball, this.bush, pivot, guide);
+    this.drawBush(1);
+  }
+
+  /// The bearing with its clearance so many times larger.
+  drawBush(factor) {
+    const { cross, clearance, bearing } = this.measures;
+    const inner = cross.radius + factor * clearance;
+    const wall = bushWall * (cross.radius + clearance);
+    this.bushReach = inner + wall / 2;
+    for (const child of this.bush.children) child.geometry.dispose();
+    this.bush.clear();
+    this.bush.add(bushAlongZ(this.THREE, { inner, outer: inner + wall, length: bearing.length }, this.couplerMaterial));
+    this.bushFactor = factor;
+  }
+
+  /// @param frames  {link: [x, y, z, qx, qy, qz, qw]}
+  /// @param clearance, bend  how many times larger the gap in the joint and the coupler's bend are drawn
+  place(frames, { clearance, bend }) {
+    for (const [link, body] of Object.entries(this.bodies)) setFrame(body, frames[link]);
+    const { THREE } = this;
+    const points = this.#couplerPoints(frames);
+    const end = points.at(-1);
+    const journal = new THREE.Vector3(...frames["2_2"]);
+    const shift = end.clone().sub(journal).multiplyScalar(clearance - 1);
+    if (clearance !== this.bushFactor) this.drawBush(clearance);
+    const drawn = exaggerate(points, bend, shift);
+    setFrame(this.bush, frames[this.elements.at(-1)]);
+    this.bush.position.copy(drawn.at(-1));
+    endBefore(drawn, this.bushReach);
+    const curve = drawn.length > 2 ? new THREE.CatmullRomCurve3(drawn) : new THREE.LineCurve3(...drawn);
+    this.coupler.geometry.dispose();
+    this.coupler.geometry = new THREE.TubeGeometry(curve, drawn.length > 2 ? couplerPoints : 1, this.measures.coupler.radius, 16);
+    this.ball.position.copy(points[0]);
+  }
+
+  /// The coupler's axis: the origins of its elements, and its end. The first and the last element have half the others' length.
+  #couplerPoints(frames) {
+    const { THREE, elements, measures: { coupler } } = this;
+    const origins = elements.map((link) => new THREE.Vector3(...frames[link]));
+    const lastLength = elements.length > 1 ? coupler.length / (elements.length - 1) / 2 : coupler.length;
+    const turn = new THREE.Quaternion(...frames[elements.at(-1)].slice(3));
+    return [...origins, origins.at(-1).clone().add(new THREE.Vector3(lastLength, 0, 0).applyQuaternion(turn))];
+  }
+
+  get joint() { return this.bush.position; }
+}
+
+function setFrame(body, [x, y, z, qx, qy, qz, qw]) {
+  body.position.set(x, y, z);
+  body.quaternion.set(qx, qy, qz, qw);
+}
+
+/// Points of a line, their distance from its chord made larger, and its end moved.
+function exaggerate(points, factor, shift) {
+  const [start, end] = [points[0], points.at(-1)];
+  const chord = end.clone().sub(start);
+  return points.map((point) => {
+    const part = point.clone().sub(start).dot(chord) / chord.lengthSq();
+    const foot = start.clone().addScaledVector(chord, part);
+    return foot.add(point.clone().sub(foot).multiplyScalar(factor)).addScaledVector(shift, part);
+  });
+}
+
+/// Takes the last point of a line back by a distance: the coupler ends at its bush, not in the bore.
+function endBefore(points, distance) {
+  const [before, end] = points.slice(-2);
+  end.lerp(before, Math.min(distance / end.distanceTo(before), 0.9));
+}

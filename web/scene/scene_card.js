@@ -1,0 +1,79 @@
+// The linkage in 3-D, with what plays it.
+import { findTrajectory } from "/core/api.js";
+import { choice, h } from "/core/dom.js";
+import { saveCanvas } from "/core/download.js";
+import { number } from "/core/format.js";
+import { Linkage, linkColours } from "/scene/linkage.js";
+import { Player, impactsOf } from "/scene/player.js";
+import { Poses } from "/scene/poses.js";
+import { Stage } from "/scene/stage.js";
+import { loadThree } from "/scene/three.js";
+
+const speeds = [1, 0.5, 0.1, 0.01, 0.001];
+const factors = [1, 2, 5, 10, 20, 50, 100];
+const impactPoints = 4000;
+
+/// @param links  names of the links as in the channels of their poses
+export function sceneCard(job, links, times, signal) {
+  const hasClearance = job.parameters.clearance_mm > 0;
+  const isFlexible = job.parameters.coupler === "flexible";
+  const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1 };
+  const canvas = h("canvas", { class: "scene", role: "img", tabindex: 0, "aria-label": "The linkage in three dimensions. Drag to turn it, wheel to come closer, arrow keys to move." });
+  const status = h("p", { class: "quiet small" });
+  const instant = h("output", { class: "small" });
+  const player = new Player(times, signal);
+  const play = h("button", { class: "main", onclick: () => player.toggle() }, "Play");
+  const scrub = h("input", { type: "range", step: "any", class: "wide", "aria-label": "Instant [s]", oninput: () => times.pointAt(Number(scrub.value)) });
+  let draw = () => {};
+
+  function showInstant() {
+    Object.assign(scrub, { min: times.from, max: times.to, value: times.instant });
+    instant.textContent = `t = ${times.instant.toFixed(4)} s`;
+    draw();
+  }
+
+  async function start() {
+    const libraries = await loadThree();
+    if (signal.aborted) return;
+    const { parameters } = job;
+    const linkage = new Linkage(libraries.THREE, parameters, links);
+    const stage = new Stage(libraries, canvas, parameters.crank_length_m + parameters.coupler_length_m, signal);
+    stage.scene.add(linkage.group);
+    const poses = new Poses(job, links, (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
+    draw = () => {
+      const frames = poses.at(times.instant, player.speed);
+      if (!frames) return;
+      linkage.place(frames, drawn);
+      canvas.dataset.instant = times.instant;
+      stage.request();
+    };
+    views.addEventListener("change", () => (views.querySelector("select").value === "joint" ? stage.follow(linkage.joint, 0.14 * stage.reach) : stage.lookAtAll()));
+    draw();
+  }
+
+  const views = choice("Look at", [["all", "the whole linkage"], ["joint", "the joint"]], "all", () => {});
+  const enlarge = (label, key) => choice(label, factors.map((factor) => [String(factor), `× ${factor}`]), String(drawn[key]), (value) => { drawn[key] = Number(value); draw(); });
+  const slow = h("input", { type: "checkbox", onchange: () => { player.slow = slow.checked; } });
+  slow.checked = player.slow;
+  player.addEventListener("change", () => { play.textContent = player.playing ? "Pause" : "Play"; });
+  times.addEventListener("instant", showInstant, { signal });
+  times.addEventListener("change", showInstant, { signal });
+  showInstant();
+  start().catch((error) => { status.textContent = `The linkage cannot be drawn: ${error.message}`; });
+  if (hasClearance) findTrajectory(job.id, { channels: ["t_s", "slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"], points: impactPoints }, signal).then((columns) => { player.impacts = impactsOf(columns); }).catch(() => {});
+
+  return h("section", { class: "card", "aria-label": "Linkage" },
+    h("div", { class: "head" }, h("h2", {}, "The linkage in motion"), h("button", { onclick: () => saveCanvas(canvas, "linkage.png") }, "PNG")),
+    canvas,
+    h("p", { class: "actions" }, play, scrub, instant),
+    h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]), String(player.speed), (value) => { player.speed = Number(value); draw(); }), views,
+      hasClearance ? enlarge("Clearance drawn", "clearance") : null, isFlexible ? enlarge("Bend drawn", "bend") : null,
+      hasClearance ? h("label", { class: "small" }, slow, " slow through hard impacts") : null),
+    h("p", { class: "legend small" }, linkColours.map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
+}
+
+function swatch(colour) {
+  const element = h("span", { class: "swatch", "aria-hidden": "true" });
+  element.style.backgroundColor = colour;
+  return element;
+}

@@ -1,0 +1,58 @@
+// The rows of a sweep, grouped by its axes.
+
+const notMetrics = new Set(["job_id", "state", "replicate", "replicates", "error_reason", "error_detail", "error_t_s"]);
+
+/// The columns of the rows that are numbers of the result.
+export function metricsOf(rows, axes) {
+  const columns = new Set(rows.flatMap((row, index) => (index < 50 ? Object.keys(row) : [])));
+  return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_") && !axes.includes(column));
+}
+
+/// What stands where a row has no value.
+export const none = "–";
+
+function compare(a, b) {
+  return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en");
+}
+
+const known = new WeakMap();  // by rows, then by axis: many parts ask for the same
+
+/// The different values of an axis, in order. An object or list stands as its JSON.
+export function valuesOf(rows, axis) {
+  if (!known.has(rows)) known.set(rows, new Map());
+  const ofRows = known.get(rows);
+  if (!ofRows.has(axis)) ofRows.set(axis, [...new Set(rows.map((row) => valueOf(row, axis)))].sort(compare));
+  return ofRows.get(axis);
+}
+
+export function valueOf(row, axis) {
+  const value = row[axis];
+  return value !== null && typeof value === "object" ? JSON.stringify(value) : value ?? none;
+}
+
+/// Mean and extremes of a metric over each set of rows that agree in the keys.
+/// @returns  a list of {values, jobs, count, mean, min, max}; rows without the metric count for nothing but are among the jobs
+export function groupBy(rows, keys, metric) {
+  const groups = new Map();
+  for (const row of rows) {
+    const values = keys.map((key) => valueOf(row, key));
+    const name = JSON.stringify(values);
+    const group = groups.get(name) ?? { values, jobs: [], count: 0, sum: 0, min: Infinity, max: -Infinity };
+    groups.set(name, group);
+    group.jobs.push(row.job_id);
+    const value = row[metric];
+    if (typeof value !== "number") continue;
+    group.count += 1;
+    group.sum += value;
+    group.min = Math.min(group.min, value);
+    group.max = Math.max(group.max, value);
+  }
+  return [...groups.values()].map((group) => ({ ...group, mean: group.count > 0 ? group.sum / group.count : null }));
+}
+
+/// Rows in the order of a column; those without a value stand last either way.
+export function sortedBy(rows, column, descending) {
+  const has = (row) => row[column] !== null && row[column] !== undefined;
+  const filled = rows.filter(has).sort((a, b) => compare(valueOf(a, column), valueOf(b, column)));
+  return [...(descending ? filled.reverse() : filled), ...rows.filter((row) => !has(row))];
+}

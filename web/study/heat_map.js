@@ -1,0 +1,82 @@
+// A metric over two axes, one panel for each value of a third.
+import { axisLook, makeChart } from "/core/charts.js";
+import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
+import { colour, palette } from "/core/theme.js";
+import { groupBy, valuesOf } from "/study/data.js";
+
+const mostPanels = 12;
+const fewCells = 400;  // with lines between them
+const mostLabels = 12;
+
+/// @param study  {rows, view: {metric, x, y, panel}, selection}
+export function heatMap(element, study, signal) {
+  let cells = [];
+  const made = makeChart(element, () => {
+    const plan = planOf(study);
+    cells = plan.cells;
+    return plan.option;
+  }, "Heat map of the metric over two axes; the table below has the same numbers", signal);
+  made.then(({ chart }) => chart.on("click", ({ seriesIndex, dataIndex }) => {
+    const cell = cells[seriesIndex]?.[dataIndex];
+    if (cell) study.selection.toggle(cell.jobs);
+  })).catch(() => {});
+  return made;
+}
+
+function planOf({ rows, view, selection }) {
+  const xs = valuesOf(rows, view.x);
+  const ys = view.y ? valuesOf(rows, view.y) : [""];
+  const allPanels = view.panel ? valuesOf(rows, view.panel) : [""];
+  const panels = allPanels.slice(0, mostPanels);
+  const groups = groupBy(rows, [view.x, view.y, view.panel].filter(Boolean), view.metric).filter((group) => group.mean !== null);
+  const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
+  const [placeOfX, placeOfY] = [places(xs), places(ys)];
+  const means = groups.map((group) => group.mean);
+  if (groups.length === 0) return { cells, option: null };
+  return { cells, option: {
+    ...gridsOf(view, xs, ys, panels),
+    tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
+    visualMap: { min: Math.min(...means), max: Math.max(...means), calculable: true, orient: "horizontal", left: "center", bottom: 0, precision: 3,
+      inRange: { color: palette() }, textStyle: { color: colour("text") }, formatter: (value) => number(value, 3), dimension: 2 },
+    series: cells.map((groupsOfPanel, index) => ({ type: "heatmap", xAxisIndex: index, yAxisIndex: index,
+      itemStyle: { borderColor: colour("card"), borderWidth: groupsOfPanel.length <= fewCells ? 1 : 0 },
+      label: { show: xs.length * panels.length <= 14, formatter: ({ value }) => number(value[2], 3) },
+      data: groupsOfPanel.map((group) => cellOf(group, view, placeOfX, placeOfY, selection)) })),
+  } };
+}
+
+function cellOf(group, view, xs, ys, selection) {
+  const chosen = group.jobs.some((job) => selection.has(job));
+  const value = [xs.get(group.values[0]), view.y ? ys.get(group.values[1]) : 0, group.mean];
+  return chosen ? { value, itemStyle: { borderColor: "#e6007a", borderWidth: 3 } } : value;
+}
+
+function textOf(group, view) {
+  const where = [view.x, view.y, view.panel].filter(Boolean).map((axis, i) => `${nameOf(axis)}: ${pointOf(axis, group.values[i])}`);
+  const several = group.count > 1 ? `\nmean of ${group.count} jobs, ${number(group.min)} to ${number(group.max)}` : "";
+  return `${where.join("\n")}\n${nameOf(view.metric)} ${number(group.mean)} ${unitOf(view.metric)}${several}`;
+}
+
+const places = (values) => new Map(values.map((value, place) => [value, place]));
+
+const shortly = (value) => number(value, 4);
+
+/// Labels at so many of the values that they stand apart.
+function withRoom(values, most, show = true) {
+  const look = axisLook();
+  return { ...look, axisLabel: { ...look.axisLabel, show, interval: Math.ceil(values.length / most) - 1 } };
+}
+
+function gridsOf(view, xs, ys, panels) {
+  const columns = Math.min(panels.length, 3);
+  const lines = Math.ceil(panels.length / columns);
+  const place = (index) => ({ left: `${12 + (index % columns) * (87 / columns)}%`, width: `${87 / columns - 3}%`,
+    top: `${8 + Math.floor(index / columns) * (76 / lines)}%`, height: `${76 / lines - 16}%` });
+  return {
+    title: panels.map((panel, index) => ({ text: view.panel ? pointOf(view.panel, panel) : "", left: place(index).left,
+      top: `${Math.floor(index / columns) * (76 / lines)}%`, textStyle: { fontSize: 13, color: colour("text") } })),
+    grid: panels.map((_, index) => place(index)),
+    xAxis: panels.map((_, index) => ({ gridIndex: index, type: "category", data: xs.map(shortly), name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...withRoom(xs, mostLabels / columns) })),
+    yAxis: panels.map((_, index) => ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0 && view.y ? titleOf(view.y) : "", nameLocation: "middle", nameGap: 52, ...withRoom(ys, mostLabels, index % columns === 0) })),
+  };
+}

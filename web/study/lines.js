@@ -1,0 +1,95 @@
+// A metric over one axis, a line for each value of a second one (and of the panels' axis), with the spread of what lies together.
+import { axisLook, makeChart } from "/core/charts.js";
+import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
+import { colour, lineColour } from "/core/theme.js";
+import { groupBy, none, valuesOf } from "/study/data.js";
+
+const mostLines = 30;
+const fewPoints = 400;  // whose marks do not hide the lines
+const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow"];
+
+export function linesChart(element, study, signal) {
+  let groups = [];
+  const made = makeChart(element, () => {
+    const plan = planOf(study);
+    groups = plan.groups;
+    return plan.option;
+  }, "Lines of the metric over one axis; the table below has the same numbers", signal);
+  made.then(({ chart }) => chart.on("click", ({ seriesId, dataIndex }) => {
+    const group = groups[Number(seriesId?.split(":")[1])]?.[dataIndex];
+    if (group) study.selection.toggle(group.jobs);
+  })).catch(() => {});
+  return made;
+}
+
+function planOf({ rows, view, selection, others }) {
+  const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
+  const numeric = xs.every((x) => typeof x === "number");
+  const all = [...linesOf(rows, view, ""), ...(others ? linesOf(others.rows, view, others.name) : [])];
+  const lines = all.slice(0, mostLines);
+  const few = lines.reduce((sum, line) => sum + line.groups.length, 0) <= fewPoints;
+  const at = (value) => (numeric ? value : xs.indexOf(value));
+  const x = numeric ? { type: "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
+  const groups = lines.map((line) => line.groups);
+  if (lines.length === 0) return { groups, option: null };
+  return { groups, option: {
+    grid: { left: 75, right: 20, top: 40, bottom: all.length > mostLines ? 75 : 50 },
+    legend: { top: 0 },
+    title: { show: all.length > mostLines, text: `The first ${mostLines} of ${all.length} lines: choose fewer values, or another axis for them.`, bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
+    tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
+    xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...axisLook() },
+    yAxis: { type: "value", scale: true, name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
+    series: lines.flatMap((line, index) => [...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []), lineSeries(line, index, at, few),
+      ...chosenSeries(line, index, at, selection)]),
+  } };
+}
+
+/// @param sweep  its name, where it is not the one that is looked at
+function linesOf(rows, view, sweep) {
+  const keys = [view.y, view.panel].filter(Boolean);
+  const byLine = new Map();
+  for (const group of groupBy(rows, [...keys, view.x], view.metric)) {
+    if (group.mean === null) continue;
+    const key = JSON.stringify(group.values.slice(0, -1));
+    if (!byLine.has(key)) byLine.set(key, []);
+    byLine.get(key).push(group);
+  }
+  const nameOfLine = ([{ values }]) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), sweep].filter(Boolean).join(", ") || nameOf(view.metric);
+  const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
+  const x = (group) => order.get(group.values.at(-1));
+  return [...byLine.values()].map((groups) => ({ name: nameOfLine(groups), dashed: sweep !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+}
+
+function lineSeries(line, index, at, few) {
+  return { id: `line:${index}`, name: line.name, type: "line", symbol: symbols[index % symbols.length], showSymbol: few, symbolSize: 8, color: lineColour(index),
+    lineStyle: { type: line.dashed ? "dashed" : "solid" },
+    data: line.groups.map((group) => [at(group.values.at(-1)), group.mean]) };
+}
+
+/// Rings around what is selected; nothing, where nothing is.
+function chosenSeries(line, index, at, selection) {
+  const chosen = selection.size === 0 ? [] : line.groups.filter((group) => group.jobs.some((job) => selection.has(job)));
+  if (chosen.length === 0) return [];
+  return [{ id: `chosen:${index}`, name: line.name, type: "scatter", silent: true, symbol: "circle", symbolSize: 15, z: 5,
+    itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 }, data: chosen.map((group) => [at(group.values.at(-1)), group.mean]) }];
+}
+
+function textOf({ name, groups }, index, view) {
+  const group = groups[index];
+  const several = group.count > 1 ? `\nmean of ${group.count}: ${number(group.min)} to ${number(group.max)}` : "";
+  return `${name}\n${nameOf(view.x)} ${pointOf(view.x, group.values.at(-1))}\n${number(group.mean)} ${unitOf(view.metric)}${several}`;
+}
+
+/// From the least to the largest of what lies together, as an upright bar.
+function spreadSeries(line, index, at) {
+  return { id: `spread:${index}`, name: line.name, type: "custom", silent: true, color: lineColour(index),
+    data: line.groups.filter((group) => group.count > 1).map((group) => [at(group.values.at(-1)), group.min, group.max]),
+    encode: { x: 0, y: [1, 2] },
+    renderItem: (_, api) => {
+      const [x, low] = api.coord([api.value(0), api.value(1)]);
+      const [, high] = api.coord([api.value(0), api.value(2)]);
+      const style = { stroke: api.visual("color"), lineWidth: 2, opacity: 0.6 };
+      const stroke = (x1, y1, x2, y2) => ({ type: "line", shape: { x1, y1, x2, y2 }, style });
+      return { type: "group", children: [stroke(x, low, x, high), stroke(x - 5, low, x + 5, low), stroke(x - 5, high, x + 5, high)] };
+    } };
+}

@@ -1,0 +1,24 @@
+// The jobs that are selected: one set for all parts of a sweep's page.
+
+export class Selection extends EventTarget {
+  #ids = new Set();
+
+  get size() { return this.#ids.size; }
+
+  get ids() { return [...this.#ids]; }
+
+  has(id) { return this.#ids.has(id); }
+
+  set(ids) {
+    const next = new Set(ids);
+    if (next.size === this.#ids.size && [...next].every((id) => this.#ids.has(id))) return;
+    this.#ids = next;
+    this.dispatchEvent(new Event("change"));
+  }
+
+  /// Takes jobs in, or out if all of them are in.
+  toggle(ids) {
+    const all = ids.every((id) => this.#ids.has(id));
+    this.set(all ? this.ids.filter((id) => !ids.includes(id)) : [...this.#ids, ...ids]);
+  }
+}

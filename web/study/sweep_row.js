@@ -1,0 +1,66 @@
+// One sweep in the list: its row is made once and then kept up to date.
+import { findResults } from "/core/api.js";
+import { h } from "/core/dom.js";
+import { moment, nameOf, number, span } from "/core/format.js";
+import { isUnderWay } from "/core/live.js";
+import { routeTo } from "/core/route.js";
+
+const peak = "peak_slider_acceleration_m_s2";
+const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
+
+/// @param act  is called with "cancel", "retry" or "delete"
+export function sweepRow(act, signal) {
+  const cells = Object.fromEntries(["name", "state", "progress", "jobs", "peaks", "created", "actions"].map((key) => [key, h("td", { class: key === "name" ? "name" : key === "jobs" ? "" : "fixed" })]));
+  const element = h("tr", {}, ...Object.values(cells));
+  const buttons = {
+    cancel: h("button", { onclick: () => act("cancel") }, "Cancel"),
+    retry: h("button", { onclick: () => act("retry") }, "Retry"),
+    delete: h("button", { class: "danger", onclick: () => act("delete") }, "Delete"),
+  };
+  const again = h("a", { class: "button" }, "Use again");
+  cells.actions.append(h("span", { class: "actions" }, ...Object.values(buttons), again));
+  const bar = h("progress");
+  const percent = h("span", { class: "small quiet" });
+  cells.progress.append(bar, percent);
+  let drawn = "";
+  let counted = -1;
+
+  function update(sweep) {
+    const text = JSON.stringify(sweep);
+    if (text === drawn) return;
+    drawn = text;
+    const name = sweep.name || sweep.id;
+    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id) }, name), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
+    cells.state.replaceChildren(h("span", { class: sweep.state }, sweep.state));
+    const part = `${Math.floor(100 * sweep.progress)} %`;
+    bar.value = sweep.progress;
+    bar.setAttribute("aria-label", `Progress of ${name}`);
+    percent.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `${part}, about ${span(sweep.eta_s)} left` : part;
+    cells.jobs.textContent = jobStates.filter((state) => sweep.counts[state] > 0).map((state) => `${sweep.counts[state].toLocaleString("en")} ${state}`).join(", ");
+    cells.created.textContent = moment(sweep.created_at);
+    buttons.cancel.hidden = !isUnderWay(sweep);
+    buttons.retry.hidden = sweep.counts.failed + sweep.counts.cancelled === 0;
+    buttons.delete.hidden = isUnderWay(sweep);
+    for (const [action, button] of Object.entries(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
+    again.href = routeTo("new", "", { from: sweep.id });
+    again.setAttribute("aria-label", `Use again: ${name}`);
+    if (sweep.counts.succeeded !== counted && sweep.counts.succeeded > 0) showPeaks(sweep);
+    counted = sweep.counts.succeeded;
+  }
+
+  async function showPeaks(sweep) {
+    const extreme = async (order) => {
+      const rows = await findResults(sweep.id, { fields: `job_id,${peak}`, [`${peak}_ge`]: 0, order_by: order, limit: 1 }, signal);
+      return rows[0];
+    };
+    try {
+      const [least, largest] = await Promise.all([extreme(peak), extreme(`-${peak}`)]);
+      const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
+      cells.peaks.replaceChildren(...(least ? [link(least), " … ", link(largest), " m/s²"] : ["–"]));
+    } catch (error) {
+      if (error.name !== "AbortError") cells.peaks.textContent = "–";
+    }
+  }
+
+  return { element, update };
+}

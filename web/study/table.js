@@ -1,0 +1,82 @@
+// The rows of a sweep as a table: sorted by any column, a page at a time.
+import { h } from "/core/dom.js";
+import { nameOf, number, unitOf } from "/core/format.js";
+import { routeTo } from "/core/route.js";
+import { sortedBy, valueOf } from "/study/data.js";
+
+const pageSize = 50;
+
+export class ResultTable {
+  constructor(study) {
+    this.study = study;
+    this.order = { column: "", descending: false };
+    this.page = 0;
+    this.onlySelected = false;
+    this.head = h("tr");
+    this.body = h("tbody");
+    this.where = h("span", { class: "quiet small" });
+    this.back = h("button", { onclick: () => this.turn(-1) }, "Back");
+    this.next = h("button", { onclick: () => this.turn(1) }, "Next");
+    const only = h("input", { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.page = 0; this.draw(); } });
+    this.element = h("div", {},
+      h("p", { class: "actions" }, this.back, this.next, this.where, h("label", {}, only, " only what is selected")),
+      h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Results" }, h("table", {}, h("thead", {}, this.head), this.body)));
+  }
+
+  turn(by) {
+    this.page += by;
+    this.draw();
+  }
+
+  sortBy(column) {
+    const again = this.order.column === column;
+    this.order = { column, descending: again ? !this.order.descending : false };
+    this.page = 0;
+    this.draw();
+    this.head.querySelector(`[data-column="${CSS.escape(column)}"]`)?.focus();
+  }
+
+  draw() {
+    const { axes, metrics, view } = this.study;
+    const columns = ["state", ...axes, ...(this.study.rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
+      view.metric, ...metrics.filter((metric) => metric !== view.metric)];
+    this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"), ...columns.map((column) => this.heading(column)));
+    const rows = this.visible();
+    const pages = Math.max(1, Math.ceil(rows.length / pageSize));
+    this.page = Math.min(Math.max(this.page, 0), pages - 1);
+    this.body.replaceChildren(...rows.slice(this.page * pageSize, (this.page + 1) * pageSize).map((row) => this.row(row, columns)));
+    this.back.disabled = this.page === 0;
+    this.next.disabled = this.page >= pages - 1;
+    this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} of ${this.study.rows.length.toLocaleString("en")} jobs`;
+  }
+
+  visible() {
+    const { rows, selection } = this.study;
+    const wanted = this.onlySelected ? rows.filter((row) => selection.has(row.job_id)) : rows;
+    return this.order.column ? sortedBy(wanted, this.order.column, this.order.descending) : wanted;
+  }
+
+  heading(column) {
+    const sorted = this.order.column === column;
+    const arrow = sorted ? (this.order.descending ? " ▼" : " ▲") : "";
+    const unit = unitOf(column);
+    return h("th", { scope: "col", "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
+      h("button", { "data-column": column, onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
+  }
+
+  row(row, columns) {
+    const { selection } = this.study;
+    const box = h("input", { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
+    box.checked = selection.has(row.job_id);
+    return h("tr", { class: box.checked ? "selected" : null }, h("td", {}, box),
+      h("td", { class: "fixed" }, h("a", { href: routeTo("jobs", row.job_id) }, `…${row.job_id.slice(-5)}`)),
+      columns.map((column) => this.cell(row, column)));
+  }
+
+  cell(row, column) {
+    const value = valueOf(row, column);
+    if (column === "state") return h("td", { class: value, title: row.error_detail ?? null }, row.error_reason ? `${value}: ${row.error_reason}` : value);
+    const given = this.study.axes.includes(column);
+    return h("td", { class: typeof value === "number" ? "number" : null }, number(value, given ? 6 : 4));
+  }
+}
