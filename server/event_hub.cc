@@ -40,9 +40,12 @@ EventHub::EventHub() : thread_([this](const std::stop_token& stop) { work(stop);
 
 EventHub::~EventHub() { stop(); }
 
-bool EventHub::has_room() const {
+bool EventHub::admit(const std::shared_ptr<EventSource>& events) {
   const std::lock_guard lock(mutex_);
-  return streams_.size() < kPlaces && !stopped_;
+  std::erase_if(admitted_, [](const auto& one) { return one.expired(); });
+  if (stopped_ || admitted_.size() >= kPlaces) return false;
+  admitted_.push_back(events);
+  return true;
 }
 
 void EventHub::take(int socket, std::shared_ptr<EventSource> events) {

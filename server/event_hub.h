@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/message.h"
 
@@ -23,10 +24,10 @@ class EventHub {
   EventHub(const EventHub&) = delete;
   EventHub& operator=(const EventHub&) = delete;
 
-  /// Whether there is room for one more.
-  [[nodiscard]] bool has_room() const;
+  /// Gives these events a place, which is theirs for as long as they exist. False if there is none.
+  [[nodiscard]] bool admit(const std::shared_ptr<EventSource>& events);
 
-  /// Takes a connection over, whose head has been sent, and closes it at the end.
+  /// Takes the connection of admitted events over, whose head has been sent, and closes it at the end.
   void take(int socket, std::shared_ptr<EventSource> events);
 
   /// Closes every connection, and those that come from now on.
@@ -46,9 +47,10 @@ class EventHub {
   /// False when the connection is done with.
   static bool serve(Stream& stream);
 
-  mutable std::mutex mutex_;  // guards streams_ and stopped_
+  std::mutex mutex_;  // guards all but the thread
   std::condition_variable_any changed_;
   std::list<Stream> streams_;
+  std::vector<std::weak_ptr<EventSource>> admitted_;
   bool stopped_ = false;
   std::jthread thread_;  // last: uses the rest
 };

@@ -228,7 +228,7 @@ class HttpServer::Impl {
     request.body = std::move(body);
     request.id = request_ids_.next();
     Response response = routes_.answer(request);
-    if (response.events && !guard.has_room_for_events()) response = make_retry_later(503, "too many clients follow events");
+    if (response.events && !guard.admit(response.events)) response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();
     copy_to(to, std::move(response));
     to.set_header("X-Request-Id", request.id);

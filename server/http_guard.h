@@ -33,8 +33,8 @@ class GuardedServer final : public httplib::Server {
     hub_.stop();
   }
 
-  /// Whether one more connection may stay open for events.
-  [[nodiscard]] bool has_room_for_events() const { return hub_.has_room(); }
+  /// Whether one more connection may stay open, for these events.
+  [[nodiscard]] bool admit(const std::shared_ptr<EventSource>& events) { return hub_.admit(events); }
 
   /// Called by the handler of a request: once its answer's head has been sent, the connection stays open for these events.
   static void follow_with(std::shared_ptr<EventSource> events);
