@@ -2,8 +2,8 @@
 
 #include "engine/dynamics/body_force.h"
 #include "engine/dynamics/shapes.h"
-#include "engine/dynamics/tree_model.h"
 #include "engine/kinematics/frame_recursion.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
 #include "engine/math/vec3.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/dynamics/tree_model.h"
 #include "engine/kinematics/frame_recursion.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/math/vec3.h"
 
 namespace engine {

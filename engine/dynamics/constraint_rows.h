@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "engine/dynamics/tree_model.h"
 #include "engine/kinematics/frame_recursion.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
 
 namespace engine {

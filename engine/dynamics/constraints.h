@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "engine/dynamics/constraint_rows.h"
-#include "engine/dynamics/tree_model.h"
 #include "engine/kinematics/frame_motion.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/clearance/contact_law.h"
-#include "engine/dynamics/tree_model.h"
 #include "engine/kinematics/frame_recursion.h"
+#include "engine/kinematics/tree_model.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/dynamics/equations.h"
-#include "engine/dynamics/tree_model.h"
 #include "engine/dynamics/varied_equations.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
 #include "engine/math/dual.h"
 

@@ -8,7 +8,7 @@
 
 #include "engine/clearance/clearance_joint.h"
 #include "engine/dynamics/evaluation.h"
-#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/model/drive_law.h"
 
 namespace engine {

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "engine/dynamics/tree_model.h"
 #include "engine/kinematics/frame_motion.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {

@@ -11,7 +11,7 @@
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/dynamics/shifted_jacobian.h"
-#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {

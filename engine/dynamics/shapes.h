@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "engine/dynamics/joint_shape.h"
-#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/joint_shape.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/math/instruction_set.h"
 
 namespace engine {

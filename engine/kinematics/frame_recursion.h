@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/tree_model.h"
 #include "engine/math/dual.h"
 #include "engine/math/vec3.h"
 

@@ -29,6 +29,9 @@ forbid engine "(\.\./)*(jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CL
 forbid jobs "(\.\./)*(server|web|tests)/|$http|spdlog|CLI|prometheus"
 forbid server "(\.\./)*(web|tests)/|$sqlite|zstd"
 forbid server "$http" '^server/http(_[a-z]+)?\.(h|cc)$'
+# Positions and rates come before forces.
+forbid engine/kinematics 'engine/dynamics/'
+forbid engine/model 'engine/(kinematics|dynamics)/'
 # What proves the engine right is no part of what computes.
 forbid engine 'engine/validation/' '^engine/validation/'
 forbid jobs 'engine/validation/' '^jobs/validation/'

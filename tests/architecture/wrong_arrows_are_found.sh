@@ -8,8 +8,10 @@ trap 'rm -rf "$tree"' EXIT
 # plant FILE INCLUDE: the tree of correct includes with one more
 plant() {
   rm -rf "${tree:?}"/*
-  mkdir -p "$tree/engine" "$tree/jobs" "$tree/server"
+  mkdir -p "$tree/engine/kinematics" "$tree/engine/model" "$tree/jobs" "$tree/server"
   echo '#include <vector>' >"$tree/engine/simulate.h"
+  echo '#include <vector>' >"$tree/engine/model/mechanism.h"
+  echo '#include "engine/model/mechanism.h"' >"$tree/engine/kinematics/frame_motion.h"
   echo '#include "engine/simulate.h"' >"$tree/jobs/store.cc"
   echo '#include "jobs/store.h"' >"$tree/server/routes.cc"
   echo '#include <httplib.h>' >"$tree/server/http_guard.cc"
@@ -36,4 +38,6 @@ expect_refused server/routes.cc '#include <httplib.h>'
 expect_refused server/routes.cc '#include "../jobs/store.h"'
 expect_refused engine/simulate.h '#include "engine/validation/report.h"'
 expect_refused jobs/store.cc '#include "engine/validation/report.h"'
+expect_refused engine/kinematics/frame_motion.h '#include "engine/dynamics/equations.h"'
+expect_refused engine/model/mechanism.h '#include "engine/kinematics/frame_motion.h"'
 echo "all planted faults are found"

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/dynamics/joint_shape.h"
+#include "engine/kinematics/joint_shape.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {

@@ -1,4 +1,4 @@
-#include "engine/dynamics/tree_model.h"
+#include "engine/kinematics/tree_model.h"
 
 #include <algorithm>
 #include <cstddef>
