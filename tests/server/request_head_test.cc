@@ -16,6 +16,7 @@ struct HeadCase {
   std::string head;  ///< without the empty line
   int status;        ///< 0: no fault
 };
+void PrintTo(const HeadCase& c, std::ostream* out) { *out << c.name; }
 
 class Head : public testing::TestWithParam<HeadCase> {};
 
@@ -62,6 +63,7 @@ struct OriginCase {
   OriginCheck::Headers headers;
   bool good;
 };
+void PrintTo(const OriginCase& c, std::ostream* out) { *out << c.name; }
 
 class Origin : public testing::TestWithParam<OriginCase> {};
 
