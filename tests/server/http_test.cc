@@ -154,6 +154,14 @@ TEST_F(Http, RefusesAHeadThatIsTooLarge) {
   EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(7'900, 'a') + "\r\n")), 200);
 }
 
+TEST_F(Http, RefusesHeadWithoutABody) {
+  for (const std::string& head : {std::string("Idempotency-Key:\r\n\r\n"), "X: " + std::string(20'000, 'a')}) {
+    const std::string answer = ask("HEAD /healthz HTTP/1.1\r\nHost: localhost\r\n" + head);
+    EXPECT_EQ(answer.substr(0, 10), "HTTP/1.1 4");
+    EXPECT_EQ(body_of(answer), "");
+  }
+}
+
 TEST_F(Http, RefusesABodyByItsLengthBeforeItComes) {
   EXPECT_EQ(status_of(ask("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100001\r\n\r\n")), 413);
 }
