@@ -85,6 +85,7 @@ TEST(ETag, IsNotOfWhatStillChanges) {
 TEST(Prefer, IsReadFromItsList) {
   EXPECT_EQ(server::find_wait("respond-async, wait=10"), 10s);
   EXPECT_EQ(server::find_wait("wait = 5"), 5s);
+  EXPECT_EQ(server::find_wait("Wait=5"), 5s);
   EXPECT_EQ(server::find_wait("wait=100000"), 60s);
   for (const char* none : {"", "wait", "wait=", "wait=-1", "wait=1.5", "waiting=3", "handling=lenient"}) EXPECT_FALSE(server::find_wait(none).has_value()) << none;
 }
