@@ -33,7 +33,7 @@ class Parser {
     read_cases();
     read_design();
     read_axes();
-    if (faults_.empty()) check_places();
+    check_places();
     if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
     return std::move(sweep_);
   }
@@ -78,6 +78,7 @@ class Parser {
     const json replicates = request_.at("replicates");
     if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation and seed");
     constexpr std::array<std::string_view, 3> kKeys{"count", "perturbation", "seed"};
+    const std::size_t before = faults_.size();
     for (const auto& [key, value] : replicates.items()) {
       const std::string detail = key == "count"          ? describe_integer_fault(kCountRange, value)
                                  : key == "perturbation" ? describe_number_fault(kPerturbationRange, "", value)
@@ -86,7 +87,7 @@ class Parser {
       if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
     }
     if (!replicates.contains("count")) fault("/replicates/count", "is missing");
-    if (!faults_.empty()) return;
+    if (faults_.size() > before) return;
     sweep_.replicates = {.requested = true,
                          .count = replicates.at("count").get<std::uint64_t>(),
                          .perturbation = replicates.value("perturbation", Replicates{}.perturbation),
@@ -129,7 +130,8 @@ class Parser {
                                 : request_.contains("design") ? "/design"
                                 : request_.contains("cases")  ? "/cases"
                                                               : "/replicates/count";
-    throw InvalidRequest(std::vector<Fault>{{pointer, "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed"}});
+    fault(pointer, "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed");
+    throw InvalidRequest(std::move(faults_));
   }
 
   void read_cases() {

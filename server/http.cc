@@ -150,7 +150,7 @@ class HttpServer::Impl {
     const std::string origin = request.get_header_value("Origin");
     if (!origin_check_.is_allowed(origin)) return;
     response.set_header("Access-Control-Allow-Origin", origin);
-    response.set_header("Access-Control-Expose-Headers", "ETag, Location, Retry-After, X-Request-Id");
+    response.set_header("Access-Control-Expose-Headers", "Content-Disposition, ETag, Location, Preference-Applied, Retry-After, X-Request-Id");
   }
 
   /// What a browser asks on behalf of such a page before it sends the request itself.

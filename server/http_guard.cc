@@ -56,12 +56,13 @@ void disarm(httplib::Request& request) { request.headers.erase("Accept-Encoding"
 /// and tells it nothing of the connection.
 thread_local std::shared_ptr<EventSource> events_of_this_connection;
 
-std::string to_wire(const Response& response) {
+/// All before the body, in the form of HTTP.
+std::string head_of(const Response& response) {
   std::string text = "HTTP/1.1 " + std::to_string(response.status) + " " + std::string(status_phrase(response.status)) +
                      "\r\nConnection: close\r\nContent-Type: " + response.content_type +
                      "\r\nContent-Length: " + std::to_string(response.body.size()) + "\r\n";
   for (const auto& [name, value] : response.headers) text += name + ": " + value + "\r\n";
-  return text + "\r\n" + response.body;
+  return text + "\r\n";
 }
 
 }  // namespace
@@ -127,7 +128,8 @@ void GuardedServer::serve(HttpStream& stream) {
 }
 
 void GuardedServer::refuse(HttpStream& stream, int status, const std::string& detail) {
-  stream.send_all(to_wire(make_refusal_(status, detail)));
+  const Response refusal = make_refusal_(status, detail);
+  stream.send_all(head_of(refusal) + (stream.asks_for_head() ? "" : refusal.body));
 }
 
 }  // namespace server

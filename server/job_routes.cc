@@ -35,7 +35,7 @@ Response post_job(const Call& call) {
 }
 
 Response get_jobs(const Call& call) {
-  return make_json(200, to_text(call.service.list_jobs(read_page_query(call.request))));
+  return make_json(200, to_text(list_page(call.request, [&](const jobs::PageQuery& page) { return call.service.list_jobs(page); })));
 }
 
 Response get_job(const Call& call) {
@@ -61,8 +61,7 @@ Response get_trajectory(const Call& call) {
   wanted.from = query.number("from");
   wanted.to = query.number("to");
   wanted.points = query.count("points");
-  query.check();
-  const auto trajectory = call.service.find_trajectory(call.id, wanted);
+  const auto trajectory = query.check_and([&] { return call.service.find_trajectory(call.id, wanted); });
   if (!trajectory) {
     const auto job = call.service.find_job(call.id);
     if (!job) throw no_such_job(call.id);

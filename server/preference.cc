@@ -1,6 +1,7 @@
 #include "server/preference.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 namespace server {
@@ -15,6 +16,11 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// Names of preferences are the same in capitals (RFC 7240).
+bool names_wait(std::string_view item) {
+  return std::ranges::equal(item.substr(0, 4), std::string_view("wait"), [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+}
+
 }  // namespace
 
 std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
@@ -22,7 +28,7 @@ std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
     const auto comma = std::min(prefer.find(','), prefer.size());
     std::string_view item = trimmed(prefer.substr(0, comma));
     prefer.remove_prefix(std::min(comma + 1, prefer.size()));
-    if (!item.starts_with("wait")) continue;
+    if (!names_wait(item)) continue;
     item = trimmed(item.substr(4));
     if (!item.starts_with('=')) continue;
     item = trimmed(item.substr(1));

@@ -49,7 +49,7 @@ std::optional<std::string> Query::text(std::string_view key) const {
   return std::nullopt;
 }
 
-std::vector<std::string> Query::list(std::string_view key) {
+std::vector<std::string> Query::list(std::string_view key) const {
   const auto value = text(key);
   if (!value) return {};
   std::vector<std::string> items;
@@ -57,7 +57,6 @@ std::vector<std::string> Query::list(std::string_view key) {
   for (;;) {
     const std::size_t comma = value->find(',', start);
     items.push_back(value->substr(start, comma == std::string::npos ? comma : comma - start));
-    if (items.back().empty()) add_fault(key, "an empty item in the list");
     if (comma == std::string::npos) return items;
     start = comma + 1;
   }

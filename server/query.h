@@ -28,8 +28,8 @@ class Query {
 
   /// The value of a key, if it stands in the query.
   [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
-  /// The same, split at its commas; empty if the key is missing. An empty item is a fault.
-  [[nodiscard]] std::vector<std::string> list(std::string_view key);
+  /// The same, split at its commas; empty if the key is missing. An empty item is no name: the service refuses it.
+  [[nodiscard]] std::vector<std::string> list(std::string_view key) const;
   /// The same as it stands, for lists whose items may have commas; an empty text is a fault.
   [[nodiscard]] std::string names(std::string_view key);
   /// The same as a finite number; anything else is a fault.
@@ -41,6 +41,21 @@ class Query {
 
   /// @throws jobs::InvalidRequest with every fault met so far, if there is any. Call it once all keys are read.
   void check() const;
+
+  /// Asks what the query is for, also if it has faults: the service finds more of them, and a user sees all at once.
+  /// @returns what the service answers
+  /// @throws jobs::InvalidRequest with the faults met so far and those that the service finds
+  template <typename Ask>
+  [[nodiscard]] auto check_and(const Ask& ask) {
+    std::optional<decltype(ask())> answer;
+    try {
+      answer = ask();
+    } catch (const jobs::InvalidRequest& invalid) {
+      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
+    }
+    check();
+    return std::move(*answer);
+  }
 
  private:
   void add_fault(std::string_view key, const std::string& detail);

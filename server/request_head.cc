@@ -48,6 +48,8 @@ std::optional<Refusal> read_header_line(std::string_view line, Framing& framing)
     ++framing.length_count;
     framing.length = value;
   }
+  // The library drops headers without a value: the request would be taken as one without a key, and stored again when it comes again.
+  if (name == "idempotency-key" && value.empty()) return Refusal{400, "Idempotency-Key has no value"};
   if (name == "transfer-encoding") {
     ++framing.encoding_count;
     framing.encoding = lower(value);

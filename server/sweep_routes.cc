@@ -47,7 +47,7 @@ Response post_sweep(const Call& call) {
 }
 
 Response get_sweeps(const Call& call) {
-  return make_json(200, to_text(call.service.list_sweeps(read_page_query(call.request))));
+  return make_json(200, to_text(list_page(call.request, [&](const jobs::PageQuery& page) { return call.service.list_sweeps(page); })));
 }
 
 Response get_sweep(const Call& call) {
@@ -74,8 +74,7 @@ Response get_results(const Call& call) {
   wanted.order_by = query.names("order_by");
   wanted.limit = query.count("limit");
   for (const auto& [key, value] : query.others()) wanted.filters.push_back({key, value});
-  query.check();
-  const auto table = call.service.find_results(call.id, wanted);
+  const auto table = query.check_and([&] { return call.service.find_results(call.id, wanted); });
   if (!table) throw no_such_sweep(call.id);
   Response response = make_table(format, to_text(*table, format), "sweep-" + call.id);
   return table->ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));

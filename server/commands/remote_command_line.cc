@@ -58,7 +58,7 @@ Command add_results(CLI::App& app) {
   const auto options = std::make_shared<ResultsOptions>();
   CLI::App* const command = add_command(app, "results", "Print the table of results of a sweep, as far as it has come", *options);
   command->add_option("id", options->sweep, "Of a sweep")->required();
-  command->add_option("--format", options->format, "Form of the table")->check(CLI::IsMember({"csv", "json"}))->capture_default_str()->envname("RPSUP_FORMAT");
+  command->add_option("--format", options->format, "Form of the table")->check(CLI::IsMember({"csv", "json", "ndjson"}))->capture_default_str()->envname("RPSUP_FORMAT");
   command->add_option("--output", options->output, "File for the table; - writes standard output")
       ->type_name("FILE")
       ->capture_default_str()

@@ -16,7 +16,7 @@ int submit(const SubmitOptions& options) {
 }
 
 int results(const ResultsOptions& options) {
-  const std::string media_type = options.format == "csv" ? "text/csv" : "application/json";
+  const std::string media_type = options.format == "csv" ? "text/csv" : options.format == "ndjson" ? "application/x-ndjson" : "application/json";
   write_text(options.output, RemoteService(options.remote).results(options.sweep, media_type));
   return kDone;
 }

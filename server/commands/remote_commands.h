@@ -41,7 +41,7 @@ int watch(const WatchOptions& options);
 struct ResultsOptions {
   RemoteOptions remote;
   std::string sweep;
-  std::string format = "csv";  ///< "csv" or "json"
+  std::string format = "csv";  ///< "csv", "json" or "ndjson"
   std::string output = "-";    ///< file; "-": standard output
 };
 

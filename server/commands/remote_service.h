@@ -35,7 +35,7 @@ class RemoteService {
   /// The sweep or job of that id. @throws BadInput if there is neither
   [[nodiscard]] Resource find(const std::string& id);
   [[nodiscard]] Resource cancel(const std::string& id);
-  /// The table of results, byte for byte as the service gives it. @param media_type  text/csv or application/json
+  /// The table of results, byte for byte as the service gives it. @param media_type  text/csv, application/json or application/x-ndjson
   [[nodiscard]] std::string results(const std::string& sweep_id, const std::string& media_type);
 
  private:

@@ -36,22 +36,45 @@ std::string problem_name(int status) {
   return name;
 }
 
+/// The headers of answers beside those that HTTP itself and browsers' safety need.
+Json make_headers() {
+  const Json text{{"type", "string"}};
+  return {{"Location", {{"description", "The path of what was made"}, {"required", true}, {"schema", {{"type", "string"}, {"pattern", "^/v1/"}}}}},
+          {"ETag", {{"description", "For If-None-Match; only on what has ended"}, {"schema", text}}},
+          {"Preference-Applied", {{"description", "The wait that was done; without it there was none"}, {"schema", {{"type", "string"}, {"pattern", "^wait=[0-9]+$"}}}}},
+          {"Content-Disposition", {{"description", "A name for the file, in forms that are saved rather than read"}, {"schema", text}}},
+          {"Retry-After", {{"description", "Seconds after which to try again"}, {"schema", {{"type", "integer"}}}}},
+          {"X-Request-Id", {{"description", "What the log calls the request; not on what is refused before it is looked at"}, {"schema", text}}}};
+}
+
+void add_header_to(Json& answer, const std::string& name) { answer["headers"][name] = {{"$ref", "#/components/headers/" + name}}; }
+
 Json make_problem_answer(int status) {
   Json answer{{"description", status_phrase(status)}, {"content", {{"application/problem+json", {{"schema", ref("Problem")}}}}}};
-  if (status == 429 || status == 503) {
-    answer["headers"]["Retry-After"] = {{"description", "Seconds after which to try again"}, {"schema", {{"type", "integer"}}}};
-  }
+  add_header_to(answer, "X-Request-Id");
+  if (status == 429 || status == 503) add_header_to(answer, "Retry-After");
+  return answer;
+}
+
+/// Whether browsers save an answer of this form instead of showing it.
+bool is_saved(const AnswerForm& form) {
+  constexpr std::array<std::string_view, 3> kSaved{"text/csv", "application/x-npz", "application/vnd.sqlite3"};
+  return std::ranges::find(kSaved, form.media_type) != kSaved.end();
+}
+
+/// An answer that is no problem, without its body.
+Json make_answer(const Route& route, int status) {
+  Json answer{{"description", status_phrase(status)}};
+  add_header_to(answer, "X-Request-Id");
+  if (status == 201) add_header_to(answer, "Location");
+  if (std::ranges::find(route.bodiless, 304) != route.bodiless.end()) add_header_to(answer, "ETag");
+  if (std::ranges::find(route.headers, "prefer") != route.headers.end()) add_header_to(answer, "Preference-Applied");
+  if (std::ranges::any_of(route.answers, is_saved)) add_header_to(answer, "Content-Disposition");
   return answer;
 }
 
 Json make_success(const Route& route) {
-  Json answer{{"description", status_phrase(route.success)}};
-  if (route.success == 201) {
-    answer["headers"]["Location"] = {{"description", "The path of what was made"}, {"required", true}, {"schema", {{"type", "string"}, {"pattern", "^/v1/"}}}};
-  }
-  if (std::ranges::find(route.bodiless, 304) != route.bodiless.end()) {
-    answer["headers"]["ETag"] = {{"description", "For If-None-Match; only on what has ended"}, {"schema", {{"type", "string"}}}};
-  }
+  Json answer = make_answer(route, route.success);
   for (const AnswerForm& form : route.answers) answer["content"][std::string(form.media_type)]["schema"] = ref(form.schema);
   return answer;
 }
@@ -66,7 +89,7 @@ Json make_operation(const Route& route) {
     operation["requestBody"] = {{"required", true}, {"content", {{"application/json", {{"schema", ref(route.body)}}}}}};
   }
   operation["responses"][std::to_string(route.success)] = make_success(route);
-  for (const int status : route.bodiless) operation["responses"][std::to_string(status)] = {{"description", status_phrase(status)}};
+  for (const int status : route.bodiless) operation["responses"][std::to_string(status)] = make_answer(route, status);
   for (const int status : problems_of(route)) {
     operation["responses"][std::to_string(status)] = {{"$ref", "#/components/responses/" + problem_name(status)}};
   }
@@ -121,7 +144,8 @@ nlohmann::ordered_json make_document() {
                             "the names; whatever answers GET answers HEAD, too."}}},
           {"servers", {{{"url", "/"}}}},
           {"paths", make_paths()},
-          {"components", {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"responses", make_problem_answers()}}}};
+          {"components",
+           {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"headers", make_headers()}, {"responses", make_problem_answers()}}}};
 }
 
 }  // namespace server::openapi

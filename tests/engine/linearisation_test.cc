@@ -20,6 +20,7 @@ struct Case {
   double offset;    ///< of the slider from where the loop closes, [m]: how deep the journal is pressed into the bearing
   double step;      ///< of the differences, [m] or [rad]: far below the penetration, or far above rounding where nothing touches
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 std::vector<Case> all_cases() {
   RpsupParameters rigid;

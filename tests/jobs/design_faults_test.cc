@@ -12,6 +12,7 @@ struct FaultCase {
   const char* pointer;
   const char* says;
 };
+void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.name; }
 
 class DesignFault : public testing::TestWithParam<FaultCase> {};
 
@@ -87,6 +88,7 @@ struct SizeCase {
   const char* request;
   const char* size;
 };
+void PrintTo(const SizeCase& c, std::ostream* out) { *out << c.name; }
 
 class DesignTooLarge : public testing::TestWithParam<SizeCase> {};
 

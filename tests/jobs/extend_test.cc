@@ -81,6 +81,7 @@ struct RefusalCase {
   const char* addition;
   Strings pointers;
 };
+void PrintTo(const RefusalCase& c, std::ostream* out) { *out << c.name; }
 
 class ExtensionRefusal : public testing::TestWithParam<RefusalCase> {};
 

@@ -19,6 +19,7 @@ struct FaultCase {
   const char* pointer;
   const char* says;  ///< part of the detail
 };
+void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.name; }
 
 class ParameterFault : public testing::TestWithParam<FaultCase> {};
 

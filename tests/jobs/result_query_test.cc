@@ -35,6 +35,7 @@ struct FilterCase {
   std::vector<jobs::ResultFilter> filters;
   Strings ids;
 };
+void PrintTo(const FilterCase& c, std::ostream* out) { *out << c.name; }
 
 class Filter : public testing::TestWithParam<FilterCase> {};
 

@@ -12,6 +12,7 @@ struct FaultCase {
   const char* pointer;
   const char* says;
 };
+void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.name; }
 
 class SweepFault : public testing::TestWithParam<FaultCase> {};
 
@@ -88,11 +89,24 @@ TEST(SweepFaults, AreAllReportedAtOnce) {
                                                             "/sweep/clearance_mm/0", "/sweep/clearance_mm/2", "/sweep/x"}));
 }
 
+TEST(SweepFaults, AreAllThereWhenPlacesClash) {
+  const auto faults = faults_of([] {
+    (void)jobs::plan_sweep(request_of(R"({"name": 1, "cases": [{"clearance_mm": 0.1}], "sweep": {"clearance_mm": [0.1, -1]}})"), 10'000);
+  });
+  EXPECT_EQ(pointers_of(faults), (std::vector<std::string>{"/cases/0/clearance_mm", "/name", "/sweep/clearance_mm/1"}));
+}
+
+TEST(SweepFaults, AreNamedBesideASizeThatIsTooLarge) {
+  const auto faults = faults_of([] { (void)jobs::plan_sweep(request_of(R"({"name": 1, "replicates": {"count": 10001}})"), 10'000); });
+  EXPECT_EQ(pointers_of(faults), (std::vector<std::string>{"/name", "/replicates/count"}));
+}
+
 struct SizeCase {
   const char* name;
   const char* request;
   const char* size;
 };
+void PrintTo(const SizeCase& c, std::ostream* out) { *out << c.name; }
 
 class SweepTooLarge : public testing::TestWithParam<SizeCase> {};
 

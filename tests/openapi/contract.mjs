@@ -5,6 +5,8 @@ import Ajv2020 from "ajv/dist/2020.js";
 const documentId = "openapi.json";
 // May meet any request, also one that no operation is for.
 const refusals = [400, 403, 404, 405, 408, 413, 414, 415, 431, 501];
+// Of HTTP, of its caches and of browsers, not of the interface.
+const headersOfHttp = /^(connection|content-(type|length|security-policy)|cache-control|vary|cross-origin-resource-policy|referrer-policy|x-content-type-options|access-control-.*)$/;
 
 function pointerOf(...keys) {
   return `${documentId}#/${keys.map((key) => encodeURIComponent(key.replaceAll("~", "~0").replaceAll("/", "~1"))).join("/")}`;
@@ -104,11 +106,28 @@ export class Contract {
     const status = String(exchange.status);
     const given = this.document.paths[path][method].responses[status];
     if (!given) return [`${status} is none of the responses of ${method} ${path}`];
-    if (exchange.status >= 400) return this.#checkProblem(exchange);
-    const faults = Object.entries(this.resolve(given).headers ?? {})
-      .filter(([name, header]) => header.required && !exchange.headers[name.toLowerCase()])
+    const faults = this.#checkHeaders(exchange, this.resolve(given).headers ?? {});
+    return [...faults, ...(exchange.status >= 400 ? this.#checkProblem(exchange) : this.#checkContent(exchange, path, method, given))];
+  }
+
+  /** @param described  the headers that the document has for this answer */
+  #checkHeaders(exchange, described) {
+    const names = Object.keys(described).map((name) => name.toLowerCase());
+    const missing = Object.entries(described)
+      .filter(([name, header]) => this.resolve(header).required && !(name.toLowerCase() in exchange.headers))
       .map(([name]) => `there is no header ${name}`);
-    return [...faults, ...this.#checkContent(exchange, path, method, given)];
+    const unknown = Object.keys(exchange.headers)
+      .filter((name) => !headersOfHttp.test(name) && !names.includes(name))
+      .map((name) => `the header ${name} is not in the document`);
+    const malformed = Object.entries(described)
+      .filter(([name]) => name.toLowerCase() in exchange.headers)
+      .flatMap(([name, header]) => this.#faultsOfHeader(exchange.headers[name.toLowerCase()], this.resolve(header).schema).map((fault) => `header ${name}: ${fault}`));
+    return [...missing, ...unknown, ...malformed];
+  }
+
+  #faultsOfHeader(text, schema) {
+    if (schema.type === "integer") return /^[0-9]+$/.test(text) ? [] : [`${text} is no integer`];
+    return !schema.pattern || new RegExp(schema.pattern).test(text) ? [] : [`${text} does not match ${schema.pattern}`];
   }
 
   #checkContent(exchange, path, method, response) {

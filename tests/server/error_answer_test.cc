@@ -22,6 +22,7 @@ struct ErrorCase {
   int status;
   bool tells_the_text;  ///< the user sees what was thrown
 };
+void PrintTo(const ErrorCase& c, std::ostream* out) { *out << c.name; }
 
 class ErrorAnswer : public testing::TestWithParam<ErrorCase> {};
 

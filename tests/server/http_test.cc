@@ -154,6 +154,14 @@ TEST_F(Http, RefusesAHeadThatIsTooLarge) {
   EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(7'900, 'a') + "\r\n")), 200);
 }
 
+TEST_F(Http, RefusesHeadWithoutABody) {
+  for (const std::string& head : {std::string("Idempotency-Key:\r\n\r\n"), "X: " + std::string(20'000, 'a')}) {
+    const std::string answer = ask("HEAD /healthz HTTP/1.1\r\nHost: localhost\r\n" + head);
+    EXPECT_EQ(answer.substr(0, 10), "HTTP/1.1 4");
+    EXPECT_EQ(body_of(answer), "");
+  }
+}
+
 TEST_F(Http, RefusesABodyByItsLengthBeforeItComes) {
   EXPECT_EQ(status_of(ask("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100001\r\n\r\n")), 413);
 }
@@ -305,7 +313,7 @@ TEST(HttpCors, LetsTheSitesOnTheListIn) {
   const std::string posted = ask("POST /v1/sweeps", good, "Content-Length: " + std::to_string(body.size()) + "\r\n", body);
   EXPECT_EQ(status_of(posted), 201);
   EXPECT_NE(posted.find("Access-Control-Allow-Origin: https://lab.example.org\r\n"), std::string::npos);
-  EXPECT_NE(posted.find("Access-Control-Expose-Headers: ETag, Location,"), std::string::npos);
+  EXPECT_NE(posted.find("Access-Control-Expose-Headers: Content-Disposition, ETag, Location, Preference-Applied,"), std::string::npos);
   // A page may read what it did wrong, too.
   EXPECT_NE(ask("GET /v1/nothing", good).find("Access-Control-Allow-Origin: https://lab.example.org\r\n"), std::string::npos);
   for (const char* const bad : {"https://evil.com", "null"}) {

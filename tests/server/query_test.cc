@@ -42,14 +42,28 @@ TEST(Query, ReadsWhatIsThere) {
 
 TEST(Query, CollectsEveryFault) {
   const Request request =
-      request_with({{"fromm", "1"}, {"from", "1x"}, {"to", "nan"}, {"limit", "-1"}, {"format", "xml"}, {"channels", "a,,b"}});
-  Query query(request, {"channels", "from", "to", "limit", "format"});
+      request_with({{"fromm", "1"}, {"from", "1x"}, {"to", "nan"}, {"limit", "-1"}, {"format", "xml"}, {"fields", ""}});
+  Query query(request, {"fields", "from", "to", "limit", "format"});
   EXPECT_EQ(query.number("from"), std::nullopt);
   EXPECT_EQ(query.number("to"), std::nullopt);
   EXPECT_EQ(query.count("limit"), std::nullopt);
   EXPECT_EQ(query.word("format", {"csv", "json"}), std::nullopt);
-  static_cast<void>(query.list("channels"));
-  EXPECT_EQ(faults_of(query), "/fromm /from /to /limit /format /channels");
+  EXPECT_EQ(query.names("fields"), "");
+  EXPECT_EQ(faults_of(query), "/fromm /from /to /limit /format /fields");
+}
+
+TEST(Query, AddsTheFaultsThatTheServiceFinds) {
+  const Request request = request_with({{"limit", "x"}});
+  Query query(request, {"limit"});
+  EXPECT_EQ(query.count("limit"), std::nullopt);
+  const auto refuse = []() -> int { throw jobs::InvalidRequest({{"/state", "must be another"}, {"/cursor", "must be another"}}); };
+  EXPECT_THROW((void)query.check_and(refuse), jobs::InvalidRequest);
+  EXPECT_EQ(faults_of(query), "/limit /state /cursor");
+}
+
+TEST(Query, HandsOutWhatTheServiceAnswers) {
+  const Request request = request_with({});
+  EXPECT_EQ(Query(request, {}).check_and([] { return 7; }), 7);
 }
 
 TEST(Query, NamesTheKeysThatAreAllowed) {

@@ -16,6 +16,7 @@ struct HeadCase {
   std::string head;  ///< without the empty line
   int status;        ///< 0: no fault
 };
+void PrintTo(const HeadCase& c, std::ostream* out) { *out << c.name; }
 
 class Head : public testing::TestWithParam<HeadCase> {};
 
@@ -46,6 +47,8 @@ INSTANTIATE_TEST_SUITE_P(
         HeadCase{"BareLineFeed", "GET / HTTP/1.1\r\nHost: a\r\nX: 1\nContent-Length: 5", 400},
         HeadCase{"BareCarriageReturn", "GET / HTTP/1.1\r\nHost: a\r\nX: 1\rY: 2", 400},
         HeadCase{"Nul", "GET / HTTP/1.1\r\nHost: a\r\nX: 1" + std::string(1, '\0'), 400},
+        HeadCase{"EmptyKey", "POST / HTTP/1.1\r\nHost: a\r\nidempotency-key: ", 400},
+        HeadCase{"Key", "POST / HTTP/1.1\r\nHost: a\r\nIdempotency-Key: a", 0},
         HeadCase{"NoName", "GET / HTTP/1.1\r\nHost: a\r\n: 1", 400},
         HeadCase{"NoPath", "GET\r\nHost: a", 400},
         HeadCase{"AbsoluteTarget", "GET http://a/ HTTP/1.1\r\nHost: a", 400},
@@ -62,6 +65,7 @@ struct OriginCase {
   OriginCheck::Headers headers;
   bool good;
 };
+void PrintTo(const OriginCase& c, std::ostream* out) { *out << c.name; }
 
 class Origin : public testing::TestWithParam<OriginCase> {};
 

@@ -86,6 +86,7 @@ TEST(ETag, IsNotOfWhatStillChanges) {
 TEST(Prefer, IsReadFromItsList) {
   EXPECT_EQ(server::find_wait("respond-async, wait=10"), 10s);
   EXPECT_EQ(server::find_wait("wait = 5"), 5s);
+  EXPECT_EQ(server::find_wait("Wait=5"), 5s);
   EXPECT_EQ(server::find_wait("wait=100000"), 60s);
   for (const char* none : {"", "wait", "wait=", "wait=-1", "wait=1.5", "waiting=3", "handling=lenient"}) EXPECT_FALSE(server::find_wait(none).has_value()) << none;
 }
@@ -135,6 +136,26 @@ TEST(GetResults, TakesFieldsFiltersAndOrder) {
   const auto faulty = bench.call("GET", path, "", {{"fields", ""}, {"limit", "-1"}});
   EXPECT_EQ(json::parse(faulty.body).at("errors").size(), 2U);
   EXPECT_EQ(bench.call("GET", path, "", {{"clearance_mm_gt", "much"}}).status, 422);
+}
+
+/// The places of all faults of an answer, with blanks between.
+std::string pointers_of(const server::Response& answer) {
+  std::string pointers;
+  const json problem = json::parse(answer.body);  // must outlive the loop
+  for (const json& error : problem.at("errors")) pointers += (pointers.empty() ? "" : " ") + error.at("pointer").get<std::string>();
+  return pointers;
+}
+
+TEST(Query, IsRefusedWithFaultsOfFormAndOfMeaningAtOnce) {
+  Bench bench;
+  const std::string results = "/v1/sweeps/" + bench.run(kSweep) + "/results";
+  const std::string job = json::parse(bench.call("GET", results).body)[0].at("job_id");
+  EXPECT_EQ(pointers_of(bench.call("GET", results, "", {{"limit", "x"}, {"fields", "nope"}, {"clearance_mm_gt", "much"}})), "/limit /clearance_mm_gt /fields/0");
+  EXPECT_EQ(pointers_of(bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"format", "xml"}, {"channels", "t_s,,nope"}, {"from", "1"}, {"to", "0"}})),
+            "/format /channels/1 /channels/2 /to");
+  for (const char* const list : {"/v1/sweeps", "/v1/jobs"}) {
+    EXPECT_EQ(pointers_of(bench.call("GET", list, "", {{"limit", "x"}, {"state", "lost"}, {"cursor", "c"}, {"fields", "nope"}})), "/limit /cursor /state /fields/0");
+  }
 }
 
 TEST(GetResults, TakesTheFormThatIsAcceptedFirst) {

@@ -12,10 +12,12 @@ node "$3/query_keys.mjs" "$url"
 # What is written down wrongly is found.
 jq -cn 'first(inputs | select(.status == 201) | .status = 202)' exchanges.ndjson >wrong
 jq -cn 'first(inputs | select(.target == "/healthz") | .body = "{\"status\": 1}")' exchanges.ndjson >>wrong
-expect_equal "$(wc -l <wrong)" 2 "answers to spoil"
+jq -cn 'first(inputs | select(.target == "/healthz") | .headers["x-more"] = "1")' exchanges.ndjson >>wrong
+expect_equal "$(wc -l <wrong)" 3 "answers to spoil"
 cat exchanges.ndjson wrong >spoilt
 expect_code 1 node "$3/check_exchanges.mjs" openapi.json spoilt
 expect_text out '202 is none of the responses of post /v1/'
 expect_text out '/status must be string'
+expect_text out 'the header x-more is not in the document'
 stop_service TERM
 expect_equal "$code" 0 "exit code of the service"

@@ -21,6 +21,8 @@ expect_code 0 "$rpsup" results "$id"
 cmp out <(get "$url/v1/sweeps/$id/results?format=csv")
 expect_code 0 "$rpsup" results "$id" --format json --output rows.json
 cmp rows.json <(get "$url/v1/sweeps/$id/results")
+expect_code 0 "$rpsup" results "$id" --format ndjson
+cmp out <(get "$url/v1/sweeps/$id/results?format=ndjson")
 expect_code 0 "$rpsup" status "$id"
 expect_text out '^state +succeeded$'
 expect_text out '^jobs +4: 4 succeeded$'
