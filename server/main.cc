@@ -74,7 +74,7 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
 CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   CLI::App* const command = app.add_subcommand("serve", "Run the service with its REST interface and its page");
   add_store_options(*command, options.store, options.threads);
-  command->add_option("--host", options.host, "Address of the loopback to listen on")
+  command->add_option("--host", options.host, "IP address to listen on; others than those of the loopback need a token")
       ->capture_default_str()
       ->envname("RPSUP_HOST");
   command->add_option("--port", options.port, "Port to listen on; 0 takes any free one")
@@ -84,6 +84,12 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   command->add_option("--cors-origin", options.cors_origins, "Other sites whose pages may use the service, as https://lab.example.org, with commas between")
       ->delimiter(',')
       ->envname("RPSUP_CORS_ORIGIN");
+  command->add_option("--name", options.names, "Other names under which clients reach the service, as rpsup.example.org, with commas between")
+      ->delimiter(',')
+      ->envname("RPSUP_NAME");
+  command->add_option("--token-file", options.token_file, "File with the token that clients must carry, readable for its owner only; RPSUP_TOKEN in the environment if left out")
+      ->type_name("FILE")
+      ->envname("RPSUP_TOKEN_FILE");
   command->add_option("--log-level", options.log_level, "What the log on standard error holds")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()
