@@ -110,6 +110,11 @@ int serve(const ServeOptions& options) {
   jobs::ServiceOptions service_options;
   service_options.store = options.store;
   service_options.threads = options.threads;
+  constexpr long kMegabyte = 1'000'000;
+  service_options.job_limits = {.wall_time_s = options.job_time_s,
+                                .steps = options.job_steps,
+                                .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
+  service_options.store_bytes = options.store_limit_mb * kMegabyte;
   service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
   const auto metrics = std::make_shared<Metrics>();

@@ -13,6 +13,10 @@ struct ServeOptions {
   std::vector<std::string> cors_origins;  ///< other sites whose pages may ask
   std::vector<std::string> names;         ///< other names under which clients reach the service
   std::string token_file;                 ///< with the token that clients must carry; empty: that of the environment, if there is one
+  double job_time_s = 3600.0;             ///< most that a job may take; 0: no limit, as below
+  long job_steps = 100'000'000;
+  long job_memory_mb = 1024;
+  long store_limit_mb = 0;
   std::string log_level = "info";
 };
 

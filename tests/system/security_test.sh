@@ -61,6 +61,16 @@ expect_text log 'GET /\\x0a2026-01-01T00:00:00 info made up\\x1b\[2J\\x9b 404'
 ! grep -F "$secret" log || fail "the log holds the token"
 expect_equal "$(grep -vcE '^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:.+-]+ [a-z]+ ' log)" 0 "lines of the log that do not begin with a time"
 
+# Where a client is stands in the log as the connection has it, not as the client says.
+expect_equal "$(status_of --header 'REMOTE_ADDR: 9.9.9.9' "$url/v1/jobs")" 401 "another address in the head"
+expect_text log 'refused without the token: GET /v1/jobs of 127\.0\.0\.1$'
+! grep -F 9.9.9.9 log || fail "a client can make up where it is"
+
+# No path leads to a file.
+for path in /../store.db /..%2fstore.db /%2e%2e/token //etc/passwd /docs/../../etc/passwd /docs/%2e%2e%2ftoken /store.db /token%00.html /index.html/../token; do
+  expect_equal "$(with_token --path-as-is "$url$path")" 404 "$path"
+done
+
 # The program's list of arguments, which every user may read, does not hold it either.
 ! tr '\0' ' ' <"/proc/$service/cmdline" | grep -F "$secret" || fail "the arguments hold the token"
 stop_service TERM
