@@ -9,6 +9,10 @@ chmod 600 token
 # Nothing but the loopback is served without a token, and no token is taken that others may read or guess.
 expect_code 2 "$rpsup" serve --db a.db --port 0 --host 0.0.0.0
 expect_text err 'without a token'
+# With one, others are: this address is no machine's, so that it gets as far as asking for the port.
+expect_code 2 "$rpsup" serve --db a.db --port 0 --host 192.0.2.1
+expect_code 3 "$rpsup" serve --db tried.db --port 0 --host 192.0.2.1 --token-file token
+expect_text err 'cannot listen on http://192.0.2.1'
 chmod 644 token
 expect_code 2 "$rpsup" serve --db a.db --port 0 --token-file token
 expect_text err 'chmod 600'
