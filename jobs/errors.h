@@ -50,4 +50,10 @@ class StorageError : public std::runtime_error {
   bool full;
 };
 
+/// The store holds as much as it may, although the disk may have room. The text is for the user.
+class StoreLimitReached : public StorageError {
+ public:
+  explicit StoreLimitReached(const std::string& what) : StorageError(what, 0, true) {}
+};
+
 }  // namespace jobs

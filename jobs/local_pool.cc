@@ -37,8 +37,8 @@ void keep_freed_memory(int threads) {
 
 }  // namespace
 
-LocalPool::LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log)
-    : source_(std::move(source)), runner_(std::move(runner)), log_(std::move(log)) {
+LocalPool::LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log, const JobLimits& limits)
+    : source_(std::move(source)), runner_(std::move(runner)), limits_(limits), log_(std::move(log)) {
   keep_freed_memory(threads);
   for (int i = 0; i < threads; ++i) {
     threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
@@ -106,9 +106,10 @@ std::optional<ClaimedJob> LocalPool::claim_next(const std::stop_token& stop, std
 void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) {
   // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the user of the job.
   const auto read_and_run = [&](const JobSpec&, const engine::StopQuery& query) {
-    return runner_(to_job_spec(nlohmann::json::parse(job.parameters)), query);
+    return runner_(within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_), query);
   };
-  const RunRecord record = run_and_record({}, read_and_run, [&](double) { return stop.stop_requested() || job_stop.stop_requested(); });
+  const auto stopped = [&](double) { return stop.stop_requested() || job_stop.stop_requested(); };
+  const RunRecord record = run_and_record({}, read_and_run, stopped, limits_.wall_time_s);
   deliver(job, record, stop);
   // If another job has waited for this one, this thread is about to claim it: nobody need be woken.
   const std::lock_guard lock(claim_mutex_);

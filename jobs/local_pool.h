@@ -27,8 +27,9 @@ struct JobSource {
 /// Computes jobs on threads of this process, as many at a time as it has threads. Threads sleep while there is nothing to do.
 class LocalPool {
  public:
-  /// @param log  told what needs a human's eye; must not throw
-  LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log);
+  /// @param log     told what needs a human's eye; must not throw
+  /// @param limits  of each job
+  LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log, const JobLimits& limits = {});
   ~LocalPool();  ///< stop()
   LocalPool(const LocalPool&) = delete;
   LocalPool& operator=(const LocalPool&) = delete;
@@ -51,6 +52,7 @@ class LocalPool {
 
   const JobSource source_;
   const Runner runner_;
+  const JobLimits limits_;
   const std::function<void(const std::string&)> log_;
 
   std::mutex claim_mutex_;  // guards running_; held while claiming, so that a job is in the store as running and here at once

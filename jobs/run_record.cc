@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -48,28 +49,54 @@ void take_result(engine::RunResult result, RunRecord& record) {
   record.error_t_s = result.t_end;
 }
 
-void take_exception(const std::string& what, RunRecord& record) {
+void take_exception(const char* reason, const std::string& what, RunRecord& record) {
   record.end = RunRecord::End::kFailed;
-  record.error_reason = "internal";
+  record.error_reason = reason;
   // The text may come from anywhere; JSON takes UTF-8 only.
   record.error_detail = json::parse(json(what).dump(-1, ' ', false, json::error_handler_t::replace));
   record.trajectory = {};
 }
 
+/// Wall time since its construction.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void fail_for_time(double most_s, RunRecord& record) {
+  record.end = RunRecord::End::kFailed;
+  record.error_reason = "time_limit";
+  record.error_detail = "the job was stopped after " + std::to_string(std::llround(most_s)) + " s of computing, the most that this service allows";
+}
+
 }  // namespace
 
-RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine::StopQuery& stop_requested) {
+RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine::StopQuery& stop_requested, double most_s) {
   RunRecord record;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
+  bool late = false;
+  const engine::StopQuery stopped_or_late = [&](double t) {
+    if (stop_requested(t)) return true;
+    late = most_s > 0.0 && watch.seconds() > most_s;
+    return late;
+  };
   const double cpu_start_s = thread_cpu_time_s();
   try {
-    take_result(runner(spec, stop_requested), record);
+    take_result(runner(spec, stopped_or_late), record);
+    if (late && record.end == RunRecord::End::kStopped) fail_for_time(most_s, record);
+  } catch (const NeedsTooMuchMemory& error) {
+    take_exception("memory_limit", error.what(), record);
+  } catch (const std::bad_alloc&) {
+    take_exception("memory_limit", "the machine had no memory left for this job", record);
   } catch (const std::exception& error) {
-    take_exception(error.what(), record);
+    take_exception("internal", error.what(), record);
   } catch (...) {
-    take_exception("something was thrown that is no exception", record);
+    take_exception("internal", "something was thrown that is no exception", record);
   }
-  record.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.wall_time_s = watch.seconds();
   record.cpu_time_s = thread_cpu_time_s() - cpu_start_s;
   return record;
 }

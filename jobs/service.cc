@@ -45,7 +45,7 @@ class Service::Impl {
  public:
   explicit Impl(ServiceOptions options)
       : options_(with_defaults(std::move(options))),
-        store_(options_.store) {
+        store_(options_.store, options_.store_bytes) {
     if (options_.start == Start::kAtOnce) start();
   }
 
@@ -54,7 +54,7 @@ class Service::Impl {
     pool_.emplace(JobSource{.claim = [this] { return claim(); },
                             .record = [this](const ClaimedJob& job, const RunRecord& run) { record(job, run); },
                             .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
-                  options_.runner, options_.threads, options_.log);
+                  options_.runner, options_.threads, options_.log, options_.job_limits);
   }
 
   json submit_sweep(const nlohmann::ordered_json& request, const std::string& key) {

@@ -1,6 +1,7 @@
 #include "jobs/store.h"
 
 #include "jobs/store_insert.h"
+#include "jobs/store_quota.h"
 #include "jobs/store_rows.h"
 #include "jobs/time_text.h"
 
@@ -38,7 +39,7 @@ void keep_answer(SQLite::Database& database, const std::string& key, const std::
 
 }  // namespace
 
-Store::Store(const std::filesystem::path& file) : lock_(file), writer_(file), readers_(file) {
+Store::Store(const std::filesystem::path& file, std::int64_t most_bytes) : most_bytes_(most_bytes), lock_(file), writer_(file), readers_(file) {
   writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running'");
     rename_queued_contents(database);
@@ -55,6 +56,7 @@ std::string Store::add_sweep(const SweepPlan& plan, const std::string& request, 
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, sweep, plan.reuse);
     check_room(database, max_queued);
     if (!kept.key.empty()) keep_answer(database, kept.key, kept.request, kept.make_text(read_sweep(database, id).value()));
+    check_quota_of(database);
     return id;
   });
 }
@@ -64,6 +66,7 @@ std::string Store::add_job(const PlannedJob& job, std::size_t max_queued, const 
     std::string id = JobInserter(database, ids_, now_unix_ms(), ++changes_).insert(job, std::nullopt, true);
     check_room(database, max_queued);
     if (!kept.key.empty()) keep_answer(database, kept.key, kept.request, kept.make_text(read_job(database, id).value()));
+    check_quota_of(database);
     return id;
   });
 }
@@ -82,8 +85,14 @@ bool Store::extend_sweep(const std::string& id, const std::string& former, const
     JobInserter inserter(database, ids_, now_unix_ms(), ++changes_);
     for (const PlannedJob& job : jobs) inserter.insert(job, sweep, reuse);
     check_room(database, max_queued);
+    check_quota_of(database);
     return true;
   });
+}
+
+void Store::check_quota_of(SQLite::Database& database) const {
+  SQLite::Statement used(database, kUsedBytesQuery);
+  check_quota(used, most_bytes_);
 }
 
 std::optional<FoundAnswer> Store::find_answer(const std::string& key) const {

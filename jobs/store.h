@@ -128,7 +128,8 @@ enum class DeleteOutcome { kMissing, kDone, kNotEnded };
 class Store {
  public:
   /// Opens or makes the file, and queues again what a former process left running.
-  explicit Store(const std::filesystem::path& file);
+  /// @param most_bytes  that it may hold: what would add to more is a StoreLimitReached, while reading, cancelling and deleting go on; 0: no limit
+  explicit Store(const std::filesystem::path& file, std::int64_t most_bytes = 0);
 
   /// Stores a sweep with its jobs, those whose result is known as succeeded. Returns its id.
   /// @throws QueueFull if more than max_queued jobs would wait
@@ -172,6 +173,9 @@ class Store {
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
 
  private:
+  void check_quota_of(SQLite::Database& database) const;
+
+  const std::int64_t most_bytes_;
   StoreLock lock_;
   // Readers close before the writer, which is then the one that empties the log.
   Writer writer_;

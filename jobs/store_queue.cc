@@ -3,6 +3,7 @@
 #include "jobs/machine.h"
 #include "jobs/program_info.h"
 #include "jobs/store.h"
+#include "jobs/store_quota.h"
 #include "jobs/time_text.h"
 #include "jobs/trajectory_codec.h"
 
@@ -150,6 +151,7 @@ bool Store::record(const ClaimedJob& job, const RunRecord& record) {
     if (sampled) insert_trajectory(statements, result, blob);
     end_job(statements, job, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++changes_);
     if (succeeded) settle_waiting(statements, *content, result, now_ms, changes_);
+    check_quota(*statements.use(kUsedBytesQuery).operator->(), most_bytes_);
     return true;
   });
 }

@@ -13,6 +13,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "server/access.h"
 #include "server/error_answer.h"
 #include "server/http_guard.h"
 #include "server/problem.h"
@@ -101,7 +102,8 @@ class HttpServer::Impl {
       : options(std::move(http_options)),
         limits(http_limits),
         routes_(routes),
-        origin_check_(options.address, options.cors_origins),
+        origin_check_(options.address, options.cors_origins, options.names),
+        access_check_(options.token),
         guard(http_limits, make_refusal) {
     guard.set_default_headers(kSecurityHeaders);
     guard.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
@@ -168,6 +170,14 @@ class HttpServer::Impl {
     if (request.has_header("Access-Control-Request-Private-Network")) response.set_header("Access-Control-Allow-Private-Network", "true");
   }
 
+  /// The second challenge makes a browser ask its user for a name, which may be anything, and a password, which is the token.
+  static Response make_access_problem() {
+    Response response = make_problem(401, "this service asks for its token: Authorization: Bearer TOKEN");
+    response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"rpsup\"");
+    response.headers.emplace_back("WWW-Authenticate", "Basic realm=\"rpsup\", charset=\"UTF-8\"");
+    return response;
+  }
+
   Handled route_without_body(const httplib::Request& request, httplib::Response& response) {
     if (const auto fault = find_origin_fault(request)) {
       copy_to(response, make_problem(fault->status, fault->detail));
@@ -175,6 +185,11 @@ class HttpServer::Impl {
     }
     if (is_preflight(request)) {
       answer_preflight(request, response);
+      return Handled::Handled;
+    }
+    if (!access_check_.is_allowed(request.path, request.get_header_value("Authorization"))) {
+      spdlog::info("refused without the token: {} {} of {}", request.method, request.path, request.remote_addr);
+      copy_to(response, make_access_problem());
       return Handled::Handled;
     }
     if (request.method == "POST") return Handled::Unhandled;
@@ -233,11 +248,12 @@ class HttpServer::Impl {
     copy_to(to, std::move(response));
     to.set_header("X-Request-Id", request.id);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, from.target, to.status, took.count());
+    spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, request.path, to.status, took.count());
   }
 
   const Routes& routes_;
   OriginCheck origin_check_;
+  AccessCheck access_check_;
   RequestIds request_ids_;
 
  public:

@@ -14,11 +14,13 @@ struct HttpOptions {
   std::string address = "127.0.0.1";  ///< an IP address, not a name
   int port = 8080;                    ///< 0: any free one
   std::vector<std::string> cors_origins{};  ///< other sites whose pages may ask, as "https://lab.example.org", in lower case
+  std::vector<std::string> names{};         ///< other names under which clients reach this server, as "rpsup.example.org", in lower case
+  std::string token{};                      ///< that every request must carry, see AccessCheck; empty: none
 };
 
 struct HttpLimits;
 
-/// Serves routes over HTTP/1.1: one request a connection, within limits, to clients of this machine.
+/// Serves routes over HTTP/1.1: one request a connection, within limits, to clients that may ask.
 class HttpServer {
  public:
   /// @param routes  outlives this

@@ -71,10 +71,21 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
   return command;
 }
 
+/// What the jobs of all users together must leave to others. 0 is no limit.
+void add_limit_options(CLI::App& command, ServeOptions& options) {
+  const auto add = [&](const char* name, auto& value, double largest, const char* help, const char* variable) {
+    command.add_option(name, value, help)->check(CLI::Range(0.0, largest))->capture_default_str()->envname(variable);
+  };
+  add("--job-time-s", options.job_time_s, 1e9, "Time that a job may take before it fails, in s; 0: any", "RPSUP_JOB_TIME_S");
+  add("--job-steps", options.job_steps, 1e15, "Steps that a job may take before it fails; 0: 100,000,000, which no job may pass", "RPSUP_JOB_STEPS");
+  add("--job-memory-mb", options.job_memory_mb, 1e9, "Memory that the trajectory of a job may take, in MB; 0: any", "RPSUP_JOB_MEMORY_MB");
+  add("--store-limit-mb", options.store_limit_mb, 1e9, "What the store may hold, its log of up to 67 MB apart, in MB; 0: what the disk has room for", "RPSUP_STORE_LIMIT_MB");
+}
+
 CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   CLI::App* const command = app.add_subcommand("serve", "Run the service with its REST interface and its page");
   add_store_options(*command, options.store, options.threads);
-  command->add_option("--host", options.host, "Address of the loopback to listen on")
+  command->add_option("--host", options.host, "IP address to listen on; others than those of the loopback need a token")
       ->capture_default_str()
       ->envname("RPSUP_HOST");
   command->add_option("--port", options.port, "Port to listen on; 0 takes any free one")
@@ -84,6 +95,13 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   command->add_option("--cors-origin", options.cors_origins, "Other sites whose pages may use the service, as https://lab.example.org, with commas between")
       ->delimiter(',')
       ->envname("RPSUP_CORS_ORIGIN");
+  command->add_option("--name", options.names, "Other names under which clients reach the service, as rpsup.example.org, with commas between")
+      ->delimiter(',')
+      ->envname("RPSUP_NAME");
+  command->add_option("--token-file", options.token_file, "File with the token that clients must carry, readable for its owner only; RPSUP_TOKEN in the environment if left out")
+      ->type_name("FILE")
+      ->envname("RPSUP_TOKEN_FILE");
+  add_limit_options(*command, options);
   command->add_option("--log-level", options.log_level, "What the log on standard error holds")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()

@@ -135,14 +135,15 @@ std::string without_header(std::string_view head, std::string_view name) {
   return kept;
 }
 
-OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed) : bound_host_(lower(bound_host)), allowed_(std::move(allowed)) {}
+OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed, std::vector<std::string> names)
+    : bound_host_(lower(bound_host)), allowed_(std::move(allowed)), names_(std::move(names)) {}
 
 bool OriginCheck::is_allowed(const std::string& origin) const { return std::ranges::find(allowed_, lower(origin)) != allowed_.end(); }
 
 std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
   if (!names_this_server(headers.host)) return Refusal{403, "this service does not answer under the name in Host"};
   if (is_allowed(headers.origin)) return std::nullopt;
-  if (!headers.origin.empty() && lower(headers.origin) != "http://" + lower(headers.host)) {
+  if (!headers.origin.empty() && !is_own(headers.origin, headers.host)) {
     return Refusal{403, "requests of other sites are refused"};
   }
   const std::string& site = headers.fetch_site;
@@ -155,7 +156,19 @@ std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
 
 bool OriginCheck::names_this_server(const std::string& host) const {
   const std::string name = bare_host(host);
-  return name == "localhost" || name == "127.0.0.1" || name == "::1" || (!name.empty() && name == bound_host_);
+  return name == "localhost" || name == "127.0.0.1" || name == "::1" || (!name.empty() && name == bound_host_) ||
+         std::ranges::find(names_, name) != names_.end();
+}
+
+bool OriginCheck::is_own(const std::string& origin, const std::string& host) const {
+  if (lower(origin) == "http://" + lower(host)) return true;
+  // A proxy that speaks https passes its own name on.
+  return std::ranges::find(names_, bare_host(host)) != names_.end() && lower(origin) == "https://" + lower(host);
+}
+
+bool is_address(const std::string& host) {
+  in6_addr address{};  // the larger of the two
+  return inet_pton(AF_INET, host.c_str(), &address) == 1 || inet_pton(AF_INET6, host.c_str(), &address) == 1;
 }
 
 bool is_loopback(const std::string& host) {

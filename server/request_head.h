@@ -35,7 +35,8 @@ class OriginCheck {
  public:
   /// @param bound_host  the address the server is bound to; it and the names of the loopback are good
   /// @param allowed     other sites whose pages may ask, as "https://lab.example.org"
-  explicit OriginCheck(std::string bound_host, std::vector<std::string> allowed = {});
+  /// @param names       other names under which clients reach this server, perhaps through a proxy that speaks https, in lower case
+  explicit OriginCheck(std::string bound_host, std::vector<std::string> allowed = {}, std::vector<std::string> names = {});
 
   /// What a request says about its origin; an empty text is a header that is missing.
   struct Headers {
@@ -53,10 +54,16 @@ class OriginCheck {
 
  private:
   [[nodiscard]] bool names_this_server(const std::string& host) const;
+  /// Whether an origin is that of this server's own page.
+  [[nodiscard]] bool is_own(const std::string& origin, const std::string& host) const;
 
   std::string bound_host_;
   std::vector<std::string> allowed_;
+  std::vector<std::string> names_;
 };
+
+/// True for an IP address, of either version.
+[[nodiscard]] bool is_address(const std::string& host);
 
 /// True for an address or name that only this machine reaches: 127.0.0.0/8, ::1, localhost.
 [[nodiscard]] bool is_loopback(const std::string& host);

@@ -12,12 +12,13 @@
 #include <stdexcept>
 #include <thread>
 
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "jobs/run_record.h"
 #include "jobs/service.h"
 #include "server/commands/command.h"
+#include "server/commands/log.h"
+#include "server/commands/service_token.h"
 #include "server/commands/signals.h"
 #include "server/http.h"
 #include "server/http_client.h"
@@ -29,20 +30,26 @@ namespace server::commands {
 
 namespace {
 
-/// The log goes to standard error: standard output holds the one line that scripts read.
-void start_log(const std::string& level) {
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("rpsup"));
-  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
-  spdlog::set_level(spdlog::level::from_str(level));
+/// Without a token, whoever reaches the port may fill the disk and use the processors.
+std::string checked_address(const std::string& host, const std::string& token) {
+  if (host == "localhost") return "127.0.0.1";
+  if (!is_address(host)) throw BadInput("--host " + host + ": must be an IP address of this machine, such as 127.0.0.1 or ::1");
+  if (token.empty() && !is_loopback(host)) {
+    throw BadInput("--host " + host + ": without a token only addresses of the loopback (127.0.0.1, ::1) are served, because whoever reaches "
+                   "another one could fill the disk; give it one by --token-file or RPSUP_TOKEN, or reach the service through an SSH tunnel");
+  }
+  return host;
 }
 
-/// Without authentication, whoever reaches the port may fill the disk and use the processors.
-std::string loopback_address(const std::string& host) {
-  if (!is_loopback(host)) {
-    throw BadInput("--host " + host + ": only addresses of the loopback (127.0.0.1, ::1) are served, "
-                   "because requests are not authenticated; reach it from elsewhere through an SSH tunnel");
+/// Names as they stand in a Host header: no scheme, no port, in lower case.
+const std::vector<std::string>& checked_names(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const bool good = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+      return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '-' || c == '.';
+    });
+    if (!good && !is_address(name)) throw BadInput("--name " + name + ": must be like rpsup.example.org, in lower case, without a scheme and a port");
   }
-  return host == "localhost" ? "127.0.0.1" : host;
+  return names;
 }
 
 std::string url(const std::string& address, int port) {
@@ -92,7 +99,9 @@ void serve_until_signal(HttpServer& http, Routes& routes, jobs::Service& service
 }  // namespace
 
 int serve(const ServeOptions& options) {
-  const std::string address = loopback_address(options.host);
+  const std::string token = find_service_token(options.token_file);
+  const std::string address = checked_address(options.host, token);
+  const std::vector<std::string>& names = checked_names(options.names);
   const std::vector<std::string>& cors_origins = checked_origins(options.cors_origins);
   start_log(options.log_level);
   raise_file_limit();
@@ -101,13 +110,18 @@ int serve(const ServeOptions& options) {
   jobs::ServiceOptions service_options;
   service_options.store = options.store;
   service_options.threads = options.threads;
+  constexpr long kMegabyte = 1'000'000;
+  service_options.job_limits = {.wall_time_s = options.job_time_s,
+                                .steps = options.job_steps,
+                                .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
+  service_options.store_bytes = options.store_limit_mb * kMegabyte;
   service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
   const auto metrics = std::make_shared<Metrics>();
   service_options.runner = metrics->measured(jobs::engine_runner());
   jobs::Service service(service_options);
   Routes routes(service, metrics);
-  HttpServer http(routes, {.address = address, .port = options.port, .cors_origins = cors_origins});
+  HttpServer http(routes, {.address = address, .port = options.port, .cors_origins = cors_origins, .names = names, .token = token});
   const int port = http.bind();
   if (port == 0) {
     throw std::runtime_error("cannot listen on " + url(address, options.port) + ": another program has this port, "

@@ -18,7 +18,7 @@ namespace server::openapi {
 
 namespace {
 
-constexpr std::array kProblemsOfAll{400, 403, 408, 413, 414, 431, 500, 501, 503};
+constexpr std::array kProblemsOfAll{400, 401, 403, 408, 413, 414, 431, 500, 501, 503};
 
 /// What a request can meet before or while it is answered, whatever the route.
 std::set<int> problems_of(const Route& route) {
@@ -133,6 +133,12 @@ Json make_schemas() {
   return schemas;
 }
 
+/// None is needed where the service was started without a token.
+Json make_security_schemes() {
+  return {{"bearer", {{"type", "http"}, {"scheme", "bearer"}, {"description", "The token that the service was started with, if it was"}}},
+          {"basic", {{"type", "http"}, {"scheme", "basic"}, {"description", "The same token as the password of any user"}}}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json make_document() {
@@ -143,9 +149,11 @@ nlohmann::ordered_json make_document() {
             {"description", "Simulates the RPSUP linkage over sweeps of its parameters, keeps peaks and trajectories, and hands them out. Units stand in "
                             "the names; whatever answers GET answers HEAD, too."}}},
           {"servers", {{{"url", "/"}}}},
+          {"security", {Json::object(), {{"bearer", Json::array()}}, {{"basic", Json::array()}}}},
           {"paths", make_paths()},
           {"components",
-           {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"headers", make_headers()}, {"responses", make_problem_answers()}}}};
+           {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"headers", make_headers()}, {"responses", make_problem_answers()},
+            {"securitySchemes", make_security_schemes()}}}};
 }
 
 }  // namespace server::openapi

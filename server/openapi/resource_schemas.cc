@@ -38,7 +38,7 @@ Json make_metrics() {
 }
 
 Json make_error() {
-  return object_of({{"reason", described(kText, "non_finite, step_limit, ...")}, {"detail", kText}, {"t_s", or_null(kNumber)}});
+  return object_of({{"reason", described(kText, "non_finite, step_limit, time_limit, memory_limit, ...")}, {"detail", kText}, {"t_s", or_null(kNumber)}});
 }
 
 Json make_run() {

@@ -113,6 +113,20 @@ TEST(Origin, MayBeAnotherSiteThatIsAllowed) {
   EXPECT_TRUE(check.find_fault({"GET", "evil.com", "https://lab.example.org", "cross-site", "cors"}));
 }
 
+TEST(Origin, MayComeThroughAProxyUnderAnotherName) {
+  const OriginCheck check("127.0.0.1", {}, {"rpsup.example.org", "10.0.0.7"});
+  EXPECT_FALSE(check.find_fault({"GET", "rpsup.example.org", "", "", ""}));
+  EXPECT_FALSE(check.find_fault({"DELETE", "RPSUP.example.org:8443", "https://rpsup.example.org:8443", "same-origin", "cors"}));
+  EXPECT_FALSE(check.find_fault({"POST", "10.0.0.7:8080", "http://10.0.0.7:8080", "same-origin", "cors"}));
+  // Its neighbours, its other ports, and a page that the browser says is from elsewhere.
+  EXPECT_TRUE(check.find_fault({"POST", "rpsup.example.org", "https://example.org", "", ""}));
+  EXPECT_TRUE(check.find_fault({"POST", "rpsup.example.org", "https://rpsup.example.org:444", "", ""}));
+  EXPECT_TRUE(check.find_fault({"POST", "rpsup.example.org", "https://rpsup.example.org", "cross-site", "cors"}));
+  EXPECT_TRUE(check.find_fault({"GET", "a.rpsup.example.org", "", "", ""}));
+  // No proxy stands before the addresses of the loopback.
+  EXPECT_TRUE(check.find_fault({"POST", "localhost:80", "https://localhost:80", "", ""}));
+}
+
 TEST(WithoutHeader, LeavesTheOtherLinesAsTheyAre) {
   EXPECT_EQ(server::without_header("GET / HTTP/1.1\r\nRANGE: a\r\nHost: b\r\nX: range\r\nrange:c\r\n\r\n", "range"), "GET / HTTP/1.1\r\nHost: b\r\nX: range\r\n\r\n");
 }

@@ -31,7 +31,7 @@ RPSUP_PORT=many expect_code 2 "$rpsup" serve --db a.db
 expect_text err port
 expect_code 2 "$rpsup" serve --db a.db --threads 0
 expect_code 2 "$rpsup" serve --db a.db --host 0.0.0.0
-expect_text err 'not authenticated'
+expect_text err 'without a token'
 expect_code 2 "$rpsup" serve
 [ ! -e a.db ] || fail "a refused command has made a store"
 echo "options work"

@@ -1,0 +1,94 @@
+// What a job and a store may take, and what becomes of what would take more.
+
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "jobs/expand.h"
+#include "jobs/job_limits.h"
+#include "jobs/run_record.h"
+#include "jobs/store.h"
+#include "tests/jobs/request_support.h"
+#include "tests/jobs/service_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using jobs::RunRecord;
+
+constexpr std::size_t kMaxQueued = 100'000;
+
+/// Runs until it is asked to stop.
+engine::RunResult run_until_stopped(const jobs::JobSpec&, const engine::StopQuery& stop_requested) {
+  engine::RunResult result;
+  while (!stop_requested(result.t_end)) result.t_end += 1e-6;
+  result.status = engine::RunStatus::kStopped;
+  return result;
+}
+
+TEST(JobLimits, EndAJobThatTakesTooLong) {
+  const RunRecord record = jobs::run_and_record({}, run_until_stopped, [](double) { return false; }, 0.05);
+  EXPECT_EQ(record.end, RunRecord::End::kFailed);
+  EXPECT_EQ(record.error_reason, "time_limit");
+  EXPECT_GT(record.error_t_s.value(), 0.0);
+  EXPECT_GT(record.wall_time_s, 0.05);
+  EXPECT_LT(record.wall_time_s, 5.0);
+}
+
+TEST(JobLimits, AreNotWhatEndsACancelledJob) {
+  const RunRecord record = jobs::run_and_record({}, run_until_stopped, [](double t) { return t > 1e-3; }, 3600.0);
+  EXPECT_EQ(record.end, RunRecord::End::kStopped);
+}
+
+TEST(JobLimits, RefuseATrajectoryThatIsTooLarge) {
+  jobs::JobSpec spec;
+  spec.options.duration = 10.0;
+  spec.options.output_rate = 1000.0;
+  const std::size_t needed = 10'001 * sizeof(double) * engine::channel_table(spec.parameters).size();
+  EXPECT_NO_THROW((void)jobs::within_limits(spec, {.memory_bytes = needed}));
+  EXPECT_NO_THROW((void)jobs::within_limits(spec, {}));
+  const RunRecord record = jobs::run_and_record(spec, [&](const jobs::JobSpec& asked, const engine::StopQuery&) -> engine::RunResult {
+    (void)jobs::within_limits(asked, {.memory_bytes = needed - 1});
+    throw std::logic_error("was not refused");
+  }, [](double) { return false; });
+  EXPECT_EQ(record.error_reason, "memory_limit");
+}
+
+TEST(JobLimits, TellAMachineWithoutMemoryFromAFault) {
+  const RunRecord record = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw std::bad_alloc(); },
+                                                [](double) { return false; });
+  EXPECT_EQ(record.end, RunRecord::End::kFailed);
+  EXPECT_EQ(record.error_reason, "memory_limit");
+}
+
+TEST(JobLimits, LowerTheStepsButDoNotRaiseThem) {
+  const long of_engine = jobs::JobSpec{}.options.step_limit;
+  EXPECT_EQ(jobs::within_limits({}, {.steps = 10}).options.step_limit, 10);
+  EXPECT_EQ(jobs::within_limits({}, {.steps = of_engine + 1}).options.step_limit, of_engine);
+  EXPECT_EQ(jobs::within_limits({}, {}).options.step_limit, of_engine);
+}
+
+TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
+  const TemporaryStore temporary;
+  constexpr std::int64_t kLimit = 400'000;
+  jobs::Store store(temporary.file(), kLimit);
+  constexpr const char* kSmall = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
+  constexpr const char* kLarge = R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 5000}}})";
+  const std::string kept = store.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued);
+  EXPECT_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued), jobs::StoreLimitReached);
+  EXPECT_EQ(store.list_sweeps("", "", 10).size(), 1u);
+  // The result of a job, too; it can be read and cancelled, and deleting makes room.
+  const jobs::ClaimedJob job = store.claim().value();
+  RunRecord record;
+  record.end = RunRecord::End::kFailed;
+  record.error_reason = "internal";
+  record.error_detail = std::string(kLimit, 'x');
+  EXPECT_THROW((void)store.record(job, record), jobs::StoreLimitReached);
+  EXPECT_EQ(store.find_job(job.id).value().state, "running");
+  EXPECT_EQ(store.cancel_sweep(kept).outcome, jobs::CancelOutcome::kDone);
+  EXPECT_EQ(store.delete_sweep(kept), jobs::DeleteOutcome::kDone);
+  EXPECT_NO_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
+}
+
+}  // namespace
+}  // namespace jobs_tests

@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# The Debian package: what is in it, who owns it, what it depends on, and that the unit is as closed as it says.
+#   package_test.sh RPSUP SOURCES PRESET
+source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
+sources=$2
+"$sources/script/package" "$3" >package.log || { cat package.log; fail "the package was not built"; }
+package=$sources/$(sed -n 's/^package: //p' package.log)
+[ -f "$package" ] || { cat package.log; fail "there is no package"; }
+
+# What dpkg is told.
+field() { dpkg-deb --field "$package" "$1"; }
+expect_equal "$(field Package) $(field Section)" "rpsup science" "name and section"
+expect_equal "$(field Version)" "$("$rpsup" --version | cut -d' ' -f2)" "version"
+expect_equal "$(field Architecture)" "$(dpkg --print-architecture)" "architecture"
+for library in libc6 libstdc++6 libsqlite3-0 libzstd1 libcpp-httplib; do
+  [[ "$(field Depends)" == *$library* ]] || fail "the package does not depend on $library: $(field Depends)"
+done
+! [[ "$(field Depends)" =~ -dev|cmake ]] || fail "the package depends on what builds it: $(field Depends)"
+
+# Its files, all of them of root, writable for nobody else.
+dpkg-deb --contents "$package" | awk '{ print $1, $2, $6 }' >contents
+sed -n 's/^-[^ ]* [^ ]* \.//p' contents | sort >files
+cat >expected <<'FILES'
+/etc/rpsup/config.ini
+/usr/bin/rpsup
+/usr/lib/systemd/system/rpsup.service
+/usr/share/bash-completion/completions/rpsup
+/usr/share/doc/rpsup/copyright
+/usr/share/fish/vendor_completions.d/rpsup.fish
+/usr/share/man/man1/rpsup.1.gz
+/usr/share/zsh/vendor-completions/_rpsup
+FILES
+diff expected files || fail "the files are others"
+expect_equal "$(awk '$2 != "root/root" || $1 ~ /^.....w|^........w|s|t/' contents)" "" "files of others, or that others may write"
+expect_equal "$(awk '$1 ~ /^-..x/ { print $3 }' contents)" ./usr/bin/rpsup "what can be run"
+dpkg-deb --control "$package" control
+expect_equal "$(cat control/conffiles)" /etc/rpsup/config.ini "files that an administrator changes"
+for script in postinst prerm postrm; do
+  [ "$(stat --format=%a "control/$script")" = 755 ] || fail "dpkg cannot run $script"
+  sh -n "control/$script"
+done
+dpkg-deb --extract "$package" root
+(cd root && md5sum --check --quiet ../control/md5sums)
+
+# The program, its manual page and its completion.
+expect_equal "$(root/usr/bin/rpsup --version)" "$("$rpsup" --version)" "the program's version"
+file_sections() { readelf --section-headers "$1" | grep -cE '\.(debug_info|symtab)' || true; }
+expect_equal "$(file_sections root/usr/bin/rpsup)" 0 "sections for debuggers"
+zcat root/usr/share/man/man1/rpsup.1.gz >page.1
+! command -v mandoc >/dev/null || mandoc -T lint -W error page.1
+expect_text page.1 'token.-file'
+expect_text root/usr/share/bash-completion/completions/rpsup token-file
+
+# The configuration as it is runs a service, but for the place of its store and its port.
+sed -e "s#^db=.*#db=$folder/store.db#" -e 's/^port=.*/port=0/' root/etc/rpsup/config.ini >config.ini
+: >ready
+root/usr/bin/rpsup serve --config config.ini >ready 2>log &
+service=$!
+for ((tenths = 0; tenths < 100; ++tenths)); do
+  url=$(sed -n 's/^rpsup listens on //p' ready)
+  [ -z "$url" ] || break
+  sleep 0.1
+done
+expect_equal "$(status_of "${url:?the packaged configuration does not start}/readyz")" 200 "readiness with the packaged configuration"
+stop_service TERM
+
+# The unit: without a fault, and closed to more than most of a machine's services.
+if command -v systemd-analyze >/dev/null; then
+  unit=root/usr/lib/systemd/system/rpsup.service
+  sed "s#/usr/bin/rpsup#$folder/root/usr/bin/rpsup#" "$unit" >rpsup.service
+  systemd-analyze verify --man=no ./rpsup.service >verify 2>&1 || { cat verify; fail "the unit has faults"; }
+  ! grep -F rpsup.service verify || fail "the unit has faults"
+  systemd-analyze security --offline=yes --threshold=15 --no-pager ./rpsup.service >security || { cat security; fail "the unit is more open than 1.5 of 10"; }
+  tail -n 1 security
+fi
+
+# The service calls the system for nothing that the unit forbids it, from its start through a job, a copy of the store and its end.
+allowed() {
+  systemd-analyze syscall-filter --no-pager "$1" | sed -n '2,$s/^ *\([^# ]\)/\1/p' | while read -r name; do
+    case "$name" in @*) allowed "$name" ;; *) echo "$name" ;; esac
+  done
+}
+if command -v strace >/dev/null && command -v systemd-analyze >/dev/null; then
+  allowed @privileged | sort -u >forbidden
+  allowed @system-service | sort -u | comm -23 - forbidden >permitted
+  [ "$(wc -l <permitted)" -gt 100 ] || fail "the list of system calls was not read"
+  : >ready
+  strace --follow-forks --quiet=all --output trace root/usr/bin/rpsup serve --config config.ini >ready 2>log &
+  tracer=$!
+  for ((tenths = 0; tenths < 100; ++tenths)); do
+    url=$(sed -n 's/^rpsup listens on //p' ready)
+    [ -z "$url" ] || break
+    sleep 0.1
+  done
+  id=$(get --data '{"parameters": {"duration_s": 0.05, "run_up_s": 0.02}, "sweep": {"clearance_mm": [0, 0.2]}}' "$url/v1/sweeps" | jq -r .id)
+  wait_for_end "$id"
+  get --output copy.db "$url/v1/store"
+  kill -TERM "$(awk 'NR == 1 { print $1 }' trace)"
+  wait "$tracer"
+  # What starts the program comes before the filter; and SQLite gives the files it makes their owner if it is root, which the unit's user is not.
+  before=execve
+  [ "$(id -u)" -ne 0 ] || before='execve|fchown'
+  sed -n 's/^[0-9]* *\([a-z0-9_]*\)(.*/\1/p' trace | sort -u | grep -vxE "$before" >called
+  expect_equal "$(comm -23 called permitted | tr '\n' ' ')" "" "system calls that the unit forbids"
+  ! grep -E '(mprotect|pkey_mprotect)\(.*PROT_EXEC|mmap\(.*PROT_WRITE\|PROT_EXEC' trace || fail "memory is made executable"
+  echo "$(wc -l <called | tr -d ' ') system calls, all of them permitted"
+fi
+echo "the package holds what it should"
