@@ -73,11 +73,21 @@ def client(service, ledger, seed, stop):
         return
 
 
+def all_sweeps(service):
+    sweeps, cursor = [], ""
+    while True:
+        page = service.get(f"/v1/sweeps?limit=1000&fields=id,name&cursor={cursor}")
+        sweeps += page["items"]
+        cursor = page["next_cursor"]
+        if not cursor:
+            return sweeps
+
+
 def run_round(program, store, folder, ledger, dice, longest):
     service = Service(program, store, "--threads", "2")
     ready = service.seconds_until_ready()
-    for sweep_id in ledger.acknowledged.values():
-        service.get(f"/v1/sweeps/{sweep_id}")
+    missing = set(ledger.acknowledged.values()) - {sweep["id"] for sweep in all_sweeps(service)}
+    check(not missing, f"acknowledged and lost: {missing}")
     for number in sorted(ledger.cut_off):
         submit(service, ledger, number)
     stop = threading.Event()
@@ -125,13 +135,7 @@ def check_end(service, ledger, expected):
             compared += 1
         else:  # cancelled, and killed before it could answer so
             check(sweep_id in ledger.asked_to_cancel, f"{sweep_id} is {state}")
-    names, cursor = [], ""
-    while True:
-        page = service.get(f"/v1/sweeps?limit=1000&fields=name&cursor={cursor}")
-        names += [item["name"] for item in page["items"]]
-        cursor = page["next_cursor"]
-        if not cursor:
-            break
+    names = [sweep["name"] for sweep in all_sweeps(service)]
     check(sorted(names) == sorted(f"kill {n}" for n in ledger.acknowledged), "each sweep is to be stored once")
     check(compared > 0, "nothing was compared")
     return compared
