@@ -1,5 +1,7 @@
 #include "jobs/store.h"
 
+#include <algorithm>
+
 #include "jobs/store_insert.h"
 #include "jobs/store_quota.h"
 #include "jobs/store_rows.h"
@@ -74,15 +76,16 @@ std::string Store::add_job(const PlannedJob& job, std::size_t max_queued, const 
 bool Store::extend_sweep(const std::string& id, const std::string& former, const std::string& request, const std::vector<PlannedJob>& jobs,
                          std::size_t max_queued) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    SQLite::Statement change(database, "UPDATE sweeps SET request = ? WHERE id = ? AND request = ? RETURNING seq, (SELECT reuse FROM jobs WHERE sweep = seq LIMIT 1)");
+    SQLite::Statement change(database, "UPDATE sweeps SET request = ? WHERE id = ? AND request = ? RETURNING seq, created_ms, (SELECT reuse FROM jobs WHERE sweep = seq LIMIT 1)");
     change.bind(1, request);
     change.bind(2, id);
     change.bind(3, former);
     if (!change.executeStep()) return false;
     const std::int64_t sweep = change.getColumn(0).getInt64();
-    const bool reuse = change.getColumn(1).getInt() != 0;
+    const std::int64_t now_ms = std::max(now_unix_ms(), change.getColumn(1).getInt64());
+    const bool reuse = change.getColumn(2).getInt() != 0;
     change.executeStep();
-    JobInserter inserter(database, ids_, now_unix_ms(), ++changes_);
+    JobInserter inserter(database, ids_, now_ms, ++changes_);
     for (const PlannedJob& job : jobs) inserter.insert(job, sweep, reuse);
     check_room(database, max_queued);
     check_quota_of(database);

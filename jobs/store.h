@@ -125,6 +125,7 @@ struct Cancellation {
 enum class DeleteOutcome { kMissing, kDone, kNotEnded };
 
 /// Everything that is kept on disk, and all the SQL. May be called from any thread. Throws StorageError.
+/// Of what is kept, no time is before one that it follows, even if the clock is set back in between.
 class Store {
  public:
   /// Opens or makes the file, and queues again what a former process left running.

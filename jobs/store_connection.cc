@@ -17,7 +17,7 @@ namespace {
 constexpr int kBusyTimeout_ms = 5000;
 constexpr mode_t kOwnerOnly = 0600;
 
-StorageError system_error(const std::string& what) { return {what + ": " + std::strerror(errno), 0, errno == ENOSPC}; }
+StorageError system_error(const std::string& what) { return {what + ": " + std::strerror(errno), 0, is_no_room(errno)}; }
 
 /// What both kinds of connection need before they see a row: nothing in the file may run code of its own.
 void harden(SQLite::Database& database) {
@@ -28,8 +28,33 @@ void harden(SQLite::Database& database) {
   database.exec("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA temp_store = MEMORY");
 }
 
+/// What the system last said to a write to a store's log. Of the connection as a whole SQLite tells only what came after that.
+int last_error_of_log(const SQLite::Database& database) {
+  sqlite3_file* log = nullptr;
+  int system_error = 0;
+  sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_JOURNAL_POINTER, &log);
+  if (log != nullptr && log->pMethods != nullptr) log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &system_error);
+  return system_error;
+}
+
+bool has_content(const std::filesystem::path& file) {
+  std::error_code missing;
+  const auto size = std::filesystem::file_size(file, missing);
+  return !missing && size > 0;
+}
+
+/// SQLite would delete a log that lies beside no store, and with it what had not been moved into the store yet.
+void check_log_has_store(const std::filesystem::path& store) {
+  const std::string log = store.string() + "-wal";
+  if (has_content(store) || !has_content(log)) return;
+  throw StorageError("the store " + store.string() + " is missing or empty, but its log " + log +
+                         " is there and may hold results: put the store back beside it, or move the log away; it has been left as it is",
+                     SQLITE_CORRUPT, false);
+}
+
 /// SQLite would make the file readable for all; its log and index files copy the file's mode.
 SQLite::Database open_for_writing(const std::filesystem::path& store) {
+  check_log_has_store(store);
   const int file = ::open(store.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kOwnerOnly);
   if (file >= 0) {
     ::close(file);
@@ -41,7 +66,12 @@ SQLite::Database open_for_writing(const std::filesystem::path& store) {
 
 }  // namespace
 
-bool is_full(int sqlite_code) { return sqlite_code == SQLITE_FULL; }
+bool is_no_room(int system_error) { return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG; }
+
+bool is_full(const SQLite::Exception& error, const SQLite::Database* database) {
+  if (error.getErrorCode() == SQLITE_FULL) return true;
+  return error.getErrorCode() == SQLITE_IOERR && database != nullptr && is_no_room(last_error_of_log(*database));
+}
 
 StoreLock::StoreLock(const std::filesystem::path& store) {
   // One lock for one file, whichever of its names is used.
@@ -62,7 +92,10 @@ StoreLock::~StoreLock() { ::close(file_); }
 Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {
   with_storage_errors([&] {
     harden(database_);
+    // A store that is refused stays as it is: closing must not move its log into it.
+    sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     prepare_schema(database_, store);
+    sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
     // Freed pages are not wiped: results are no secrets, and wiping makes deleting slow.
     database_.exec("PRAGMA foreign_keys = ON; PRAGMA secure_delete = OFF; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 67108864");
   });
@@ -86,7 +119,7 @@ void Writer::release_free_pages() {
     with_storage_errors([&] {
       database_.exec("PRAGMA incremental_vacuum(2048)");
       before = std::exchange(now, database_.execAndGet("PRAGMA freelist_count").getInt());
-    });
+    }, &database_);
   }
 }
 

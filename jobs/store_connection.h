@@ -28,16 +28,21 @@ class StoreLock {
   int file_ = -1;
 };
 
-/// Whether SQLite says that there is no room left.
-[[nodiscard]] bool is_full(int sqlite_code);
+/// Whether a system call failed for want of room: the disk is full, or what this user or process may take of it.
+[[nodiscard]] bool is_no_room(int system_error);
+
+/// Whether SQLite says that there is no room left. It has no code of its own for other limits than the disk's: the system call tells.
+/// @param database  that failed; null: unknown
+[[nodiscard]] bool is_full(const SQLite::Exception& error, const SQLite::Database* database);
 
 /// Runs database work and throws StorageError in the place of SQLite's exceptions.
+/// @param database  that the work is done with; null: one of its own
 template <typename Work>
-auto with_storage_errors(Work&& work) {
+auto with_storage_errors(Work&& work, const SQLite::Database* database = nullptr) {
   try {
     return std::forward<Work>(work)();
   } catch (const SQLite::Exception& error) {
-    throw StorageError(std::string("the store failed: ") + error.what(), error.getExtendedErrorCode(), is_full(error.getErrorCode()));
+    throw StorageError(std::string("the store failed: ") + error.what(), error.getExtendedErrorCode(), is_full(error, database));
   }
 }
 
@@ -113,7 +118,7 @@ class Writer {
         transaction.commit();
         return result;
       }
-    });
+    }, &database_);
   }
 
   void set_durability(Durability durability);

@@ -19,7 +19,8 @@ std::vector<std::string> find_running(SQLite::Database& database, const char* co
 
 /// @param whose  SQL condition on the jobs, with one parameter
 int cancel_where(SQLite::Database& database, const std::string& whose, const std::string& id, std::int64_t change) {
-  SQLite::Statement cancel(database, "UPDATE jobs SET state = 'cancelled', ended_ms = ?, change = ? WHERE state IN ('queued', 'running') AND " + whose);
+  SQLite::Statement cancel(database, "UPDATE jobs SET state = 'cancelled', ended_ms = max(?, coalesce(started_ms, created_ms)), change = ? "
+                             "WHERE state IN ('queued', 'running') AND " + whose);
   cancel.bind(1, now_unix_ms());
   cancel.bind(2, change);
   cancel.bind(3, id);
@@ -93,7 +94,7 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
     if (queue.exec() == 0) return true;
     rename_queued_contents(database);
     SQLite::Statement settle(database,
-                             "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = ?3, ended_ms = ?3, "
+                             "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = max(?3, created_ms), ended_ms = max(?3, created_ms), "
                              "result = (SELECT max(seq) FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL) "
                              "WHERE sweep = ?1 AND state = 'queued' AND reuse = 1 "
                              "AND EXISTS (SELECT 1 FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL)");

@@ -90,7 +90,7 @@ void insert_trajectory(Statements& statements, std::int64_t result, const std::s
 }
 
 void end_job(Statements& statements, const ClaimedJob& job, JobState state, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
-  const auto end = statements.use("UPDATE jobs SET state = ?, result = ?, ended_ms = ?, change = ? WHERE seq = ? AND attempt = ? AND state = 'running'");
+  const auto end = statements.use("UPDATE jobs SET state = ?, result = ?, ended_ms = max(?, started_ms), change = ? WHERE seq = ? AND attempt = ? AND state = 'running'");
   end->bind(1, std::string(state_name(state)));
   end->bind(2, result);
   end->bind(3, now_ms);
@@ -103,7 +103,7 @@ void end_job(Statements& statements, const ClaimedJob& job, JobState state, std:
 /// Gives a new result to those who waited for it.
 void settle_waiting(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
   const auto settle = statements.use(
-      "UPDATE jobs SET state = 'succeeded', result = ?, reused = 1, started_ms = ?, ended_ms = ?, change = ? "
+      "UPDATE jobs SET state = 'succeeded', result = ?, reused = 1, started_ms = max(?, created_ms), ended_ms = max(?, created_ms), change = ? "
       "WHERE content = ? AND state = 'queued' AND reuse = 1");
   settle->bind(1, result);
   settle->bind(2, now_ms);
@@ -125,7 +125,7 @@ std::optional<ClaimedJob> Store::claim() {
     for (const auto& [sweep, priority] : sweeps) {
       auto job = find_claimable(statements, sweep);
       if (!job) continue;
-      const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = ? WHERE seq = ?");
+      const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
       take->bind(1, job->attempt);
       take->bind(2, now_unix_ms());
       take->bind(3, job->seq);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -188,6 +189,8 @@ void describe(CLI::App& app, const std::vector<Command>& remote) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may not grow any more is an error to be told, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"Parameter studies of the dynamics of the RPSUP spatial linkage", "rpsup"};
   app.fallthrough();  // before the commands, which take it over
   SimulateOptions simulate_options;

@@ -147,6 +147,47 @@ TEST(Store, RefusesAFileThatWasCutOff) {
   EXPECT_NE(refusal_of(temporary.file()).find("damaged"), std::string::npos);
 }
 
+/// The files of a store that is in use, as a kill would leave them.
+void copy_files(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::filesystem::copy_file(from, to);
+  std::filesystem::copy_file(from.string() + "-wal", to.string() + "-wal");
+}
+
+TEST(Store, LeavesTheLogOfAStoreThatItRefusesAlone) {
+  const TemporaryStore temporary;
+  const std::filesystem::path killed = temporary.file().string() + ".killed";
+  { const jobs::Store store(temporary.file()); }
+  {
+    SQLite::Database newer(temporary.file().string(), SQLite::OPEN_READWRITE);
+    newer.exec("PRAGMA user_version = 1000");
+    copy_files(temporary.file(), killed);
+  }
+  const std::string log = bytes_of(killed.string() + "-wal"), file = bytes_of(killed);
+  ASSERT_FALSE(log.empty());
+  EXPECT_NE(refusal_of(killed).find("newer program"), std::string::npos);
+  EXPECT_EQ(bytes_of(killed.string() + "-wal"), log);
+  EXPECT_EQ(bytes_of(killed), file);
+}
+
+TEST(Store, RefusesALogWhoseStoreIsGone) {
+  const TemporaryStore temporary;
+  const std::filesystem::path killed = temporary.file().string() + ".killed";
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": [0.1, 0.2]}})");
+    copy_files(temporary.file(), killed);
+  }
+  const std::string log = bytes_of(killed.string() + "-wal"), file = bytes_of(killed);
+  ASSERT_FALSE(log.empty());
+  std::filesystem::remove(killed);
+  EXPECT_NE(refusal_of(killed).find("its log"), std::string::npos);
+  EXPECT_EQ(bytes_of(killed.string() + "-wal"), log);
+  EXPECT_FALSE(std::filesystem::exists(killed));
+  { std::ofstream(killed) << file; }
+  const jobs::Store store(killed);
+  EXPECT_EQ(store.list_sweeps("", "", 10).size(), 1U) << "the store was put back";
+}
+
 TEST(Store, TurnsADirectoryOrAMissingFolderDown) {
   const TemporaryStore temporary;
   std::filesystem::create_directory(temporary.file());
