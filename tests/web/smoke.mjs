@@ -125,6 +125,22 @@ test("the list follows, searches, and deletes after asking", async () => {
   await leave(page);
 });
 
+test("a sweep is cancelled and retried in the list", async () => {
+  const long = await ask("/v1/sweeps", { name: "long", parameters: { duration_s: 100, run_up_s: 0.1 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
+  const page = await visit("");
+  const row = page.getByRole("row").filter({ hasText: "long" });
+  await page.getByRole("button", { name: "Retry long" }).waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Cancel long" }).click();
+  await row.getByText("3 cancelled").waitFor();
+  assert.equal((await ask(`/v1/sweeps/${long.id}`)).state, "cancelled");
+  await page.getByRole("button", { name: "Retry long" }).click();
+  await row.getByText(/[1-3] (queued|running)/).first().waitFor();
+  assert.equal((await ask(`/v1/sweeps/${long.id}`)).counts.cancelled, 0);
+  await page.getByRole("button", { name: "Cancel long" }).click();
+  await row.getByText("3 cancelled").waitFor();
+  await leave(page);
+});
+
 test("a view that is not there says so", async () => {
   const page = await visit("#/jobs/none");
   await page.getByRole("heading", { name: "This view cannot be shown" }).waitFor();
