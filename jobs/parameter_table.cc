@@ -83,15 +83,18 @@ void add_run_rows(Rows& rows) {
                         above(0, 100'000), &O::output_rate));
   rows.push_back(choice<engine::Integrator O::*, engine::Integrator>(
       {"integrator", "integrator", "", kChosen,
-       "dopri5: error-controlled Dormand-Prince 5(4); rodas4: error-controlled Rosenbrock 4(3), L-stable; rk4: classical Runge-Kutta, fixed step "
-       "(the paper's)"},
+       "rodas5, rodas4: error-controlled Rosenbrock 5(4) and 4(3), L-stable; dopri5: error-controlled Dormand-Prince 5(4); rk4: classical "
+       "Runge-Kutta, fixed step (the paper's)"},
       &O::integrator,
-      {{"dopri5", engine::Integrator::kDopri5}, {"rodas4", engine::Integrator::kRodas4}, {"rk4", engine::Integrator::kRk4}}));
+      {{"rodas5", engine::Integrator::kRodas5},
+       {"rodas4", engine::Integrator::kRodas4},
+       {"dopri5", engine::Integrator::kDopri5},
+       {"rk4", engine::Integrator::kRk4}}));
   rows.push_back(number({"step_s", "step", "s", kChosen, "Step of rk4"}, between(1e-8, 1e-3), &O::step));
   rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen, "Of the error-controlled integrators"},
                         between(1e-13, 1e-2), &O::relative_tolerance));
   rows.push_back(number({"absolute_tolerance", "absolute_tolerance", "", kChosen,
-                         "Of the error-controlled integrators, in m, rad and their rates; of rodas4 in m and m/s, rotations by the radius of gyration of what they carry"},
+                         "Of the error-controlled integrators, in m, rad and their rates; of rodas5 and rodas4 in m and m/s, rotations by the radius of gyration of what they carry"},
                         between(1e-13, 1e-2), &O::absolute_tolerance));
 }
 

@@ -25,7 +25,7 @@ class EnergyControl {
   }
 
  private:
-  static constexpr double kPart = 0.2;     // of the tolerance: with it peaks and account of runs at one tolerance are about equally good
+  static constexpr double kPart = 0.25;    // of the tolerance: with it peaks and account of runs at one tolerance are about equally good
   static constexpr double kFinest = 1e-7;  // tolerances below have the steps resolve all that moves, and the account is one of roundings
 
   double relative_;           ///< of the mean power

@@ -13,9 +13,15 @@ namespace {
 
 constexpr double kFirstStep = 1e-6;       // [s]; the controller finds its own within some steps
 constexpr double kLongestStep = 1e-3;     // [s]; short enough for the cubic that finds a ring's contact inside a step
+constexpr double kLongestFree = 5e-3;     // [s]; of an implicit method without such a joint: short enough for what is read from inside
 constexpr double kWidenBelow = 1e-5;      // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;           // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
+
+double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
+  const auto has_clearance = [](const CutJoint& joint) { return joint.clearance.has_value(); };
+  return is_implicit(integrator) && std::ranges::none_of(mechanism.cut_joints, has_clearance) ? kLongestFree : kLongestStep;
+}
 
 /// Steps are below this when error control has failed: a hundred roundings of the time.
 double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
@@ -31,8 +37,10 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       energy_control_(options),
       dopri5_(tolerance_),
       rodas4_(tolerance_),
+      rodas5_(tolerance_),
       control_(options.integrator == Integrator::kRodas4 ? 4.0 : 5.0),
-      samples_(options.output_rate, options.duration) {}
+      samples_(options.output_rate, options.duration),
+      longest_step_(choose_longest_step(mechanism, options.integrator)) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
   if (!start(assembled)) return run_end_;
@@ -64,7 +72,7 @@ bool Integration::start(const Evaluation& assembled) {
     return false;
   }
   // Dopri5's steps are as short as its stability asks: it would take no longer ones.
-  if (options_.integrator == Integrator::kRodas4) tolerance_.set_radii(mechanism_, system_.free_coordinates(), start_.at.frames);
+  if (is_implicit(options_.integrator)) tolerance_.set_radii(mechanism_, system_.free_coordinates(), start_.at.frames);
   system_.calc_energies(start_.at);
   system_.add_penetrations(start_.at, rings_start_);
   dt_ = kFirstStep;
@@ -77,10 +85,15 @@ void Integration::prepare(double dt) {
 }
 
 void Integration::evaluate_again(StepEnd& end) {
-  rodas4_.begin_step();
+  forget_jacobian();
   ++run_end_.evaluations;
   (void)system_.calc_derivative(end.t, end.y, end.f, end.at);  // where it could be evaluated before, it can be now
   system_.calc_energies(end.at);
+}
+
+void Integration::forget_jacobian() {
+  rodas4_.begin_step();
+  rodas5_.begin_step();
 }
 
 void Integration::widen_bristles() {
@@ -126,7 +139,7 @@ bool Integration::try_fixed_step() {
 
 bool Integration::try_controlled_step() {
   const double remaining = options_.duration - start_.t;
-  const double dt = std::min({dt_, kLongestStep, remaining});
+  const double dt = std::min({dt_, longest_step_, remaining});
   prepare(dt);
   const Trial trial = try_step(dt);
   if (!is_accepted(trial, dt)) return false;
@@ -137,13 +150,23 @@ bool Integration::try_controlled_step() {
 }
 
 Trial Integration::try_step(double dt) {
-  const bool implicit = options_.integrator == Integrator::kRodas4;
-  Trial trial = implicit ? rodas4_.try_step(system_, start_, dt, end_) : dopri5_.try_step(system_, start_, dt, end_);
+  Trial trial = try_method(dt);
   run_end_.evaluations += trial.evaluations;
   if (trial.status != EvaluationStatus::kOk || !(trial.error <= 1.0)) return trial;
   system_.calc_energies(end_.at);
-  if (implicit) trial.error = std::max(trial.error, energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt));
+  if (is_implicit(options_.integrator))
+    trial.error = std::max(trial.error, energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt));
   return trial;
+}
+
+Trial Integration::try_method(double dt) {
+  switch (options_.integrator) {
+    case Integrator::kRodas5: return rodas5_.try_step(system_, start_, dt, end_);
+    case Integrator::kRodas4: return rodas4_.try_step(system_, start_, dt, end_);
+    case Integrator::kDopri5: return dopri5_.try_step(system_, start_, dt, end_);
+    case Integrator::kRk4: break;
+  }
+  return rk4_.try_step(system_, start_, dt, end_);
 }
 
 /// Sees to it that the next try does better where this one failed.
@@ -193,7 +216,7 @@ void Integration::accept() {
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
   std::swap(rings_start_, rings_end_);
-  rodas4_.begin_step();
+  forget_jacobian();
 }
 
 /// Samples up to the end of the step, with the contacts as they were in it.

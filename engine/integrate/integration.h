@@ -25,12 +25,14 @@ class Integration {
   [[nodiscard]] bool try_fixed_step();
   [[nodiscard]] bool try_controlled_step();
   [[nodiscard]] Trial try_step(double dt);
+  [[nodiscard]] Trial try_method(double dt);
   [[nodiscard]] bool is_accepted(const Trial& trial, double dt);
   [[nodiscard]] bool land_on_event(double dt);
   void accept();
   void take_samples();
   void evaluate_inside(double t);
   void prepare(double dt);
+  void forget_jacobian();
   void evaluate_again(StepEnd& end);
   void widen_bristles();
   void fail(EvaluationStatus status);
@@ -45,11 +47,13 @@ class Integration {
   EnergyControl energy_control_;
   Dopri5 dopri5_;
   Rodas4 rodas4_;
+  Rodas5 rodas5_;
   StepControl control_;
   SampleTimes samples_;
   StepEnd start_, end_;
   StepEnd sample_;                                ///< the state between steps that was evaluated last
   std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
+  double longest_step_;                           ///< [s]
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
   RunEnd run_end_;

@@ -38,10 +38,10 @@ class Dopri5System : public StageSystem {
   Evaluation& at_end_;
 };
 
-/// Rodas4's stages with their linear algebra.
-class Rodas4System : public StageSystem {
+/// The stages of a method of the RODAS family with their linear algebra.
+class RodasSystem : public StageSystem {
  public:
-  Rodas4System(MotionSystem& system, Trial& trial, bool& linearised) : StageSystem(system, trial), linearised_(linearised) {}
+  RodasSystem(MotionSystem& system, Trial& trial, bool& linearised) : StageSystem(system, trial), linearised_(linearised) {}
 
   void linearise(const Eigen::VectorXd& y, double t) {
     if (!linearised_) trial_.status = system_.linearise(t, y);
@@ -82,9 +82,10 @@ Trial Dopri5::try_step(MotionSystem& system, const StepEnd& start, double dt, St
   return trial;
 }
 
-Trial Rodas4::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
+template <class Stepper>
+Trial Rodas<Stepper>::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
-  Rodas4System rhs(system, trial, linearised_);
+  RodasSystem rhs(system, trial, linearised_);
   end.t = start.t + dt;
   end.f.resize(start.y.size());
   stepper_.do_step(std::ref(rhs), start.y, start.f, start.t, end.y, dt, local_error_);
@@ -93,5 +94,8 @@ Trial Rodas4::try_step(MotionSystem& system, const StepEnd& start, double dt, St
   if (trial.error <= 1.0) evaluate_end(system, end, trial);
   return trial;
 }
+
+template class Rodas<Rodas4Stepper>;
+template class Rodas<Rodas5Stepper>;
 
 }  // namespace engine

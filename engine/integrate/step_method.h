@@ -10,7 +10,7 @@
 #include <boost/numeric/odeint/util/resizer.hpp>
 
 #include "engine/dynamics/motion_system.h"
-#include "engine/integrate/rodas4.h"
+#include "engine/integrate/rodas.h"
 #include "engine/integrate/tolerance.h"
 
 namespace engine {
@@ -59,10 +59,11 @@ class Dopri5 {
   EigenStepper<boost::numeric::odeint::runge_kutta_dopri5> stepper_;
 };
 
-/// RODAS4: implicit, so that stiff contacts and links do not bound its steps. Tries from one start share its Jacobian.
-class Rodas4 {
+/// A method of the RODAS family: implicit, so that stiff contacts and links do not bound its steps. Tries from one start share its Jacobian.
+template <class Stepper>
+class Rodas {
  public:
-  explicit Rodas4(const Tolerance& tolerance) : tolerance_(tolerance) {}
+  explicit Rodas(const Tolerance& tolerance) : tolerance_(tolerance) {}
 
   /// The next try is from another start, or by other equations of motion, than the last.
   void begin_step() { linearised_ = false; }
@@ -72,7 +73,10 @@ class Rodas4 {
   const Tolerance& tolerance_;
   bool linearised_ = false;  ///< the system holds the Jacobian of the step's start
   Eigen::VectorXd local_error_;
-  Rodas4Stepper stepper_;
+  Stepper stepper_;
 };
+
+using Rodas4 = Rodas<Rodas4Stepper>;
+using Rodas5 = Rodas<Rodas5Stepper>;
 
 }  // namespace engine

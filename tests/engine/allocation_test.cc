@@ -52,7 +52,7 @@ TEST_P(RightHandSide, AllocatesNothing) {
   (void)system.prepare_step(start.at, 1e-9, start.y);  // the elements' bristles go where the contact is
   ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
   EXPECT_EQ(start.at.joints[0].load.max_penetration > 0.0, GetParam().parameters.c_r > 0.0);
-  Rodas4 implicit(tolerance);
+  Rodas5 implicit(tolerance);
   ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the methods' own vectors
   ASSERT_EQ(implicit.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
 
@@ -99,9 +99,9 @@ struct DecaySystem {
   void solve_in_place(Eigen::VectorXd& x) const { x /= shift + 1.0; }
 };
 
-TEST(Rodas4Stepper, AllocatesNothingAfterItsFirstStep) {
+TEST(RodasStepper, AllocatesNothingAfterItsFirstStep) {
   DecaySystem system;
-  Rodas4Stepper stepper;
+  Rodas5Stepper stepper;
   Eigen::VectorXd y = Eigen::VectorXd::Ones(40);
   Eigen::VectorXd dydt = -y;
   Eigen::VectorXd end = y;

@@ -66,25 +66,25 @@ TEST(Integration, SamplesBetweenStepsLieOnTheSolution) {
 }
 
 // One Jacobian serves all tries of a step, and a rejected try is not evaluated at its end.
-TEST(Rodas4, AgreesWithDopri5AsCloselyAsItsTolerance) {
+TEST(Rodas, AgreesWithDopri5AsCloselyAsItsTolerance) {
   LastState exact;
   const RunOptions tight{.duration = 0.4, .integrator = Integrator::kDopri5, .relative_tolerance = 1e-12, .absolute_tolerance = 1e-12};
   ASSERT_EQ(simulate(make_pendulum(), tight, exact).status, RunStatus::kSucceeded);
-  for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
-    LastState observer;
-    const RunOptions options{.duration = 0.4, .integrator = Integrator::kRodas4, .relative_tolerance = tolerance, .absolute_tolerance = tolerance};
-    const RunEnd end = simulate(make_pendulum(), options, observer);
-    ASSERT_EQ(end.status, RunStatus::kSucceeded);
-    // Five stages and the end; one more at t = 0.
-    EXPECT_GE(end.evaluations, 6 * end.steps + 1);
-    EXPECT_LE(end.evaluations, 6 * end.steps + 1 + 5 * (end.steps / 4));
-    ASSERT_EQ(observer.sampled_q.size(), exact.sampled_q.size());
-    // The longest step of 1 ms decides at the loose end: below 1e-9.
-    for (std::size_t k = 0; k < exact.sampled_q.size(); ++k) EXPECT_NEAR(observer.sampled_q[k], exact.sampled_q[k], tolerance) << tolerance;
-  }
+  for (const auto& [integrator, stages] : {std::pair{Integrator::kRodas4, 6}, std::pair{Integrator::kRodas5, 8}})
+    for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+      LastState observer;
+      const RunOptions options{.duration = 0.4, .integrator = integrator, .relative_tolerance = tolerance, .absolute_tolerance = tolerance};
+      const RunEnd end = simulate(make_pendulum(), options, observer);
+      ASSERT_EQ(end.status, RunStatus::kSucceeded);
+      // All stages but the first, and the end; one more at t = 0.
+      EXPECT_GE(end.evaluations, stages * end.steps + 1);
+      EXPECT_LE(end.evaluations, stages * end.steps + 1 + (stages - 1) * (end.steps / 4));
+      ASSERT_EQ(observer.sampled_q.size(), exact.sampled_q.size());
+      for (std::size_t k = 0; k < exact.sampled_q.size(); ++k) EXPECT_NEAR(observer.sampled_q[k], exact.sampled_q[k], tolerance) << tolerance;
+    }
 }
 
-TEST(Rodas4, StepsFromTheSameStartGiveTheSame) {
+TEST(Rodas, StepsFromTheSameStartGiveTheSame) {
   const Mechanism mechanism = make_pendulum();
   MotionSystem system(mechanism);
   StepEnd start, end, again;
@@ -94,11 +94,11 @@ TEST(Rodas4, StepsFromTheSameStartGiveTheSame) {
   ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
   Tolerance tolerance(1e-6, 1e-6);
   tolerance.set_radii(mechanism, system.free_coordinates(), start.at.frames);
-  Rodas4 method(tolerance);
-  ASSERT_EQ(method.try_step(system, start, 1e-3, end).evaluations, 6);
+  Rodas5 method(tolerance);
+  ASSERT_EQ(method.try_step(system, start, 1e-3, end).evaluations, 8);
   const Trial rejected = method.try_step(system, start, 0.5, again);
   EXPECT_GT(rejected.error, 1.0);
-  EXPECT_EQ(rejected.evaluations, 5);
+  EXPECT_EQ(rejected.evaluations, 7);
   ASSERT_EQ(method.try_step(system, start, 1e-3, again).status, EvaluationStatus::kOk);
   EXPECT_EQ(again.y, end.y);
   EXPECT_EQ(again.f, end.f);
@@ -109,7 +109,7 @@ TEST(Rodas4, StepsFromTheSameStartGiveTheSame) {
   next.at = start.at;
   next.f = start.f;
   ASSERT_EQ(method.try_step(system, end, 0.02, next).status, EvaluationStatus::kOk);
-  ASSERT_EQ(Rodas4(tolerance).try_step(system, end, 0.02, again).status, EvaluationStatus::kOk);
+  ASSERT_EQ(Rodas5(tolerance).try_step(system, end, 0.02, again).status, EvaluationStatus::kOk);
   EXPECT_EQ(again.y, next.y);
 }
 

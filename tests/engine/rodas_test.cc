@@ -1,5 +1,6 @@
-// RODAS4's coefficients by the order conditions, its order, its stability and its place among Odeint's steppers.
+// The RODAS methods' coefficients by the order conditions, their order, stability and place among Odeint's steppers.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -12,79 +13,104 @@
 #include <boost/numeric/odeint/stepper/controlled_step_result.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/integrate/rodas4.h"
+#include "engine/integrate/rodas.h"
 
 namespace engine {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-using K = Rodas4Coefficients;
-using Tableau = Eigen::Matrix<double, K::kStages, K::kStages>;
-using Column = Eigen::Matrix<double, K::kStages, 1>;
+template <typename Coefficients>
+class Methods : public testing::Test {};
+using BothMethods = testing::Types<Rodas4Coefficients, Rodas5Coefficients>;
+TYPED_TEST_SUITE(Methods, BothMethods);
 
 /// The method in the form of the order conditions, from its own: Gamma = (1 / gamma - C)^-1, alpha = a Gamma, b = m Gamma.
 struct ClassicalForm {
-  Tableau Gamma, alpha, beta;
-  Column b, b_embedded;
+  Eigen::MatrixXd Gamma, alpha, beta;
+  Eigen::VectorXd b, b_embedded;
 };
 
+template <typename K>
 ClassicalForm make_classical_form() {
-  Tableau a = Tableau::Zero();
-  Tableau C = Tableau::Zero();
+  const auto s = static_cast<Eigen::Index>(K::kStages);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(s, s);
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(s, s);
   for (std::size_t i = 0; i < K::kStages; ++i)
     for (std::size_t j = 0; j < i; ++j) {
       a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::a[i][j];
       C(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::C[i][j];
     }
   ClassicalForm form;
-  form.Gamma = (Tableau::Identity() / K::gamma - C).inverse();
+  form.Gamma = (Eigen::MatrixXd::Identity(s, s) / K::gamma - C).inverse();
   form.alpha = a * form.Gamma;
   form.beta = form.alpha + form.Gamma;
-  Column m = a.row(K::kStages - 1).transpose();
+  Eigen::VectorXd m = a.row(s - 1).transpose();
   form.b_embedded = form.Gamma.transpose() * m;
-  m[K::kStages - 1] = 1.0;
+  m[s - 1] = 1.0;
   form.b = form.Gamma.transpose() * m;
   return form;
 }
 
-/// Sums over trees. Source: Hairer and Wanner, section IV.7, table 7.1, with beta_ij including the diagonal gamma.
-void expect_order_3(const ClassicalForm& m, const Column& b) {
-  const Column ones = Column::Ones();
-  const Column alpha = m.alpha * ones;
-  const Column beta = m.beta * ones;
-  EXPECT_NEAR(b.sum(), 1.0, 1e-13);
-  EXPECT_NEAR(b.dot(beta), 1.0 / 2.0, 1e-13);
-  EXPECT_NEAR(b.dot(alpha.cwiseAbs2()), 1.0 / 3.0, 1e-13);
-  EXPECT_NEAR(b.dot(m.beta * beta), 1.0 / 6.0, 1e-13);
+/// What the sums over the trees of an order lack. Source: Hairer and Wanner, section IV.7, table 7.1 and the rule behind it, with beta_ij
+/// including the diagonal gamma: where a vertex branches, alpha; where it does not, beta.
+std::vector<double> find_defects(const ClassicalForm& m, const Eigen::VectorXd& b, int order) {
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(b.size());
+  const Eigen::VectorXd alpha = m.alpha * ones;
+  const Eigen::VectorXd beta = m.beta * ones;
+  const Eigen::VectorXd alpha_2 = alpha.cwiseAbs2();
+  const Eigen::VectorXd alpha_3 = alpha.cwiseProduct(alpha_2);
+  const Eigen::VectorXd beta_2 = m.beta * beta;
+  const Eigen::VectorXd alpha_beta = m.alpha * beta;
+  switch (order) {
+    case 1: return {b.sum() - 1.0};
+    case 2: return {b.dot(beta) - 1.0 / 2.0};
+    case 3: return {b.dot(alpha_2) - 1.0 / 3.0, b.dot(beta_2) - 1.0 / 6.0};
+    case 4:
+      return {b.dot(alpha_3) - 1.0 / 4.0, b.dot(alpha.cwiseProduct(alpha_beta)) - 1.0 / 8.0, b.dot(m.beta * alpha_2) - 1.0 / 12.0,
+              b.dot(m.beta * beta_2) - 1.0 / 24.0};
+    default:
+      return {b.dot(alpha_2.cwiseAbs2()) - 1.0 / 5.0,
+              b.dot(alpha_2.cwiseProduct(alpha_beta)) - 1.0 / 10.0,
+              b.dot(alpha_beta.cwiseAbs2()) - 1.0 / 20.0,
+              b.dot(alpha.cwiseProduct(m.alpha * alpha_2)) - 1.0 / 15.0,
+              b.dot(alpha.cwiseProduct(m.alpha * beta_2)) - 1.0 / 30.0,
+              b.dot(m.beta * alpha_3) - 1.0 / 20.0,
+              b.dot(m.beta * alpha.cwiseProduct(alpha_beta)) - 1.0 / 40.0,
+              b.dot(m.beta * (m.beta * alpha_2)) - 1.0 / 60.0,
+              b.dot(m.beta * (m.beta * beta_2)) - 1.0 / 120.0};
+  }
 }
 
-TEST(Rodas4Coefficients, MeetTheConditionsOfOrder4) {
-  const ClassicalForm m = make_classical_form();
-  const Column ones = Column::Ones();
-  const Column alpha = m.alpha * ones;
-  const Column beta = m.beta * ones;
-  expect_order_3(m, m.b);
-  EXPECT_NEAR(m.b.dot(alpha.cwiseProduct(alpha.cwiseAbs2())), 1.0 / 4.0, 1e-13);
-  EXPECT_NEAR(m.b.dot(alpha.cwiseProduct(m.alpha * beta)), 1.0 / 8.0, 1e-13);
-  EXPECT_NEAR(m.b.dot(m.beta * alpha.cwiseAbs2()), 1.0 / 12.0, 1e-13);
-  EXPECT_NEAR(m.b.dot(m.beta * (m.beta * beta)), 1.0 / 24.0, 1e-13);
+double largest(const std::vector<double>& defects) {
+  double most = 0.0;
+  for (const double defect : defects) most = std::max(most, std::abs(defect));
+  return most;
 }
 
-TEST(Rodas4Coefficients, HaveAnEmbeddedMethodOfOrder3Only) {
-  const ClassicalForm m = make_classical_form();
-  expect_order_3(m, m.b_embedded);
-  const Column alpha = m.alpha * Column::Ones();
-  EXPECT_GT(std::abs(m.b_embedded.dot(alpha.cwiseProduct(alpha.cwiseAbs2())) - 1.0 / 4.0), 1e-3);
+constexpr double kDigits = 1e-12;  // sixteen digits of coefficients up to 300
+
+TYPED_TEST(Methods, MeetTheConditionsOfTheirOrder) {
+  const ClassicalForm m = make_classical_form<TypeParam>();
+  for (int order = 1; order <= TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b, order)), kDigits) << order;
+  for (int order = 1; order < TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b_embedded, order)), kDigits) << order;
+  EXPECT_GT(largest(find_defects(m, m.b_embedded, TypeParam::kOrder)), 1e-4);
 }
 
 // c and d are the row sums of alpha and Gamma: they are what a time that is one more entry of y would get.
-TEST(Rodas4Coefficients, TreatTimeAsAnotherEntryOfTheState) {
-  const ClassicalForm m = make_classical_form();
-  for (std::size_t i = 0; i < K::kStages; ++i) {
-    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), K::c[i], 1e-13) << i;
-    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), K::d[i], 1e-13) << i;
+TYPED_TEST(Methods, TreatTimeAsAnotherEntryOfTheState) {
+  const ClassicalForm m = make_classical_form<TypeParam>();
+  for (std::size_t i = 0; i < TypeParam::kStages; ++i) {
+    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::c[i], kDigits) << i;
+    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::d[i], kDigits) << i;
   }
+}
+
+// The last stages are formed from the one before.
+TYPED_TEST(Methods, ExtendTheStageBefore) {
+  for (std::size_t i = TypeParam::kFirstExtended; i < TypeParam::kStages; ++i)
+    for (std::size_t j = 0; j + 1 < TypeParam::kStages; ++j)
+      EXPECT_EQ(TypeParam::a[i][j], j + 1 == i ? 1.0 : TypeParam::a[i - 1][j]) << i << " " << j;
 }
 
 /// Dense linear algebra for a system given by f, J and df/dt.
@@ -138,48 +164,50 @@ System make_nonlinear_system() {
 }
 
 /// Error after [0, 1] in so many equal steps.
+template <typename K>
 double calc_global_error(int steps) {
   System system = make_nonlinear_system();
-  Rodas4Stepper stepper;
+  RodasStepper<K> stepper;
   Eigen::VectorXd y = exact(0.0);
   for (int k = 0; k < steps; ++k) stepper.do_step(std::ref(system), y, static_cast<double>(k) / steps, 1.0 / steps);
   return (y - exact(1.0)).norm();
 }
 
-TEST(Rodas4Stepper, IsOfOrder4) {
+TYPED_TEST(Methods, AreOfTheirOrder) {
   // The next term of the error is a part dt of it.
-  const double order = std::log2(calc_global_error(64) / calc_global_error(128));
-  EXPECT_NEAR(order, 4.0, 0.15);
+  const double order = std::log2(calc_global_error<TypeParam>(32) / calc_global_error<TypeParam>(64));
+  EXPECT_NEAR(order, TypeParam::kOrder, 0.15);
 }
 
 /// Error estimate and error of one step from t = 0.3.
 struct Local {
   double estimate, error;
 };
+template <typename K>
 Local calc_local(double dt) {
   System system = make_nonlinear_system();
-  Rodas4Stepper stepper;
+  RodasStepper<K> stepper;
   Eigen::VectorXd end, estimate;
   stepper.do_step(std::ref(system), exact(0.3), 0.3, end, dt, estimate);
   return {estimate.norm(), (end - exact(0.3 + dt)).norm()};
 }
 
-TEST(Rodas4Stepper, EstimatesTheErrorOfAnEmbeddedMethodOfOrder3) {
-  const Local coarse = calc_local(0.02);
-  const Local fine = calc_local(0.01);
-  EXPECT_NEAR(std::log2(coarse.estimate / fine.estimate), 4.0, 0.15);
-  EXPECT_NEAR(std::log2(coarse.error / fine.error), 5.0, 0.25);
+TYPED_TEST(Methods, EstimateTheErrorOfAnEmbeddedMethodOfAnOrderLess) {
+  const Local coarse = calc_local<TypeParam>(0.04);
+  const Local fine = calc_local<TypeParam>(0.02);
+  EXPECT_NEAR(std::log2(coarse.estimate / fine.estimate), TypeParam::kOrder, 0.15);
+  EXPECT_NEAR(std::log2(coarse.error / fine.error), TypeParam::kOrder + 1, 0.25);
 }
 
-TEST(Rodas4Stepper, TakesFiveEvaluationsIfTheFirstIsGiven) {
+TYPED_TEST(Methods, TakeNoEvaluationThatIsGiven) {
   System system = make_nonlinear_system();
-  Rodas4Stepper stepper;
+  RodasStepper<TypeParam> stepper;
   const Eigen::VectorXd y = exact(0.0);
   Eigen::VectorXd dydt, end, error;
   system(y, dydt, 0.0);
   system.evaluations = 0;
   stepper.do_step(std::ref(system), y, dydt, 0.0, end, 0.1, error);
-  EXPECT_EQ(system.evaluations, 5);
+  EXPECT_EQ(system.evaluations, static_cast<int>(TypeParam::kStages) - 1);
   Eigen::VectorXd in_place = y;
   stepper.do_step(std::ref(system), in_place, 0.0, 0.1);
   EXPECT_EQ(in_place, end);
@@ -194,32 +222,33 @@ System make_linear_system(double lambda) {
 }
 
 /// R(z) of a step of 1 of y' = z y, for complex z as a rotation.
+template <typename K>
 double calc_growth(double re, double im) {
   Eigen::Matrix2d A;
   A << re, -im, im, re;
   System s = make_linear_system(0.0);
   s.f = [A](double, const Eigen::VectorXd& y) { return Eigen::VectorXd(A * y); };
   s.calc_J = [A](double, const Eigen::VectorXd&) { return A; };
-  Rodas4Stepper stepper;
+  RodasStepper<K> stepper;
   Eigen::VectorXd y = Eigen::Vector2d(1.0, 0.0);
   stepper.do_step(std::ref(s), y, 0.0, 1.0);
   return y.norm();
 }
 
-TEST(Rodas4Stepper, IsLStable) {
-  EXPECT_LT(calc_growth(-1e10, 0.0), 1e-8);
-  EXPECT_LT(calc_growth(0.0, 1e8), 1e-6);
+TYPED_TEST(Methods, AreLStable) {
+  EXPECT_LT(calc_growth<TypeParam>(-1e10, 0.0), 1e-8);
+  EXPECT_LT(calc_growth<TypeParam>(0.0, 1e8), 1e-6);
   // On the imaginary axis |R| <= 1: that and the poles on the right make the method A-stable.
-  for (double w = 1e-2; w < 1e6; w *= 1.2) EXPECT_LE(calc_growth(0.0, w), 1.0 + 1e-12) << w;
+  for (double w = 1e-2; w < 1e6; w *= 1.2) EXPECT_LE(calc_growth<TypeParam>(0.0, w), 1.0 + 1e-12) << w;
 }
 
-TEST(Rodas4Stepper, FollowsASlowSolutionOfAStiffSystemInBigSteps) {
-  static constexpr double kRate = -1e8;
+TYPED_TEST(Methods, FollowASlowSolutionOfAStiffSystemInBigSteps) {
+  static constexpr double kRate = -1e10;
   System s;
   s.f = [](double t, const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, kRate * (y[0] - std::cos(t))); };
   s.calc_J = [](double, const Eigen::VectorXd&) { return Eigen::MatrixXd::Constant(1, 1, kRate); };
   s.calc_f_t = [](double t, const Eigen::VectorXd&) { return Eigen::VectorXd::Constant(1, -kRate * std::sin(t)); };
-  Rodas4Stepper stepper;
+  RodasStepper<TypeParam> stepper;
   Eigen::VectorXd y = Eigen::VectorXd::Constant(1, 2.0);  // far from the solution: one step forgets it
   for (int k = 0; k < 20; ++k) {
     stepper.do_step(std::ref(s), y, 0.1 * k, 0.1);
@@ -227,9 +256,9 @@ TEST(Rodas4Stepper, FollowsASlowSolutionOfAStiffSystemInBigSteps) {
   }
 }
 
-TEST(Rodas4Stepper, ReportsASingularMatrixAsNoNumber) {
-  System s = make_linear_system(4.0);  // 1 / (gamma dt) - J = 4 - 4
-  Rodas4Stepper stepper;
+TYPED_TEST(Methods, ReportASingularMatrixAsNoNumber) {
+  System s = make_linear_system(1.0 / TypeParam::gamma);  // equal to 1 / (gamma dt)
+  RodasStepper<TypeParam> stepper;
   Eigen::VectorXd y = Eigen::VectorXd::Ones(1);
   Eigen::VectorXd error;
   stepper.do_step(std::ref(s), y, 0.0, 1.0, error);
@@ -237,14 +266,15 @@ TEST(Rodas4Stepper, ReportsASingularMatrixAsNoNumber) {
   EXPECT_TRUE(std::isnan(error[0]));
 }
 
-TEST(Rodas4Stepper, IsDrivenByOdeintsLoopOfEqualSteps) {
+TYPED_TEST(Methods, AreDrivenByOdeintsLoopOfEqualSteps) {
   System system = make_nonlinear_system();
   Eigen::VectorXd ours = exact(0.0);
-  Rodas4Stepper stepper;
+  using Stepper = RodasStepper<TypeParam>;
+  Stepper stepper;
   for (int k = 0; k < 16; ++k) stepper.do_step(std::ref(system), ours, 0.0625 * k, 0.0625);
   Eigen::VectorXd y = exact(0.0);
   std::vector<double> times;
-  const std::size_t steps = odeint::integrate_const(Rodas4Stepper(), std::ref(system), y, 0.0, 1.0, 0.0625,
+  const std::size_t steps = odeint::integrate_const(Stepper(), std::ref(system), y, 0.0, 1.0, 0.0625,
                                                     [&](const Eigen::VectorXd&, double t) { times.push_back(t); });
   EXPECT_EQ(steps, 16u);
   EXPECT_EQ(times.size(), 17u);
@@ -252,10 +282,11 @@ TEST(Rodas4Stepper, IsDrivenByOdeintsLoopOfEqualSteps) {
 }
 
 // Odeint's controller wants to know that it may give f at the start of the step; it calls that an explicit error stepper.
-TEST(Rodas4Stepper, IsDrivenByOdeintsErrorControl) {
-  using Checker = odeint::default_error_checker<double, Rodas4Stepper::algebra_type, Rodas4Stepper::operations_type>;
-  using Controlled = odeint::controlled_runge_kutta<Rodas4Stepper, Checker, odeint::default_step_adjuster<double, double>,
-                                                    Rodas4Stepper::resizer_type, odeint::explicit_error_stepper_tag>;
+TYPED_TEST(Methods, AreDrivenByOdeintsErrorControl) {
+  using Stepper = RodasStepper<TypeParam>;
+  using Checker = odeint::default_error_checker<double, typename Stepper::algebra_type, typename Stepper::operations_type>;
+  using Controlled = odeint::controlled_runge_kutta<Stepper, Checker, odeint::default_step_adjuster<double, double>,
+                                                    typename Stepper::resizer_type, odeint::explicit_error_stepper_tag>;
   std::vector<double> errors;
   for (const double tolerance : {1e-6, 1e-9}) {
     System system = make_nonlinear_system();

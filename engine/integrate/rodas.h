@@ -15,42 +15,12 @@
 #include <boost/numeric/odeint/util/state_wrapper.hpp>
 #include <boost/numeric/odeint/util/unwrap_reference.hpp>
 
+#include "engine/integrate/rodas_coefficients.h"
+
 namespace engine {
 
-/// Coefficients of RODAS4 in the form that needs no product with the Jacobian, stage i = 1 ... 6, J and f_t at (t, y):
-///
-///     (1 / (gamma dt) - J) U_i = f(t + c_i dt, y + sum_j<i a_ij U_j) + sum_j<i (C_ij / dt) U_j + d_i dt f_t
-///
-/// Stages 5, 6 and the result end at t + dt, each the last one plus its own U: a_6 = (a_5, 1), m = (a_6, 1), and the embedded result
-/// of order 3 is the sixth argument, so that U_6 is the estimate of the error.
-/// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.7, with the digits of their code RODAS.
-struct Rodas4Coefficients {
-  static constexpr std::size_t kStages = 6;
-  using Row = std::array<double, kStages - 1>;
-
-  static constexpr double gamma = 0.25;
-  static constexpr std::array<double, kStages> c{0.0, 0.386, 0.21, 0.63, 1.0, 1.0};
-  static constexpr std::array<double, kStages> d{0.25, -0.1043, 0.1035, -0.3620000000000023e-1, 0.0, 0.0};
-  static constexpr std::array<Row, kStages> a{{
-      {},
-      {1.544},
-      {0.9466785280815826, 0.2557011698983284},
-      {3.314825187068521, 2.896124015972201, 0.9986419139977817},
-      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
-      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0},
-  }};
-  static constexpr std::array<Row, kStages> C{{
-      {},
-      {-5.668800000000000},
-      {-2.430093356833875, -0.2063599157091915},
-      {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
-      {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
-      {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054},
-  }};
-};
-
-/// RODAS4, the L-stable and stiffly accurate Rosenbrock method of order 4 with an error estimate of order 3: an Odeint error stepper on Eigen
-/// vectors. Each step takes one Jacobian, one factorisation, six solutions and, with f at its start given, five evaluations of f.
+/// An L-stable and stiffly accurate Rosenbrock method with the error estimate of an order less: an Odeint error stepper on Eigen vectors. Each
+/// step takes one Jacobian, one factorisation, as many solutions as it has stages and, with f at its start given, one evaluation of f fewer.
 ///
 /// Its systems are Odeint's with the linear algebra of an implicit method, "linearly implicit systems":
 ///
@@ -62,7 +32,8 @@ struct Rodas4Coefficients {
 ///
 /// linearise() is called at each step's start: a system that knows the step to be a repeated one, from the same (t, y), need do nothing.
 /// Where the matrix is singular, the result and its error are not numbers.
-class Rodas4Stepper {
+template <class Coefficients>
+class RodasStepper {
  public:
   using state_type = Eigen::VectorXd;
   using deriv_type = Eigen::VectorXd;
@@ -76,9 +47,9 @@ class Rodas4Stepper {
   using wrapped_deriv_type = boost::numeric::odeint::state_wrapper<deriv_type>;
   using stepper_category = boost::numeric::odeint::error_stepper_tag;
 
-  static constexpr order_type order_value = 4;
-  static constexpr order_type stepper_order_value = 4;
-  static constexpr order_type error_order_value = 3;
+  static constexpr order_type order_value = Coefficients::kOrder;
+  static constexpr order_type stepper_order_value = Coefficients::kOrder;
+  static constexpr order_type error_order_value = Coefficients::kOrder - 1;
 
   [[nodiscard]] order_type order() const { return order_value; }
   [[nodiscard]] order_type stepper_order() const { return stepper_order_value; }
@@ -119,10 +90,10 @@ class Rodas4Stepper {
 
   /// @param dydt   f(t, y)
   /// @param end    the state at t + dt; may be y itself
-  /// @param error  the result's difference from that of order 3
+  /// @param error  the result's difference from the embedded one
   template <class System>
   void do_step(System system, const state_type& y, const deriv_type& dydt, time_type t, state_type& end, time_type dt, state_type& error) {
-    using K = Rodas4Coefficients;
+    using K = Coefficients;
     typename boost::numeric::odeint::unwrap_reference<System>::type& f = system;
     adjust_size(y);
     f.linearise(y, t);
@@ -145,11 +116,11 @@ class Rodas4Stepper {
 
   template <std::size_t i, class System>
   void calc_stage(System& f, const state_type& y, const deriv_type& dydt, time_type t, time_type dt) {
-    using K = Rodas4Coefficients;
+    using K = Coefficients;
     if constexpr (i == 0) {
       U_[0] = dydt;
     } else {
-      if constexpr (i + 1 == K::kStages)
+      if constexpr (i >= K::kFirstExtended)
         stage_ += U_[i - 1];  // as all the rest of its sum is the stage before's
       else
         add_stages(K::a[i], 1.0, y.data(), stage_.data(), std::make_index_sequence<i>{});
@@ -162,7 +133,7 @@ class Rodas4Stepper {
 
   /// sum = from + scale (c_1 U_1 + c_2 U_2 + ...) in one pass. @param from  may be the sum itself
   template <std::size_t... j>
-  void add_stages(const Rodas4Coefficients::Row& c, double scale, const double* from, double* sum, std::index_sequence<j...>) const {
+  void add_stages(const typename Coefficients::Row& c, double scale, const double* from, double* sum, std::index_sequence<j...>) const {
     const std::array<double, sizeof...(j)> factors{c[j] * scale...};
     const std::array<const double*, sizeof...(j)> stages{U_[j].data()...};
     const Eigen::Index size = stage_.size();
@@ -171,9 +142,12 @@ class Rodas4Stepper {
   }
 
   algebra_type algebra_;         ///< what Odeint measures errors with
-  std::array<state_type, Rodas4Coefficients::kStages> U_;
+  std::array<state_type, Coefficients::kStages> U_;
   state_type stage_;             ///< argument of the stage at hand
   state_type start_f_, error_;   ///< for callers that do without
 };
+
+using Rodas4Stepper = RodasStepper<Rodas4Coefficients>;
+using Rodas5Stepper = RodasStepper<Rodas5Coefficients>;
 
 }  // namespace engine
