@@ -45,7 +45,7 @@ class Service::Impl {
  public:
   explicit Impl(ServiceOptions options)
       : options_(with_defaults(std::move(options))),
-        store_(options_.store, options_.store_bytes) {
+        store_(options_.store, options_.store_room) {
     if (options_.start == Start::kAtOnce) start();
   }
 

@@ -79,6 +79,27 @@ class Statements {
   std::map<const char*, SQLite::Statement> prepared_;
 };
 
+/// Like SQLite::Transaction, for connections that must go on whatever fails: rolling back may lack memory, too.
+class Transaction {
+ public:
+  /// @param begin  the statement that begins it
+  Transaction(SQLite::Database& database, const char* begin) : database_(database) {
+    roll_back();  // what an earlier one could not
+    database_.exec(begin);
+  }
+  ~Transaction() { roll_back(); }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void commit() { database_.exec("COMMIT"); }
+
+ private:
+  /// SQLite itself has already done it after some failures.
+  void roll_back() noexcept;
+
+  SQLite::Database& database_;
+};
+
 /// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before 3.51.3 a
 /// checkpoint beside another connection's commit can damage a store, so no second connection may do either.
 class Writer {
@@ -109,7 +130,7 @@ class Writer {
     const std::lock_guard lock(mutex_);
     return with_storage_errors([&] {
       set_durability(durability);
-      SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+      Transaction transaction(database_, "BEGIN IMMEDIATE");
       if constexpr (std::is_void_v<decltype(work(with))>) {
         work(with);
         transaction.commit();
@@ -139,7 +160,7 @@ class ReaderPool {
   auto read(Work&& work) {
     return with_storage_errors([&] {
       Lease lease(*this);
-      SQLite::Transaction transaction(*lease.connection);
+      Transaction transaction(*lease.connection, "BEGIN");
       return work(static_cast<const SQLite::Database&>(*lease.connection));
     });
   }
