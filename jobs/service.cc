@@ -46,6 +46,7 @@ class Service::Impl {
   explicit Impl(ServiceOptions options)
       : options_(with_defaults(std::move(options))),
         store_(options_.store, options_.store_room) {
+    static_cast<void>(sha256_hex(""));  // OpenSSL that finds no memory when it is first used does not work any more
     if (options_.start == Start::kAtOnce) start();
   }
 

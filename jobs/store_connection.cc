@@ -98,8 +98,8 @@ StoreLock::StoreLock(const std::filesystem::path& store) {
 
 StoreLock::~StoreLock() { ::close(file_); }
 
-void Transaction::roll_back() noexcept {
-  if (sqlite3_get_autocommit(database_.getHandle()) == 0) database_.tryExec("ROLLBACK");
+void roll_back_unfinished(SQLite::Database& database) noexcept {
+  if (sqlite3_get_autocommit(database.getHandle()) == 0) database.tryExec("ROLLBACK");
 }
 
 Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {

@@ -79,24 +79,25 @@ class Statements {
   std::map<const char*, SQLite::Statement> prepared_;
 };
 
-/// Like SQLite::Transaction, for connections that must go on whatever fails: rolling back may lack memory, too.
+/// Rolls back a transaction that has not been committed, if there is one. SQLite itself has done it after some failures; without memory even this
+/// may fail, and is then for whoever uses the connection next.
+void roll_back_unfinished(SQLite::Database& database) noexcept;
+
+/// Like SQLite::Transaction, for connections that must go on whatever fails.
 class Transaction {
  public:
   /// @param begin  the statement that begins it
   Transaction(SQLite::Database& database, const char* begin) : database_(database) {
-    roll_back();  // what an earlier one could not
+    roll_back_unfinished(database_);
     database_.exec(begin);
   }
-  ~Transaction() { roll_back(); }
+  ~Transaction() { roll_back_unfinished(database_); }
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
 
   void commit() { database_.exec("COMMIT"); }
 
  private:
-  /// SQLite itself has already done it after some failures.
-  void roll_back() noexcept;
-
   SQLite::Database& database_;
 };
 
@@ -129,6 +130,7 @@ class Writer {
   auto write_with(Durability durability, Work&& work, With& with) {
     const std::lock_guard lock(mutex_);
     return with_storage_errors([&] {
+      roll_back_unfinished(database_);
       set_durability(durability);
       Transaction transaction(database_, "BEGIN IMMEDIATE");
       if constexpr (std::is_void_v<decltype(work(with))>) {

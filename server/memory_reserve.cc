@@ -1,5 +1,6 @@
 #include "server/memory_reserve.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -11,32 +12,23 @@ namespace server {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // So large that the allocator gives it back to the system, where every thread can have it. Nothing is written to it.
 constexpr std::size_t kReserveBytes = 8 << 20;
+constexpr std::size_t kLargestSmallBytes = 1 << 20;
 constexpr int kMostTries = 20;
 constexpr std::chrono::milliseconds kPause{2};  // in which other threads may free something
-constexpr std::chrono::milliseconds kOneMoment{100};
 
 std::atomic<void*> reserve = nullptr;
 std::atomic<bool> kept = false;
 
-/// Called by operator new each time it finds no memory; it tries again when this returns.
-void find_memory() {
-  if (void* const block = reserve.exchange(nullptr)) {
-    std::free(block);
-    return;
-  }
-  thread_local int tries = 0;
-  thread_local Clock::time_point last;
-  if (Clock::now() - last > kOneMoment) tries = 0;
-  last = Clock::now();
-  if (++tries > kMostTries) {
-    tries = 0;
-    throw std::bad_alloc();
-  }
-  std::this_thread::sleep_for(kPause);
+/// Whether an allocation that has failed should be tried again.
+/// @param tries  so far
+bool may_find_memory(std::size_t size, int tries) {
+  if (!kept || size > kLargestSmallBytes || tries > kMostTries) return false;
+  void* const block = reserve.exchange(nullptr);
+  if (block == nullptr) std::this_thread::sleep_for(kPause);
+  std::free(block);
+  return true;
 }
 
 }  // namespace
@@ -44,7 +36,6 @@ void find_memory() {
 void keep_memory_reserve() {
   kept = true;
   static_cast<void>(refill_memory_reserve());
-  std::set_new_handler(find_memory);
 }
 
 bool refill_memory_reserve() {
@@ -57,3 +48,14 @@ bool refill_memory_reserve() {
 }
 
 }  // namespace server
+
+// A new-handler would not do: it is told neither the size nor how often this allocation has been tried.
+void* operator new(std::size_t size) {
+  for (int tries = 1;; ++tries) {
+    if (void* const block = std::malloc(std::max<std::size_t>(size, 1))) return block;
+    if (!server::may_find_memory(size, tries)) throw std::bad_alloc();
+  }
+}
+
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }

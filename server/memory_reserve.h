@@ -2,7 +2,7 @@
 
 namespace server {
 
-/// From now on, an allocation that fails is tried again for a moment, and has a reserve to fall back on, before it throws std::bad_alloc.
+/// From now on, a small allocation that fails is tried again for a moment, and has a reserve to fall back on, before it throws std::bad_alloc.
 /// What a request takes is given back when it is refused, but the destructors of JSON values allocate, too: one that could not would end the
 /// process.
 void keep_memory_reserve();

@@ -9,7 +9,7 @@ import random
 import resource
 import time
 
-from clients import ask_for_a_while, check_acknowledged, undisturbed_tables
+from clients import ask_for_a_while, check_acknowledged, request_of, undisturbed_tables
 from faults import Faults, can_inject
 from service import NoAnswer, Service, check, check_integrity, skip, temporary_folder
 
@@ -28,7 +28,8 @@ def fail_at_random(program, folder, tables, dice, rounds, seconds):
         faults.tell(service, f"enable_random name={point},probability={probability}")
         refused += ask_for_a_while(service, dice, acknowledged, seconds)
         faults.tell(service, f"disable name={point}")
-    check(refused > 0, "no allocation has failed")
+    check(refused > 0 and acknowledged, f"{refused} requests were refused, {len(acknowledged)} sweeps acknowledged")
+    acknowledged[service.submit(request_of(1))] = 1  # it has recovered
     retried = check_acknowledged(service, acknowledged, tables)
     code, _ = service.terminate()
     check(code == 0, f"exit code {code}")
