@@ -100,6 +100,17 @@ class Service:
             time.sleep(0.02)
         raise AssertionError(f"{sweep_id} has not ended after {seconds} s")
 
+    def wait_until_idle(self, seconds=120):
+        """Until no job is left to compute; so long without any progress is a failure."""
+        left, deadline = None, 0.0
+        while left != (0, 0):
+            _, _, text = self.ask("GET", "/metrics")
+            now = tuple(int(float(re.search(rb"^rpsup_jobs_%s (\S+)" % state, text, re.MULTILINE)[1])) for state in (b"queued", b"running"))
+            if now != left:
+                left, deadline = now, time.monotonic() + seconds
+            check(time.monotonic() < deadline, f"jobs queued and running: {left}, for {seconds} s")
+            time.sleep(0.05)
+
     def results(self, sweep_id):
         """The table as CSV without job_id, which is another one in every store."""
         status, _, text = self.ask("GET", f"/v1/sweeps/{sweep_id}/results?format=csv")

@@ -11,7 +11,7 @@ import threading
 
 from service import Service, check, check_integrity, store_files, temporary_folder
 
-JOBS_PER_SWEEP = 200
+JOBS_PER_SWEEP = 100
 KEPT_SWEEPS = 5
 LOG_BYTES = 64 << 20
 
@@ -62,7 +62,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--jobs", type=int, default=8 * JOBS_PER_SWEEP)
-    parser.add_argument("--gets", type=int, default=2000)
+    parser.add_argument("--gets", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     store = temporary_folder() / "store.db"
