@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <set>
 
 #include "jobs/parameter_path.h"
@@ -51,9 +50,13 @@ class SpanValues {
   /// They rise or fall, so that a billion of them need not be looked at.
   [[nodiscard]] bool contains(double x) const {
     const bool rises = ends_.from <= ends_.to;
-    const auto numbers = std::views::iota(std::uint64_t{0}, count_);
-    const auto found = std::ranges::partition_point(numbers, [&](std::uint64_t k) { return rises ? (*this)[k] < x : (*this)[k] > x; });
-    return found != numbers.end() && (*this)[*found] == x;
+    std::uint64_t first = 0;
+    for (std::uint64_t end = count_; first < end;) {
+      const std::uint64_t middle = first + (end - first) / 2;
+      if (rises ? (*this)[middle] < x : (*this)[middle] > x) first = middle + 1;
+      else end = middle;
+    }
+    return first < count_ && (*this)[first] == x;
   }
 
  private:

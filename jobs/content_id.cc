@@ -2,7 +2,7 @@
 
 #include <array>
 #include <memory>
-#include <stdexcept>
+#include <new>
 
 #include <openssl/evp.h>
 
@@ -18,7 +18,7 @@ Digest sha256(std::string_view first, std::string_view second) {
                     EVP_DigestUpdate(context.get(), first.data(), first.size()) == 1 &&
                     EVP_DigestUpdate(context.get(), second.data(), second.size()) == 1 &&
                     EVP_DigestFinal_ex(context.get(), digest.data(), nullptr) == 1;
-  if (!done) throw std::runtime_error("SHA-256 is not available");
+  if (!done) throw std::bad_alloc();  // it fails for nothing else
   return digest;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 
 #include <malloc.h>
 #include <nlohmann/json.hpp>
@@ -88,7 +89,7 @@ void LocalPool::work(const std::stop_token& stop) {
       }
       next_pause = kFirstPause;
     } catch (const std::exception& error) {  // the store's errors, or no memory
-      log_(std::string("no job could be taken: ") + error.what());
+      tell("no job could be taken", "", error);
       pause(next_pause, stop);
       next_pause = std::min(2 * next_pause, kLongestPause);
     }
@@ -99,43 +100,63 @@ std::optional<ClaimedJob> LocalPool::claim_next(const std::stop_token& stop, std
   const std::lock_guard lock(claim_mutex_);
   if (stop.stop_requested()) return std::nullopt;
   auto job = source_.claim();
-  if (job) running_.insert_or_assign({job->id, job->attempt}, job_stop);
+  if (!job) return job;
+  try {
+    running_.insert_or_assign({job->id, job->attempt}, job_stop);
+  } catch (const std::bad_alloc&) {  // the store has it as running: nobody else would take it
+    deliver(*job, std::nullopt, stop);
+    throw;
+  }
   return job;
 }
 
 void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) {
-  // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the user of the job.
-  const auto read_and_run = [&](const JobSpec&, const engine::StopQuery& query) {
-    return runner_(within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_), query);
-  };
-  const auto stopped = [&](double) { return stop.stop_requested() || job_stop.stop_requested(); };
-  const RunRecord record = run_and_record({}, read_and_run, stopped, limits_.wall_time_s);
+  const std::optional<RunRecord> record = run(job, stop, job_stop);
   deliver(job, record, stop);
   // If another job has waited for this one, this thread is about to claim it: nobody need be woken.
   const std::lock_guard lock(claim_mutex_);
   running_.erase({job.id, job.attempt});
 }
 
+std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const {
+  // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the user of the job.
+  const auto read_and_run = [&](const JobSpec&, const engine::StopQuery& query) {
+    return runner_(within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_), query);
+  };
+  const auto stopped = [&](double) { return stop.stop_requested() || job_stop.stop_requested(); };
+  try {
+    return run_and_record({}, read_and_run, stopped, limits_.wall_time_s);
+  } catch (const std::bad_alloc& error) {
+    tell("the end of a job could not be noted, so it is to be computed again", job.id, error);
+    return std::nullopt;
+  }
+}
+
 /// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered again. If the
 /// program ends before that, the job is still marked as running and will be queued again at the next start.
-void LocalPool::deliver(const ClaimedJob& job, const RunRecord& record, const std::stop_token& stop) {
+void LocalPool::deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop) {
   for (milliseconds next_pause = kFirstPause;; next_pause = std::min(2 * next_pause, kLongestPause)) {
     try {
-      if (record.end == RunRecord::End::kStopped && stop.stop_requested()) return source_.give_back(job);
-      return source_.record(job, record);
+      if (!record || (record->end == RunRecord::End::kStopped && stop.stop_requested())) return source_.give_back(job);
+      return source_.record(job, *record);
     } catch (const std::exception& error) {  // the store's errors, or no memory
-      log_("the result of " + job.id + " could not be stored yet: " + error.what());
+      tell("the result could not be stored yet", job.id, error);
     }
     if (stop.stop_requested()) return;
     pause(next_pause, stop);
   }
 }
 
+void LocalPool::tell(const char* what, const std::string& id, const std::exception& error) const noexcept {
+  try {
+    log_(std::string(what) + (id.empty() ? "" : " (" + id + ")") + ": " + error.what());
+  } catch (const std::bad_alloc&) {  // there is no memory to tell it with, and an exception would end the process
+  }
+}
+
 void LocalPool::pause(milliseconds time, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::unique_lock lock(mutex);
-  std::condition_variable_any never;
-  never.wait_for(lock, stop, time, [] { return false; });
+  std::unique_lock lock(wake_mutex_);
+  wake_.wait_for(lock, stop, time, [] { return false; });
 }
 
 }  // namespace jobs

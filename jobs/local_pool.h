@@ -47,7 +47,11 @@ class LocalPool {
   void work(const std::stop_token& stop);
   std::optional<ClaimedJob> claim_next(const std::stop_token& stop, std::stop_source& job_stop);
   void compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop);
-  void deliver(const ClaimedJob& job, const RunRecord& record, const std::stop_token& stop);
+  /// Empty if there was no memory even to say so.
+  [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const;
+  /// @param record  empty: the job goes back to the queue
+  void deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop);
+  void tell(const char* what, const std::string& id, const std::exception& error) const noexcept;
   void pause(std::chrono::milliseconds time, const std::stop_token& stop);
 
   const JobSource source_;

@@ -45,7 +45,8 @@ class Service::Impl {
  public:
   explicit Impl(ServiceOptions options)
       : options_(with_defaults(std::move(options))),
-        store_(options_.store, options_.store_bytes) {
+        store_(options_.store, options_.store_room) {
+    static_cast<void>(sha256_hex(""));  // OpenSSL that finds no memory when it is first used does not work any more
     if (options_.start == Start::kAtOnce) start();
   }
 

@@ -15,6 +15,7 @@
 #include "engine/simulate_rpsup.h"
 #include "jobs/job_limits.h"
 #include "jobs/replicate_statistics.h"
+#include "jobs/store_room.h"
 
 namespace jobs {
 
@@ -36,7 +37,7 @@ struct ServiceOptions {
   std::size_t max_sweep_jobs = 10'000;
   std::size_t max_queued_jobs = 100'000;
   JobLimits job_limits{};             ///< of each job
-  std::int64_t store_bytes = 0;       ///< most that the store may hold, its log apart; 0: what the disk has room for
+  StoreRoom store_room{};
   Start start = Start::kAtOnce;
   Runner runner;                ///< empty: the engine
   /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not throw.

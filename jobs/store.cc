@@ -41,7 +41,7 @@ void keep_answer(SQLite::Database& database, const std::string& key, const std::
 
 }  // namespace
 
-Store::Store(const std::filesystem::path& file, std::int64_t most_bytes) : most_bytes_(most_bytes), lock_(file), writer_(file), readers_(file) {
+Store::Store(const std::filesystem::path& file, const StoreRoom& room) : file_(file), room_(room), lock_(file), writer_(file), readers_(file) {
   writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running'");
     rename_queued_contents(database);
@@ -95,7 +95,7 @@ bool Store::extend_sweep(const std::string& id, const std::string& former, const
 
 void Store::check_quota_of(SQLite::Database& database) const {
   SQLite::Statement used(database, kUsedBytesQuery);
-  check_quota(used, most_bytes_);
+  check_quota(used, room_, file_);
 }
 
 std::optional<FoundAnswer> Store::find_answer(const std::string& key) const {

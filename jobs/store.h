@@ -15,6 +15,7 @@
 #include "jobs/ids.h"
 #include "jobs/run_record.h"
 #include "jobs/store_connection.h"
+#include "jobs/store_room.h"
 
 namespace jobs {
 
@@ -129,8 +130,8 @@ enum class DeleteOutcome { kMissing, kDone, kNotEnded };
 class Store {
  public:
   /// Opens or makes the file, and queues again what a former process left running.
-  /// @param most_bytes  that it may hold: what would add to more is a StoreLimitReached, while reading, cancelling and deleting go on; 0: no limit
-  explicit Store(const std::filesystem::path& file, std::int64_t most_bytes = 0);
+  /// @param room  what would add to more is a StoreLimitReached, while reading, cancelling and deleting go on
+  explicit Store(const std::filesystem::path& file, const StoreRoom& room = {});
 
   /// Stores a sweep with its jobs, those whose result is known as succeeded. Returns its id.
   /// @throws QueueFull if more than max_queued jobs would wait
@@ -176,7 +177,8 @@ class Store {
  private:
   void check_quota_of(SQLite::Database& database) const;
 
-  const std::int64_t most_bytes_;
+  const std::filesystem::path file_;
+  const StoreRoom room_;
   StoreLock lock_;
   // Readers close before the writer, which is then the one that empties the log.
   Writer writer_;

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "jobs/store_schema.h"
@@ -52,6 +53,13 @@ void check_log_has_store(const std::filesystem::path& store) {
                      SQLITE_CORRUPT, false);
 }
 
+/// A store that was copied or restored may be open to all who use the machine.
+void keep_from_others(const std::string& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || (status.st_mode & 077U) == 0) return;
+  if (::chmod(file.c_str(), kOwnerOnly) != 0) throw system_error("others than its owner may read or write " + file + ", and its mode cannot be changed to 0600");
+}
+
 /// SQLite would make the file readable for all; its log and index files copy the file's mode.
 SQLite::Database open_for_writing(const std::filesystem::path& store) {
   check_log_has_store(store);
@@ -61,6 +69,7 @@ SQLite::Database open_for_writing(const std::filesystem::path& store) {
   } else if (errno != EEXIST) {
     throw system_error("cannot make the store " + store.string());
   }
+  for (const char* suffix : {"", "-wal", "-shm"}) keep_from_others(store.string() + suffix);
   return with_storage_errors([&] { return SQLite::Database(store.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms); });
 }
 
@@ -88,6 +97,10 @@ StoreLock::StoreLock(const std::filesystem::path& store) {
 }
 
 StoreLock::~StoreLock() { ::close(file_); }
+
+void roll_back_unfinished(SQLite::Database& database) noexcept {
+  if (sqlite3_get_autocommit(database.getHandle()) == 0) database.tryExec("ROLLBACK");
+}
 
 Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {
   with_storage_errors([&] {

@@ -79,6 +79,28 @@ class Statements {
   std::map<const char*, SQLite::Statement> prepared_;
 };
 
+/// Rolls back a transaction that has not been committed, if there is one. SQLite itself has done it after some failures; without memory even this
+/// may fail, and is then for whoever uses the connection next.
+void roll_back_unfinished(SQLite::Database& database) noexcept;
+
+/// Like SQLite::Transaction, for connections that must go on whatever fails.
+class Transaction {
+ public:
+  /// @param begin  the statement that begins it
+  Transaction(SQLite::Database& database, const char* begin) : database_(database) {
+    roll_back_unfinished(database_);
+    database_.exec(begin);
+  }
+  ~Transaction() { roll_back_unfinished(database_); }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void commit() { database_.exec("COMMIT"); }
+
+ private:
+  SQLite::Database& database_;
+};
+
 /// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before 3.51.3 a
 /// checkpoint beside another connection's commit can damage a store, so no second connection may do either.
 class Writer {
@@ -108,8 +130,9 @@ class Writer {
   auto write_with(Durability durability, Work&& work, With& with) {
     const std::lock_guard lock(mutex_);
     return with_storage_errors([&] {
+      roll_back_unfinished(database_);
       set_durability(durability);
-      SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+      Transaction transaction(database_, "BEGIN IMMEDIATE");
       if constexpr (std::is_void_v<decltype(work(with))>) {
         work(with);
         transaction.commit();
@@ -139,7 +162,7 @@ class ReaderPool {
   auto read(Work&& work) {
     return with_storage_errors([&] {
       Lease lease(*this);
-      SQLite::Transaction transaction(*lease.connection);
+      Transaction transaction(*lease.connection, "BEGIN");
       return work(static_cast<const SQLite::Database&>(*lease.connection));
     });
   }

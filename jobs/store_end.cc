@@ -103,6 +103,7 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
     settle.bind(3, now_unix_ms());
     settle.exec();
     check_room(database, max_queued);
+    check_quota_of(database);
     return true;
   });
 }

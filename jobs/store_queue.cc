@@ -151,7 +151,7 @@ bool Store::record(const ClaimedJob& job, const RunRecord& record) {
     if (sampled) insert_trajectory(statements, result, blob);
     end_job(statements, job, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++changes_);
     if (succeeded) settle_waiting(statements, *content, result, now_ms, changes_);
-    check_quota(*statements.use(kUsedBytesQuery).operator->(), most_bytes_);
+    check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
     return true;
   });
 }

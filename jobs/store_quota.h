@@ -1,8 +1,10 @@
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+
+#include "jobs/store_room.h"
 
 namespace jobs {
 
@@ -11,9 +13,9 @@ inline constexpr const char* kUsedBytesQuery =
     "SELECT (page_count - freelist_count) * page_size FROM pragma_page_count(), pragma_freelist_count(), pragma_page_size()";
 
 /// Checks, inside the transaction that has added something, that it may stay.
-/// @param used   kUsedBytesQuery, prepared
-/// @param limit  in bytes; 0: none
+/// @param used  kUsedBytesQuery, prepared
+/// @param file  of the store
 /// @throws StoreLimitReached if it may not
-void check_quota(SQLite::Statement& used, std::int64_t limit);
+void check_quota(SQLite::Statement& used, const StoreRoom& room, const std::filesystem::path& file);
 
 }  // namespace jobs

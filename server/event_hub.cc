@@ -5,9 +5,10 @@
 
 #include <cerrno>
 #include <exception>
+#include <new>
 #include <utility>
 
-#include <spdlog/spdlog.h>
+#include "server/safe_log.h"
 
 namespace server {
 
@@ -48,14 +49,14 @@ bool EventHub::admit(const std::shared_ptr<EventSource>& events) {
   return true;
 }
 
-void EventHub::take(int socket, std::shared_ptr<EventSource> events) {
+bool EventHub::take(int socket, std::shared_ptr<EventSource> events) try {
   const std::lock_guard lock(mutex_);
-  if (stopped_) {
-    ::close(socket);
-    return;
-  }
+  if (stopped_) return false;
   streams_.push_back({.socket = socket, .events = std::move(events)});
   changed_.notify_all();
+  return true;
+} catch (const std::bad_alloc&) {
+  return false;
 }
 
 void EventHub::stop() {
@@ -90,7 +91,7 @@ bool EventHub::serve(Stream& stream) {
     if (is_closed(stream.socket)) return false;
     if (!stream.events->has_ended()) stream.unsent += stream.events->next();
   } catch (const std::exception& error) {  // the store's; the client asks again, from where it stands
-    spdlog::error("events end early: {}", error.what());
+    log_error("events end early: {}", error.what());
     return false;
   }
   if (stream.unsent.empty() && Clock::now() - stream.last_sent > kBetweenSigns) stream.unsent = ":\n\n";

@@ -28,7 +28,8 @@ class EventHub {
   [[nodiscard]] bool admit(const std::shared_ptr<EventSource>& events);
 
   /// Takes the connection of admitted events over, whose head has been sent, and closes it at the end.
-  void take(int socket, std::shared_ptr<EventSource> events);
+  /// @returns false if there is no memory for it, or no connection is taken any more; it stays the caller's
+  [[nodiscard]] bool take(int socket, std::shared_ptr<EventSource> events);
 
   /// Closes every connection, and those that come from now on.
   void stop();

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -104,7 +103,7 @@ class HttpServer::Impl {
         routes_(routes),
         origin_check_(options.address, options.cors_origins, options.names),
         access_check_(options.token),
-        guard(http_limits, make_refusal) {
+        guard(http_limits, [this](int status, const std::string& detail) { return make_refusal(status, detail); }) {
     guard.set_default_headers(kSecurityHeaders);
     guard.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       return route_without_body(request, response);
@@ -113,24 +112,25 @@ class HttpServer::Impl {
     guard.Post(R"([\s\S]*)", [this](const httplib::Request& request, httplib::Response& response,
                                     const httplib::ContentReader& reader) { route_with_body(request, response, reader); });
     guard.set_error_handler([](const httplib::Request&, httplib::Response& response) { complete_error(response); });
-    guard.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
-      copy_to(response, make_problem(500, "something went wrong"));
+    guard.set_exception_handler([this](const httplib::Request&, httplib::Response& response, const std::exception_ptr& error) {
+      copy_to(response, make_error_answer(error, request_ids_.next()));
     });
     guard.set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       tidy_headers(response);
+      if (!response.has_header("X-Request-Id")) response.set_header("X-Request-Id", request_ids_.next());
       add_cors_headers(request, response);
     });
   }
 
   HttpOptions options;
   HttpLimits limits;
-  std::atomic<bool> ended = false;  ///< listen() has returned
 
  private:
   using Handled = httplib::Server::HandlerResponse;
 
-  static Response make_refusal(int status, const std::string& detail) {
-    Response response = make_problem(status, detail);
+  Response make_refusal(int status, const std::string& detail) {
+    Response response = status == 503 ? make_retry_later(status, detail) : make_problem(status, detail);
+    response.headers.emplace_back("X-Request-Id", request_ids_.next());
     for (const auto& [name, value] : kSecurityHeaders) response.headers.emplace_back(name, value);
     return response;
   }
@@ -269,17 +269,11 @@ HttpServer::~HttpServer() = default;
 
 int HttpServer::bind() { return impl_->guard.bind(impl_->options.address, impl_->options.port); }
 
-bool HttpServer::listen() {
-  const bool served = impl_->guard.listen_after_bind();
-  impl_->ended = true;
-  return served;
-}
+bool HttpServer::listen() { return impl_->guard.accept_connections(); }
 
 void HttpServer::stop() {
   impl_->guard.start_draining();
-  // The library forgets a stop that comes before it has begun to accept.
-  while (!impl_->guard.is_running() && !impl_->ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  impl_->guard.stop();
+  impl_->guard.stop_accepting();
 }
 
 }  // namespace server

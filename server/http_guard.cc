@@ -4,12 +4,13 @@
 #include <unistd.h>
 
 #include <exception>
+#include <new>
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
+#include "server/memory_reserve.h"
 #include "server/problem.h"
 #include "server/request_head.h"
+#include "server/safe_log.h"
 
 // The packaged library is built with these; without them its classes have another layout and the program crashes.
 #if !defined(CPPHTTPLIB_OPENSSL_SUPPORT) || !defined(CPPHTTPLIB_ZLIB_SUPPORT) || !defined(CPPHTTPLIB_BROTLI_SUPPORT)
@@ -22,26 +23,6 @@ namespace {
 
 constexpr std::size_t kThreads = 32;  // they wait for clients most of the time
 constexpr int kBacklog = 511;         // the library's 5 makes clients wait for a second when a few come at once
-
-/// The library's threads, and how many connections wait for one.
-class CountingPool final : public httplib::TaskQueue {
- public:
-  explicit CountingPool(std::atomic<int>& waiting) : waiting_(waiting), pool_(kThreads) {}
-
-  void enqueue(std::function<void()> task) override {
-    ++waiting_;
-    pool_.enqueue([&waiting = waiting_, task = std::move(task)] {
-      --waiting;
-      task();
-    });
-  }
-
-  void shutdown() override { pool_.shutdown(); }
-
- private:
-  std::atomic<int>& waiting_;
-  httplib::ThreadPool pool_;
-};
 
 void set_reuse_address(socket_t socket) {
   // Not SO_REUSEPORT, the library's choice: with it a second server on the port would start without a word.
@@ -65,18 +46,25 @@ std::string head_of(const Response& response) {
   return text + "\r\n";
 }
 
+std::string text_of(const Response& response) { return head_of(response) + response.body; }
+
 }  // namespace
 
 GuardedServer::GuardedServer(const HttpLimits& limits, std::function<Response(int, const std::string&)> make_refusal)
-    : limits_(limits), make_refusal_(std::move(make_refusal)) {
-  new_task_queue = [this] { return new CountingPool(waiting_); };
+    : limits_(limits),
+      make_refusal_(std::move(make_refusal)),
+      no_memory_answer_(text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
+      pool_(kThreads),
+      reception_({.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
+                 [this](Arrival arrival) { hand_over(std::move(arrival)); },
+                 [this](const std::string& received) { return refusal_text(408, "the head of the request did not come in time", received.starts_with("HEAD ")); }) {
   set_socket_options(set_reuse_address);
   set_tcp_nodelay(true);
   set_payload_max_length(limits.body_bytes);
 }
 
 GuardedServer::~GuardedServer() {
-  // The library closes the socket when it ends accepting; this one may never have begun.
+  pool_.finish();
   const socket_t socket = svr_sock_.exchange(INVALID_SOCKET);
   if (socket != INVALID_SOCKET) ::close(socket);
 }
@@ -87,22 +75,51 @@ int GuardedServer::bind(const std::string& address, int port) {
   return bound;
 }
 
-bool GuardedServer::process_and_close_socket(socket_t socket) {
-  HttpStream stream(socket, limits_, draining_, waiting_);
-  events_of_this_connection.reset();
-  // Called on a thread of the library's pool, where an exception would end the process.
+bool GuardedServer::accept_connections() {
+  const bool good = reception_.run(svr_sock_);
+  svr_sock_ = INVALID_SOCKET;
+  pool_.finish();
+  return good;
+}
+
+void GuardedServer::stop_accepting() { reception_.stop(); }
+
+void GuardedServer::hand_over(Arrival arrival) noexcept {
+  const int socket = arrival.socket;
+  ++waiting_;
   try {
-    serve(stream);
-  } catch (const std::exception& error) {
-    spdlog::error("a connection ended early: {}", error.what());
+    pool_.add([this, arrival = std::move(arrival)]() mutable { serve_and_close(std::move(arrival)); });
+  } catch (const std::bad_alloc&) {
+    --waiting_;
+    log_error("a connection is closed: no memory");
+    ::close(socket);
   }
+}
+
+void GuardedServer::serve_and_close(Arrival arrival) noexcept {
+  --waiting_;
+  const int socket = arrival.socket;
+  HttpStream stream(std::move(arrival), limits_, draining_, waiting_);
+  events_of_this_connection.reset();
+  serve_guarded(stream);
   if (auto events = std::exchange(events_of_this_connection, nullptr)) {
-    hub_.take(socket, std::move(events));
-    return true;
+    if (!hub_.take(socket, std::move(events))) ::close(socket);
+    return;
   }
   stream.close_gently();
   ::close(socket);
-  return true;
+}
+
+void GuardedServer::serve_guarded(HttpStream& stream) noexcept {
+  try {
+    if (!refill_memory_reserve()) throw std::bad_alloc();
+    serve(stream);
+  } catch (const std::bad_alloc&) {
+    log_error("a request could not be answered: no memory");
+    if (!stream.has_sent()) stream.send_all(no_memory_answer_);
+  } catch (const std::exception& error) {
+    log_error("a connection ended early: {}", error.what());
+  }
 }
 
 void GuardedServer::follow_with(std::shared_ptr<EventSource> events) { events_of_this_connection = std::move(events); }
@@ -128,8 +145,12 @@ void GuardedServer::serve(HttpStream& stream) {
 }
 
 void GuardedServer::refuse(HttpStream& stream, int status, const std::string& detail) {
+  stream.send_all(refusal_text(status, detail, stream.asks_for_head()));
+}
+
+std::string GuardedServer::refusal_text(int status, const std::string& detail, bool head_alone) const {
   const Response refusal = make_refusal_(status, detail);
-  stream.send_all(head_of(refusal) + (stream.asks_for_head() ? "" : refusal.body));
+  return head_alone ? head_of(refusal) : text_of(refusal);
 }
 
 }  // namespace server

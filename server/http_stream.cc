@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace server {
 
@@ -43,24 +44,18 @@ void read_address(NameOf name_of, int socket, std::string& ip, int& port) {
 
 }  // namespace
 
-HttpStream::HttpStream(int socket, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting)
-    : socket_(socket),
+HttpStream::HttpStream(Arrival arrival, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting)
+    : socket_(arrival.socket),
       limits_(limits),
       draining_(draining),
       waiting_(waiting),
-      read_deadline_(Clock::now() + limits.head_time),
+      buffer_(std::move(arrival.received)),
+      read_deadline_(arrival.since + limits.head_time),
       crowded_deadline_(Clock::now() + limits.crowded_time) {}
 
 HttpStream::Head HttpStream::read_head() {
-  for (;;) {
-    const std::size_t old_size = buffer_.size();
-    buffer_.resize(old_size + kReadBytes);
-    const ssize_t got = receive(buffer_.data() + old_size, kReadBytes, read_deadline_);
-    buffer_.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    if (got == 0 || (got < 0 && buffer_.empty())) return Head::kClosed;
-    if (got < 0) return Head::kTooSlow;
-    // The empty line may straddle two reads.
-    const auto end = buffer_.find("\r\n\r\n", old_size < 3 ? 0 : old_size - 3);
+  for (std::size_t searched = 0;;) {
+    const auto end = buffer_.find("\r\n\r\n", searched);
     if (end != std::string::npos && end + 4 <= limits_.head_bytes) {
       head_size_ = end + 4;
       read_deadline_ = Clock::now() + limits_.body_time;
@@ -68,6 +63,14 @@ HttpStream::Head HttpStream::read_head() {
       return Head::kComplete;
     }
     if (buffer_.size() > limits_.head_bytes) return Head::kTooLarge;
+    const std::size_t old_size = buffer_.size();
+    buffer_.resize(old_size + kReadBytes);
+    const ssize_t got = receive(buffer_.data() + old_size, kReadBytes, read_deadline_);
+    buffer_.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (got == 0 || (got < 0 && buffer_.empty())) return Head::kClosed;
+    if (got < 0) return Head::kTooSlow;
+    // The empty line may straddle two reads.
+    searched = old_size < 3 ? 0 : old_size - 3;
   }
 }
 
@@ -143,12 +146,13 @@ void HttpStream::get_local_ip_and_port(std::string& ip, int& port) const {
 }
 
 bool HttpStream::wait_for(short events, Clock::time_point deadline) const {
+  const auto start = Clock::now();
   for (;;) {
     const auto now = Clock::now();
     if (draining_ && !drain_deadline_) drain_deadline_ = now + limits_.drain_time;
     auto end = drain_deadline_ ? std::min(deadline, *drain_deadline_) : deadline;
-    // A few clients that send slowly may do so; many of them are not to hold every thread.
-    if (events == POLLIN && waiting_ > 0) end = std::min(end, crowded_deadline_);
+    // A few clients that send or take slowly may do so; many of them are not to hold every thread.
+    if (waiting_ > 0) end = std::min(end, events == POLLIN ? crowded_deadline_ : start + limits_.crowded_time);
     if (now >= end) return false;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
     pollfd entry{socket_, events, 0};

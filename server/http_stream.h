@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "server/reception.h"
+
 namespace server {
 
 /// How much one connection may ask for. Times are totals: a limit on a single read lets a client send a byte at a
@@ -22,7 +24,7 @@ struct HttpLimits {
   std::chrono::milliseconds stall_time{10'000};    ///< waiting, all in all, until the client takes more of the answer
   std::size_t least_bytes_per_s = 1024;            ///< what the client takes buys it more of that time
   std::chrono::milliseconds linger_time{2'000};    ///< waiting for the client to close its end
-  std::chrono::milliseconds crowded_time{500};     ///< in place of each longer wait for a client while others wait for a thread
+  std::chrono::milliseconds crowded_time{500};     ///< in place of each longer wait for a client, to send or to take, while others wait for a thread
   std::chrono::milliseconds drain_time{1'000};     ///< what is left to every connection once the server is ending
 };
 
@@ -31,10 +33,10 @@ class HttpStream final : public httplib::Stream {
  public:
   enum class Head { kComplete, kClosed, kTooLarge, kTooSlow };
 
-  /// @param socket    stays the caller's
+  /// @param arrival   whose socket stays the caller's
   /// @param draining  set once the server is ending; outlives this
   /// @param waiting   connections that no thread has taken yet; outlives this
-  HttpStream(int socket, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting);
+  HttpStream(Arrival arrival, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting);
 
   /// Reads up to the empty line that ends the head; what follows it is kept for read().
   Head read_head();
@@ -44,6 +46,9 @@ class HttpStream final : public httplib::Stream {
 
   /// Puts another head in the place of the one that was read. Not after read().
   void replace_head(const std::string& head);
+
+  /// Whether the client has been sent anything.
+  [[nodiscard]] bool has_sent() const { return sent_bytes_ > 0; }
 
   /// Sends all of a text. False if the client is gone or too slow.
   bool send_all(std::string_view text);

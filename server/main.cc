@@ -81,6 +81,7 @@ void add_limit_options(CLI::App& command, ServeOptions& options) {
   add("--job-steps", options.job_steps, 1e15, "Steps that a job may take before it fails; 0: 100,000,000, which no job may pass", "RPSUP_JOB_STEPS");
   add("--job-memory-mb", options.job_memory_mb, 1e9, "Memory that the trajectory of a job may take, in MB; 0: any", "RPSUP_JOB_MEMORY_MB");
   add("--store-limit-mb", options.store_limit_mb, 1e9, "What the store may hold, its log of up to 67 MB apart, in MB; 0: what the disk has room for", "RPSUP_STORE_LIMIT_MB");
+  add("--disk-reserve-mb", options.disk_reserve_mb, 1e9, "What stays free on the store's disk for others, in MB: with less, nothing new is taken; 0: nothing", "RPSUP_DISK_RESERVE_MB");
 }
 
 CLI::App* add_serve(CLI::App& app, ServeOptions& options) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "server/page_routes.h"
 #include "server/problem.h"
 #include "server/route_table.h"
+#include "server/safe_log.h"
 
 namespace server {
 
@@ -50,7 +52,11 @@ Response Routes::answer(const Request& request) const {
     response = make_error_answer(std::current_exception(), request.id);
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  metrics_->add_request(request.method, pattern, response.status, took.count());
+  try {
+    metrics_->add_request(request.method, pattern, response.status, took.count());
+  } catch (const std::bad_alloc&) {  // what has been done is done, and is answered
+    log_error("request {} is missing in the metrics: no memory", request.id);
+  }
   return response;
 }
 

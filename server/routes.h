@@ -22,7 +22,8 @@ class Routes {
   explicit Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>())
       : service_(service), metrics_(std::move(metrics)) {}
 
-  /// Never throws: whatever goes wrong becomes an answer of type application/problem+json.
+  /// Whatever goes wrong becomes an answer of type application/problem+json.
+  /// @throws std::bad_alloc only, if there is no memory even for that
   [[nodiscard]] Response answer(const Request& request) const;
 
   /// From now on nothing new is taken: whatever would change something is answered with 503, and /readyz too.

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <new>
+#include <system_error>
 
 #include "jobs/errors.h"
 #include "server/json_text.h"
@@ -42,6 +44,11 @@ int run_guarded(const std::function<int()>& command) {
     return report(error);
   } catch (const BadInput& error) {
     return report(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(kMachineFailed, "there is no memory left; ulimit -v and the unit's MemoryMax limit what a process may take");
+  } catch (const std::system_error& error) {
+    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+    return report(kMachineFailed, no_thread ? "the system allows no more threads; ulimit -v and ulimit -u limit them" : error.what());
   } catch (const std::exception& error) {
     return report(kMachineFailed, error.what());
   }

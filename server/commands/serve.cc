@@ -22,6 +22,7 @@
 #include "server/commands/signals.h"
 #include "server/http.h"
 #include "server/http_client.h"
+#include "server/memory_reserve.h"
 #include "server/metrics.h"
 #include "server/request_head.h"
 #include "server/routes.h"
@@ -79,22 +80,27 @@ void raise_file_limit() {
   ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// Serves on a thread of its own until a signal comes.
-/// @throws std::runtime_error if the server ended by itself
-void serve_until_signal(HttpServer& http, Routes& routes, jobs::Service& service, const EndSignals& signals) {
-  std::atomic<bool> failed = false;
-  std::jthread listener([&] {
-    failed = !http.listen();
-    // Wakes the wait below if the server ended by itself.
-    if (failed) ::kill(::getpid(), SIGTERM);
-  });
-  signals.wait();
-  if (failed) throw std::runtime_error("the server cannot accept connections any more");
-  spdlog::info("ending: running jobs go back to the queue");
-  routes.start_draining();
-  service.stop();
-  http.stop();
-}
+/// Serves on a thread of its own.
+class Serving {
+ public:
+  explicit Serving(HttpServer& http) : http_(http) {
+    thread_ = std::jthread([this] {
+      failed_ = !http_.listen();
+      // Ends the wait for a signal if the server ended by itself.
+      if (failed_) ::kill(::getpid(), SIGTERM);
+    });
+  }
+  ~Serving() { http_.stop(); }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+
+  [[nodiscard]] bool has_failed() const { return failed_; }
+
+ private:
+  HttpServer& http_;
+  std::atomic<bool> failed_ = false;
+  std::jthread thread_;
+};
 
 }  // namespace
 
@@ -105,6 +111,7 @@ int serve(const ServeOptions& options) {
   const std::vector<std::string>& cors_origins = checked_origins(options.cors_origins);
   start_log(options.log_level);
   raise_file_limit();
+  keep_memory_reserve();
   // Before the first thread: threads take over which signals are blocked.
   const EndSignals signals;
   jobs::ServiceOptions service_options;
@@ -114,7 +121,7 @@ int serve(const ServeOptions& options) {
   service_options.job_limits = {.wall_time_s = options.job_time_s,
                                 .steps = options.job_steps,
                                 .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
-  service_options.store_bytes = options.store_limit_mb * kMegabyte;
+  service_options.store_room = {.most_bytes = options.store_limit_mb * kMegabyte, .reserve_bytes = options.disk_reserve_mb * kMegabyte};
   service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
   const auto metrics = std::make_shared<Metrics>();
@@ -128,9 +135,16 @@ int serve(const ServeOptions& options) {
                              "or it is not this user's to take; --port 0 takes any free one");
   }
   service.start();  // not before it is sure that there will be a server
-  spdlog::info("store {}, {} threads", options.store, options.threads);
-  std::cout << "rpsup listens on " << url(address, port) << std::endl;
-  serve_until_signal(http, routes, service, signals);
+  {
+    const Serving serving(http);
+    spdlog::info("store {}, {} threads", options.store, options.threads);
+    std::cout << "rpsup listens on " << url(address, port) << std::endl;
+    signals.wait();
+    if (serving.has_failed()) throw std::runtime_error("the server cannot accept connections any more");
+    spdlog::info("ending: running jobs go back to the queue");
+    routes.start_draining();
+    service.stop();
+  }
   spdlog::info("ended");
   return kDone;
 }

@@ -17,6 +17,7 @@ struct ServeOptions {
   long job_steps = 100'000'000;
   long job_memory_mb = 1024;
   long store_limit_mb = 0;
+  long disk_reserve_mb = 100;
   std::string log_level = "info";
 };
 

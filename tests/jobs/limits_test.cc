@@ -71,7 +71,7 @@ TEST(JobLimits, LowerTheStepsButDoNotRaiseThem) {
 TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
   const TemporaryStore temporary;
   constexpr std::int64_t kLimit = 400'000;
-  jobs::Store store(temporary.file(), kLimit);
+  jobs::Store store(temporary.file(), {.most_bytes = kLimit});
   constexpr const char* kSmall = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
   constexpr const char* kLarge = R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 5000}}})";
   const std::string kept = store.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued);
@@ -88,6 +88,33 @@ TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
   EXPECT_EQ(store.cancel_sweep(kept).outcome, jobs::CancelOutcome::kDone);
   EXPECT_EQ(store.delete_sweep(kept), jobs::DeleteOutcome::kDone);
   EXPECT_NO_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
+}
+
+TEST(StoreLimit, HoldsForWhatIsTriedAgain) {
+  const TemporaryStore temporary;
+  constexpr const char* kRequest = R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 500}}})";
+  std::string id;
+  {
+    jobs::Store store(temporary.file());
+    id = store.add_sweep(jobs::plan_sweep(request_of(kRequest), 10'000), kRequest, kMaxQueued);
+    EXPECT_EQ(store.cancel_sweep(id).outcome, jobs::CancelOutcome::kDone);
+  }
+  jobs::Store store(temporary.file(), {.most_bytes = 100'000});
+  EXPECT_THROW((void)store.retry_sweep(id, kMaxQueued), jobs::StoreLimitReached);
+  EXPECT_EQ(jobs::sweep_state(store.find_sweep(id).value().counts), "cancelled");
+}
+
+TEST(StoreLimit, LeavesAReserveOfTheDiskToOthers) {
+  const TemporaryStore temporary;
+  constexpr const char* kRequest = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
+  const std::int64_t all_of_it = static_cast<std::int64_t>(std::filesystem::space(temporary.file().parent_path()).capacity);
+  {
+    jobs::Store store(temporary.file(), {.reserve_bytes = all_of_it + 1});
+    EXPECT_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued), jobs::StoreLimitReached);
+    EXPECT_TRUE(store.list_sweeps("", "", 10).empty());
+  }
+  jobs::Store store(temporary.file(), {.reserve_bytes = 1});
+  EXPECT_NO_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued));
 }
 
 }  // namespace

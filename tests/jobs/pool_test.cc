@@ -1,6 +1,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -57,6 +58,23 @@ TEST(LocalPool, OutlivesAStoreThatCannotBeClaimedFrom) {
                        engine.runner(), 1, [](const std::string&) {});
   done.wait(false);
   EXPECT_GE(claims, 2);
+}
+
+TEST(LocalPool, OutlivesALogThatHasNoMemory) {
+  FakeEngine engine;
+  std::atomic<int> claims = 0;
+  std::atomic<bool> done = false;
+  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> {
+                          if (claims++ == 0) throw std::bad_alloc();
+                          done = true;
+                          done.notify_all();
+                          return std::nullopt;
+                        },
+                        .record = [](const jobs::ClaimedJob&, const jobs::RunRecord&) {},
+                        .give_back = [](const jobs::ClaimedJob&) {}},
+                       engine.runner(), 1, [](const std::string&) { throw std::bad_alloc(); });
+  done.wait(false);
+  EXPECT_EQ(claims, 2);
 }
 
 TEST(LocalPool, SleepsWhileThereIsNothingToDo) {

@@ -84,6 +84,21 @@ TEST(Store, IsForItsOwnerOnly) {
   }
 }
 
+TEST(Store, IsTakenFromOthersWhoCouldReadIt) {
+  const TemporaryStore temporary;
+  { const jobs::Store store(temporary.file()); }
+  ASSERT_EQ(::chmod(temporary.file().c_str(), 0644), 0);
+  const std::string log = temporary.file().string() + "-wal";
+  { std::ofstream(log) << ""; }
+  ASSERT_EQ(::chmod(log.c_str(), 0666), 0);
+  const jobs::Store store(temporary.file());
+  for (const std::string& file : {temporary.file().string(), log}) {
+    struct stat status {};
+    ASSERT_EQ(::stat(file.c_str(), &status), 0) << file;
+    EXPECT_EQ(status.st_mode & 0777U, 0600U) << file;
+  }
+}
+
 std::string refusal_of(const std::filesystem::path& file) {
   try {
     const jobs::Store store(file);

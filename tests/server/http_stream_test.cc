@@ -63,7 +63,7 @@ std::jthread slow_reader(const Pair& pair, std::size_t bytes, std::chrono::milli
 
 TEST(HttpStream, GivesUpAClientThatTakesNothing) {
   const Pair pair;
-  HttpStream stream(pair.server(), limits_of(300ms, 1024 * 1024), kNotDraining, kNobodyWaits);
+  HttpStream stream({.socket = pair.server()}, limits_of(300ms, 1024 * 1024), kNotDraining, kNobodyWaits);
   const auto start = Clock::now();
   EXPECT_FALSE(stream.send_all(std::string(1'000'000, 'a')));
   const auto took = Clock::now() - start;
@@ -74,7 +74,7 @@ TEST(HttpStream, GivesUpAClientThatTakesNothing) {
 TEST(HttpStream, GivesUpAClientThatTakesALittleNowAndThen) {
   const Pair pair;
   // 20 bytes a second would keep the connection for hours; each wait alone is short.
-  HttpStream stream(pair.server(), limits_of(500ms, 100'000), kNotDraining, kNobodyWaits);
+  HttpStream stream({.socket = pair.server()}, limits_of(500ms, 100'000), kNotDraining, kNobodyWaits);
   const auto reader = slow_reader(pair, 1, 50ms);
   const auto start = Clock::now();
   EXPECT_FALSE(stream.send_all(std::string(1'000'000, 'a')));
@@ -84,11 +84,23 @@ TEST(HttpStream, GivesUpAClientThatTakesALittleNowAndThen) {
 TEST(HttpStream, ServesAClientThatIsSlowButSteady) {
   const Pair pair;
   // Some 400 kB/s, four times what is asked for: 300 kB take longer than a stall may.
-  HttpStream stream(pair.server(), limits_of(250ms, 100'000), kNotDraining, kNobodyWaits);
+  HttpStream stream({.socket = pair.server()}, limits_of(250ms, 100'000), kNotDraining, kNobodyWaits);
   const auto reader = slow_reader(pair, 4000, 10ms);
   const auto start = Clock::now();
   EXPECT_TRUE(stream.send_all(std::string(300'000, 'a')));
   EXPECT_GT(Clock::now() - start, 300ms) << "the client was not slow";
+}
+
+TEST(HttpStream, HurriesAClientThatTakesNothingOnceOthersWait) {
+  HttpLimits limits = limits_of(20s, 1024);
+  limits.crowded_time = 200ms;
+  const Pair pair;
+  const std::atomic<int> waiting = 1;
+  HttpStream stream({.socket = pair.server()}, limits, kNotDraining, waiting);
+  const auto start = Clock::now();
+  EXPECT_FALSE(stream.send_all(std::string(1'000'000, 'a')));
+  EXPECT_GE(Clock::now() - start, 190ms);
+  EXPECT_LT(Clock::now() - start, 5s);
 }
 
 TEST(HttpStream, HurriesAClientOnceOthersWait) {
@@ -99,7 +111,7 @@ TEST(HttpStream, HurriesAClientOnceOthersWait) {
   ASSERT_EQ(::send(pair.client(), "GET", 3, 0), 3);
   std::atomic<int> waiting = 0;
   const auto start = Clock::now();
-  HttpStream stream(pair.server(), limits, kNotDraining, waiting);
+  HttpStream stream({.socket = pair.server()}, limits, kNotDraining, waiting);
   std::jthread others([&waiting] {
     std::this_thread::sleep_for(600ms);
     waiting = 1;

@@ -43,6 +43,17 @@ expect_equal "$(status_of -X DELETE "$url/v1/sweeps/$again")" 204 "deleting"
 stop_service TERM
 [ "$(stat --format=%s full.db)" -le 1100000 ] || fail "the store is larger than it may be"
 
+# No disk has so much left: nothing new is taken, and everything else goes on.
+start_service full.db --disk-reserve-mb 999999999
+expect_equal "$(curl --silent --max-time 20 --data @small.json --output answer --write-out '%{http_code}' "$url/v1/sweeps")" 507 "a sweep on a disk without its reserve"
+expect_equal "$(jq -r .detail answer | sed 's/has [0-9]* MB/has N MB/')" \
+  'the disk that holds the store has N MB left, and 999999999 MB of it are kept free; make room on it, or delete sweeps that are not needed any more' "what is said of it"
+for path in /readyz /v1/sweeps "/v1/sweeps/$id/results" /v1/store; do
+  expect_equal "$(status_of "$url$path")" 200 "reading $path on such a disk"
+done
+expect_equal "$(status_of -X DELETE "$url/v1/sweeps/$id")" 204 "deleting on such a disk"
+stop_service TERM
+
 expect_code 2 "$rpsup" serve --db a.db --job-time-s -1
 expect_code 2 "$rpsup" serve --db a.db --store-limit-mb many
 

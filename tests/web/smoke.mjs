@@ -77,6 +77,18 @@ test("a sweep shows its metrics, and what is selected in its table is selected e
   await leave(page);
 });
 
+test("a name is text wherever it is shown", async () => {
+  const name = `<img src=x onerror="document.title='run'"></script><b>bold`;
+  const sweep = await runSweep({ name, parameters: short, sweep: { clearance_mm: [0.15] } });
+  for (const place of ["", `#/sweeps/${sweep.id}`]) {
+    const page = await visit(place);
+    await page.getByText(name).first().waitFor();
+    assert.equal(await page.locator("img[src=x]").count(), 0);
+    assert.notEqual(await page.title(), "run");
+    await leave(page);
+  }
+});
+
 test("a job shows its acceleration, its orbit and its linkage at one instant", async () => {
   const sweep = await runSweep({ parameters: { ...short, clearance_mm: 0.25 } });
   const [{ job_id: id }] = await resultsOf(sweep);

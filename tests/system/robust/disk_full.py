@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 
 from faults import Faults, can_inject
-from service import Service, check, check_integrity, skip, small_sweep, temporary_folder
+from service import Service, check, check_integrity, copy_store, skip, small_sweep, temporary_folder
 
 
 class Tmpfs:
@@ -31,8 +31,11 @@ class Tmpfs:
         mount = ["sh", "-c", f"mount -t tmpfs -o size=3m none '{inside}' && exec \"$@\"", "sh"]
         if subprocess.run([*namespace, *mount, "true"], capture_output=True, check=False).returncode != 0:
             skip("this user may not mount a file system")
-        self.service = Service(program, folder / "small/store.db", "--threads", "2", wrapper=[*namespace, *mount], log=folder / "log")
-        self.ballast = Path(f"/proc/{self.service.process.pid}/root{inside}/ballast")
+        self.service = Service(program, folder / "small/store.db", "--threads", "2", "--disk-reserve-mb", "0", wrapper=[*namespace, *mount], log=folder / "log")
+        # An open folder keeps the file system when the namespace has gone.
+        self.folder = os.open(f"/proc/{self.service.process.pid}/root{inside}", os.O_RDONLY | os.O_DIRECTORY)
+        self.copies = folder
+        self.ballast = Path(f"/proc/self/fd/{self.folder}/ballast")
         return self.service
 
     def fill(self):
@@ -47,7 +50,7 @@ class Tmpfs:
         self.ballast.unlink()
 
     def check_store(self):
-        """It has gone with the namespace."""
+        check_integrity(copy_store(Path(f"/proc/self/fd/{self.folder}/store.db"), self.copies))
 
 
 class FailingWrites:

@@ -1,52 +1,81 @@
 """System calls fail now and then while clients submit and read (libfiu): io_faults.py PROGRAM [--rounds N] [--seed N]
 
-In every round one kind of call fails with some probability for a second. Whatever is acknowledged meanwhile is there afterwards; the service
-lives, answers only as the interface allows, and, once calls succeed again, computes everything to the same bytes as if nothing had been.
+First each kind of call fails for sure, and whoever needs it is refused: the faults do reach the service. Then, in every round, one kind fails
+with some probability for a while. Whatever is acknowledged meanwhile is there afterwards; the service lives, answers only as the interface
+allows, and, once calls succeed again, computes everything to the same bytes as if nothing had been. At last calls fail while it starts and
+ends: it refuses to start, or it does start, and the store is whole.
 """
 
 import argparse
 import random
-import time
 
+from clients import ask_for_a_while, check_acknowledged, undisturbed_tables
 from faults import Faults, can_inject
-from service import NoAnswer, Service, check, check_integrity, skip, small_sweep, temporary_folder
+from service import NoAnswer, Service, check, check_integrity, skip, small_sweep, store_files, temporary_folder
 
-# Reads of the index and calls on sockets may end a connection without an answer; that loses nothing.
-POINTS = ("posix/io/rw/pwrite", "posix/io/rw/pread", "posix/io/sync/fsync", "posix/io/sync/fdatasync", "posix/io/rw/ftruncate",
-          "posix/io/rw/pwrite/reduce", "posix/mm/mmap", "posix/io/oc/open", "posix/io/net/recv", "posix/io/net/send")
+NEW_SWEEP = ("POST", "/v1/sweeps", {**small_sweep(0), "reuse": False})
+COPY = ("GET", "/v1/store")
+# What is refused when every call of the kind fails. Calls on sockets end a connection without an answer; that loses nothing.
+POINTS = {
+    "posix/io/rw/pwrite": NEW_SWEEP,
+    "posix/io/rw/pread": COPY,
+    "posix/io/sync/fdatasync": NEW_SWEEP,
+    "posix/io/oc/open": COPY,
+    "posix/io/net/recv": NEW_SWEEP,
+    "posix/io/net/send": NEW_SWEEP,
+}
+AT_START = ("posix/mm/mmap", "posix/io/oc/open", "posix/io/rw/pread", "posix/io/rw/pwrite", "posix/io/sync/fdatasync")
 EIO = 5
-KINDS = 8
 
 
-def request_of(number):
-    return {**small_sweep(number % KINDS), "reuse": number % 2 == 0}
+def is_refused(service, question):
+    try:
+        return service.ask(*question)[0] == 503
+    except NoAnswer:
+        return True
 
 
-def ask_under_faults(service, dice, acknowledged, seconds):
+def check_that_faults_arrive(service, faults):
+    for point, question in POINTS.items():
+        faults.tell(service, f"enable name={point},failinfo={EIO}")
+        check(is_refused(service, question), f"{point} fails and {question[:2]} does not notice")
+        faults.tell(service, f"disable name={point}")
+        check(not is_refused(service, question), f"{question[:2]} does not recover from {point}")
+
+
+def start_and_end_under_faults(program, store, faults, dice, rounds):
+    """Returns how often it refused to start."""
     refused = 0
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        number = dice.randrange(1000)
+    for number in range(rounds):
+        fault = f"enable_random name={AT_START[number % len(AT_START)]},probability={dice.choice((0.1, 0.5, 1))},failinfo={EIO}"
         try:
-            status, headers, text = service.ask("POST", "/v1/sweeps", request_of(number))
-            if status == 201:
-                acknowledged[headers["Location"].rpartition("/")[2]] = number
-            else:
-                refused += 1
-                # A body that could not be received is a bad request.
-                check(status in (400, 408, 503, 507) and headers["Content-Type"] == "application/problem+json", f"refused with {status} {text[:200]}")
-            if acknowledged:
-                service.ask("GET", f"/v1/sweeps/{dice.choice(list(acknowledged))}/results")
-        except NoAnswer:
+            service = Service(program, store, "--threads", "1", environment=faults.environment(fault))
+        except AssertionError as error:
+            check("rpsup: " in str(error), f"{fault}: no sentence: {error}")
             refused += 1
-        check(service.is_alive(), f"the service died: {service.log.read_text(errors='replace')[-600:]}")
+            continue
+        code, _ = service.terminate()
+        check(code == 0, f"{fault}: exit code {code}")
     return refused
+
+
+def end_without_ftruncate(program, store, faults):
+    """The log is moved into the file and cannot be cut: the next start reads it once more, and nothing is wrong."""
+    service = Service(program, store, "--threads", "1", environment=faults.environment())
+    last = service.submit(small_sweep(1))
+    service.wait_for_end(last)
+    faults.tell(service, f"enable name=posix/io/rw/ftruncate,failinfo={EIO}")
+    code, _ = service.terminate()
+    check(code == 0, f"exit code {code}")
+    log = store_files(store)[1]
+    check(not log.exists() or log.stat().st_size > 0, "the log was cut although that fails")
+    return last
 
 
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
-    parser.add_argument("--rounds", type=int, default=len(POINTS))
+    parser.add_argument("--rounds", type=int, default=2 * len(POINTS))
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=0.2, help="that each round lasts")
     options = parser.parse_args()
@@ -54,31 +83,37 @@ def main():
         skip("fiu-utils is not installed")
     dice = random.Random(options.seed)
     folder = temporary_folder()
-    undisturbed = Service(options.program, folder / "undisturbed.db", "--threads", "2")
-    twins = [undisturbed.submit(request_of(number)) for number in range(KINDS)]
-    check(all(undisturbed.wait_for_end(twin) == "succeeded" for twin in twins), "the undisturbed sweeps")
-    tables = [undisturbed.results(twin) for twin in twins]
-    undisturbed.terminate()
+    tables = undisturbed_tables(options.program, folder)
 
     store = folder / "store.db"
     faults = Faults(folder)
     service = Service(options.program, store, "--threads", "2", environment=faults.environment())
+    check_that_faults_arrive(service, faults)
     acknowledged, refused = {}, {}
     for number in range(options.rounds):
-        point = POINTS[number % len(POINTS)]
+        point = list(POINTS)[number % len(POINTS)]
         probability = dice.choice((0.02, 0.2, 0.5))
         faults.tell(service, f"enable_random name={point},probability={probability},failinfo={EIO}")
-        refused[point] = refused.get(point, 0) + ask_under_faults(service, dice, acknowledged, options.seconds)
+        refused[point] = refused.get(point, 0) + ask_for_a_while(service, dice, acknowledged, options.seconds)
         faults.tell(service, f"disable name={point}")
-    for sweep_id, number in acknowledged.items():
-        state = service.wait_for_end(sweep_id)
-        check(state == "succeeded", f"{sweep_id} is {state}: {service.get(f'/v1/jobs?state=failed')}")
-        check(service.results(sweep_id) == tables[number % KINDS], f"other results in {sweep_id}")
+    retried = check_acknowledged(service, acknowledged, tables)
+    check(retried == 0, "jobs have failed")
     check(sum(refused.values()) > 0, "no call has failed")
     code, _ = service.terminate()
     check(code == 0, f"exit code {code}")
     check_integrity(store)
-    print(f"seed {options.seed}, {options.rounds} rounds: {len(acknowledged)} sweeps acknowledged, 0 lost, results equal; refused: {refused}")
+
+    starts = max(len(AT_START), options.rounds // 4)
+    not_started = start_and_end_under_faults(options.program, store, faults, dice, starts)
+    check(not_started > 0, "no fault kept it from starting")
+    last = end_without_ftruncate(options.program, store, faults)
+    service = Service(options.program, store, "--threads", "2")
+    check(service.get(f"/v1/sweeps/{last}")["state"] == "succeeded", "the last sweep")
+    check_acknowledged(service, acknowledged, tables)
+    service.terminate()
+    check_integrity(store)
+    print(f"seed {options.seed}, {options.rounds} rounds: {len(acknowledged)} sweeps acknowledged, 0 lost, results equal; refused: {refused}; "
+          f"{starts} starts under faults, {not_started} refused, nothing lost")
 
 
 main()

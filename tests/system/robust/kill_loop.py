@@ -125,6 +125,7 @@ def undisturbed_results(program, folder):
 def check_end(service, ledger, expected):
     for number in sorted(ledger.cut_off):
         submit(service, ledger, number)
+    service.wait_until_idle()
     compared = 0
     for number, sweep_id in ledger.acknowledged.items():
         state = service.wait_for_end(sweep_id)

@@ -100,6 +100,17 @@ class Service:
             time.sleep(0.02)
         raise AssertionError(f"{sweep_id} has not ended after {seconds} s")
 
+    def wait_until_idle(self, seconds=120):
+        """Until no job is left to compute; so long without any progress is a failure."""
+        left, deadline = None, 0.0
+        while left != (0, 0):
+            _, _, text = self.ask("GET", "/metrics")
+            now = tuple(int(float(re.search(rb"^rpsup_jobs_%s (\S+)" % state, text, re.MULTILINE)[1])) for state in (b"queued", b"running"))
+            if now != left:
+                left, deadline = now, time.monotonic() + seconds
+            check(time.monotonic() < deadline, f"jobs queued and running: {left}, for {seconds} s")
+            time.sleep(0.05)
+
     def results(self, sweep_id):
         """The table as CSV without job_id, which is another one in every store."""
         status, _, text = self.ask("GET", f"/v1/sweeps/{sweep_id}/results?format=csv")
@@ -146,7 +157,8 @@ def check_integrity(store):
             return
         for what, query in (
                 ("jobs that succeeded without a result", "jobs WHERE state = 'succeeded' AND result IS NULL"),
-                ("results of no job", "results WHERE seq NOT IN (SELECT result FROM jobs WHERE result IS NOT NULL)"),
+                # What failed and was tried again stays until its sweep is deleted.
+                ("results of no job", "results WHERE error_reason IS NULL AND seq NOT IN (SELECT result FROM jobs WHERE result IS NOT NULL)"),
                 ("results without a trajectory", "results WHERE error_reason IS NULL AND seq NOT IN (SELECT result FROM trajectories)")):
             count = database.execute("SELECT count(*) FROM " + query).fetchone()[0]
             check(count == 0, f"{count} {what}")

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+namespace jobs {
+
+/// What a store may take of its disk. Zero: no limit.
+struct StoreRoom {
+  std::int64_t most_bytes = 0;     ///< that it may hold, its log apart
+  std::int64_t reserve_bytes = 0;  ///< that stay free on the disk for others
+};
+
+}  // namespace jobs

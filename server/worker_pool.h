@@ -1,0 +1,41 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace server {
+
+/// Threads that run tasks in the order in which they came. A machine without memory makes tasks wait; it does not end the process.
+class WorkerPool {
+ public:
+  using Task = std::function<void()>;
+
+  /// @throws std::runtime_error if the system does not allow so many threads
+  explicit WorkerPool(std::size_t threads);
+  ~WorkerPool();  ///< after the tasks that have been taken
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  /// Returns when the task has its place: at once, unless there is no memory for it.
+  /// @param task  must not throw
+  void add(Task task);
+
+  /// Runs the tasks that are there and ends the threads.
+  void finish();
+
+ private:
+  void work(const std::stop_token& stop);
+
+  std::mutex mutex_;  // guards tasks_
+  std::condition_variable_any changed_;
+  std::deque<Task> tasks_;
+  std::vector<std::jthread> threads_;  // last: they use the rest
+};
+
+}  // namespace server

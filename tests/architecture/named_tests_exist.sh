@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Every test that the table of tests/README.md names is there:   named_tests_exist.sh SOURCE-FOLDER BUILD-FOLDER
+set -euo pipefail
+tests=$(ctest --test-dir "$2" --show-only | sed -n 's/^ *Test *#[0-9]*: //p')
+[ -n "$tests" ] || { echo "there are no tests in $2"; exit 1; }
+rows=0 bad=0
+while IFS='|' read -r _ row _ names _; do
+  rows=$((rows + 1))
+  for name in $(grep -o '`[^`]*`' <<<"$names" | tr -d '`'); do
+    pattern=$(sed 's/[.]/[.]/g; s/[*]/.*/g' <<<"$name")
+    grep -qxE "$pattern" <<<"$tests" || { echo "$row names a test that is not there: $name"; bad=1; }
+  done
+done < <(grep -E '^\| [RS][0-9]+ \|' "$1/tests/README.md")
+[ "$rows" -eq 29 ] || { echo "the table has $rows rows instead of 29"; bad=1; }
+exit "$bad"
