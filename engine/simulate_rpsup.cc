@@ -48,7 +48,7 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
       result.status = RunStatus::kStopped;
       result.detail = "stopped on request";
     } else {
-      result.metrics = observer.metrics.calc(end, ideal);
+      result.metrics = observer.metrics.calc(end, ideal, observer.channels.sliding_work().total());
     }
   }
   result.trajectory = observer.channels.finish(observer.metrics.work_turned_over());

@@ -25,6 +25,7 @@ struct Design {
 ///     latin_hypercube, sobol:  points of the unit cube (jobs/unit_points.h), stretched over {"from", "to", "scale"} or over a list
 ///     zip:            the k-th point has the k-th value of each list
 ///     one_at_a_time:  the centre, then one parameter after the other with each of its values, the others at the centre
+///     morris, saltelli:  points of the unit cube (jobs/sensitivity/effect_points.h), stretched as those of latin_hypercube
 [[nodiscard]] Design make_design(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
 
 }  // namespace jobs

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/service.h"
+#include "jobs/store.h"
 
 namespace jobs {
 
@@ -16,8 +17,10 @@ class PageChecker {
  public:
   /// @param id_prefix  of what is listed
   /// @param keys       that its items may have
+  /// @param states     that they may be in
   /// @throws InvalidRequest with every fault
-  PageChecker(const PageQuery& query, std::string_view id_prefix, std::span<const std::string> keys);
+  PageChecker(const PageQuery& query, std::string_view id_prefix, std::span<const std::string> keys,
+      std::span<const std::string_view> states = kJobStates);
 
   /// The keys that are wanted; empty: all.
   [[nodiscard]] const std::vector<std::string>& wanted() const { return wanted_; }

@@ -11,6 +11,7 @@
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
+#include "jobs/sensitivity/effect_points.h"
 #include "jobs/span.h"
 #include "jobs/unit_points.h"
 
@@ -67,7 +68,7 @@ class Dimension {
   }
 
   [[nodiscard]] json value_at(double u) const {
-    if (!values_.empty()) return values_[static_cast<std::size_t>(u * static_cast<double>(values_.size()))];
+    if (!values_.empty()) return values_[std::min(static_cast<std::size_t>(u * static_cast<double>(values_.size())), values_.size() - 1)];
     return integer_ ? json(static_cast<std::int64_t>(integer_at(u))) : json(number_at(u, span_.to));
   }
 
@@ -100,6 +101,24 @@ std::optional<std::uint64_t> seed_of(const ordered_json& design) {
   return design.contains("seed") ? std::optional(design.at("seed").get<std::uint64_t>()) : std::nullopt;
 }
 
+void check_integer(const ordered_json& design, const char* key, const Range& range, std::vector<Fault>& faults) {
+  if (!design.contains(key)) return;
+  if (std::string detail = describe_integer_fault(range, design.at(key)); !detail.empty()) faults.push_back({std::string("/design/") + key,
+      std::move(detail)});
+}
+
+/// Adds the faults of a design of blocks of points. @returns how many points it has, 0 if there are faults
+/// @param key  of the number of blocks  @param more  points of a block beside one for each parameter
+std::uint64_t count_blocks(const ordered_json& design, const char* key, std::uint64_t more, std::vector<Fault>& faults) {
+  const std::size_t before = faults.size();
+  if (!design.contains(key)) faults.push_back({std::string("/design/") + key, "is missing"});
+  check_integer(design, key, kBlocksRange, faults);
+  check_integer(design, "seed", kSeedRange, faults);
+  for (const auto& [path, given] : design.at("over").items()) (void)count_levels(path, given, faults);
+  if (faults.size() != before) return 0;
+  return design.at(key).get<std::uint64_t>() * (design.at("over").size() + more);
+}
+
 }  // namespace
 
 std::uint64_t count_samples(const ordered_json& design, const json&, std::vector<Fault>& faults) {
@@ -120,6 +139,29 @@ std::uint64_t count_samples(const ordered_json& design, const json&, std::vector
   }
   return count;
 }
+
+std::uint64_t count_morris(const ordered_json& design, const json&, std::vector<Fault>& faults) {
+  const std::size_t before = faults.size();
+  check_integer(design, "levels", kLevelsRange, faults);
+  if (faults.size() == before && design.value("levels", kDefaultLevels) % 2 != 0) faults.push_back({"/design/levels", "must be even"});
+  const std::uint64_t count = count_blocks(design, "trajectories", 1, faults);
+  return faults.size() == before ? count : 0;
+}
+
+std::uint64_t count_saltelli(const ordered_json& design, const json&, std::vector<Fault>& faults) { return count_blocks(design, "count", 2, faults); }
+
+UnitPoints effect_points_of(const ordered_json& design) {
+  const std::size_t dimensions = design.at("over").size();
+  const std::uint64_t seed = seed_of(design).value_or(kDefaultSeed);
+  if (design.at("type") == "saltelli") return saltelli_points(design.at("count").get<std::size_t>(), dimensions, seed);
+  return morris_points(design.at("trajectories").get<std::size_t>(), dimensions, design.value("levels", kDefaultLevels), seed);
+}
+
+DesignPoints make_morris(const ordered_json& design, const json&, std::vector<Fault>& faults) { return stretch(effect_points_of(design),
+    design.at("over"), faults); }
+
+DesignPoints make_saltelli(const ordered_json& design, const json&, std::vector<Fault>& faults) { return stretch(effect_points_of(design),
+    design.at("over"), faults); }
 
 DesignPoints make_latin_hypercube(const ordered_json& design, const json&, std::vector<Fault>& faults) {
   const ordered_json& over = design.at("over");

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/design_kinds.h"
+#include "jobs/range.h"
+#include "jobs/unit_points.h"
 
 namespace jobs {
 
@@ -24,5 +26,19 @@ namespace jobs {
 
 /// Without a seed the sequence as it is, from the corner where every parameter is at `from`.
 [[nodiscard]] DesignPoints make_sobol(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
+
+// Designs that a sensitivity is calculated from (jobs/sensitivity/effect_points.h), over the same ranges and lists.
+
+inline constexpr std::uint64_t kDefaultLevels = 4;
+inline constexpr Range kBlocksRange{.minimum = 2, .maximum = 1e6};   ///< trajectories of morris, count of saltelli
+inline constexpr Range kLevelsRange{.minimum = 2, .maximum = 1000};  ///< even ones
+
+[[nodiscard]] std::uint64_t count_morris(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
+[[nodiscard]] DesignPoints make_morris(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
+[[nodiscard]] std::uint64_t count_saltelli(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
+[[nodiscard]] DesignPoints make_saltelli(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
+
+/// The points of the unit cube that a design of these two kinds stretches. @param design  without faults, of type "morris" or "saltelli"
+[[nodiscard]] UnitPoints effect_points_of(const nlohmann::ordered_json& design);
 
 }  // namespace jobs

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "jobs/content_id.h"
@@ -15,6 +16,7 @@
 #include "jobs/resource_json.h"
 #include "jobs/result_query.h"
 #include "jobs/run_record.h"
+#include "jobs/search/search_desk.h"
 #include "jobs/store.h"
 #include "jobs/time_text.h"
 #include "jobs/trajectory_codec.h"
@@ -56,6 +58,7 @@ class Service::Impl {
                             .record = [this](const ClaimedJob& job, const RunRecord& run) { record(job, run); },
                             .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
                   options_.runner, options_.threads, options_.log, options_.job_limits);
+    searcher_ = std::jthread([this] { keep_searching(); });
   }
 
   json submit_sweep(const nlohmann::ordered_json& request, const std::string& key) {
@@ -99,6 +102,7 @@ class Service::Impl {
   std::optional<json> retry_sweep(const std::string& id) {
     check_open();
     if (!store_.retry_sweep(id, options_.max_queued_jobs)) return std::nullopt;
+    store_.reopen_search_of(id);
     wake();
     tell_change();
     return find_sweep(id);
@@ -155,6 +159,36 @@ class Service::Impl {
     return news;
   }
 
+  json submit_search(const nlohmann::ordered_json& request) {
+    check_open();
+    json search = searches_.submit(request);
+    wake();
+    tell_change();  // its first results may be known already
+    return search;
+  }
+
+  [[nodiscard]] const SearchDesk& searches() const { return searches_; }
+
+  std::optional<json> cancel_search(const std::string& id) {
+    const bool found = searches_.cancel(id, [this](const std::string& sweep) { finish_cancelling(store_.cancel_sweep(sweep), nullptr); });
+    return found ? searches_.find(id) : std::nullopt;
+  }
+
+  std::optional<json> retry_search(const std::string& id) {
+    check_open();
+    if (!searches_.retry(id, [this](const std::string& sweep) { store_.retry_sweep(sweep, options_.max_queued_jobs); })) return std::nullopt;
+    wake();
+    tell_change();
+    return searches_.find(id);
+  }
+
+  bool delete_search(const std::string& id) {
+    const auto search = store_.find_search(id);
+    if (!search) return false;
+    if (search->state == "running") throw WrongState("the search has not ended; cancel it first");
+    return delete_sweep(search->sweep_id);
+  }
+
   [[nodiscard]] Load find_load() const { return store_.find_load(); }
 
   [[nodiscard]] std::uint64_t activity() const { return activity_; }
@@ -196,6 +230,8 @@ class Service::Impl {
     stopped_ = true;
     if (pool_) pool_->stop();
     tell_change();
+    const std::lock_guard lock(stop_mutex_);
+    if (searcher_.joinable()) searcher_.join();
   }
 
  private:
@@ -232,10 +268,10 @@ class Service::Impl {
     tell_change();
   }
 
-  /// Does the rest of a cancellation. False if there is nothing of that id.
+  /// Does the rest of a cancellation. False if there is nothing of that id. @param why_not  null if it may have ended
   bool finish_cancelling(const Cancellation& cancellation, const char* why_not) {
     if (cancellation.outcome == CancelOutcome::kMissing) return false;
-    if (cancellation.outcome == CancelOutcome::kEnded) throw WrongState(why_not);
+    if (cancellation.outcome == CancelOutcome::kEnded && why_not != nullptr) throw WrongState(why_not);
     for (const std::string& job : cancellation.running) {
       if (pool_) pool_->stop_job(job);
     }
@@ -253,6 +289,31 @@ class Service::Impl {
     changed_.notify_all();
   }
 
+  /// Lets searches go on whenever something has changed, until the service is stopped.
+  void keep_searching() {
+    constexpr std::chrono::seconds kPause{5};  // after a failure of the store
+    for (std::uint64_t seen = 0; !stopped_;) {
+      bool failed = false;
+      {
+        const std::lock_guard lock(change_mutex_);
+        seen = changes_;
+      }
+      try {
+        if (searches_.advance()) {
+          wake();
+          tell_change();
+        }
+      } catch (const std::exception& error) {  // the store's errors, or no memory
+        options_.log(std::string("the searches could not go on yet: ") + error.what());
+        failed = true;
+      }
+      std::unique_lock lock(change_mutex_);
+      const auto done = [&] { return stopped_.load() || (!failed && changes_ != seen); };
+      if (failed) changed_.wait_for(lock, kPause, done);
+      else changed_.wait(lock, done);
+    }
+  }
+
   const ServiceOptions options_;
   std::atomic<bool> stopped_ = false;
   mutable std::mutex change_mutex_;  // guards changes_
@@ -261,7 +322,10 @@ class Service::Impl {
   std::atomic<std::uint64_t> activity_ = 0;
   KeysInUse keys_;
   Store store_;
+  SearchDesk searches_{store_, options_};
   std::optional<LocalPool> pool_;  // ends before the store it works for; empty before start()
+  std::mutex stop_mutex_;          // guards the joining of searcher_
+  std::jthread searcher_;          // of keep_searching()
 };
 
 Service::Service(ServiceOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
@@ -286,6 +350,13 @@ const std::filesystem::path& Service::store_file() const { return impl_->store_f
 std::optional<engine::Trajectory> Service::find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const {
   return impl_->find_trajectory(job_id, query);
 }
+json Service::submit_search(const nlohmann::ordered_json& request) { return impl_->submit_search(request); }
+std::optional<json> Service::find_search(const std::string& id) const { return impl_->searches().find(id); }
+json Service::list_searches(const PageQuery& query) const { return impl_->searches().list(query); }
+std::optional<ResultTable> Service::find_limits(const std::string& search_id) const { return impl_->searches().find_limits(search_id); }
+std::optional<json> Service::cancel_search(const std::string& id) { return impl_->cancel_search(id); }
+std::optional<json> Service::retry_search(const std::string& id) { return impl_->retry_search(id); }
+bool Service::delete_search(const std::string& id) { return impl_->delete_search(id); }
 Load Service::find_load() const { return impl_->find_load(); }
 std::optional<json> Service::cancel_sweep(const std::string& id) { return impl_->cancel_sweep(id); }
 std::optional<json> Service::cancel_job(const std::string& id) { return impl_->cancel_job(id); }

@@ -142,6 +142,17 @@ class Service {
   /// Empty if there is no such job or it has no trajectory (yet).
   [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const;
 
+  /// Stores a search and the jobs of its first evaluations, or nothing at all; others follow by themselves. See parse_search_request().
+  nlohmann::json submit_search(const nlohmann::ordered_json& request);
+  [[nodiscard]] std::optional<nlohmann::json> find_search(const std::string& id) const;
+  [[nodiscard]] nlohmann::json list_searches(const PageQuery& query) const;
+  [[nodiscard]] std::optional<ResultTable> find_limits(const std::string& search_id) const;
+  std::optional<nlohmann::json> cancel_search(const std::string& id);
+  /// Queues failed and cancelled jobs of a search again, and lets it go on.
+  std::optional<nlohmann::json> retry_search(const std::string& id);
+  /// Deletes a search that has ended, with the sweep of its evaluations. False if there is none.
+  bool delete_search(const std::string& id);
+
   [[nodiscard]] Load find_load() const;
 
   /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there is none.

@@ -12,19 +12,6 @@ namespace {
 
 constexpr std::int64_t kAnswersAreKept_ms = 7LL * 24 * 3600 * 1000;
 
-std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms) {
-  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?)");
-  add.bind(1, id);
-  add.bind(2, plan.name);
-  add.bind(3, request);
-  add.bind(4, nlohmann::json(plan.swept).dump());
-  add.bind(5, plan.replicated ? 1 : 0);
-  add.bind(6, plan.priority);
-  add.bind(7, now_ms);
-  add.exec();
-  return database.getLastInsertRowid();
-}
-
 /// Keeps the answer for those who send the same request again, and forgets old ones.
 void keep_answer(SQLite::Database& database, const std::string& key, const std::string& request, const std::string& answer) {
   const std::int64_t now_ms = now_unix_ms();

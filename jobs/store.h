@@ -67,6 +67,16 @@ struct JobRow {
   std::optional<RunRow> run;
 };
 
+/// A search, whose evaluations are the jobs of a sweep.
+struct SearchRow {
+  std::string id, sweep_id, name, request, state;
+  std::optional<std::string> error;  ///< why it could not go on
+  std::int64_t created_ms = 0;
+  std::optional<std::int64_t> ended_ms;
+};
+
+inline constexpr std::array<std::string_view, 4> kSearchStates{"running", "succeeded", "failed", "cancelled"};
+
 /// One job's line in the table of its sweep.
 struct ResultRow {
   std::string job_id, state, swept;
@@ -170,6 +180,16 @@ class Store {
   [[nodiscard]] std::optional<SweepResults> find_results(const std::string& sweep_id, bool parameters) const;
   /// What has ended after that change; 0: everything.
   [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
+  /// Stores a search with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep does
+  std::string add_search(const SweepPlan& plan, const std::string& sweep_request, const std::string& request, std::size_t max_queued);
+  [[nodiscard]] std::optional<SearchRow> find_search(const std::string& id) const;
+  /// Newest first. @param state empty: all  @param before  an id; empty: the newest
+  [[nodiscard]] std::vector<SearchRow> list_searches(const std::string& state, const std::string& before, std::size_t limit) const;
+  /// Gives a search another state. False, and nothing is stored, if it is not in the former one.
+  bool set_search_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error = {});
+  /// Lets the search of a sweep, if it has one that has ended, go on.
+  void reopen_search_of(const std::string& sweep_id);
+
   [[nodiscard]] Load find_load() const;
   /// The packed trajectory of a job that has one.
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;

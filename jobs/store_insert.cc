@@ -66,6 +66,19 @@ std::optional<std::int64_t> JobInserter::known_result(std::int64_t content) {
   return result.isNull() ? std::nullopt : std::optional(result.getInt64());
 }
 
+std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms) {
+  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  add.bind(1, id);
+  add.bind(2, plan.name);
+  add.bind(3, request);
+  add.bind(4, nlohmann::json(plan.swept).dump());
+  add.bind(5, plan.replicated ? 1 : 0);
+  add.bind(6, plan.priority);
+  add.bind(7, now_ms);
+  add.exec();
+  return database.getLastInsertRowid();
+}
+
 void check_room(SQLite::Database& database, std::size_t max_queued) {
   const auto queued = database.execAndGet("SELECT count(*) FROM jobs WHERE state = 'queued'").getInt64();
   if (static_cast<std::size_t>(queued) > max_queued) {

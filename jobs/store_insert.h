@@ -30,6 +30,9 @@ class JobInserter {
   SQLite::Statement add_content_, find_content_, find_result_, add_job_;
 };
 
+/// Stores a sweep without its jobs. Returns its number.
+std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms);
+
 /// Throws QueueFull, and so undoes the transaction, if there is no room for what has just been added.
 void check_room(SQLite::Database& database, std::size_t max_queued);
 

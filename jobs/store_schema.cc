@@ -13,7 +13,7 @@ namespace {
 constexpr int kApplicationId = 0x52505355;  // "RPSU"
 
 /// Step i brings a store from version i to i + 1. What has been released is never changed, only added to.
-constexpr std::array<const char*, 2> kMigrations{R"sql(
+constexpr std::array<const char*, 3> kMigrations{R"sql(
   CREATE TABLE sweeps (
     seq INTEGER PRIMARY KEY,
     id TEXT NOT NULL UNIQUE,
@@ -97,6 +97,18 @@ constexpr std::array<const char*, 2> kMigrations{R"sql(
     created_ms INTEGER NOT NULL
   ) STRICT;
   CREATE INDEX answers_by_age ON answers (created_ms);
+)sql",
+                                                     R"sql(
+  -- What a sweep's cases are added for, one after the other.
+  CREATE TABLE searches (
+    sweep INTEGER PRIMARY KEY REFERENCES sweeps ON DELETE CASCADE,
+    id TEXT NOT NULL UNIQUE,
+    request TEXT NOT NULL,
+    state TEXT NOT NULL DEFAULT 'running' CHECK (state IN ('running', 'succeeded', 'failed', 'cancelled')),
+    error TEXT,
+    ended_ms INTEGER
+  ) STRICT;
+  CREATE INDEX running_searches ON searches (sweep) WHERE state = 'running';
 )sql"};
 constexpr int kNewestVersion = static_cast<int>(kMigrations.size());
 

@@ -77,12 +77,25 @@ std::optional<double> Query::number(std::string_view key) {
   return std::nullopt;
 }
 
+std::optional<double> Query::number_in(std::string_view key, const jobs::Range& range) {
+  const auto result = number(key);
+  if (result && !range.contains(*result)) add_fault(key, "must be a number " + range.text());
+  return result && range.contains(*result) ? result : std::nullopt;
+}
+
 std::optional<std::size_t> Query::count(std::string_view key) {
   const auto value = text(key);
   if (!value) return std::nullopt;
   const auto result = whole_text_as<std::size_t>(*value);
   if (!result) add_fault(key, "must be a whole number, not negative");
   return result;
+}
+
+std::optional<std::size_t> Query::count_in(std::string_view key, const jobs::Range& range) {
+  const auto result = count(key);
+  if (!result || range.contains(static_cast<double>(*result))) return result;
+  add_fault(key, "must be a whole number " + range.text());
+  return std::nullopt;
 }
 
 std::optional<std::string> Query::word(std::string_view key, std::initializer_list<std::string_view> words) {

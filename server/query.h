@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "jobs/errors.h"
+#include "jobs/range.h"
 #include "server/message.h"
 
 namespace server {
@@ -34,8 +35,11 @@ class Query {
   [[nodiscard]] std::string names(std::string_view key);
   /// The same as a finite number; anything else is a fault.
   [[nodiscard]] std::optional<double> number(std::string_view key);
+  /// The same as a number in a range; anything else is a fault.
+  [[nodiscard]] std::optional<double> number_in(std::string_view key, const jobs::Range& range);
   /// The same as a count without sign; anything else is a fault.
   [[nodiscard]] std::optional<std::size_t> count(std::string_view key);
+  [[nodiscard]] std::optional<std::size_t> count_in(std::string_view key, const jobs::Range& range);
   /// The same as one of the words given; anything else is a fault.
   [[nodiscard]] std::optional<std::string> word(std::string_view key, std::initializer_list<std::string_view> words);
 

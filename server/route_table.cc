@@ -1,8 +1,10 @@
 #include "server/route_table.h"
 
+#include "server/analysis_routes.h"
 #include "server/document_routes.h"
 #include "server/job_routes.h"
 #include "server/page_routes.h"
+#include "server/search_routes.h"
 #include "server/store_route.h"
 #include "server/sweep_events.h"
 #include "server/sweep_routes.h"
@@ -43,6 +45,71 @@ std::vector<Route> make_sweep_routes() {
       {.method = "POST", .pattern = "/v1/sweeps/{id}/extend", .handler = extend_sweep, .operation_id = "extendSweep", .tag = "sweeps",
        .summary = "Add values to the axes of a sweep, or cases; only new jobs run",
        .body = "Extension", .answers = {{kJson, "Sweep"}}, .problems = {404, 409, 422, 429}},
+  };
+}
+
+std::vector<Route> make_search_routes() {
+  return {
+      {.method = "POST", .pattern = "/v1/searches", .handler = post_search, .operation_id = "submitSearch", .tag = "searches",
+       .summary = "Look for the largest value of a parameter for which a metric stays below a bound, for every combination of the axes",
+       .body = "SearchRequest", .success = 201, .answers = {{kJson, "Search"}}, .problems = {409, 422, 429}},
+      {.method = "GET", .pattern = "/v1/searches", .handler = get_searches, .operation_id = "listSearches", .tag = "searches",
+       .summary = "Searches, the newest first", .query = {"search_state", "limit", "cursor", "fields"}, .answers = {{kJson, "SearchPage"}},
+           .problems = {422}},
+      {.method = "GET", .pattern = "/v1/searches/{id}", .handler = get_search, .operation_id = "getSearch", .tag = "searches",
+       .summary = "State and progress of a search, its limits and the evaluations that they stand on", .headers = {"if_none_match"},
+       .answers = {{kJson, "Search"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "DELETE", .pattern = "/v1/searches/{id}", .handler = delete_search, .operation_id = "deleteSearch", .tag = "searches",
+       .summary = "Delete a search that has ended, with the sweep of its evaluations", .success = 204, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/searches/{id}/results", .handler = get_limits, .operation_id = "getLimits", .tag = "searches",
+       .summary = "Flat rows, one a combination of the axes: the limit and its band", .query = {"row_format"}, .headers = {"if_none_match"},
+       .answers = {{kJson, "LimitRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "POST", .pattern = "/v1/searches/{id}/cancel", .handler = cancel_search, .operation_id = "cancelSearch", .tag = "searches",
+       .summary = "End a search; what has been evaluated stays", .answers = {{kJson, "Search"}}, .problems = {404, 409, 422}},
+      {.method = "POST", .pattern = "/v1/searches/{id}/retry", .handler = retry_search, .operation_id = "retrySearch", .tag = "searches",
+       .summary = "Queue the failed and cancelled jobs of a search again, and go on", .answers = {{kJson, "Search"}},
+           .problems = {404, 409, 422, 429}},
+  };
+}
+
+std::vector<Route> make_analysis_routes() {
+  return {
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/sensitivity", .handler = get_sensitivity, .operation_id = "getSensitivity", .tag = "sweeps",
+       .summary = "How much each parameter of a morris or saltelli design changes a metric", .query = {"metric", "row_format"},
+           .headers = {"if_none_match"},
+       .answers = {{kJson, "SensitivityRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/surrogate", .handler = get_surrogate, .operation_id = "getSurrogate", .tag = "sweeps",
+       .summary = "A polynomial chaos surrogate of a metric, with its error of cross-validation and the points that it stands on",
+       .query = {"metric", "surrogate_x", "surrogate_y"}, .headers = {"if_none_match"}, .answers = {{kJson, "Surrogate"}}, .bodiless = {304},
+           .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/flexibility", .handler = get_flexibility, .operation_id = "getFlexibility", .tag = "sweeps",
+       .summary = "Rigid and flexible jobs side by side: does a flexible coupler help?", .query = {"metric", "row_format"},
+           .headers = {"if_none_match"},
+       .answers = {{kJson, "FlexibilityRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/bifurcation", .handler = get_bifurcation, .operation_id = "getBifurcation", .tag = "sweeps",
+       .summary = "A channel of every job once a turn of the crank", .query = {"channel", "phase_rad", "section_from", "row_format"},
+           .headers = {"if_none_match"},
+       .answers = {{kJson, "BifurcationRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/lyapunov", .handler = get_lyapunov, .operation_id = "getLyapunov", .tag = "sweeps",
+       .summary = "The largest Lyapunov exponent of each set of replicates", .query = {"row_format"}, .headers = {"if_none_match"},
+       .answers = {{kJson, "LyapunovRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/report", .handler = get_report, .operation_id = "getReport", .tag = "sweeps",
+       .summary = "The study on one page that stands by itself: figures, tables, provenance, and the command that does it again",
+           .headers = {"if_none_match"},
+       .answers = {{kHtml, "Text"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "GET", .pattern = "/v1/jobs/{id}/spectrum", .handler = get_spectrum, .operation_id = "getSpectrum", .tag = "jobs",
+       .summary = "Amplitude and power density of a channel over the frequency", .query = {"channel", "window", "from", "to", "column_format"},
+           .headers = {"if_none_match"},
+       .answers = {{kJson, "Columns"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304}, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/jobs/{id}/poincare", .handler = get_poincare, .operation_id = "getPoincare", .tag = "jobs",
+       .summary = "Channels of a job once a turn of the crank: its Poincare section",
+           .query = {"channels", "phase_rad", "from", "to", "column_format"},
+       .headers = {"if_none_match"}, .answers = {{kJson, "Columns"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304},
+           .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/jobs/{id}/wear", .handler = get_wear, .operation_id = "getWear", .tag = "jobs",
+       .summary = "The depth that Archard's law wears off the bearing, around its circumference and along its length",
+       .query = {"wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "row_format"}, .headers = {"if_none_match"},
+       .answers = {{kJson, "WearRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 409, 422}},
   };
 }
 
@@ -93,7 +160,8 @@ std::vector<Route> make_other_routes() {
 
 std::vector<Route> make_table() {
   std::vector<Route> table;
-  for (auto& part : {make_sweep_routes(), make_job_routes(), make_other_routes()}) table.insert(table.end(), part.begin(), part.end());
+  for (auto& part : {make_sweep_routes(), make_search_routes(), make_analysis_routes(), make_job_routes(),
+      make_other_routes()}) table.insert(table.end(), part.begin(), part.end());
   return table;
 }
 

@@ -28,11 +28,6 @@ bool wait_as_preferred(const Call& call, const std::string& id, Response& respon
   return true;
 }
 
-std::string to_text(const jobs::ResultTable& table, TableFormat format) {
-  if (format == TableFormat::kCsv) return jobs::to_csv(table);
-  return format == TableFormat::kNdjson ? to_json_lines(table) : to_json_rows(table);
-}
-
 }  // namespace
 
 Response post_sweep(const Call& call) {

@@ -122,6 +122,11 @@ std::string to_json_lines(const jobs::ResultTable& table) {
   return table.rows.empty() ? "" : joined_rows(table, "", "\n") + "\n";
 }
 
+std::string to_text(const jobs::ResultTable& table, TableFormat format) {
+  if (format == TableFormat::kCsv) return jobs::to_csv(table);
+  return format == TableFormat::kNdjson ? to_json_lines(table) : to_json_rows(table);
+}
+
 std::string to_json_columns(const engine::Trajectory& trajectory) {
   std::string channels;
   std::string columns;

@@ -23,6 +23,9 @@ enum class TableFormat { kJson, kCsv, kNdjson, kNpz };
 /// The same objects, each on a line of its own and nothing between them: NDJSON.
 [[nodiscard]] std::string to_json_lines(const jobs::ResultTable& table);
 
+/// A table as text in one of the formats of rows.
+[[nodiscard]] std::string to_text(const jobs::ResultTable& table, TableFormat format);
+
 /// {"channels": [key, ...], "columns": {key: [number, ...], ...}}; null for what is not finite.
 [[nodiscard]] std::string to_json_columns(const engine::Trajectory& trajectory);
 

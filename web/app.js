@@ -7,6 +7,8 @@ const pages = {
   "": () => import("/pages/sweeps.js"),
   new: () => import("/pages/new_sweep.js"),
   sweeps: () => import("/pages/sweep.js"),
+  analyses: () => import("/pages/analyses.js"),
+  searches: () => import("/pages/searches.js"),
   jobs: () => import("/pages/job.js"),
 };
 
@@ -17,7 +19,7 @@ let shown = 0;
 function markNavigation(kind) {
   for (const link of document.querySelectorAll("header nav a")) {
     const target = link.getAttribute("href").slice(2);
-    if (target === (kind === "new" ? "new" : "")) link.setAttribute("aria-current", "page");
+    if (target === (["new", "searches"].includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
 }

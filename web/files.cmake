@@ -2,6 +2,14 @@
 set(page_files
   index.html
   icon.svg
+  analysis/bifurcation.js
+  analysis/flexibility.js
+  analysis/lyapunov.js
+  analysis/motion.js
+  analysis/parts.js
+  analysis/sensitivity.js
+  analysis/surrogate.js
+  analysis/wear.js
   app.js
   core/api.js
   core/charts.js
@@ -19,8 +27,10 @@ set(page_files
   form/field.js
   form/fields.js
   form/request.js
+  pages/analyses.js
   pages/job.js
   pages/new_sweep.js
+  pages/searches.js
   pages/sweep.js
   pages/sweeps.js
   run/facts.js
@@ -45,6 +55,9 @@ set(page_files
   scene/three.js
   study/data.js
   study/heat_map.js
+  study/limit_curve.js
+  study/limit_points.js
+  study/limit_view.js
   study/lines.js
   study/parallel.js
   study/selection.js

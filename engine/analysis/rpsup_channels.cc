@@ -48,8 +48,13 @@ std::string pose_key(const NamedFrame& link, std::string_view part) {
   return key.append(part);
 }
 
-std::vector<QuantityInfo> channels_of(const Rpsup& rpsup) {
+std::vector<QuantityInfo> channels_of(const RpsupParameters& parameters, const Rpsup& rpsup) {
   std::vector<QuantityInfo> channels = measured_channels();
+  for (int ring = 1; ring <= parameters.radial_levels; ++ring) {
+    const std::string key = "ring_" + std::to_string(ring) + "_sliding_work";
+    channels.push_back({.key = key + "_j", .help = "normal force times sliding speed of that ring of the journal, since t = 0; null without clearance"});
+    for (const std::string axis : {"x", "y"}) channels.push_back({.key = key + "_" + axis + "_j", .help = "the same times the contact normal's " + axis});
+  }
   for (const NamedFrame& link : rpsup.mechanism.links)
     for (const std::string_view part : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
       channels.push_back({.key = pose_key(link, part), .help = "pose of link (" + link.name + ") in the global frame: origin, unit quaternion",
@@ -59,11 +64,12 @@ std::vector<QuantityInfo> channels_of(const Rpsup& rpsup) {
 
 }  // namespace
 
-std::vector<QuantityInfo> channel_table(const RpsupParameters& parameters) { return channels_of(build_rpsup(parameters)); }
+std::vector<QuantityInfo> channel_table(const RpsupParameters& parameters) { return channels_of(parameters, build_rpsup(parameters)); }
 
 RpsupChannels::RpsupChannels(const RpsupParameters& parameters, const Rpsup& rpsup)
-    : parameters_(parameters), rpsup_(rpsup), last_turns_(rpsup.mechanism.links.size(), Eigen::Quaterniond::Identity()) {
-  trajectory_.channels = channels_of(rpsup);
+    : parameters_(parameters), rpsup_(rpsup), last_turns_(rpsup.mechanism.links.size(), Eigen::Quaterniond::Identity()),
+      sliding_work_(parameters) {
+  trajectory_.channels = channels_of(parameters, rpsup);
   trajectory_.columns.resize(trajectory_.channels.size());
 }
 
@@ -74,6 +80,7 @@ void RpsupChannels::take_step(const Evaluation& start, const Evaluation& end) {
   step_dt_ = end.t - start.t;
   acceleration_ = StepQuadratic(start.qdd[slider], end.qdd[slider], end.qd[slider] - start.qd[slider], step_dt_);
   taken_ = 0.0;
+  if (parameters_.c_r > 0.0) sliding_work_.take_step(start, end);
 }
 
 void RpsupChannels::take_extremes(double until) {
@@ -94,7 +101,8 @@ void RpsupChannels::take_sample(const Evaluation& at) {
     first_balance_ = at.energy.calc_balance();
     least_ = most_ = acceleration;
   }
-  take_extremes(std::min(1.0, step_dt_ > 0.0 ? (at.t - step_start_) / step_dt_ : 1.0));
+  const double part = std::min(1.0, step_dt_ > 0.0 ? (at.t - step_start_) / step_dt_ : 1.0);
+  take_extremes(part);
   const JointState& joint = at.joints[0];
   const bool clearance = parameters_.c_r > 0.0;
   const Eigen::Vector3d journal_mm = 1e3 * joint.journal.p_bj;
@@ -104,9 +112,18 @@ void RpsupChannels::take_sample(const Evaluation& at) {
           clearance ? joint.load.radial_normal_sum : kNone, clearance ? joint.load.friction_sum : kNone, at.drive_force[0], at.drive_force[1],
           joint.reaction_W.x(), joint.reaction_W.y(), joint.reaction_W.z(), 1e3 * calc_deflection(at), at.energy.kinetic,
           at.energy.potential, at.energy.drive_work.sum(), at.energy.calc_balance() - first_balance_};
+  add_sliding_work(part);
   add_poses(at);
   for (std::size_t k = 0; k < row_.size(); ++k) trajectory_.columns[k].push_back(row_[k]);
   least_ = most_ = acceleration;
+}
+
+void RpsupChannels::add_sliding_work(double part) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (int ring = 0; ring < parameters_.radial_levels; ++ring) {
+    const auto work = sliding_work_.at(static_cast<std::size_t>(ring), part);
+    for (const double value : {work.work, work.work_x, work.work_y}) row_.push_back(parameters_.c_r > 0.0 ? value : kNone);
+  }
 }
 
 void RpsupChannels::add_poses(const Evaluation& at) {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/analysis/quantities.h"
+#include "engine/analysis/sliding_work.h"
 #include "engine/analysis/step_quadratic.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/model/rpsup.h"
@@ -19,11 +20,14 @@ class RpsupChannels {
   void take_step(const Evaluation& start, const Evaluation& end);
   void take_sample(const Evaluation& at);
 
+  [[nodiscard]] const SlidingWork& sliding_work() const { return sliding_work_; }
+
   /// @param work_turned_over  of the whole run: the energy residual's measure, [J]
   [[nodiscard]] Trajectory finish(double work_turned_over);
 
  private:
   void take_extremes(double until);
+  void add_sliding_work(double part);
   void add_poses(const Evaluation& at);
   [[nodiscard]] double calc_deflection(const Evaluation& at) const;
 
@@ -41,6 +45,8 @@ class RpsupChannels {
   double least_ = 0.0, most_ = 0.0;
   bool sampled_ = false;
   double first_balance_ = 0.0;
+
+  SlidingWork sliding_work_;
 };
 
 }  // namespace engine

@@ -26,6 +26,7 @@ std::span<const QuantityInfo> metric_table() {
       {.key = "friction_work_j", .help = "energy lost to friction in the joint"},
       {.key = "impact_loss_j", .help = "energy lost in the normal contact law"},
       {.key = "structural_loss_j", .help = "energy lost in the flexible coupler's dampers"},
+      {.key = "sliding_work_j", .help = "contact force times sliding speed over the whole run: worn volume = wear coefficient times it; null without clearance"},
       {.key = "energy_residual", .help = "largest |E - E(0) - work of the drives + losses| over the work turned over"},
       {.key = "steps", .help = "accepted integration steps", .integer = true},
       {.key = "rhs_evaluations", .help = "evaluations of the equations of motion", .integer = true},
@@ -83,7 +84,7 @@ void RpsupMetrics::take_energy(const EnergyAccount& start, const EnergyAccount& 
   turned_over_ += end.calc_turned_over_since(start);
 }
 
-std::vector<double> RpsupMetrics::calc(const RunEnd& end, const std::optional<Peak>& ideal) const {
+std::vector<double> RpsupMetrics::calc(const RunEnd& end, const std::optional<Peak>& ideal, double sliding_work) const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const bool has_steady = steady_time_ > 0.0;
   const bool has_clearance = parameters_.c_r > 0.0;
@@ -105,6 +106,7 @@ std::vector<double> RpsupMetrics::calc(const RunEnd& end, const std::optional<Pe
       last_energy_.friction_loss,
       last_energy_.impact_loss,
       last_energy_.structural_loss,
+      has_clearance ? sliding_work : kNone,
       turned_over_ > 0.0 ? largest_imbalance_ / turned_over_ : kNone,
       static_cast<double>(end.steps),
       static_cast<double>(end.evaluations),

@@ -27,7 +27,8 @@ class RpsupMetrics {
 
   /// @param end    of the run whose steps were taken
   /// @param ideal  the ideal linkage's peak in the steady window, if there is one
-  [[nodiscard]] std::vector<double> calc(const RunEnd& end, const std::optional<Peak>& ideal) const;
+  /// @param sliding_work  of the whole run, [J]
+  [[nodiscard]] std::vector<double> calc(const RunEnd& end, const std::optional<Peak>& ideal, double sliding_work) const;
 
  private:
   void take_acceleration(const Evaluation& start, const Evaluation& end);

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "jobs/decimate.h"
+#include "jobs/motion/spectrum.h"
 #include "jobs/service.h"
+#include "jobs/wear/wear.h"
 
 namespace server::openapi {
 
@@ -14,9 +16,16 @@ const Json kNames{{"type", "array"}, {"minItems", 1}, {"items", kText}};
 
 Json words(std::initializer_list<const char*> allowed) { return {{"type", "string"}, {"enum", allowed}}; }
 
+Json make_metric() {
+  Json names = Json::array();
+  for (const engine::QuantityInfo& metric : engine::metric_table()) names.push_back(metric.key);
+  return {{"type", "string"}, {"enum", std::move(names)}, {"default", jobs::kReplicateMetric}};
+}
+
 std::vector<RequestParameter> make_query_parameters() {
   return {
       {"state", "query", "state", "Only those in this state", ref("State")},
+      {"search_state", "query", "state", "Only those in this state", ref("SearchState")},
       {"limit", "query", "limit", "How many at most",
        {{"type", "integer"}, {"minimum", 1}, {"maximum", jobs::PageQuery::kLargestLimit}, {"default", jobs::PageQuery{}.limit}}},
       {"row_limit", "query", "limit", "How many rows at most; all if left out", {{"type", "integer"}, {"minimum", 0}}},
@@ -28,6 +37,20 @@ std::vector<RequestParameter> make_query_parameters() {
        {{"type", "object"}, {"additionalProperties", kText}}},
       {"row_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "ndjson"})},
       {"column_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "npz"})},
+      {"metric", "query", "metric", "The metric; the peak of the slider's acceleration if left out", make_metric()},
+      {"surrogate_x", "query", "x", "The number along x; the first that the sweep varies if left out", kText},
+      {"surrogate_y", "query", "y", "The number along y; the next that the sweep varies if left out", kText},
+      {"channel", "query", "channel", "The channel; journal_x_mm of sections and slider_acceleration_m_s2 of spectra if left out", kText},
+      {"phase_rad", "query", "phase_rad", "The angle of the crank at which a turn is looked at", {{"type", "number"}, {"default", 0}}},
+      {"section_from", "query", "from", "Only from this time on, in s; from the end of the run-up if left out", {{"type", "number"}}},
+      {"window", "query", "window", "hann tells frequencies apart, flat_top measures amplitudes between the lines",
+       {{"type", "string"}, {"enum", jobs::kWindowNames}, {"default", jobs::kWindowNames[0]}}},
+      {"wear_coefficient_m2_n", "query", "wear_coefficient_m2_n", "Worn volume over normal force and sliding distance",
+       {{"type", "number"}, {"exclusiveMinimum", jobs::kWearCoefficientRange.minimum}, {"default", jobs::WearQuery{}.wear_coefficient}}},
+      {"sectors", "query", "sectors", "Around the circumference",
+       {{"type", "integer"}, {"minimum", static_cast<int>(jobs::kSectorsRange.minimum)}, {"maximum", static_cast<int>(jobs::kSectorsRange.maximum)},
+        {"default", jobs::WearQuery{}.sectors}}},
+      {"worn_clearance_mm", "query", "worn_clearance_mm", "The clearance whose life is asked for", {{"type", "number"}}},
       {"channels", "query", "channels", "These columns, after t_s; all if left out", kNames},
       {"from", "query", "from", "Only samples from this time on, in s", {{"type", "number"}}},
       {"to", "query", "to", "Only samples up to this time, in s", {{"type", "number"}}},

@@ -3,6 +3,8 @@
 #include "jobs/axis.h"
 #include "jobs/design_kinds.h"
 #include "jobs/parameter_path.h"
+#include "jobs/sampled_designs.h"
+#include "jobs/search/search_request.h"
 #include "jobs/service.h"
 #include "jobs/sweep_request.h"
 
@@ -49,16 +51,23 @@ Json make_values() {
 /// What a key of a design may be.
 Json make_design_key(std::string_view key) {
   if (key == "count") return integer_in(jobs::kCountRange);
+  if (key == "trajectories") return integer_in(jobs::kBlocksRange);
+  if (key == "levels") {
+    Json levels = integer_in(jobs::kLevelsRange);
+    levels["multipleOf"] = 2;
+    levels["default"] = jobs::kDefaultLevels;
+    return levels;
+  }
   if (key == "seed") return integer_in(jobs::kSeedRange);
   return ref("Values");
 }
 
 Json make_design(const jobs::DesignKind& kind) {
-  const bool sampled = std::ranges::find(kind.keys, "count") != kind.keys.end();
+  const bool sampled = std::ranges::find(kind.keys, "seed") != kind.keys.end();
   Json over = ref(sampled ? "Ranges" : "Axes");
   Json properties{{"type", {{"const", kind.type}}}, {"over", {{"allOf", {over}}, {"minProperties", 1}}}};
   for (const std::string_view key : kind.keys) properties[std::string(key)] = make_design_key(key);
-  Json design = object_of(std::move(properties), {"seed", "centre"});
+  Json design = object_of(std::move(properties), {"seed", "centre", "levels"});
   design["title"] = kind.type;
   design["description"] = kind.help;
   return design;
@@ -121,6 +130,47 @@ Json make_sweep_request() {
   return request;
 }
 
+/// Where a search looks for a limit.
+Json make_search_path() {
+  Json first = integer_in(jobs::kFirstRange);
+  first["default"] = jobs::kDefaultFirst;
+  first["description"] = "how many values are tried before the first crossing is looked at closely";
+  Json path = object_of({{"from", {{"type", "number"}}}, {"to", {{"type", "number"}}}, {"scale", kScale},
+                         {"tolerance", {{"type", "number"}, {"exclusiveMinimum", jobs::kToleranceRange.minimum},
+                                        {"description", "how exact the limit has to be, in the parameter's unit; a hundredth of the way if left out"}}},
+                         {"first", std::move(first)}},
+                        {"scale", "tolerance", "first"});
+  path["description"] = "from the value where the metric is expected within its bound to the farthest one of interest, which may be the smaller one";
+  return path;
+}
+
+Json make_search_request() {
+  Json paths = Json::object();
+  Json metrics = Json::array();
+  for (const std::string& path : jobs::known_paths()) {
+    if (jobs::is_numeric(path)) paths[path] = ref("SearchPath");
+  }
+  for (const engine::QuantityInfo& metric : engine::metric_table()) metrics.push_back(metric.key);
+  Json over = options_of(std::move(paths));
+  over["minProperties"] = over["maxProperties"] = 1;
+  const Json all = make_sweep_request().at("properties");
+  Json request = object_of({{"name", all.at("name")}, {"parameters", all.at("parameters")}, {"over", std::move(over)},
+                            {"metric", {{"type", "string"}, {"enum", std::move(metrics)}}},
+                            {"bound", {{"type", "number"}, {"description", "in the unit of the metric"}}},
+                            {"quantile", {{"type", "number"}, {"exclusiveMinimum", jobs::kQuantileRange.minimum},
+                            {"maximum", jobs::kQuantileRange.maximum},
+                                          {"default", jobs::LimitRule{}.quantile},
+                                          {"description", "the part of the replicates that must not be above the bound"}}},
+                            {"sweep", all.at("sweep")}, {"replicates", all.at("replicates")}, {"priority", all.at("priority")},
+                            {"reuse", all.at("reuse")}},
+                           {"name", "parameters", "quantile", "sweep", "replicates", "priority", "reuse"});
+  request["description"] = "How far a parameter may go, for each combination of the axes, until a metric exceeds its bound";
+  request["examples"] = Json::array({{{"parameters", {{"duration_s", 0.6}, {"run_up_s", 0.3}}},
+                                      {"over", {{"clearance_mm", {{"from", 0.05}, {"to", 0.5}, {"tolerance", 0.01}}}}},
+                                      {"metric", "peak_slider_acceleration_m_s2"}, {"bound", 100}}});
+  return request;
+}
+
 }  // namespace
 
 Json make_request_schemas() {
@@ -128,7 +178,8 @@ Json make_request_schemas() {
   parameters.erase("$schema");
   return {{"Parameters", std::move(parameters)}, {"SweepRequest", make_sweep_request()}, {"Extension", make_extension()},
           {"Axes", make_lists("Span")},          {"Span", make_span()},                  {"Design", make_designs()},
-          {"Ranges", make_lists("Range")},       {"Range", make_range()},                {"Values", make_values()}};
+          {"Ranges", make_lists("Range")},       {"Range", make_range()},                {"Values", make_values()},
+          {"SearchRequest", make_search_request()}, {"SearchPath", make_search_path()}};
 }
 
 }  // namespace server::openapi

@@ -4,6 +4,8 @@
 #include "jobs/parameter_path.h"
 #include "jobs/replicate_statistics.h"
 #include "jobs/store.h"
+#include "server/openapi/analysis_schemas.h"
+#include "server/openapi/search_schemas.h"
 
 namespace server::openapi {
 
@@ -118,7 +120,7 @@ Json make_trajectory() {
 }  // namespace
 
 Json make_resource_schemas() {
-  return {{"Id", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
+  Json schemas{{"Id", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
           {"State", {{"type", "string"}, {"enum", jobs::kJobStates}}},
           {"Problem", make_problem_schema()},
           {"Metrics", object_of(make_metrics())},
@@ -138,6 +140,9 @@ Json make_resource_schemas() {
           {"Status", object_of({{"status", kText}})},
           {"Text", kText},
           {"Binary", Json::object()}};
+  schemas.update(make_search_schemas());
+  schemas.update(make_analysis_schemas());
+  return schemas;
 }
 
 }  // namespace server::openapi

@@ -13,7 +13,7 @@ function encoded(text) {
 export class Client {
   constructor(url) {
     this.url = new URL(url);
-    this.ids = { sweeps: [], jobs: [] };
+    this.ids = { sweeps: [], searches: [], jobs: [] };
   }
 
   /** The request as it is sent: {method, target, headers, body}, of a generated one. */
@@ -53,11 +53,11 @@ export class Client {
   async keepFew(request, exchange) {
     if (exchange.status !== 201) return;
     const made = JSON.parse(exchange.body);
-    const kind = exchange.headers.location.startsWith("/v1/sweeps/") ? "sweeps" : "jobs";
+    const kind = exchange.headers.location.split("/")[2];
     this.ids[kind].push(made.id);
-    if (this.ids[kind].length <= (kind === "sweeps" ? keptSweeps : keptJobs)) return;
+    if (this.ids[kind].length <= (kind === "jobs" ? keptJobs : keptSweeps)) return;
     const old = `/v1/${kind}/${this.ids[kind].shift()}`;
     await this.send({ method: "POST", target: `${old}/cancel` });
-    if (kind === "sweeps") await this.send({ method: "DELETE", target: old });
+    if (kind !== "jobs") await this.send({ method: "DELETE", target: old });
   }
 }

@@ -18,6 +18,10 @@ function numberOf(schema) {
     : any;
 }
 
+function integerOf({ minimum = 0, maximum = Number.MAX_SAFE_INTEGER, multipleOf: step = 1 }) {
+  return fc.integer({ min: Math.ceil(minimum / step), max: Math.floor(maximum / step) }).map((times) => times * step);
+}
+
 function inside(schema, x) {
   return !(x < schema.minimum || x > schema.maximum || x <= schema.exclusiveMinimum || x >= schema.exclusiveMaximum);
 }
@@ -27,7 +31,7 @@ function objectOf(schema, resolve) {
   const required = schema.required ?? [];
   const optional = keys.filter((key) => !required.includes(key));
   const least = Math.max(0, (schema.minProperties ?? 0) - required.length);
-  return fc.subarray(optional, { minLength: Math.min(least, optional.length), maxLength: Math.min(keptKeys, optional.length) })
+  return fc.subarray(optional, { minLength: Math.min(least, optional.length), maxLength: Math.min(schema.maxProperties ?? keptKeys, keptKeys, optional.length) })
     .chain((chosen) => fc.record(Object.fromEntries([...required, ...chosen].map((key) => [key, fromSchema(schema.properties[key], resolve)]))));
 }
 
@@ -44,7 +48,7 @@ export function fromSchema(given, resolve) {
   if (schema.allOf) return fromSchema({ ...resolve(schema.allOf[0]), minProperties: schema.minProperties }, resolve);
   switch (schema.type) {
     case "number": return numberOf(schema);
-    case "integer": return fc.integer({ min: schema.minimum ?? 0, max: schema.maximum ?? Number.MAX_SAFE_INTEGER });
+    case "integer": return integerOf(schema);
     case "boolean": return fc.boolean();
     case "null": return fc.constant(null);
     case "string": return schema.pattern ? fc.stringMatching(new RegExp(schema.pattern)) : fc.string({ maxLength: schema.maxLength ?? 20, unit: "grapheme" });

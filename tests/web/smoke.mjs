@@ -99,6 +99,13 @@ test("a job shows its acceleration, its orbit and its linkage at one instant", a
   await page.getByLabel("Instant [s]").fill("0.2");
   await page.locator("canvas.scene[data-instant='0.2']").waitFor();
   await page.getByText("t = 0.2000 s").waitFor();
+  await page.getByText("Spectrum and Poincaré section").click();
+  await page.locator("details .chart canvas").nth(1).waitFor();
+  await page.getByLabel("Window").selectOption("flat_top");
+  await page.getByText("Wear of the bearing").click();
+  await page.getByText(/^Deepest: /).waitFor();
+  await page.getByLabel(/^Until a clearance of/).fill("0.3");
+  await page.getByText(/reached after/).waitFor();
   await expectAccessible(page);
   await picture(page, "small_job", { fullPage: true });
   await leave(page);
@@ -150,6 +157,56 @@ test("a sweep is cancelled and retried in the list", async () => {
   assert.equal((await ask(`/v1/sweeps/${long.id}`)).counts.cancelled, 0);
   await page.getByRole("button", { name: "Cancel long" }).click();
   await row.getByText("3 cancelled").waitFor();
+  await leave(page);
+});
+
+test("a search is begun, draws its limits and is deleted", async () => {
+  const page = await visit("#/searches");
+  await page.getByText("No search has been begun yet").waitFor();
+  const area = page.getByLabel(/^Request, as JSON/);
+  const request = { name: "how far", parameters: short, over: { clearance_mm: { from: 0.05, to: 0.5, tolerance: 0.1, first: 3 } }, metric: "max_penetration_um", bound: 4,
+    sweep: { crank_velocity_rad_s: [8, 10] }, replicates: { count: 2 } };
+  await area.fill(JSON.stringify({ ...request, bound: "low" }));
+  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByRole("alert").getByText("/bound: must be a number").waitFor();
+  await expectAccessible(page);
+  await area.fill(JSON.stringify(request));
+  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByText(/^succeeded: 100 %/).waitFor();
+  await page.locator(".chart canvas").nth(1).waitFor();
+  const search = await ask(`/v1/searches/${page.url().split("/").at(-1)}`);
+  assert.equal(await page.getByRole("region", { name: "Limits" }).getByRole("row").count(), 1 + search.limits.length);
+  await page.getByRole("combobox", { name: "At" }).selectOption("1");
+  await expectAccessible(page);
+  await picture(page, "limits", { fullPage: true });
+  await page.getByRole("button", { name: "Delete" }).click();
+  await page.getByRole("button", { name: "Delete", exact: true }).last().click();
+  await page.getByText("No search has been begun yet").waitFor();
+  assert.equal((await fetch(`${url}/v1/sweeps/${search.sweep_id}`)).status, 404);
+  await leave(page, /422/);
+});
+
+test("a sweep says what its results mean", async () => {
+  const over = { clearance_mm: { from: 0.1, to: 0.4 }, restitution: { from: 0.7, to: 0.9 } };
+  const designed = await runSweep({ name: "indices", parameters: short, design: { type: "saltelli", count: 4, over } });
+  const compared = await runSweep({ name: "pairs", parameters: { ...short, run_up_s: 0 }, sweep: { crank_velocity_rad_s: [10, 20, 30], coupler: ["rigid", "flexible"] }, replicates: { count: 2 } });
+  const page = await visit(`#/sweeps/${compared.id}`);
+  await page.getByRole("link", { name: "What it says" }).click();
+  for (const title of ["Does flexibility help?", "Surrogate", "Bifurcation diagram", "Largest Lyapunov exponent"]) await page.getByRole("heading", { name: title }).waitFor();
+  await page.getByRole("region", { name: "Rigid and flexible" }).waitFor();
+  await page.getByRole("region", { name: "Lyapunov exponents" }).waitFor();
+  await page.locator(".chart:not([hidden]) canvas").nth(1).waitFor();
+  await expectAccessible(page);
+  await picture(page, "analyses", { fullPage: true });
+  await page.goto(`${url}/#/analyses/${designed.id}`);
+  await page.getByRole("region", { name: "Sensitivity" }).getByText("Restitution").waitFor();
+  await page.getByText(/predicts a point from all others/).waitFor();
+  await page.locator(".chart canvas").nth(1).waitFor();
+  await page.getByLabel("Metric").selectOption("impact_count");
+  await page.waitForURL(/metric=impact_count/);
+  await page.locator(".chart canvas").nth(1).waitFor();
+  await expectAccessible(page);
+  await picture(page, "sensitivity", { fullPage: true });
   await leave(page);
 });
 

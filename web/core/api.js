@@ -34,6 +34,7 @@ function problemOf(text) {
 }
 
 const sweepPath = (id) => `/v1/sweeps/${encodeURIComponent(id)}`;
+const searchPath = (id) => `/v1/searches/${encodeURIComponent(id)}`;
 const jobPath = (id) => `/v1/jobs/${encodeURIComponent(id)}`;
 const withQuery = (path, query) => {
   const set = Object.entries(query).filter(([, value]) => value !== undefined && value !== "");
@@ -47,11 +48,26 @@ export const submitSweep = (request) => ask("/v1/sweeps", { method: "POST", body
 export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
 export const retrySweep = (id) => ask(`${sweepPath(id)}/retry`, { method: "POST" });
 export const deleteSweep = (id) => ask(sweepPath(id), { method: "DELETE" });
+export const listSearches = (query, signal) => ask(withQuery("/v1/searches", query), { signal });
+export const findSearch = (id, signal) => ask(searchPath(id), { signal });
+export const submitSearch = (request) => ask("/v1/searches", { method: "POST", body: request });
+export const cancelSearch = (id) => ask(`${searchPath(id)}/cancel`, { method: "POST" });
+export const retrySearch = (id) => ask(`${searchPath(id)}/retry`, { method: "POST" });
+export const deleteSearch = (id) => ask(searchPath(id), { method: "DELETE" });
+export const limitsUrl = (id, query = {}) => withQuery(`${searchPath(id)}/results`, query);
 export const findResults = (id, query, signal) => ask(resultsUrl(id, query), { signal });
 export const findJob = (id, signal) => ask(jobPath(id), { signal });
 export const submitJob = (parameters) => ask("/v1/jobs", { method: "POST", body: parameters });
 export const cancelJob = (id) => ask(`${jobPath(id)}/cancel`, { method: "POST" });
 export const eventsUrl = (id) => `${sweepPath(id)}/events`;
+
+/// What is worked out of a sweep: sensitivity, surrogate, flexibility, bifurcation, lyapunov.
+export const findAnalysis = (id, analysis, query, signal) => ask(withQuery(`${sweepPath(id)}/${analysis}`, query), { signal });
+export const reportUrl = (id) => `${sweepPath(id)}/report`;
+/// What is worked out of a job, as columns: spectrum, poincare.
+export const findMotion = (id, analysis, query, signal) => ask(withQuery(`${jobPath(id)}/${analysis}`, query), { signal }).then(({ columns }) => columns);
+
+export const findWear = (id, query, signal) => ask(withQuery(`${jobPath(id)}/wear`, query), { signal });
 
 export function resultsUrl(id, query = {}) {
   return withQuery(`${sweepPath(id)}/results`, query);

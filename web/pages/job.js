@@ -7,6 +7,8 @@ import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
 import { idealOf, isIdeal } from "/run/ideal.js";
+import { motionCard } from "/analysis/motion.js";
+import { wearCard } from "/analysis/wear.js";
 import { orbit } from "/run/orbit.js";
 import { overlayPicker } from "/run/overlay.js";
 import { plotCard, tracesOf } from "/run/plot_card.js";
@@ -73,7 +75,8 @@ class JobPage {
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
     const add = choice("Add a channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
     const plots = [this.main, clearance > 0 ? this.card("Contact force", ["contact_force_n"]) : null, this.card("Drive torque and force", ["crank_torque_n_m", "rod_force_n"]),
-      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay())];
+      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay()), motionCard(this.job, columns, this.signal),
+      clearance > 0 ? wearCard(this.job, this.signal) : null];
     const side = [sceneCard(this.job, linksOf(all), this.times, this.signal), clearance > 0 ? orbit(this.job, this.times, this.signal) : null, metricsCard(this.jobs), runCard(this.job, this.schema)];
     return [timeBar(this.times, this.job, this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }

@@ -65,7 +65,7 @@ class SweepForm {
         this.text("Seed", replicates, "seed", { type: "number" }), this.text("Priority", this.state, "priority", { type: "number", min: -100, max: 100 }),
         choice("Results computed before", [["yes", "are used"], ["no", "are computed again"]], this.state.reuse ? "yes" : "no", (value) => { this.state.reuse = value === "yes"; this.update(); })),
       ...this.json("cases", "Cases: a JSON list of parameter sets, each times the axes"),
-      ...this.json("design", "Design: points that are no grid, as a JSON object (latin_hypercube, sobol, zip, one_at_a_time), each times the axes"));
+      ...this.json("design", "Design: points that are no grid, as a JSON object (latin_hypercube, sobol, zip, one_at_a_time, morris, saltelli), each times the axes"));
   }
 
   /// A part of the request that is written as JSON.

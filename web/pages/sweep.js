@@ -121,6 +121,7 @@ class SweepPage {
     const act = (text, run) => h("button", { onclick: () => run(this.sweep.id).then(() => this.reload()).then(() => isUnderWay(this.sweep) && this.followIt()).catch((error) => notify(error.message, "trouble")) }, text);
     this.buttons.replaceChildren(...[
       h("a", { class: "button", href: resultsUrl(this.sweep.id, { format: "csv" }), download: `${this.sweep.name || this.sweep.id}.csv` }, "CSV"),
+      h("a", { class: "button", href: routeTo("analyses", this.sweep.id) }, "What it says"),
       isUnderWay(this.sweep) ? act("Cancel", cancelSweep) : null,
       counts.failed + counts.cancelled > 0 ? act("Retry", retrySweep) : null,
       h("a", { class: "button", href: routeTo("new", "", { from: this.sweep.id }) }, "Use again")].filter(Boolean));

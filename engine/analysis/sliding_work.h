@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/dynamics/evaluation.h"
+#include "engine/model/rpsup_parameters.h"
+
+namespace engine {
+
+/// What Archard's law needs: the normal force of each ring of the journal times its sliding speed, over time, and where on the bore it pressed.
+///
+///     W = int f_n |v_t| dt,    W_n = int f_n |v_t| n dt,    worn volume = wear coefficient * W
+///
+/// A ring's share of the sum of normal forces is that of its elastic force, delta^1.5. Trapezoids over the steps, which end where a ring meets or
+/// leaves the bore.
+class SlidingWork {
+ public:
+  /// Of one ring, since the start of the run.
+  struct Ring {
+    double work = 0.0;            ///< W, [J]
+    double work_x = 0.0, work_y = 0.0;  ///< W_n in the bearing frame: its direction is the mean one, [J]
+  };
+
+  explicit SlidingWork(const RpsupParameters& parameters);
+
+  void take_step(const Evaluation& start, const Evaluation& end);
+
+  /// A ring's at a part of the last step, in [0, 1].
+  [[nodiscard]] Ring at(std::size_t ring, double part) const;
+  /// Of all rings together, [J].
+  [[nodiscard]] double total() const;
+
+ private:
+  /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring.
+  void add(const JointState& joint, double time);
+
+  const RpsupParameters& parameters_;
+  std::vector<Ring> before_, after_;  ///< at the ends of the last step
+  std::vector<double> shares_;        ///< of the rings in the normal force; kept for its room
+};
+
+}  // namespace engine

@@ -1,0 +1,136 @@
+#include "jobs/flexibility/flexibility.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "jobs/axis.h"
+#include "jobs/errors.h"
+#include "jobs/replicate_statistics.h"
+#include "jobs/sensitivity/row_groups.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kLosses[] = {"friction_work_j", "impact_loss_j", "structural_loss_j"};
+
+/// The values of a column in those rows of a group that have this coupler.
+std::vector<double> values_of(const ResultTable& results, const RowGroup& group, std::size_t coupler, const std::string& which, std::size_t column) {
+  std::vector<double> values;
+  for (const std::size_t r : group.rows) {
+    if (results.rows[r][coupler] != which) continue;
+    if (const auto value = number_in(results.rows[r][column])) values.push_back(*value);
+  }
+  return values;
+}
+
+/// Both couplers at one combination.
+struct Pair {
+  ReplicateStatistics rigid, flexible;
+  std::optional<double> ratio, least, largest;
+};
+
+Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coupler, std::size_t metric) {
+  Pair pair{.rigid = calc_replicate_statistics(values_of(results, group, coupler, "rigid", metric)),
+            .flexible = calc_replicate_statistics(values_of(results, group, coupler, "flexible", metric)), .ratio = {}, .least = {}, .largest = {}};
+  const bool comparable = pair.rigid.count > 0 && pair.flexible.count > 0 && *pair.rigid.min > 0.0;  // ratios of signs say nothing
+  if (!comparable) return pair;
+  pair.ratio = *pair.flexible.mean / *pair.rigid.mean;
+  pair.least = *pair.flexible.min / *pair.rigid.max;
+  pair.largest = *pair.flexible.max / *pair.rigid.min;
+  return pair;
+}
+
+json value_or_null(const std::optional<double>& value) { return value ? json(*value) : json(); }
+
+json verdict_of(const Pair& pair) {
+  if (!pair.ratio) return nullptr;
+  return *pair.largest < 1.0 ? "helps" : *pair.least > 1.0 ? "harms" : "either";
+}
+
+/// The energy that the coupler's dampers take, and its part of all losses, on the mean over the flexible jobs.
+std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup& group, std::size_t coupler) {
+  double all = 0.0;
+  std::optional<double> taken;
+  for (const char* const loss : kLosses) {
+    const auto mean = calc_replicate_statistics(values_of(results, group, coupler, "flexible", find_column(results, loss, ""))).mean;
+    if (mean) all += *mean;
+    taken = mean;  // the last one is the coupler's
+  }
+  if (!taken) return {nullptr, nullptr};
+  return {*taken, all > 0.0 ? json(*taken / all) : json()};
+}
+
+/// For each group the former value along a column where the ratio was on the other side of 1.
+std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std::vector<Pair>& pairs, std::optional<std::size_t> along) {
+  std::vector<json> reversals(groups.size());
+  if (!along) return reversals;
+  std::map<json, std::map<double, std::size_t>> lines;  // all else equal, in the order of the values along
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!pairs[g].ratio) continue;
+    json others = groups[g].values;
+    others.erase(*along);
+    lines[others][groups[g].values[*along].get<double>()] = g;
+  }
+  for (const auto& [others, line] : lines) {
+    for (auto at = line.begin(); at != line.end() && std::next(at) != line.end(); ++at) {
+      const auto after = std::next(at);
+      if ((*pairs[at->second].ratio < 1.0) != (*pairs[after->second].ratio < 1.0)) reversals[after->second] = at->first;
+    }
+  }
+  return reversals;
+}
+
+void append(const ReplicateStatistics& statistics, std::vector<json>& cells) {
+  cells.insert(cells.end(), {statistics.count, value_or_null(statistics.mean), value_or_null(statistics.spread), value_or_null(statistics.min),
+      value_or_null(statistics.max)});
+}
+
+}  // namespace
+
+ResultTable compare_couplers(const json& sweep, const ResultTable& results, const std::string& metric) {
+  const std::size_t metric_column = find_metric(results, metric);
+  ResultTable table{.columns = {}, .rows = {}, .ended = results.ended};
+  std::vector<std::size_t> columns;
+  std::optional<std::size_t> along;
+  bool varied = false;
+  for (const json& axis : sweep.at("axes")) {
+    const auto path = axis.get<std::string>();
+    if (path == "coupler") {
+      varied = true;
+      continue;
+    }
+    if (!along && is_numeric(path)) along = columns.size();
+    columns.push_back(find_column(results, path, ""));
+    table.columns.push_back(path);
+  }
+  if (!varied) throw WrongState("the sweep does not vary the coupler: there are no rigid and flexible jobs to pair");
+  const std::string along_name = along ? table.columns[*along] : "";
+  table.columns.insert(table.columns.end(), {"metric", "ratio", "ratio_least", "ratio_largest", "verdict", "along", "reverses_from",
+      "coupler_loss_j", "coupler_loss_part"});
+  for (const std::string coupler : {"rigid", "flexible"}) {
+    for (const char* const part : {"_count", "_mean", "_spread", "_min", "_max"}) table.columns.push_back(coupler + part);
+  }
+  const std::size_t coupler = find_column(results, "coupler", "");
+  const auto groups = group_rows(results, columns);
+  std::vector<Pair> pairs;
+  for (const RowGroup& group : groups) pairs.push_back(pair_of(results, group, coupler, metric_column));
+  const auto reversals = find_reversals(groups, pairs, along);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Pair& pair = pairs[g];
+    const auto [loss, part] = coupler_loss_of(results, groups[g], coupler);
+    std::vector<json> cells = groups[g].values;
+    cells.insert(cells.end(), {metric, value_or_null(pair.ratio), value_or_null(pair.least), value_or_null(pair.largest), verdict_of(pair),
+                               along ? json(along_name) : json(), reversals[g], loss, part});
+    append(pair.rigid, cells);
+    append(pair.flexible, cells);
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace jobs

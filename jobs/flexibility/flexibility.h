@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/service.h"
+
+namespace jobs {
+
+/// Whether a flexible coupler helps: a row for each combination of what a sweep varies beside the coupler, in which its rigid and its flexible
+/// jobs stand side by side.
+///
+/// `ratio` is the flexible mean of the metric over the rigid one; with replicates it lies between `ratio_least` (the least flexible value over
+/// the largest rigid one) and `ratio_largest`. `verdict` is "helps" if even the largest is below 1, "harms" if even the least is above it, else
+/// "either". `reverses_from` is the former value of `along`, the first number that is swept, if the ratio was on the other side of 1 there, all
+/// else equal. `coupler_loss_j` is the energy that the coupler's dampers take, `coupler_loss_part` its part of all losses.
+/// @throws InvalidRequest ("/metric"); WrongState if the sweep does not vary the coupler
+[[nodiscard]] ResultTable compare_couplers(const nlohmann::json& sweep, const ResultTable& results, const std::string& metric);
+
+}  // namespace jobs

@@ -1,0 +1,133 @@
+#include "jobs/search/limit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace jobs {
+namespace {
+
+/// Whether a comes before b on the way.
+bool comes_before(const SearchPath& path, double a, double b) { return path.from <= path.to ? a < b : a > b; }
+
+double value_between(const SearchPath& path, double a, double b, double part) {
+  const double x = path.logarithmic ? a * std::pow(b / a, part) : std::lerp(a, b, part);
+  return path.integer ? std::round(x) : x;
+}
+
+bool is_narrow(const SearchPath& path, double a, double b) {
+  if (std::abs(b - a) <= path.tolerance) return true;
+  const double middle = value_between(path, a, b, 0.5);
+  return middle == a || middle == b;  // nothing lies between, of integers or of doubles
+}
+
+/// An evaluation that has ended, as the rule sees it.
+struct Judged {
+  double x = 0.0;
+  bool within = false;
+  double least = 0.0, most = 0.0;  ///< of the replicates
+};
+
+Judged judge(const Evaluation& evaluation, const LimitRule& rule) {
+  const auto [least, most] = std::ranges::minmax(evaluation.values);
+  return {.x = evaluation.x, .within = calc_quantile(evaluation.values, rule.quantile) <= rule.bound, .least = least, .most = most};
+}
+
+/// Whether what is missing could change what is refined: it lies before the first value that is beyond the bound, or is needed to know that one.
+bool is_lost(const std::vector<Evaluation>& evaluations, const LimitRule& rule) {
+  for (const Evaluation& evaluation : evaluations) {
+    if (evaluation.lost > 0) return true;
+    if (!judge(evaluation, rule).within) return false;
+  }
+  return false;
+}
+
+void take_bands(const std::vector<Judged>& judged, const LimitRule& rule, Limit& limit) {
+  for (const Judged& at : judged) {
+    if (at.most > rule.bound) break;
+    limit.band_from = at.x;
+  }
+  for (auto at = judged.rbegin(); at != judged.rend() && at->least > rule.bound; ++at) limit.band_to = at->x;
+}
+
+void take_falls(const std::vector<Judged>& judged, Limit& limit) {
+  for (std::size_t i = 1; i < judged.size(); ++i) {
+    const bool again = judged[i].within && !judged[i - 1].within;
+    if (again || judged[i].most < judged[i - 1].least) limit.falls.push_back({judged[i - 1].x, judged[i].x, again});
+  }
+}
+
+}  // namespace
+
+std::string_view verdict_name(Verdict verdict) {
+  constexpr std::array<std::string_view, 5> kNames{"open", "found", "never_exceeded", "always_exceeded", "lost"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+double calc_quantile(std::vector<double> values, double quantile) {
+  std::ranges::sort(values);
+  // 0.9 of ten values are nine of them, although 0.9 as a double is a little more.
+  const double wanted = std::ceil(quantile * static_cast<double>(values.size()) * (1.0 - 1e-12));
+  return values[static_cast<std::size_t>(std::max(wanted, 1.0)) - 1];
+}
+
+std::vector<double> first_values(const SearchPath& path) {
+  std::vector<double> values;
+  for (std::uint64_t k = 0; k < path.first; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(path.first - 1);
+    const double x = k == 0 ? path.from : k + 1 == path.first ? path.to : value_between(path, path.from, path.to, part);
+    if (values.empty() || values.back() != x) values.push_back(x);
+  }
+  return values;
+}
+
+std::size_t most_evaluations(const SearchPath& path) {
+  const auto values = first_values(path);
+  std::size_t most_halvings = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    // The upper half is the wider one on a logarithmic way up, the first one on the way down.
+    double a = values[i - 1];
+    double b = values[i];
+    std::size_t halvings = 0;
+    for (; !is_narrow(path, a, b); ++halvings) {
+      const double middle = value_between(path, a, b, 0.5);
+      (std::abs(b - middle) >= std::abs(middle - a) ? a : b) = middle;
+    }
+    most_halvings = std::max(most_halvings, halvings);
+  }
+  return values.size() + most_halvings;
+}
+
+Limit find_limit(const SearchPath& path, const LimitRule& rule, std::vector<Evaluation> evaluations) {
+  std::erase_if(evaluations, [&](const Evaluation& at) { return comes_before(path, at.x, path.from) || comes_before(path, path.to, at.x); });
+  std::ranges::sort(evaluations, [&](const Evaluation& a, const Evaluation& b) { return comes_before(path, a.x, b.x); });
+  Limit limit;
+  std::vector<Judged> judged;
+  for (const Evaluation& at : evaluations) {
+    if (at.pending == 0 && at.lost == 0 && !at.values.empty()) judged.push_back(judge(at, rule));
+  }
+  take_bands(judged, rule, limit);
+  take_falls(judged, limit);
+  if (std::ranges::any_of(evaluations, [](const Evaluation& at) { return at.pending > 0; })) return limit;
+  for (const double x : first_values(path)) {
+    if (std::ranges::find(evaluations, x, &Evaluation::x) == evaluations.end()) limit.next.push_back(x);
+  }
+  if (!limit.next.empty()) return limit;
+  if (is_lost(evaluations, rule)) {
+    limit.verdict = Verdict::kLost;
+    return limit;
+  }
+  const auto beyond = std::ranges::find(judged, false, &Judged::within);
+  if (beyond != judged.end()) limit.beyond = beyond->x;
+  if (beyond != judged.begin()) limit.within = std::prev(beyond)->x;
+  if (!limit.beyond || !limit.within) {
+    limit.verdict = limit.within ? Verdict::kNeverExceeded : Verdict::kAlwaysExceeded;
+  } else if (is_narrow(path, *limit.within, *limit.beyond)) {
+    limit.verdict = Verdict::kFound;
+  } else {
+    limit.next = {value_between(path, *limit.within, *limit.beyond, 0.5)};
+  }
+  return limit;
+}
+
+}  // namespace jobs

@@ -1,0 +1,208 @@
+#include "jobs/search/search_picture.h"
+
+#include <algorithm>
+#include <map>
+
+#include <boost/math/distributions/binomial.hpp>
+
+#include "jobs/axis.h"
+#include "jobs/resource_json.h"
+#include "jobs/time_text.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kConfidence = 0.9;  ///< of the interval of part_within
+
+template <typename T>
+json value_or_null(const std::optional<T>& value) { return value ? json(*value) : json(); }
+
+std::size_t column_of(const ResultTable& table, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(table.columns, name) - table.columns.begin());
+}
+
+/// The evaluation of a combination at a value of the parameter; it is made if there is none yet.
+std::size_t place_of(double x, CombinationPicture& combination) {
+  auto& known = combination.evaluations;
+  const auto found = std::ranges::find(known, x, &Evaluation::x);
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+  known.push_back({.x = x, .values = {}});
+  combination.job_ids.emplace_back();
+  return known.size() - 1;
+}
+
+void take_job(const std::string& id, const std::string& state, double x, const json& value, CombinationPicture& combination) {
+  const std::size_t place = place_of(x, combination);
+  Evaluation& evaluation = combination.evaluations[place];
+  combination.job_ids[place].push_back(id);
+  combination.cancelled |= state == "cancelled";
+  if (state == "queued" || state == "running") {
+    ++evaluation.pending;
+  } else if (value.is_number()) {
+    evaluation.values.push_back(value.get<double>());
+  } else {
+    ++evaluation.lost;
+  }
+}
+
+/// Which part of all replicates there could be stays within the bound: the interval of Clopper and Pearson.
+json part_within_json(std::size_t within, std::size_t count) {
+  using Binomial = boost::math::binomial_distribution<double>;
+  const double n = static_cast<double>(count);
+  const double k = static_cast<double>(within);
+  const double side = 0.5 * (1.0 - kConfidence);
+  return {{"within", within}, {"part_within_low", Binomial::find_lower_bound_on_p(n, k, side)},
+      {"part_within_high", Binomial::find_upper_bound_on_p(n, k, side)}};
+}
+
+json evaluation_json(const Evaluation& evaluation, const std::vector<std::string>& job_ids, const LimitRule& rule) {
+  json made{{"value", evaluation.x}, {"count", evaluation.values.size()}, {"pending", evaluation.pending}, {"lost", evaluation.lost},
+      {"job_ids", job_ids},
+            {"quantile", nullptr}, {"min", nullptr}, {"max", nullptr}, {"within", nullptr}, {"part_within_low", nullptr},
+            {"part_within_high", nullptr}};
+  if (evaluation.values.empty()) return made;
+  const auto [least, most] = std::ranges::minmax(evaluation.values);
+  const auto within = std::ranges::count_if(evaluation.values, [&](double value) { return value <= rule.bound; });
+  made.update({{"quantile", calc_quantile(evaluation.values, rule.quantile)}, {"min", least}, {"max", most}});
+  made.update(part_within_json(static_cast<std::size_t>(within), evaluation.values.size()));
+  return made;
+}
+
+json fall_json(const Fall& fall) { return {{"from", fall.from}, {"to", fall.to}, {"within_again", fall.within_again}}; }
+
+/// What a combination's row in the table and its entry in the resource have in common.
+json limit_json(const CombinationPicture& combination, const SearchRequest& search) {
+  const Limit& limit = combination.limit;
+  json made = json::object();
+  for (std::size_t i = 0; i < combination.values.size(); ++i) made[search.common.axes[i].path] = combination.values[i];
+  made.update({{"verdict", verdict_name(limit.verdict)}, {"limit", value_or_null(limit.within)}, {"limit_beyond", value_or_null(limit.beyond)},
+               {"band_from", value_or_null(limit.band_from)}, {"band_to", value_or_null(limit.band_to)},
+               {"evaluations", combination.evaluations.size()}, {"monotonic", limit.falls.empty()}});
+  return made;
+}
+
+json full_limit_json(const CombinationPicture& combination, const SearchRequest& search) {
+  json made = limit_json(combination, search);
+  made["falls"] = json::array();
+  for (const Fall& fall : combination.limit.falls) made["falls"].push_back(fall_json(fall));
+  std::map<double, json> points;  // in the order of their values
+  for (std::size_t i = 0; i < combination.evaluations.size(); ++i) {
+    points[combination.evaluations[i].x] = evaluation_json(combination.evaluations[i], combination.job_ids[i], search.rule);
+  }
+  made["points"] = json::array();
+  for (auto& [x, point] : points) made["points"].push_back(std::move(point));
+  return made;
+}
+
+double calc_progress(const SearchPicture& picture, const SearchRequest& search) {
+  double sum = 0.0;
+  const auto most = static_cast<double>(most_evaluations(search.path));
+  for (const CombinationPicture& combination : picture.combinations) {
+    const auto done = std::ranges::count(combination.evaluations, std::size_t{0}, &Evaluation::pending);
+    sum += combination.limit.verdict == Verdict::kOpen ? std::min(1.0, static_cast<double>(done) / most) : 1.0;
+  }
+  return sum / static_cast<double>(picture.combinations.size());
+}
+
+std::vector<std::string> paths_of_axes(const SearchRequest& search) {
+  std::vector<std::string> paths;
+  for (const Axis& axis : search.common.axes) paths.push_back(axis.path);
+  return paths;
+}
+
+}  // namespace
+
+bool SearchPicture::has_ended() const {
+  return std::ranges::all_of(combinations, [](const CombinationPicture& one) { return one.limit.verdict != Verdict::kOpen; });
+}
+
+std::string SearchPicture::end_state() const {
+  if (std::ranges::any_of(combinations, &CombinationPicture::cancelled)) return "cancelled";
+  const bool lost = std::ranges::any_of(combinations, [](const CombinationPicture& one) { return one.limit.verdict == Verdict::kLost; });
+  return lost ? "failed" : "succeeded";
+}
+
+SearchPicture make_picture(const SearchRequest& search, const SweepResults& results) {
+  const ResultTable table = result_table(results, {});
+  SearchPicture picture;
+  std::map<std::string, std::size_t> places;
+  for (auto& values : combinations_of(search)) {
+    std::string name;
+    for (std::size_t i = 0; i < values.size(); ++i) name += value_identity(search.common.axes[i].path, values[i]) + ' ';
+    places.emplace(name, picture.combinations.size());
+    picture.combinations.push_back({.values = std::move(values), .evaluations = {}, .job_ids = {}, .limit = {}});
+  }
+  const std::size_t parameter = column_of(table, search.parameter);
+  const std::size_t metric = column_of(table, search.metric);
+  std::vector<std::size_t> axes;
+  for (const Axis& axis : search.common.axes) axes.push_back(column_of(table, axis.path));
+  for (const auto& row : table.rows) {
+    std::string name;
+    for (std::size_t i = 0; i < axes.size(); ++i) name += value_identity(search.common.axes[i].path, row[axes[i]]) + ' ';
+    const auto found = places.find(name);
+    if (found == places.end()) continue;  // added to the sweep by hand
+    take_job(row[0].get<std::string>(), row[1].get<std::string>(), row[parameter].get<double>(), row[metric], picture.combinations[found->second]);
+  }
+  for (CombinationPicture& combination : picture.combinations) combination.limit = find_limit(search.path, search.rule, combination.evaluations);
+  return picture;
+}
+
+json search_summary_json(const SearchRow& row) {
+  const std::string self = "/v1/searches/" + row.id;
+  const auto request = nlohmann::ordered_json::parse(row.request);
+  const auto sweep = request.value("sweep", nlohmann::ordered_json::object());
+  json axes = json::array();
+  for (const auto& [path, values] : sweep.items()) axes.push_back(path);
+  return {{"id", row.id}, {"name", row.name}, {"state", row.state}, {"error", value_or_null(row.error)}, {"sweep_id", row.sweep_id},
+          {"parameter", request.at("over").begin().key()}, {"metric", json(request.at("metric"))}, {"bound", json(request.at("bound"))},
+          {"quantile", request.value("quantile", LimitRule{}.quantile)}, {"axes", std::move(axes)}, {"created_at", time_text(row.created_ms)},
+          {"ended_at", row.ended_ms ? json(time_text(*row.ended_ms)) : json()},
+          {"links", {{"self", self}, {"results", self + "/results"}, {"cancel", self + "/cancel"}, {"retry", self + "/retry"},
+          {"sweep", "/v1/sweeps/" + row.sweep_id}}}};
+}
+
+const std::vector<std::string>& search_listing_keys() {
+  static const std::vector<std::string> keys = [] {
+    SearchRow row;
+    row.request = R"({"over": {"clearance_mm": {}}, "metric": "", "bound": 0})";
+    std::vector<std::string> found;
+    const json summary = search_summary_json(row);
+    for (const auto& [key, value] : summary.items()) found.push_back(key);
+    return found;
+  }();
+  return keys;
+}
+
+json search_json(const SearchRow& row, const SearchRequest& search, const SweepResults& results, int threads) {
+  const SearchPicture picture = make_picture(search, results);
+  json made = search_summary_json(row);
+  made["axes"] = paths_of_axes(search);
+  made["counts"] = progress_json(results.sweep, threads).at("counts");
+  made["progress"] = row.state == "running" ? calc_progress(picture, search) : 1.0;
+  made["most_evaluations"] = most_evaluations(search.path) * picture.combinations.size();
+  made["limits"] = json::array();
+  for (const CombinationPicture& combination : picture.combinations) made["limits"].push_back(full_limit_json(combination, search));
+  made["request"] = json::parse(row.request);
+  return made;
+}
+
+ResultTable limit_table(const SearchRow& row, const SearchRequest& search, const SweepResults& results) {
+  ResultTable table{.columns = paths_of_axes(search), .rows = {}, .ended = row.state != "running"};
+  for (const char* const column : {"parameter", "metric", "bound", "quantile", "verdict", "limit", "limit_beyond", "band_from", "band_to",
+      "evaluations", "monotonic"}) {
+    table.columns.emplace_back(column);
+  }
+  const json common{{"parameter", search.parameter}, {"metric", search.metric}, {"bound", search.rule.bound}, {"quantile", search.rule.quantile}};
+  for (const CombinationPicture& combination : make_picture(search, results).combinations) {
+    json flat = limit_json(combination, search);
+    flat.update(common);
+    std::vector<json> cells;
+    for (const std::string& column : table.columns) cells.push_back(flat.at(column));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace jobs

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jobs/service.h"
+
+namespace jobs {
+
+/// Rows of a table that agree in some columns, in their order.
+struct RowGroup {
+  std::vector<nlohmann::json> values;  ///< of those columns
+  std::vector<std::size_t> rows;
+};
+
+/// Where a column stands. @throws InvalidRequest with that pointer if there is none of that name
+[[nodiscard]] std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer);
+
+/// In the order of their first rows.
+[[nodiscard]] std::vector<RowGroup> group_rows(const ResultTable& table, const std::vector<std::size_t>& columns);
+
+/// The metric's column. @throws InvalidRequest with the pointer "/metric" if there is no such metric
+[[nodiscard]] std::size_t find_metric(const ResultTable& table, const std::string& metric);
+
+/// The number in a cell, if there is one.
+[[nodiscard]] std::optional<double> number_in(const nlohmann::json& cell);
+
+}  // namespace jobs

@@ -1,0 +1,154 @@
+#include "jobs/sensitivity/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "jobs/errors.h"
+#include "jobs/replicate_statistics.h"
+#include "jobs/sampled_designs.h"
+#include "jobs/sensitivity/effect_points.h"
+#include "jobs/sensitivity/row_groups.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// A sweep's design, its parameters in the order of the request: the resource has them in the order of the alphabet, but lists what is
+/// swept in that of the request.
+ordered_json design_of(const json& sweep) {
+  const json given = sweep.at("request").value("design", json::object());
+  const json type = given.value("type", json());
+  if (type != "morris" && type != "saltelli") throw WrongState("the sweep has no design of type morris or saltelli");
+  ordered_json design = ordered_json::object();
+  for (const auto& [key, value] : given.items()) design[key] = value;
+  design["over"] = ordered_json::object();
+  for (const json& path : sweep.at("axes")) {
+    if (given.at("over").contains(path)) design["over"][path.get<std::string>()] = given.at("over").at(path.get<std::string>());
+  }
+  return design;
+}
+
+/// The response of one combination at the points of the design.
+struct Response {
+  std::vector<std::optional<double>> means;  ///< over the replicates
+  std::vector<double> spreads;               ///< standard deviations, of points with two values or more
+};
+
+Response response_of(const ResultTable& results, const RowGroup& group, std::size_t metric, std::size_t points) {
+  const std::size_t replicates = group.rows.size() / points;
+  Response response;
+  for (std::size_t k = 0; k < points; ++k) {
+    std::vector<double> values;
+    for (std::size_t r = 0; r < replicates; ++r) {
+      if (const auto value = number_in(results.rows[group.rows[k * replicates + r]][metric])) values.push_back(*value);
+    }
+    const ReplicateStatistics statistics = calc_replicate_statistics(values);
+    response.means.push_back(statistics.mean);
+    if (statistics.spread) response.spreads.push_back(*statistics.spread);
+  }
+  return response;
+}
+
+/// The blocks of the design in which every point has a value.
+struct WholeBlocks {
+  UnitPoints points;
+  std::vector<double> values;
+  std::size_t blocks = 0, missing = 0;
+};
+
+WholeBlocks whole_blocks_of(const UnitPoints& points, const Response& response, std::size_t width) {
+  WholeBlocks whole;
+  for (std::size_t first = 0; first < points.size(); first += width) {
+    const auto begin = response.means.begin() + static_cast<std::ptrdiff_t>(first);
+    if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(width), [](const auto& value) { return !value.has_value(); })) {
+      ++whole.missing;
+      continue;
+    }
+    ++whole.blocks;
+    for (std::size_t k = first; k < first + width; ++k) {
+      whole.points.push_back(points[k]);
+      whole.values.push_back(*response.means[k]);
+    }
+  }
+  return whole;
+}
+
+/// The part of the variance that lies between replicates; null without them, or where nothing varies.
+json noise_of(const Response& response, const ReplicateStatistics& all) {
+  if (response.spreads.empty() || !all.spread || *all.spread == 0.0) return nullptr;
+  double within = 0.0;
+  for (const double spread : response.spreads) within += spread * spread / static_cast<double>(response.spreads.size());
+  return within / (within + *all.spread * *all.spread);
+}
+
+void append(const Estimate& estimate, std::vector<json>& cells) {
+  for (const double value : {estimate.value, estimate.low, estimate.high}) cells.emplace_back(value);
+}
+
+/// The cells of each parameter; nulls if there are too few blocks.
+std::vector<std::vector<json>> measures_of(bool morris, const WholeBlocks& whole, std::size_t dimensions) {
+  std::vector<std::vector<json>> cells(dimensions);
+  if (whole.blocks < 2) return std::vector<std::vector<json>>(dimensions, std::vector<json>(morris ? 5 : 6));
+  if (morris) {
+    const auto effects = calc_elementary_effects(whole.points, whole.values);
+    for (std::size_t i = 0; i < dimensions; ++i) {
+      cells[i].emplace_back(effects[i].mean);
+      append(effects[i].mean_size, cells[i]);
+      cells[i].emplace_back(effects[i].deviation);
+    }
+  } else {
+    const auto indices = calc_sobol_indices(whole.values, dimensions);
+    for (std::size_t i = 0; i < dimensions; ++i) {
+      append(indices[i].first_order, cells[i]);
+      append(indices[i].total, cells[i]);
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, const std::string& metric) {
+  const std::size_t metric_column = find_metric(results, metric);
+  const ordered_json design = design_of(sweep);
+  const bool morris = design.at("type") == "morris";
+  const UnitPoints points = effect_points_of(design);
+  const std::size_t dimensions = design.at("over").size();
+  ResultTable table{.columns = {}, .rows = {}, .ended = results.ended};
+  std::vector<std::size_t> others;
+  for (const json& path : sweep.at("axes")) {
+    if (design.at("over").contains(path)) continue;
+    table.columns.push_back(path.get<std::string>());
+    others.push_back(find_column(results, path.get<std::string>(), ""));
+  }
+  for (const char* const column : {"metric", "parameter", "blocks", "blocks_missing", "mean", "deviation",
+      "noise"}) table.columns.emplace_back(column);
+  if (morris) {
+    table.columns.insert(table.columns.end(), {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"});
+  } else {
+    table.columns.insert(table.columns.end(), {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"});
+  }
+  for (const RowGroup& group : group_rows(results, others)) {
+    const Response response = response_of(results, group, metric_column, points.size());
+    const WholeBlocks whole = whole_blocks_of(points, response, dimensions + (morris ? 1 : 2));
+    const ReplicateStatistics all = calc_replicate_statistics(whole.values);
+    const auto measures = measures_of(morris, whole, dimensions);
+    std::size_t input = 0;
+    for (const auto& [path, range] : design.at("over").items()) {
+      std::vector<json> cells = group.values;
+      cells.insert(cells.end(), {metric, path, whole.blocks, whole.missing, all.mean ? json(*all.mean) : json(), all.spread ? json(*all.spread)
+          : json(), noise_of(response, all)});
+      cells.insert(cells.end(), measures[input].begin(), measures[input].end());
+      table.rows.push_back(std::move(cells));
+      ++input;
+    }
+  }
+  return table;
+}
+
+}  // namespace jobs

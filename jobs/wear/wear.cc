@@ -1,0 +1,84 @@
+#include "jobs/wear/wear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "jobs/errors.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// The three channels of a ring: its sliding work, and the same times the normal.
+struct RingChannels {
+  const std::vector<double>& work;
+  const std::vector<double>& work_x;
+  const std::vector<double>& work_y;
+};
+
+RingChannels ring_channels(const engine::Trajectory& run, int ring) {
+  const std::string key = "ring_" + std::to_string(ring) + "_sliding_work";
+  const auto find = [&](const std::string& channel) -> const std::vector<double>& {
+    const auto found = std::ranges::find(run.channels, channel, &engine::QuantityInfo::key);
+    if (found == run.channels.end()) throw WrongState("the job was computed by a program that did not keep " + channel);
+    return run.columns.at(static_cast<std::size_t>(found - run.channels.begin()));
+  };
+  return {find(key + "_j"), find(key + "_x_j"), find(key + "_y_j")};
+}
+
+/// Sliding work in each sector.
+std::vector<double> gather(const RingChannels& ring, std::size_t sectors) {
+  std::vector<double> work(sectors, 0.0);
+  for (std::size_t k = 1; k < ring.work.size(); ++k) {
+    const double more = ring.work[k] - ring.work[k - 1];
+    if (!(more > 0.0)) continue;
+    const double angle = std::atan2(ring.work_y[k] - ring.work_y[k - 1], ring.work_x[k] - ring.work_x[k - 1]);
+    const double part = (angle < 0.0 ? angle + kTurn : angle) / kTurn;
+    work[std::min(static_cast<std::size_t>(part * static_cast<double>(sectors)), sectors - 1)] += more;
+  }
+  return work;
+}
+
+}  // namespace
+
+std::vector<std::string> wear_channels(const json& parameters) {
+  std::vector<std::string> channels;
+  for (int ring = 1; ring <= parameters.at("radial_levels").get<int>(); ++ring) {
+    for (const char* const part : {"_j", "_x_j", "_y_j"}) channels.push_back("ring_" + std::to_string(ring) + "_sliding_work" + part);
+  }
+  return channels;
+}
+
+ResultTable make_wear_map(const json& parameters, const engine::Trajectory& run, const WearQuery& query) {
+  const double clearance_mm = parameters.at("clearance_mm");
+  if (!(clearance_mm > 0.0)) throw WrongState("the joint of this job has no clearance, and does not slide");
+  if (query.worn_clearance && !(*query.worn_clearance > clearance_mm)) {
+    throw InvalidRequest(std::vector<Fault>{{"/worn_clearance_mm", "must be more than the clearance of the job, " + number_text(clearance_mm) +
+        " mm"}});
+  }
+  if (run.columns.at(0).size() < 2) throw WrongState("a wear map needs two samples or more");
+  const int rings = parameters.at("radial_levels");
+  const double length_mm = parameters.at("bearing_length_mm");
+  const double sector = kTurn / static_cast<double>(query.sectors);
+  const double area = 1e-6 * parameters.at("bearing_radius_mm").get<double>() * sector * length_mm / rings;  // [m^2]
+  const double hours = (run.columns[0].back() - run.columns[0].front()) / 3600.0;
+  ResultTable table{.columns = {"ring", "position_mm", "angle_rad", "sliding_work_j", "depth_um", "rate_um_h", "life_h"}, .rows = {}, .ended = true};
+  for (int ring = 1; ring <= rings; ++ring) {
+    const double position_mm = rings == 1 ? 0.0 : length_mm * (static_cast<double>(ring - 1) / (rings - 1) - 0.5);
+    const auto work = gather(ring_channels(run, ring), query.sectors);
+    for (std::size_t s = 0; s < work.size(); ++s) {
+      const double depth_um = 1e6 * query.wear_coefficient * work[s] / area;
+      const double rate = depth_um / hours;
+      const bool lives = query.worn_clearance && rate > 0.0;
+      table.rows.push_back({ring, position_mm, (static_cast<double>(s) + 0.5) * sector, work[s], depth_um, rate,
+                            lives ? json(1e3 * (*query.worn_clearance - clearance_mm) / rate) : json()});
+    }
+  }
+  return table;
+}
+
+}  // namespace jobs

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/range.h"
+#include "jobs/service.h"
+
+namespace jobs {
+
+inline constexpr Range kSectorsRange{.minimum = 4, .maximum = 720};
+inline constexpr Range kWearCoefficientRange{.minimum = 0.0, .lower = Bound::kExclusive};
+
+/// What is wanted of a wear map.
+struct WearQuery {
+  double wear_coefficient = 1e-15;  ///< worn volume over normal force and sliding distance, [m^2/N]
+  std::size_t sectors = 36;         ///< around the bore, in kSectorsRange
+  std::optional<double> worn_clearance;  ///< whose life is asked for, [mm]
+};
+
+/// The channels that a map is made of. @param parameters  of the job, completed
+[[nodiscard]] std::vector<std::string> wear_channels(const nlohmann::json& parameters);
+
+/// The depth that Archard's law wears off the bore along a run, k W / A in each cell of the bearing: a sector of the circumference, and of the
+/// length the part
+/// that belongs to one ring of the journal. What was worn between two samples is put where the contact was on the mean.
+///
+/// Rows: ring, position_mm (of the ring along the journal), angle_rad (the sector's middle in the bearing frame), sliding_work_j, depth_um,
+/// rate_um_h (if the run went on as it was), life_h (until the clearance there is worn_clearance; null without it, or where nothing is worn).
+/// @param run  t_s and wear_channels(), two samples or more
+/// @throws WrongState if the job has no clearance, InvalidRequest ("/worn_clearance_mm") if that is not above the job's
+[[nodiscard]] ResultTable make_wear_map(const nlohmann::json& parameters, const engine::Trajectory& run, const WearQuery& query);
+
+}  // namespace jobs

@@ -1,0 +1,107 @@
+#include "server/openapi/analysis_schemas.h"
+
+#include "engine/simulate_rpsup.h"
+#include "jobs/parameter_path.h"
+
+namespace server::openapi {
+
+namespace {
+
+const Json kText{{"type", "string"}};
+const Json kNumber{{"type", "number"}};
+const Json kNumberOrNull{{"type", {"number", "null"}}};
+const Json kCount{{"type", "integer"}, {"minimum", 0}};
+
+Json described(Json schema, std::string_view description) {
+  schema["description"] = description;
+  return schema;
+}
+
+/// Rows that have what is swept beside these.
+Json rows_of(Json properties) {
+  for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
+  return list_of(options_of(std::move(properties)));
+}
+
+Json make_sensitivity() {
+  Json properties{{"metric", kText}, {"parameter", kText}, {"blocks", described(kCount, "of the design, those in which every point has a value")},
+                  {"blocks_missing", kCount}, {"mean", kNumberOrNull}, {"deviation", kNumberOrNull},
+                  {"noise", described(kNumberOrNull, "the part of the variance that lies between replicates")}};
+  for (const char* const key : {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"}) {
+    properties[key] = described(kNumberOrNull,
+        "of a morris design: what the whole range of the parameter changes, in the metric's unit; low and high: 95 %");
+  }
+  for (const char* const key : {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"}) {
+    properties[key] = described(kNumberOrNull,
+        "of a saltelli design: the part of the metric's variance that the parameter makes, alone and in total; low and high: 95 %");
+  }
+  return rows_of(std::move(properties));
+}
+
+Json make_flexibility() {
+  Json properties{{"metric", kText}, {"ratio", described(kNumberOrNull, "flexible over rigid mean")},
+                  {"ratio_least", described(kNumberOrNull, "least flexible over largest rigid value")}, {"ratio_largest", kNumberOrNull},
+                  {"verdict", {{"enum", {"helps", "harms", "either", nullptr}}}}, {"along", or_null(kText)},
+                  {"reverses_from", described(kNumberOrNull,
+                  "the former value of the parameter `along`, if the ratio was on the other side of 1 there")},
+                  {"coupler_loss_j", described(kNumberOrNull, "energy that the coupler's dampers take")},
+                  {"coupler_loss_part", described(kNumberOrNull, "its part of all losses")}};
+  for (const std::string coupler : {"rigid", "flexible"}) {
+    properties[coupler + "_count"] = kCount;
+    for (const char* const part : {"_mean", "_spread", "_min", "_max"}) properties[coupler + part] = kNumberOrNull;
+  }
+  return rows_of(std::move(properties));
+}
+
+Json make_bifurcation() {
+  Json properties{{"job_id", ref("Id")}};
+  for (const engine::QuantityInfo& channel : engine::channel_table({})) properties[channel.key] = described(kNumberOrNull, channel.help);
+  Json rows = rows_of(std::move(properties));
+  rows["items"]["additionalProperties"] = kNumberOrNull;  // a flexible coupler has more poses
+  return rows;
+}
+
+Json make_lyapunov() {
+  return rows_of({{"pairs", described(kCount, "of a perturbed run and the one that is not")},
+      {"pairs_diverged", described(kCount, "those whose distance grew as far as the motion allows")},
+                  {"exponent_1_s", described(kNumberOrNull, "mean over those")}, {"exponent_low_1_s", kNumberOrNull},
+                  {"exponent_high_1_s", kNumberOrNull},
+                  {"from_s", described(kNumberOrNull, "with to_s: where it was measured, on the mean")}, {"to_s", kNumberOrNull}});
+}
+
+Json make_surrogate() {
+  Json input = object_of({{"parameter", kText}, {"from", kNumber}, {"to", kNumber}, {"scale", {{"type", "string"}, {"enum", {"linear", "log"}}}},
+      {"middle", kNumber}});
+  Json at{{"type", "object"}, {"required", {"value", "left_out_prediction"}}, {"additionalProperties", kNumberOrNull},
+          {"description", "the inputs, the value there, and what is predicted from all other points"}};
+  Json surface = object_of({{"where", {{"type", "object"}}}, {"points", kCount}, {"degree", or_null(kCount)}, {"terms", or_null(kCount)},
+                            {"cross_validation_error",
+                            described(kNumberOrNull, "root mean square, each point predicted from all others; in the metric's unit")},
+                            {"predicted_part", described(kNumberOrNull, "of the variance, the same way")},
+                            {"x_values", list_of(kNumber)}, {"y_values", list_of(kNumber)}, {"values", or_null(list_of(list_of(kNumberOrNull)))},
+                            {"at", list_of(std::move(at))}});
+  return object_of({{"metric", kText}, {"x", kText}, {"y", or_null(kText)}, {"inputs", list_of(std::move(input))},
+      {"surfaces", list_of(std::move(surface))}});
+}
+
+Json make_wear() {
+  Json properties{{"ring", kCount}, {"position_mm", kNumber}, {"angle_rad", kNumber}, {"sliding_work_j", kNumber}, {"depth_um", kNumber},
+      {"rate_um_h", kNumber},
+                  {"life_h", described(kNumberOrNull, "until the clearance there is worn_clearance_mm; null without it, or where nothing is worn")}};
+  return list_of(object_of(std::move(properties)));
+}
+
+Json make_columns() {
+  return object_of({{"channels", described(list_of(kText), "the columns in their order")},
+                    {"columns", {{"type", "object"}, {"additionalProperties", list_of(kNumberOrNull)}}}});
+}
+
+}  // namespace
+
+Json make_analysis_schemas() {
+  return {{"SensitivityRows", make_sensitivity()}, {"Surrogate", make_surrogate()}, {"FlexibilityRows", make_flexibility()},
+          {"BifurcationRows", make_bifurcation()}, {"LyapunovRows", make_lyapunov()}, {"Columns", make_columns()},
+                   {"WearRows", make_wear()}};
+}
+
+}  // namespace server::openapi

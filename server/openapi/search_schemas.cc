@@ -1,0 +1,98 @@
+#include "server/openapi/search_schemas.h"
+
+#include "jobs/parameter_path.h"
+#include "jobs/search/limit.h"
+#include "jobs/store.h"
+
+namespace server::openapi {
+
+namespace {
+
+const Json kText{{"type", "string"}};
+const Json kNumber{{"type", "number"}};
+const Json kCount{{"type", "integer"}, {"minimum", 0}};
+
+Json described(Json schema, std::string_view description) {
+  schema["description"] = description;
+  return schema;
+}
+
+Json make_verdict() {
+  Json names = Json::array();
+  for (int i = 0; i <= static_cast<int>(jobs::Verdict::kLost); ++i) names.push_back(jobs::verdict_name(static_cast<jobs::Verdict>(i)));
+  return {{"type", "string"}, {"enum", std::move(names)},
+          {"description", "open: not known yet; found; never_exceeded: within the bound at all values tried; "
+                          "always_exceeded: beyond it at the first already; "
+                          "lost: a job that has failed is in the way"}};
+}
+
+Json make_limit() {
+  return {{"verdict", make_verdict()},
+          {"limit", described(or_null(kNumber), "the last value before the metric first exceeds its bound")},
+          {"limit_beyond", described(or_null(kNumber), "the first value at which it does")},
+          {"band_from", described(or_null(kNumber), "up to here every replicate stays within the bound")},
+          {"band_to", described(or_null(kNumber), "from here on none does")},
+          {"evaluations", kCount},
+          {"monotonic", described({{"type", "boolean"}}, "whether the metric never falls along the way")}};
+}
+
+Json with_axes(Json properties) {
+  for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
+  return options_of(std::move(properties));
+}
+
+Json make_point() {
+  return object_of({{"value", kNumber}, {"count", described(kCount, "replicates that have a value")}, {"pending", kCount}, {"lost", kCount},
+                    {"quantile", described(or_null(kNumber), "of the metric over the replicates")}, {"min", or_null(kNumber)},
+                    {"max", or_null(kNumber)},
+                    {"within", described(or_null(kCount), "replicates that stay within the bound")},
+                    {"part_within_low", described(or_null(kNumber),
+                    "with part_within_high: which part of all replicates that there could be does, with 90 % confidence")},
+                    {"part_within_high", or_null(kNumber)}, {"job_ids", list_of(ref("Id"))}});
+}
+
+Json make_full_limit() {
+  Json properties = make_limit();
+  properties["falls"] = described(list_of(object_of({{"from", kNumber}, {"to", kNumber}, {"within_again", {{"type", "boolean"}}}})),
+                                  "where the metric falls: all replicates at the end are below all at the beginning, or the bound holds again");
+  properties["points"] = list_of(ref("SearchPoint"));
+  return with_axes(std::move(properties));
+}
+
+Json make_row() {
+  Json properties{{"parameter", kText}, {"metric", kText}, {"bound", kNumber}, {"quantile", kNumber}};
+  properties.update(make_limit());
+  return described(with_axes(std::move(properties)), "Every key stands in every row, and those of the axes");
+}
+
+Json make_summary() {
+  return {{"id", ref("Id")}, {"name", kText}, {"state", ref("SearchState")}, {"error", described(or_null(kText), "why it could not go on")},
+      {"sweep_id", ref("Id")},
+          {"parameter", kText}, {"metric", kText}, {"bound", kNumber}, {"quantile", kNumber}, {"axes", list_of(kText)}, {"created_at", kText},
+          {"ended_at", or_null(kText)},
+          {"links", object_of({{"self", kText}, {"results", kText}, {"cancel", kText}, {"retry", kText}, {"sweep", kText}})}};
+}
+
+Json make_search() {
+  Json properties = make_summary();
+  properties.update({{"counts", Json{{"$ref", "#/components/schemas/Sweep/properties/counts"}}},
+      {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
+                     {"most_evaluations", described(kCount, "of all combinations together")}, {"limits", list_of(ref("Limit"))},
+                     {"request", ref("SearchRequest")}});
+  return object_of(std::move(properties));
+}
+
+}  // namespace
+
+Json make_search_schemas() {
+  return {{"SearchState", {{"type", "string"}, {"enum", jobs::kSearchStates}}},
+          {"Search", make_search()},
+          {"SearchSummary", options_of(make_summary())},
+          {"SearchPage", object_of({{"items", list_of(ref("SearchSummary"))}, {"next_cursor", kText}})},
+          {"SearchPoint", make_point()},
+          {"Limit", make_full_limit()},
+          {"LimitRow", make_row()},
+          {"LimitRows", list_of(ref("LimitRow"))}};
+}
+
+}  // namespace server::openapi

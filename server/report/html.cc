@@ -1,0 +1,86 @@
+#include "server/report/html.h"
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+#include <openssl/evp.h>
+
+namespace server::report {
+
+namespace {
+
+constexpr std::string_view kStyle = R"(
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
+h2 { margin-top: 2rem; border-bottom: 1px solid #ccc; break-after: avoid; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.85rem; }
+th, td { padding: 0.2rem 0.8rem 0.2rem 0; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; }
+td.number { text-align: right; }
+thead { display: table-header-group; }
+pre { background: #f4f4f4; padding: 0.8rem; white-space: pre-wrap; overflow-wrap: anywhere; }
+svg { max-width: 100%; height: auto; }
+figure { margin: 1rem 0; break-inside: avoid; }
+figcaption, .quiet { color: #555; font-size: 0.85rem; }
+.wide { overflow-x: auto; }
+@media print { body { margin: 0; max-width: none; font-size: 11px; } .wide { overflow: visible; } }
+)";
+
+std::string style_hash() {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  EVP_Digest(kStyle.data(), kStyle.size(), digest.data(), &size, EVP_sha256(), nullptr);
+  std::array<unsigned char, 2 * EVP_MAX_MD_SIZE> text{};
+  const int length = EVP_EncodeBlock(text.data(), digest.data(), static_cast<int>(size));
+  return {reinterpret_cast<const char*>(text.data()), static_cast<std::size_t>(length)};
+}
+
+}  // namespace
+
+std::string escape(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '<': safe += "&lt;"; break;
+      case '>': safe += "&gt;"; break;
+      case '&': safe += "&amp;"; break;
+      case '"': safe += "&quot;"; break;
+      default: safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string cell_text(const nlohmann::json& cell) {
+  if (cell.is_null()) return "–";
+  if (cell.is_string()) return cell.get<std::string>();
+  if (!cell.is_number_float()) return cell.dump();
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.5g", cell.get<double>());
+  return text.data();
+}
+
+std::string make_table(const std::vector<std::string>& headings, const std::vector<std::vector<nlohmann::json>>& rows) {
+  std::string html = "<div class=\"wide\"><table><thead><tr>";
+  for (const std::string& heading : headings) html += "<th scope=\"col\">" + escape(heading) + "</th>";
+  html += "</tr></thead><tbody>\n";
+  for (const auto& row : rows) {
+    html += "<tr>";
+    for (const auto& cell : row) html += (cell.is_number() ? "<td class=\"number\">" : "<td>") + escape(cell_text(cell)) + "</td>";
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string make_page(const std::string& title, const std::string& body) {
+  return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-" +
+         style_hash() + "'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" + escape(title) +
+             "</title>\n<style>" +
+         std::string(kStyle) + "</style>\n</head>\n<body>\n" + body + "</body>\n</html>\n";
+}
+
+std::string page_policy() {
+  return "default-src 'none'; style-src 'sha256-" + style_hash() + "'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+}  // namespace server::report

@@ -1,0 +1,143 @@
+#include "jobs/search/limit.h"
+
+#include <cmath>
+#include <functional>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace jobs_tests {
+namespace {
+
+using jobs::Evaluation;
+using jobs::Limit;
+using jobs::LimitRule;
+using jobs::SearchPath;
+using jobs::Verdict;
+
+struct Found {
+  Limit limit;
+  std::size_t evaluations = 0;
+};
+
+/// Evaluates what the search asks for until it has ended.
+Found search(const SearchPath& path, const LimitRule& rule, const std::function<std::vector<double>(double)>& metric) {
+  std::vector<Evaluation> known;
+  for (int round = 0; round < 1000; ++round) {
+    const Limit limit = find_limit(path, rule, known);
+    if (limit.verdict != Verdict::kOpen) return {limit, known.size()};
+    EXPECT_FALSE(limit.next.empty());
+    for (const double x : limit.next) known.push_back({.x = x, .values = metric(x)});
+  }
+  ADD_FAILURE() << "the search does not end";
+  return {};
+}
+
+std::vector<double> itself(double x) { return {x}; }
+
+// Five values in steps of 2.5, of which one step is halved until it is no longer than 0.01: 2.5 / 2^8 = 0.0098.
+TEST(FindLimit, FindsTheLimitOfAMonotoneMetricWithTheExpectedNumberOfEvaluations) {
+  const SearchPath path{.from = 0.0, .to = 10.0, .tolerance = 0.01, .first = 5};
+  for (const double bound : {0.001, 1.234, 3.7, 6.18, 9.99}) {
+    const Found found = search(path, {.bound = bound}, itself);
+    EXPECT_EQ(found.limit.verdict, Verdict::kFound);
+    EXPECT_LE(found.limit.within.value(), bound);
+    EXPECT_GT(found.limit.beyond.value(), bound);
+    EXPECT_LE(found.limit.beyond.value() - found.limit.within.value(), 0.01);
+    EXPECT_EQ(found.evaluations, 5U + 8U);
+    EXPECT_EQ(found.evaluations, jobs::most_evaluations(path));
+    EXPECT_TRUE(found.limit.falls.empty());
+  }
+}
+
+TEST(FindLimit, GoesTheOtherWayIfThePathDoes) {
+  const Found found = search({.from = 8.0, .to = 2.0, .tolerance = 0.1, .first = 3}, {.bound = -4.2}, [](double x) { return std::vector{-x}; });
+  EXPECT_EQ(found.limit.verdict, Verdict::kFound);
+  EXPECT_GE(found.limit.within.value(), 4.2);
+  EXPECT_LT(found.limit.beyond.value(), 4.2);
+}
+
+TEST(FindLimit, HalvesRatiosOfALogarithmicPath) {
+  const SearchPath path{.from = 1e-3, .to = 1e3, .logarithmic = true, .tolerance = 1e-3, .first = 3};
+  EXPECT_EQ(first_values(path), (std::vector{1e-3, 1e-3 * std::pow(1e6, 0.5), 1e3}));
+  const Found found = search(path, {.bound = 0.05}, itself);
+  EXPECT_LE(found.limit.within.value(), 0.05);
+  EXPECT_GT(found.limit.beyond.value(), 0.05);
+  // The bracket is halved in its logarithm: 1.5e4 of a ratio needs fewer steps down here than most_evaluations() allows for.
+  EXPECT_LE(found.evaluations, jobs::most_evaluations(path));
+}
+
+TEST(FindLimit, EndsBetweenNeighbouringIntegers) {
+  const Found found = search({.from = 1, .to = 64, .integer = true, .tolerance = 1e-9, .first = 2}, {.bound = 23.5}, itself);
+  EXPECT_EQ(found.limit.within, 23.0);
+  EXPECT_EQ(found.limit.beyond, 24.0);
+}
+
+TEST(FindLimit, SaysWhenThereIsNoLimit) {
+  const SearchPath path{.from = 0.0, .to = 1.0, .tolerance = 0.1, .first = 4};
+  const Found never = search(path, {.bound = 2.0}, itself);
+  EXPECT_EQ(never.limit.verdict, Verdict::kNeverExceeded);
+  EXPECT_EQ(never.limit.within, 1.0);
+  EXPECT_FALSE(never.limit.beyond.has_value());
+  EXPECT_EQ(never.evaluations, 4U);
+  const Found always = search(path, {.bound = -1.0}, itself);
+  EXPECT_EQ(always.limit.verdict, Verdict::kAlwaysExceeded);
+  EXPECT_EQ(always.limit.beyond, 0.0);
+}
+
+// Exceeded between 2 and 4 and again from 7 on: the first crossing is the limit.
+TEST(FindLimit, TakesTheFirstCrossingAndTellsWhereTheMetricFalls) {
+  const auto wave = [](double x) { return std::vector{(x > 2.0 && x < 4.0) || x > 7.0 ? 1.0 : 0.0}; };
+  const Found found = search({.from = 0.0, .to = 10.0, .tolerance = 0.05, .first = 11}, {.bound = 0.5}, wave);
+  EXPECT_NEAR(found.limit.within.value(), 2.0, 0.05);
+  ASSERT_EQ(found.limit.falls.size(), 1U);
+  EXPECT_EQ(found.limit.falls[0].from, 3.0);
+  EXPECT_EQ(found.limit.falls[0].to, 4.0);
+  EXPECT_TRUE(found.limit.falls[0].within_again);
+  EXPECT_NEAR(found.limit.band_to.value(), 8.0, 1e-12) << "from there on nothing that was tried is within the bound";
+}
+
+// Ten replicates x + 0 .. x + 0.9: nine of them are within the bound 5 up to x = 4.2, all of them up to 4.1, none from above 5 on.
+TEST(FindLimit, JudgesByAQuantileAndGivesTheBandOfTheReplicates) {
+  const auto scattered = [](double x) {
+    std::vector<double> values;
+    for (int k = 9; k >= 0; --k) values.push_back(x + 0.1 * k);
+    return values;
+  };
+  const SearchPath path{.from = 0.0, .to = 8.0, .tolerance = 0.001, .first = 9};
+  const Found found = search(path, {.bound = 5.0, .quantile = 0.9}, scattered);
+  EXPECT_NEAR(found.limit.within.value(), 4.2, 0.001);
+  EXPECT_LE(found.limit.band_from.value(), 4.1);
+  EXPECT_GE(found.limit.band_from.value(), 4.0);
+  EXPECT_GT(found.limit.band_to.value(), 5.0);
+  EXPECT_LE(found.limit.band_to.value(), 6.0);
+  EXPECT_NEAR(search(path, {.bound = 5.0, .quantile = 1.0}, scattered).limit.within.value(), 4.1, 0.001);
+  EXPECT_NEAR(search(path, {.bound = 5.0, .quantile = 0.5}, scattered).limit.within.value(), 4.6, 0.001);
+}
+
+TEST(FindLimit, WaitsForWhatIsPendingAndStopsAtWhatIsLost) {
+  const SearchPath path{.from = 0.0, .to = 2.0, .tolerance = 0.1, .first = 3};
+  const LimitRule rule{.bound = 0.5};
+  const std::vector<Evaluation> pending{{.x = 0.0, .values = {0.0}}, {.x = 1.0, .pending = 1, .values = {}}, {.x = 2.0, .values = {2.0}}};
+  EXPECT_TRUE(find_limit(path, rule, pending).next.empty());
+  EXPECT_EQ(find_limit(path, rule, pending).verdict, Verdict::kOpen);
+  std::vector<Evaluation> lost = pending;
+  lost[1] = {.x = 1.0, .lost = 1, .values = {}};
+  EXPECT_EQ(find_limit(path, rule, lost).verdict, Verdict::kLost);
+  // Beyond the first crossing it is not in the way.
+  EXPECT_EQ(find_limit(path, {.bound = -0.5}, lost).verdict, Verdict::kAlwaysExceeded);
+}
+
+TEST(CalcQuantile, IsTheSmallestValueWithThatPartBelowIt) {
+  EXPECT_EQ(jobs::calc_quantile({3, 1, 2}, 1.0), 3);
+  EXPECT_EQ(jobs::calc_quantile({3, 1, 2}, 0.5), 2);
+  EXPECT_EQ(jobs::calc_quantile({3, 1, 2}, 1e-9), 1);
+  std::vector<double> ten;
+  for (int k = 1; k <= 10; ++k) ten.push_back(k);
+  EXPECT_EQ(jobs::calc_quantile(ten, 0.9), 9);
+  EXPECT_EQ(jobs::calc_quantile(ten, 0.91), 10);
+}
+
+}  // namespace
+}  // namespace jobs_tests

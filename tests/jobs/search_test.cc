@@ -1,0 +1,199 @@
+// Searches on a service whose first metric is sqrt(1000 crank_velocity + c_r).
+
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "jobs/errors.h"
+#include "jobs/service.h"
+#include "tests/jobs/service_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// From 1 to 9 in steps of 2, then the step that holds the limit halved eight times: 2 / 2^8 < 0.01.
+ordered_json request_for(double crank_velocity) {
+  const double bound = std::sqrt(1000.0 * crank_velocity);
+  return {{"name", "fast"}, {"parameters", {{"clearance_mm", 0}}},
+      {"over", {{"crank_velocity_rad_s", {{"from", 1}, {"to", 9}, {"tolerance", 0.01}}}}},
+          {"metric", engine::metric_table()[0].key}, {"bound", bound}};
+}
+
+json wait_for_end(const jobs::Service& service, const std::string& id) {
+  for (int tries = 0; tries < 4000; ++tries) {
+    json search = service.find_search(id).value();
+    if (search.at("state") != "running") return search;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  throw std::runtime_error("the search does not end");
+}
+
+json list(const jobs::Service& service, const std::string& state, const std::string& fields = "") {
+  jobs::PageQuery query;
+  query.state = state;
+  query.fields = fields;
+  return service.list_searches(query).at("items");
+}
+
+std::set<std::string> faults_of(jobs::Service& service, const ordered_json& request) {
+  try {
+    (void)service.submit_search(request);
+  } catch (const jobs::InvalidRequest& invalid) {
+    std::set<std::string> pointers;
+    for (const jobs::Fault& fault : invalid.faults()) pointers.insert(fault.pointer);
+    return pointers;
+  }
+  return {};
+}
+
+TEST(Search, FindsTheLimitWithTheExpectedNumberOfRuns) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  const json begun = service.submit_search(request_for(5.3));
+  EXPECT_EQ(begun.at("most_evaluations"), 13);
+  const json ended = wait_for_end(service, begun.at("id"));
+  EXPECT_EQ(ended.at("state"), "succeeded");
+  EXPECT_EQ(ended.at("progress"), 1.0);
+  EXPECT_EQ(ended.at("counts").at("succeeded"), 13);
+  EXPECT_EQ(engine.begun_speeds().size(), 13U);
+  const json& limit = ended.at("limits").at(0);
+  EXPECT_EQ(limit.at("verdict"), "found");
+  EXPECT_LE(limit.at("limit").get<double>(), 5.3);
+  EXPECT_GT(limit.at("limit_beyond").get<double>(), 5.3);
+  EXPECT_LE(limit.at("limit_beyond").get<double>() - limit.at("limit").get<double>(), 0.01);
+  EXPECT_EQ(limit.at("points").size(), 13U);
+  EXPECT_TRUE(limit.at("monotonic").get<bool>());
+  // Every evaluation is a job of a sweep like any other, and a result that others use.
+  const auto results = service.find_results(ended.at("sweep_id")).value();
+  EXPECT_EQ(results.rows.size(), 13U);
+  const json again = wait_for_end(service, service.submit_search(request_for(5.3)).at("id"));
+  EXPECT_EQ(again.at("limits").at(0).at("limit"), limit.at("limit"));
+  EXPECT_EQ(engine.begun_speeds().size(), 13U) << "nothing is computed twice";
+}
+
+TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  ordered_json request = request_for(5.3);
+  request["sweep"] = {{"coupler", {"rigid", "flexible"}}, {"restitution", {0.8, 0.9}}};
+  request["replicates"] = {{"count", 3}};
+  const json ended = wait_for_end(service, service.submit_search(request).at("id"));
+  ASSERT_EQ(ended.at("limits").size(), 4U);
+  for (const json& limit : ended.at("limits")) {
+    EXPECT_EQ(limit.at("verdict"), "found");
+    EXPECT_NEAR(limit.at("limit").get<double>(), 5.3, 0.01);
+    EXPECT_EQ(limit.at("points").at(0).at("count"), 3);
+    EXPECT_EQ(limit.at("points").at(0).at("within"), 3);
+    // Three of three: with 90 % confidence more than 0.05^(1/3) of all replicates.
+    EXPECT_NEAR(limit.at("points").at(0).at("part_within_low").get<double>(), std::cbrt(0.05), 1e-9);
+    EXPECT_EQ(limit.at("points").at(0).at("part_within_high"), 1.0);
+  }
+  EXPECT_EQ(ended.at("limits").at(1).at("coupler"), "rigid");
+  EXPECT_EQ(ended.at("limits").at(1).at("restitution"), 0.9);
+  EXPECT_EQ(ended.at("counts").at("total"), 4 * 13 * 3);
+  const auto table = service.find_limits(ended.at("id")).value();
+  EXPECT_EQ(table.columns.at(0), "coupler");
+  EXPECT_EQ(table.rows.size(), 4U);
+  EXPECT_TRUE(table.ended);
+}
+
+TEST(Search, GoesOnAfterARestart) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  std::string id;
+  {
+    jobs::Service service(options_of(store, engine, 1));
+    engine.hold();
+    id = service.submit_search(request_for(5.3)).at("id");
+    engine.await_running(1);
+  }
+  engine.release();
+  jobs::Service service(options_of(store, engine, 1));
+  EXPECT_EQ(wait_for_end(service, id).at("limits").at(0).at("verdict"), "found");
+}
+
+TEST(Search, IsCancelledAndTakenUpAgain) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  engine.hold();
+  const std::string id = service.submit_search(request_for(5.3)).at("id");
+  engine.await_running(1);
+  EXPECT_THROW(service.delete_search(id), jobs::WrongState);
+  EXPECT_EQ(service.cancel_search(id).value().at("state"), "cancelled");
+  EXPECT_EQ(service.cancel_search(id).value().at("counts").at("cancelled"), 5);
+  engine.release();
+  EXPECT_EQ(service.retry_search(id).value().at("state"), "running");
+  EXPECT_EQ(wait_for_end(service, id).at("state"), "succeeded");
+  EXPECT_THROW(service.cancel_search(id), jobs::WrongState);
+  const std::string sweep = service.find_search(id).value().at("sweep_id");
+  EXPECT_TRUE(service.delete_search(id));
+  EXPECT_FALSE(service.find_search(id).has_value());
+  EXPECT_FALSE(service.find_sweep(sweep).has_value());
+  EXPECT_FALSE(service.delete_search(id));
+}
+
+// The fake engine fails at a restitution of 0.5.
+TEST(Search, SaysWhichCombinationIsLostToAFailedJob) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  ordered_json request = request_for(5.3);
+  request["sweep"] = {{"restitution", {0.5, 0.9}}};
+  const json ended = wait_for_end(service, service.submit_search(request).at("id"));
+  EXPECT_EQ(ended.at("state"), "failed");
+  EXPECT_EQ(ended.at("limits").at(0).at("verdict"), "lost");
+  EXPECT_EQ(ended.at("limits").at(1).at("verdict"), "found");
+}
+
+TEST(Search, IsRefusedWithEveryFault) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  EXPECT_EQ(faults_of(service, ordered_json::object()), (std::set<std::string>{"/over", "/metric", "/bound"}));
+  ordered_json request = request_for(5.3);
+  request["over"]["crank_velocity_rad_s"] = {{"from", 1}, {"to", 5000}, {"tolerance", 0}, {"first", 1}, {"steps", 3}};
+  request["metric"] = "peak";
+  request["quantile"] = 1.5;
+  request["sweep"] = {{"restitution", {2}}};
+  request["bounds"] = 1;
+  EXPECT_EQ(faults_of(service, request),
+            (std::set<std::string>{"/bounds", "/over/crank_velocity_rad_s/steps", "/over/crank_velocity_rad_s/tolerance",
+                "/over/crank_velocity_rad_s/first",
+                                   "/metric", "/quantile", "/sweep/restitution/0"}));
+  request = request_for(5.3);
+  request["sweep"] = {{"crank_velocity_rad_s", {5}}};
+  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"});
+  request = request_for(5.3);
+  request["replicates"] = {{"count", 5000}};
+  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"}) << "65,000 jobs";
+  // The clearance is less than the bearing's radius, which only both together show.
+  request = {{"over", {{"clearance_mm", {{"from", 1}, {"to", 6}}}}}, {"metric", engine::metric_table()[0].key}, {"bound", 1}};
+  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/clearance_mm"});
+  EXPECT_TRUE(list(service, "").empty());
+}
+
+TEST(Search, IsListedByItsState) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  const std::string id = service.submit_search(request_for(5.3)).at("id");
+  (void)wait_for_end(service, id);
+  EXPECT_EQ(list(service, "succeeded").at(0).at("id"), id);
+  EXPECT_TRUE(list(service, "running").empty());
+  EXPECT_THROW((void)list(service, "queued"), jobs::InvalidRequest);
+  EXPECT_EQ(list(service, "", "id,metric").at(0).size(), 2U);
+}
+
+}  // namespace
+}  // namespace jobs_tests

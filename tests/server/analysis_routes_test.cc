@@ -1,0 +1,160 @@
+// What is worked out of results: metric i of the known run is 100 i + clearance in mm, its crank turns 10 + k rad in sample k of four.
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "server/report/report.h"
+#include "tests/server/service_fixture.h"
+
+namespace {
+
+using nlohmann::json;
+using server_tests::Bench;
+using server_tests::header;
+
+/// A known run that is long enough for what looks at it closely: 64 samples, the crank passing its place at rest every 2 pi / 0.5 of them.
+engine::RunResult long_run(const jobs::JobSpec& spec, const engine::StopQuery& stop) {
+  engine::RunResult result = server_tests::known_run(spec, stop);
+  for (std::size_t c = 0; c < result.trajectory.columns.size(); ++c) {
+    auto& column = result.trajectory.columns[c];
+    column.clear();
+    for (int k = 0; k < 64; ++k) column.push_back(c == 0 ? k / 1000.0 : c == 1 ? 0.5 * k : static_cast<double>(c) + (k % 4));
+  }
+  return result;
+}
+
+json rows_of(Bench& bench, const std::string& path, std::vector<std::pair<std::string, std::string>> query = {}) {
+  const auto response = bench.call("GET", path, "", std::move(query));
+  EXPECT_EQ(response.status, 200) << response.body;
+  EXPECT_FALSE(header(response, "ETag").empty());
+  return json::parse(response.body);
+}
+
+TEST(Analyses, TellWhatAMetricDependsOn) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(R"({"design": {"type": "saltelli", "count": 32, "over":
+    {"restitution": {"from": 0.6, "to": 0.9}, "clearance_mm": {"from": 0.1, "to": 0.5}}}, "sweep": {"coupler": ["rigid", "flexible"]}})");
+  const json rows = rows_of(bench, path + "/sensitivity", {{"metric", "impact_count"}});
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows.at(0).at("parameter"), "restitution");
+  EXPECT_EQ(rows.at(0).at("total"), 0.0);
+  EXPECT_EQ(rows.at(1).at("parameter"), "clearance_mm");
+  const json surrogate = rows_of(bench, path + "/surrogate", {{"x", "clearance_mm"}});
+  ASSERT_EQ(surrogate.at("surfaces").size(), 2U);
+  const json& surface = surrogate.at("surfaces").at(1);
+  EXPECT_EQ(surface.at("where").at("coupler"), "flexible");
+  EXPECT_EQ(surrogate.at("y"), "restitution");
+  EXPECT_LT(surface.at("cross_validation_error").get<double>(), 1e-9) << "a plane";
+  EXPECT_NEAR(surface.at("values").at(0).at(0).get<double>(), surface.at("x_values").at(0).get<double>(), 1e-9);
+  EXPECT_EQ(surface.at("at").size(), surface.at("points").get<std::size_t>());
+  EXPECT_EQ(bench.call("GET", path + "/sensitivity", "", {{"metric", "state"}}).status, 422);
+  EXPECT_EQ(bench.call("GET", path + "/surrogate", "", {{"y", "coupler"}}).status, 422);
+  EXPECT_EQ(bench.call("GET", path + "/surrogate", "", {{"x", "clearance_mm"}, {"y", "clearance_mm"}}).status, 422);
+  EXPECT_NE(bench.call("GET", path + "/sensitivity", "", {{"format", "csv"}}).body.find("first_order_low"), std::string::npos);
+}
+
+TEST(Analyses, PairRigidAndFlexibleJobs) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.2], "coupler": ["rigid", "flexible"]}})");
+  const json rows = rows_of(bench, path + "/flexibility");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows.at(0).at("ratio"), 1.0);
+  EXPECT_EQ(rows.at(0).at("verdict"), "either");
+  EXPECT_EQ(bench.call("GET", path + "/sensitivity").status, 409);
+  EXPECT_EQ(bench.call("GET", path + "/lyapunov").status, 409);
+  const std::string rigid = "/v1/sweeps/" + bench.run(R"({"sweep": {"restitution": [0.7]}})");
+  EXPECT_EQ(bench.call("GET", rigid + "/flexibility").status, 409);
+  EXPECT_EQ(bench.call("GET", rigid + "/surrogate").status, 409);
+}
+
+TEST(Analyses, LookAtMotionsOnceATurn) {
+  Bench bench(long_run);
+  const std::string path = "/v1/sweeps/" +
+      bench.run(R"({"parameters": {"run_up_s": 0}, "sweep": {"clearance_mm": [0.1, 0.2]}, "replicates": {"count": 2}})");
+  const json rows = rows_of(bench, path + "/bifurcation");
+  ASSERT_EQ(rows.size(), 4U * 5) << "31.5 rad are five turns";
+  EXPECT_NEAR(rows.at(0).at("t_s").get<double>(), 4.0 * 3.14159265e-3, 1e-6);
+  EXPECT_EQ(rows_of(bench, path + "/bifurcation", {{"from", "0.03"}, {"channel", "contact_force_n"}}).size(), 4U * 3);
+  EXPECT_EQ(json::parse(bench.call("GET", path + "/bifurcation", "", {{"channel", "x"}}).body).at("errors").at(0).at("pointer"), "/channel");
+  EXPECT_EQ(bench.call("GET", path + "/bifurcation", "", {{"channel", "t_s"}}).status, 422);
+  const json exponents = rows_of(bench, path + "/lyapunov");
+  ASSERT_EQ(exponents.size(), 2U);
+  EXPECT_EQ(exponents.at(0).at("pairs"), 1);
+  EXPECT_EQ(exponents.at(0).at("pairs_diverged"), 0) << "both runs are the same";
+  EXPECT_TRUE(exponents.at(0).at("exponent_1_s").is_null());
+
+  const std::string job = "/v1/jobs/" + json::parse(bench.call("GET", path + "/results").body).at(0).at("job_id").get<std::string>();
+  const json section = rows_of(bench, job + "/poincare");
+  EXPECT_EQ(section.at("channels"), json({"t_s", "turn", "journal_x_mm", "journal_y_mm"}));
+  EXPECT_EQ(section.at("columns").at("turn").size(), 5U);
+  EXPECT_EQ(json::parse(bench.call("GET", job + "/poincare", "", {{"channels", "x"}}).body).at("errors").at(0).at("pointer"), "/channels/0");
+  const json spectrum = rows_of(bench, job + "/spectrum", {{"channel", "journal_x_mm"}, {"window", "rectangular"}});
+  EXPECT_EQ(spectrum.at("columns").at("frequency_hz").size(), 33U);
+  // 0, 1, 2, 3 and so on: sqrt(2) at a quarter of the sampling rate.
+  EXPECT_NEAR(spectrum.at("columns").at("journal_x_mm").at(16).get<double>(), 1.41421356, 1e-6);
+  EXPECT_EQ(bench.call("GET", job + "/spectrum", "", {{"format", "npz"}}).body.substr(0, 2), "PK");
+  EXPECT_EQ(bench.call("GET", job + "/spectrum", "", {{"to", "0.01"}}).status, 409) << "too few samples";
+  const auto refused = bench.call("GET", job + "/spectrum", "", {{"channel", "x"}, {"window", "square"}});
+  EXPECT_EQ(json::parse(refused.body).at("errors").size(), 2U);
+}
+
+// Every channel of the long run rises from its number by 3 in three samples and falls back: the ring's work by 48, the first ring's at 45 degrees.
+TEST(Analyses, MapWearOnTheBearing) {
+  Bench bench(long_run);
+  const std::string path = "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0, 0.2]}})");
+  const json jobs = json::parse(bench.call("GET", path + "/results").body);
+  const std::string wear = "/v1/jobs/" + jobs.at(1).at("job_id").get<std::string>() + "/wear";
+  const json rows = rows_of(bench, wear, {{"sectors", "8"}, {"wear_coefficient_m2_n", "1e-14"}, {"worn_clearance_mm", "0.3"}});
+  ASSERT_EQ(rows.size(), 2U * 8);
+  const double area = 5e-3 * 2.0 * 3.14159265358979 / 8.0 * 10e-3;
+  const json& worn = rows.at(1);  // from 45 to 90 degrees
+  EXPECT_EQ(worn.at("sliding_work_j"), 48.0);
+  EXPECT_NEAR(worn.at("depth_um").get<double>(), 1e6 * 1e-14 * 48.0 / area, 1e-9);
+  EXPECT_NEAR(worn.at("life_h").get<double>() * worn.at("rate_um_h").get<double>(), 100.0, 1e-9);
+  EXPECT_TRUE(rows.at(2).at("life_h").is_null());
+  EXPECT_NE(bench.call("GET", wear, "", {{"format", "csv"}}).body.find("ring,position_mm,angle_rad"), std::string::npos);
+  for (const auto& [key, value] : {std::pair{"sectors", "3"}, {"sectors", "8.5"}, {"wear_coefficient_m2_n", "0"}, {"worn_clearance_mm", "0.2"}}) {
+    const auto refused = bench.call("GET", wear, "", {{key, value}});
+    EXPECT_EQ(refused.status, 422) << key;
+    EXPECT_EQ(json::parse(refused.body).at("errors").at(0).at("pointer"), std::string("/") + key);
+  }
+  EXPECT_EQ(bench.call("GET", "/v1/jobs/" + jobs.at(0).at("job_id").get<std::string>() + "/wear").status, 409) << "an ideal joint";
+}
+
+TEST(Report, StandsByItself) {
+  Bench bench;
+  const std::string id = bench.run(R"({"name": "it's <b>bold</b>",
+    "sweep": {"restitution": [0.8], "clearance_mm": [0.1, 0.2], "coupler": ["rigid", "flexible"]}, "replicates": {"count": 2}})");
+  const auto response = bench.call("GET", "/v1/sweeps/" + id + "/report");
+  ASSERT_EQ(response.status, 200) << response.body;
+  EXPECT_EQ(response.content_type, "text/html; charset=utf-8");
+  const std::string& page = response.body;
+  for (const char* const forbidden : {"<script", "style=", "<b>", "src=", "href=", "url("}) EXPECT_EQ(page.find(forbidden), std::string::npos)
+      << forbidden;
+  for (const char* const wanted : {"<svg", "Does flexibility help?", "How it was computed", "it's &lt;b&gt;bold"}) EXPECT_NE(page.find(wanted),
+      std::string::npos) << wanted;
+  // The policy names the style by its hash, which stands in the page, too, for when it has been saved.
+  const std::string policy = header(response, "Content-Security-Policy");
+  const std::string hash = policy.substr(policy.find("'sha256-"), 8 + 44 + 1);
+  EXPECT_NE(page.find(hash), std::string::npos);
+}
+
+TEST(Report, KeepsTheOrderOfAxesAndQuotesForTheShell) {
+  const json sweep = json::parse(R"({"axes": ["restitution", "clearance_mm"],
+    "request": {"name": "it's", "sweep": {"clearance_mm": [1], "restitution": [2]}}})");
+  EXPECT_EQ(server::report::make_command(server::report::request_in_order(sweep)),
+            R"(curl -s -d '{"name":"it'\''s","sweep":{"restitution":[2],"clearance_mm":[1]}}' "${RPSUP_URL:-http://127.0.0.1:8080}/v1/sweeps")");
+}
+
+TEST(Analyses, AreOfWhatIsThere) {
+  Bench bench;
+  for (const std::string analysis : {"sensitivity", "surrogate", "flexibility", "bifurcation", "lyapunov", "report"}) {
+    EXPECT_EQ(bench.call("GET", "/v1/sweeps/swp_none/" + analysis).status, 404);
+  }
+  for (const std::string analysis : {"spectrum", "poincare", "wear"}) EXPECT_EQ(bench.call("GET", "/v1/jobs/job_none/" + analysis).status, 404);
+}
+
+}  // namespace

@@ -1,0 +1,39 @@
+// A channel once a turn over a number that is swept: one line of points where the motion repeats itself, a cloud where it does not.
+import { findAnalysis } from "/core/api.js";
+import { makeChart } from "/core/charts.js";
+import { choice, h } from "/core/dom.js";
+import { number, pointOf, titleOf } from "/core/format.js";
+import { lineColour } from "/core/theme.js";
+import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
+
+const channels = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "coupler_deflection_mm", "contact_force_n"];
+
+export async function bifurcationCard(element, { sweep, numbers }, signal) {
+  let along = numbers[0];
+  let channel = channels[0];
+  let rows = [];
+  const load = async () => { rows = await findAnalysis(sweep.id, "bifurcation", { channel }, signal); };
+  await load();
+  const drawing = h("div", { class: "chart tall" });
+  if (rows.length === 0) {
+    element.replaceChildren(h("p", {}, "After the run-up of these jobs no turn of the crank is complete."));
+    return null;
+  }
+  element.replaceChildren(h("p", { class: "actions" },
+    choice("Across", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart.draw(); }),
+    choice("Channel", channels.map((key) => [key, titleOf(key)]), channel, async (key) => { channel = key; await load(); chart.draw(); })), drawing);
+  const chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel), "The channel once a turn over the axis", signal);
+  return chart;
+}
+
+function optionOf(rows, others, along, channel) {
+  const names = [...new Set(rows.map((row) => where(row, others)))];
+  if (rows.length === 0) return null;
+  return {
+    grid: { left: 75, right: 20, top: 40, bottom: 50 }, legend: { top: 0, show: names.length > 1 },
+    tooltip: { formatter: ({ value }) => `${pointOf(along, value[0])}\n${number(value[1])}` },
+    xAxis: acrossAxis(titleOf(along)), yAxis: valueAxis(titleOf(channel)),
+    series: names.map((name, index) => ({ name, type: "scatter", symbolSize: 4, color: lineColour(index), large: true,
+      data: rows.filter((row) => where(row, others) === name && row[channel] !== null).map((row) => [row[along], row[channel]]) })),
+  };
+}

@@ -1,0 +1,43 @@
+// Rigid and flexible jobs side by side.
+import { findAnalysis } from "/core/api.js";
+import { makeChart } from "/core/charts.js";
+import { h } from "/core/dom.js";
+import { nameOf, number, pointOf, titleOf } from "/core/format.js";
+import { colour, lineColour } from "/core/theme.js";
+import { acrossAxis, axisColumns, bars, table, valueAxis, where } from "/analysis/parts.js";
+
+const percent = (part) => (part === null ? "–" : `${number(100 * part, 3)} %`);
+
+export async function flexibilityCard(element, { sweep, metric }, signal) {
+  const rows = await findAnalysis(sweep.id, "flexibility", { metric }, signal);
+  const axes = sweep.axes.filter((axis) => axis !== "coupler");
+  const along = rows[0]?.along;
+  const drawing = h("div", { class: "chart tall", hidden: !along });
+  const reversed = rows.filter((row) => row.reverses_from !== null);
+  const said = reversed.length === 0 ? "The ratio stays on one side of 1." : `It reverses: ${reversed.map((row) => `between ${pointOf(along, row.reverses_from)} and ${where(row, [along, ...axes.filter((axis) => axis !== along)])}`).join("; ")}.`;
+  element.replaceChildren(h("p", {}, along ? said : ""), drawing, table("Rigid and flexible", rows, [...axisColumns(axes), ["Flexible over rigid", (row) => number(row.ratio)],
+    ["Least to largest", (row) => `${number(row.ratio_least)} to ${number(row.ratio_largest)}`], ["It", (row) => row.verdict ?? "–"],
+    ["Taken by the coupler [J]", (row) => number(row.coupler_loss_j)], ["Of all losses", (row) => percent(row.coupler_loss_part)]]));
+  return along ? makeChart(drawing, () => optionOf(rows, axes, along, metric), "Ratio of flexible to rigid; the table below has the same numbers", signal) : null;
+}
+
+function optionOf(rows, axes, along, metric) {
+  const drawn = rows.filter((row) => row.ratio !== null).sort((a, b) => a[along] - b[along]);
+  if (drawn.length === 0) return null;
+  const others = axes.filter((axis) => axis !== along);
+  const lines = groupBy(drawn, (row) => where(row, others));
+  return {
+    grid: { left: 75, right: 20, top: 40, bottom: 50 }, legend: { top: 0, show: others.length > 0, data: [...lines.keys()] },
+    tooltip: { formatter: ({ value }) => `${pointOf(along, value[0])}\n${number(value[1])}` },
+    xAxis: acrossAxis(titleOf(along)), yAxis: valueAxis(`${nameOf(metric)}, flexible over rigid`),
+    series: [...lines].flatMap(([name, line], index) => [bars(lineColour(index), line.map((row) => [row[along], row.ratio_least, row.ratio_largest])),
+      { name, type: "line", color: lineColour(index), symbolSize: 8, data: line.map((row) => [row[along], row.ratio]),
+        ...(index === 0 ? { markLine: { symbol: "none", silent: true, label: { show: false }, lineStyle: { color: colour("quiet") }, data: [{ yAxis: 1 }] } } : {}) }]),
+  };
+}
+
+function groupBy(rows, keyOf) {
+  const groups = new Map();
+  for (const row of rows) groups.set(keyOf(row), [...(groups.get(keyOf(row)) ?? []), row]);
+  return groups;
+}

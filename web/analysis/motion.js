@@ -1,0 +1,60 @@
+// The spectrum of a channel of a job, and its Poincaré section: made when they are opened.
+import { findMotion } from "/core/api.js";
+import { makeChart, saveButtons } from "/core/charts.js";
+import { choice, h } from "/core/dom.js";
+import { number, titleOf } from "/core/format.js";
+import { colour, lineColour } from "/core/theme.js";
+import { acrossAxis, valueAxis } from "/analysis/parts.js";
+
+/// @param columns  channels that may be chosen
+export function motionCard(job, columns, signal) {
+  const body = h("div");
+  const open = () => {
+    if (!details.open || body.hasChildNodes()) return;
+    const parts = [spectrum(job, columns, signal), job.parameters.clearance_mm > 0 ? section(job, signal) : null].filter(Boolean);
+    body.replaceChildren(...parts.map(({ element }) => element));
+    for (const part of parts) part.fill().catch((error) => error.name !== "AbortError" && part.element.append(h("p", { class: "trouble" }, error.message)));
+  };
+  const details = h("details", { class: "card", ontoggle: open }, h("summary", {}, "Spectrum and Poincaré section"), body);
+  return details;
+}
+
+function spectrum(job, columns, signal) {
+  const view = { channel: "slider_acceleration_m_s2", window: "hann" };
+  let found = null;
+  let chart = null;
+  const drawing = h("div", { class: "chart" });
+  const load = async () => {
+    found = await findMotion(job.id, "spectrum", { ...view, from: job.parameters.run_up_s < job.parameters.duration_s ? job.parameters.run_up_s : undefined }, signal);
+    chart?.draw();
+  };
+  const set = (key) => (value) => { view[key] = value; load().catch((error) => drawing.replaceChildren(h("p", { class: "trouble" }, error.message))); };
+  const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"), saveButtons(() => chart, () => `${job.id} spectrum`)),
+    h("p", { class: "actions" }, choice("Channel", columns.map((name) => [name, titleOf(name)]), view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window, set("window"))), drawing);
+  const option = () => ({ grid: { left: 80, right: 20, top: 20, bottom: 50 }, tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
+    dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"), yAxis: valueAxis(`Amplitude: ${titleOf(view.channel)}`, { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
+    series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 }, data: found.frequency_hz.map((frequency, k) => [frequency, found[view.channel][k]]).filter(([, amplitude]) => amplitude > 0) }] });
+  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "Amplitude over frequency", signal); } };
+}
+
+/// The journal once a turn; the circle is the clearance.
+function section(job, signal) {
+  const view = { phase: 0 };
+  let found = null;
+  let chart = null;
+  const drawing = h("div", { class: "chart tall" });
+  const load = async () => {
+    found = await findMotion(job.id, "poincare", { phase_rad: view.phase, from: job.parameters.run_up_s }, signal);
+    chart?.draw();
+  };
+  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Angle of the crank [rad]", onchange: () => { view.phase = Number(slider.value); load(); } });
+  const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Poincaré section: the journal once a turn"), saveButtons(() => chart, () => `${job.id} section`)),
+    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Angle of the crank"), slider)), drawing);
+  const radius = job.parameters.clearance_mm;
+  const circle = Array.from({ length: 73 }, (_, k) => [radius * Math.cos((k * Math.PI) / 36), radius * Math.sin((k * Math.PI) / 36)]);
+  const option = () => ({ grid: { left: 75, right: 20, top: 20, bottom: 50 }, tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
+    xAxis: acrossAxis(titleOf("journal_x_mm")), yAxis: valueAxis(titleOf("journal_y_mm")),
+    series: [{ type: "line", silent: true, showSymbol: false, color: colour("quiet"), lineStyle: { width: 1, type: "dashed" }, data: circle },
+      { type: "scatter", symbolSize: 7, color: lineColour(0), data: found.t_s.map((t, k) => [found.journal_x_mm[k], found.journal_y_mm[k], t]) }] });
+  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "The journal's centre once a turn of the crank", signal); } };
+}

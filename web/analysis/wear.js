@@ -1,0 +1,53 @@
+// What sliding wears off the bore, drawn around it: a bar outwards in each sector, a colour for each ring along the length.
+import { findWear } from "/core/api.js";
+import { makeChart, saveButtons } from "/core/charts.js";
+import { h, notify } from "/core/dom.js";
+import { exact, number } from "/core/format.js";
+import { colour, lineColour } from "/core/theme.js";
+
+export function wearCard(job, signal) {
+  const body = h("div");
+  const details = h("details", { class: "card", ontoggle: () => {
+    if (!details.open || body.hasChildNodes()) return;
+    fill(body, job, signal).catch((error) => error.name !== "AbortError" && body.replaceChildren(h("p", { class: "trouble" }, error.message)));
+  } }, h("summary", {}, "Wear of the bearing"), body);
+  return details;
+}
+
+async function fill(body, job, signal) {
+  const view = { wear_coefficient_m2_n: "1e-15", worn_clearance_mm: "", sectors: 72 };
+  const drawing = h("div", { class: "chart tall" });
+  const said = h("p", { role: "status" });
+  let rows = [];
+  let chart = null;
+  const load = async () => {
+    rows = await findWear(job.id, view, signal);
+    const worst = rows.reduce((most, row) => (row.depth_um > most.depth_um ? row : most));
+    const life = worst.life_h === null ? "" : `; ${exact(Number(view.worn_clearance_mm))} mm are reached after ${number(worst.life_h, 3)} h of such motion`;
+    said.textContent = `Deepest: ${number(worst.depth_um)} µm in this run at ${number((180 / Math.PI) * worst.angle_rad, 3)}°, ring at ${number(worst.position_mm)} mm, ${number(worst.rate_um_h)} µm/h${life}.`;
+    chart?.draw();
+  };
+  const field = (label, key) => {
+    const input = h("input", { type: "text", inputmode: "decimal", value: view[key], onchange: () => { view[key] = input.value.trim(); load().catch((error) => notify(error.message, "trouble")); } });
+    return h("label", { class: "choice" }, h("span", {}, label), input);
+  };
+  body.replaceChildren(h("div", { class: "head" }, h("p", { class: "quiet small" }, "Archard's law: depth = coefficient × force × sliding distance over area. The coefficient is the materials' and the lubricant's: choose yours."),
+    saveButtons(() => chart, () => `${job.id} wear`)),
+  h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"), field("Until a clearance of [mm]", "worn_clearance_mm")), said, drawing);
+  await load();
+  chart = await makeChart(drawing, () => optionOf(rows), "Worn depth around the bearing", signal);
+}
+
+/// The bore is the circle in the middle; 0 degrees, the bearing's x, points right, and angles go against the clock.
+function optionOf(rows) {
+  const rings = [...new Set(rows.map((row) => row.ring))];
+  const sectors = rows.filter((row) => row.ring === rings[0]).map((row) => String(Math.round((180 / Math.PI) * row.angle_rad * 10) / 10));
+  const text = { color: colour("text") };
+  return {
+    legend: { top: 0 }, polar: { radius: ["25%", "80%"] }, tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
+    angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false, axisLabel: { ...text, interval: sectors.length / 12 - 1 }, axisLine: { lineStyle: { color: colour("quiet") } } },
+    radiusAxis: { name: "depth [µm]", nameTextStyle: text, axisLabel: { ...text, formatter: (value) => number(value, 2) }, splitLine: { lineStyle: { color: colour("line") } } },
+    series: rings.map((ring, index) => ({ type: "bar", coordinateSystem: "polar", name: `ring at ${number(rows.find((row) => row.ring === ring).position_mm)} mm`, color: lineColour(index), barGap: "0%",
+      data: rows.filter((row) => row.ring === ring).map((row) => row.depth_um) })),
+  };
+}

@@ -1,0 +1,53 @@
+// What the results of a sweep say: each answer in a card of its own, asked for when it can be given.
+import { findResults, findSweep, reportUrl } from "/core/api.js";
+import { loadCharts, saveButtons } from "/core/charts.js";
+import { choice, h } from "/core/dom.js";
+import { titleOf } from "/core/format.js";
+import { rememberQuery, routeTo } from "/core/route.js";
+import { metricsOf } from "/study/data.js";
+import { bifurcationCard } from "/analysis/bifurcation.js";
+import { flexibilityCard } from "/analysis/flexibility.js";
+import { lyapunovCard } from "/analysis/lyapunov.js";
+import { sensitivityCard } from "/analysis/sensitivity.js";
+import { surrogateCard } from "/analysis/surrogate.js";
+
+const usual = "peak_slider_acceleration_m_s2";
+
+export async function show(main, { id, query, signal }) {
+  loadCharts().catch(() => {});  // told where a chart would be
+  const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, { limit: 1 }, signal)]);
+  const metrics = metricsOf(rows, sweep.axes);
+  const numbers = sweep.axes.filter((axis) => typeof rows[0][axis] === "number");
+  const study = { sweep, numbers, metric: metrics.includes(query.get("metric")) ? query.get("metric") : usual };
+  const name = sweep.name || sweep.id;
+  document.title = `RPSUP: what ${name} says`;
+  const cards = h("div");
+  const draw = () => cards.replaceChildren(...cardsFor(study).map(([title, help, make]) => card(name, title, help, make, study, signal)));
+  const pick = choice("Metric", metrics.map((metric) => [metric, titleOf(metric)]), study.metric, (metric) => { study.metric = metric; rememberQuery({ metric }); draw(); });
+  main.replaceChildren(h("div", { class: "head" }, h("h1", {}, `What ${name} says`),
+    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("sweeps", id) }, "The sweep"), h("a", { class: "button", href: reportUrl(id) }, "Report"))),
+  h("p", { class: "actions" }, pick), cards);
+  draw();
+}
+
+/// Those that a sweep can answer.
+function cardsFor({ sweep, numbers }) {
+  const type = sweep.request.design?.type;
+  return [
+    sweep.axes.includes("coupler") && ["Does flexibility help?", "The flexible coupler's metric over the rigid one's; the bar from the least to the largest ratio of replicates.", flexibilityCard],
+    ["morris", "saltelli"].includes(type) && ["Sensitivity", type === "morris" ? "What the whole range of each parameter changes, and how much that depends on the place." : "The part of the variance that each parameter makes, alone and in total; bars: 95 % confidence.", sensitivityCard],
+    numbers.length > 0 && ["Surrogate", "A polynomial fitted to the jobs, which are drawn with it; judged by predicting each from all others.", surrogateCard],
+    numbers.length > 0 && ["Bifurcation diagram", "Where the journal is once a turn of the crank, for each job.", bifurcationCard],
+    sweep.request.replicates && ["Largest Lyapunov exponent", "How fast runs part that begin nearly alike: above 0 the motion is chaotic.", lyapunovCard],
+  ].filter(Boolean);
+}
+
+function card(name, title, help, make, study, signal) {
+  const body = h("div");
+  let chart = null;
+  make(body, study, signal).then((made) => { chart = made; }).catch((error) => {
+    if (error.name !== "AbortError") body.replaceChildren(h("p", { class: "trouble" }, error.message));
+  });
+  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), saveButtons(() => chart, () => `${name} ${title.toLowerCase()}`)),
+    h("p", { class: "quiet small" }, help), body);
+}

@@ -1,0 +1,54 @@
+// The limit over the first numeric axis, a line for each combination of the others; between "all within" and "none within" the band.
+import { axisLook, makeChart } from "/core/charts.js";
+import { nameOf, number, pointOf, titleOf } from "/core/format.js";
+import { lineColour } from "/core/theme.js";
+
+export function limitCurve(element, view, signal) {
+  return makeChart(element, () => optionOf(view.search), "The limit over an axis, with its band; the table below has the same numbers", signal);
+}
+
+function optionOf(search) {
+  const drawn = search.limits.filter((limit) => limit.limit !== null);
+  if (drawn.length === 0) return null;
+  const numeric = search.axes.find((axis) => drawn.every((limit) => typeof limit[axis] === "number"));
+  const x = numeric ?? search.axes[0];
+  if (numeric) drawn.sort((a, b) => a[numeric] - b[numeric]);
+  const at = (limit) => (x ? limit[x] : search.name || "limit");
+  const others = search.axes.filter((axis) => axis !== x);
+  const lines = new Map();
+  for (const limit of drawn) {
+    const name = others.map((axis) => pointOf(axis, limit[axis])).join(", ") || nameOf(search.parameter);
+    lines.set(name, [...(lines.get(name) ?? []), limit]);
+  }
+  const axis = numeric ? { type: "value", scale: true } : { type: "category", data: [...new Set(drawn.map(at))].map(String) };
+  return {
+    grid: { left: 75, right: 20, top: 40, bottom: 50 },
+    legend: { top: 0, show: others.length > 0 },
+    tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(search, [...lines.values()][Math.floor(seriesIndex / 2)][dataIndex]) },
+    xAxis: { ...axis, name: x ? titleOf(x) : "", nameLocation: "middle", nameGap: 28, ...axisLook() },
+    yAxis: { type: "value", scale: true, name: titleOf(search.parameter), nameLocation: "middle", nameGap: 50, ...axisLook() },
+    series: [...lines].flatMap(([name, limits], index) => [bandSeries(name, limits, index, at), lineSeries(name, limits, index, at)]),
+  };
+}
+
+/// Where nothing was exceeded the limit lies beyond: such points are drawn hollow.
+function lineSeries(name, limits, index, at) {
+  return { name, type: "line", color: lineColour(index), symbolSize: 9, z: 3,
+    data: limits.map((limit) => ({ value: [at(limit), limit.limit], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };
+}
+
+function bandSeries(name, limits, index, at) {
+  return { name, type: "custom", color: lineColour(index), data: limits.map((limit) => [at(limit), limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond ?? limit.limit]), encode: { x: 0, y: [1, 2] },
+    renderItem: (_, api) => {
+      const [x, low] = api.coord([api.value(0), api.value(1)]);
+      const [, high] = api.coord([api.value(0), api.value(2)]);
+      return { type: "rect", shape: { x: x - 6, y: high, width: 12, height: low - high }, style: { fill: api.visual("color"), opacity: 0.3 } };
+    } };
+}
+
+function textOf(search, limit) {
+  const where = search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
+  const beyond = limit.limit_beyond === null ? "not exceeded up to there" : `exceeded at ${number(limit.limit_beyond)}`;
+  const band = `all replicates within up to ${number(limit.band_from)}, none from ${number(limit.band_to)}`;
+  return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band, limit.monotonic ? "" : "the metric falls on the way"].filter(Boolean).join("\n");
+}

@@ -1,0 +1,42 @@
+// The evaluations of one combination: the metric over the parameter, with the spread of the replicates, the bound and the limit.
+import { axisLook, makeChart } from "/core/charts.js";
+import { nameOf, number, titleOf, unitOf } from "/core/format.js";
+import { colour, lineColour } from "/core/theme.js";
+
+export function limitPoints(element, view, signal) {
+  return makeChart(element, () => optionOf(view.search, view.search.limits[view.shown]), "The metric at each value that was tried, with its bound", signal);
+}
+
+function optionOf(search, limit) {
+  const points = limit.points.filter((point) => point.quantile !== null);
+  if (points.length === 0) return null;
+  const { scale } = search.request.over[search.parameter];
+  const fallen = limit.falls.map(({ from, to }) => [{ xAxis: Math.min(from, to), itemStyle: { color: colour("bad"), opacity: 0.12 } }, { xAxis: Math.max(from, to) }]);
+  return {
+    grid: { left: 75, right: 30, top: 30, bottom: 50 },
+    tooltip: { formatter: ({ dataIndex, seriesIndex }) => (seriesIndex < 2 ? textOf(search, points[dataIndex]) : "") },
+    xAxis: { type: scale === "log" ? "log" : "value", scale: true, name: titleOf(search.parameter), nameLocation: "middle", nameGap: 28, ...axisLook() },
+    yAxis: { type: "value", scale: true, name: titleOf(search.metric), nameLocation: "middle", nameGap: 50, ...axisLook(), max: ({ max }) => Math.max(max, search.bound), min: ({ min }) => Math.min(min, search.bound) },
+    series: [spread(points), { type: "line", color: lineColour(0), symbol: "circle", symbolSize: 8, data: points.map((point) => [point.value, point.quantile]), z: 3,
+      markArea: { silent: true, data: fallen },
+      markLine: { symbol: "none", silent: true, lineStyle: { color: lineColour(1), type: "dashed" }, label: { color: colour("text"), formatter: ({ data }) => data.name },
+        data: [{ yAxis: search.bound, name: "bound" }, ...(limit.verdict === "found" ? [{ xAxis: limit.limit, name: "limit" }] : [])] } }],
+  };
+}
+
+function spread(points) {
+  return { type: "custom", color: lineColour(0), data: points.map((point) => [point.value, point.min, point.max]), encode: { x: 0, y: [1, 2] },
+    renderItem: (_, api) => {
+      const [x, low] = api.coord([api.value(0), api.value(1)]);
+      const [, high] = api.coord([api.value(0), api.value(2)]);
+      const style = { stroke: api.visual("color"), lineWidth: 2, opacity: 0.5 };
+      return { type: "line", shape: { x1: x, y1: low, x2: x, y2: high }, style };
+    } };
+}
+
+function textOf(search, point) {
+  const unit = unitOf(search.metric);
+  const lines = [`${nameOf(search.parameter)} ${number(point.value)} ${unitOf(search.parameter)}`, `quantile ${number(point.quantile)} ${unit}`, `${number(point.min)} to ${number(point.max)} ${unit}`,
+    `${point.within} of ${point.count} within the bound: ${number(100 * point.part_within_low, 3)} to ${number(100 * point.part_within_high, 3)} % of all, with 90 % confidence`];
+  return lines.join("\n");
+}
