@@ -81,6 +81,19 @@ void check_drives(const RpsupParameters& p) {
   require_not_negative(p.baumgarte_beta, "baumgarte_beta");
 }
 
+void check_friction(const RpsupParameters& p) {
+  require_positive(p.mu_s, "mu_s");
+  require_positive(p.mu_k, "mu_k");
+  require_not_negative(p.sigma_0, "sigma_0");
+  require_not_negative(p.sigma_1, "sigma_1");
+  require_not_negative(p.sigma_2, "sigma_2");
+  require_positive(p.v_s, "v_s");
+  require(p.break_away >= 0.0 && p.break_away < 1.0, "break_away", "at least 0 and below 1");
+  require_positive(p.v_0, "v_0");
+  require_positive(p.v_1, "v_1");
+  require(p.friction != FrictionLaw::kAmbrosio || p.v_1 > p.v_0, "v_1", "above v_0, " + to_text(p.v_0) + " m/s");
+}
+
 void check_joint(const RpsupParameters& p) {
   require_positive(p.bearing_radius, "bearing_radius");
   require_positive(p.bearing_length, "bearing_length");
@@ -94,12 +107,12 @@ void check_joint(const RpsupParameters& p) {
   require_positive(p.contact_stiffness_scale, "contact_stiffness_scale");
   require_not_negative(p.axial_stiffness, "axial_stiffness");
   require_positive(p.minimum_impact_velocity, "minimum_impact_velocity");
-  require_positive(p.mu_s, "mu_s");
-  require_positive(p.mu_k, "mu_k");
-  require_not_negative(p.sigma_0, "sigma_0");
-  require_not_negative(p.sigma_1, "sigma_1");
-  require_not_negative(p.sigma_2, "sigma_2");
-  require_positive(p.v_s, "v_s");
+  require(p.normal_law != NormalForceLaw::kKelvinVoigt || p.contact == ContactForm::kContinuum, "normal_law",
+          "another than kelvin_voigt for contact elements: its damper is that of a whole ring");
+  require_not_negative(p.contact_damping, "contact_damping");
+  require(p.stiffness_law == StiffnessLaw::kHertz || p.contact == ContactForm::kContinuum, "stiffness_law",
+          "hertz for contact elements: the others are laws of a whole ring");
+  check_friction(p);
 }
 
 void check_options(const RunOptions& options) {

@@ -13,6 +13,7 @@ std::string_view status_name(RunStatus status) {
     case RunStatus::kSucceeded: return "succeeded";
     case RunStatus::kAssembly: return "assembly";
     case RunStatus::kLockUp: return "lock_up";
+    case RunStatus::kContactRange: return "contact_range";
     case RunStatus::kNonFinite: return "non_finite";
     case RunStatus::kStepUnderflow: return "step_underflow";
     case RunStatus::kStepLimit: return "step_limit";

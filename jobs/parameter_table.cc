@@ -132,8 +132,30 @@ void add_joint_rows(Rows& rows) {
   rows.push_back(integer({"radial_elements", "radial_elements", "", kChosen, "Contact elements on a ring"}, between(3, 10'000), &P::radial_elements));
   rows.push_back(integer({"axial_levels", "axial_levels", "", kChosen, "Circles of axial contact on a face"}, between(1, 16), &P::axial_levels));
   rows.push_back(integer({"axial_elements", "axial_elements", "", kChosen, "Contact points on a circle"}, between(3, 1000), &P::axial_elements));
-  rows.push_back(number({"restitution", "restitution", "", kPaper, "Restitution coefficient of the contact law"}, above(0, 1), &P::restitution));
-  rows.push_back(number({"contact_stiffness_scale", "contact_stiffness_scale", "", kChosen, "Factor on the Hertz stiffness of radial contact"},
+  using engine::NormalForceLaw;
+  rows.push_back(choice<NormalForceLaw P::*, NormalForceLaw>(
+      {"normal_law", "normal_law", "", kPaper, "Damping of the contact. kelvin_voigt: a damper beside the spring, for contact continuum"},
+      &P::normal_law,
+      {{"lankarani_nikravesh", NormalForceLaw::kLankaraniNikravesh},
+       {"hunt_crossley", NormalForceLaw::kHuntCrossley},
+       {"herbert_mcwhannell", NormalForceLaw::kHerbertMcWhannell},
+       {"lee_wang", NormalForceLaw::kLeeWang},
+       {"gonthier", NormalForceLaw::kGonthier},
+       {"flores", NormalForceLaw::kFlores},
+       {"hu_guo", NormalForceLaw::kHuGuo},
+       {"carvalho_martins", NormalForceLaw::kCarvalhoMartins},
+       {"kelvin_voigt", NormalForceLaw::kKelvinVoigt}}));
+  rows.push_back(number({"restitution", "restitution", "", kPaper, "Restitution coefficient of the contact law; kelvin_voigt has none"}, above(0, 1),
+                        &P::restitution));
+  rows.push_back(number({"contact_damping_n_s_m", "contact_damping", "N s/m", kChosen, "kelvin_voigt: the damper, of the bore and of each face"},
+                        between(0, 1e9), &P::contact_damping));
+  using engine::StiffnessLaw;
+  rows.push_back(choice<StiffnessLaw P::*, StiffnessLaw>(
+      {"stiffness_law", "stiffness_law", "", kPaper,
+       "Elastic force of the bore. johnson, radzimovsky, liu: cylinders, for contact continuum; the first two end where they no longer hold"},
+      &P::stiffness_law,
+      {{"hertz", StiffnessLaw::kHertz}, {"johnson", StiffnessLaw::kJohnson}, {"radzimovsky", StiffnessLaw::kRadzimovsky}, {"liu", StiffnessLaw::kLiu}}));
+  rows.push_back(number({"contact_stiffness_scale", "contact_stiffness_scale", "", kChosen, "Factor on the stiffness of radial contact"},
                         between(1e-6, 1e6), &P::contact_stiffness_scale));
   rows.push_back(number({"axial_stiffness_n_m", "axial_stiffness", "N/m", kChosen, "Stiffness of one face of the journal"}, between(0, 1e13),
                         &P::axial_stiffness));
@@ -142,14 +164,29 @@ void add_joint_rows(Rows& rows) {
 }
 
 void add_friction_rows(Rows& rows) {
-  rows.push_back(choice<engine::FrictionLaw P::*, engine::FrictionLaw>({"friction", "friction", "", kPaper, "Friction law of the joint"}, &P::friction,
-                                                   {{"lugre", engine::FrictionLaw::kLuGre}, {"none", engine::FrictionLaw::kNone}}));
-  rows.push_back(number({"friction_static", "mu_s", "", kPaper, "LuGre: static coefficient. The paper prints it below the kinetic one"}, above(0, 10), &P::mu_s));
-  rows.push_back(number({"friction_kinetic", "mu_k", "", kPaper, "LuGre: kinetic coefficient"}, above(0, 10), &P::mu_k));
-  rows.push_back(number({"bristle_stiffness_1_m", "sigma_0", "1/m", kPaper, "LuGre: stiffness of the bristles"}, above(0, 1e9), &P::sigma_0));
-  rows.push_back(number({"bristle_damping_s_m", "sigma_1", "s/m", kPaper, "LuGre: damping of the bristles"}, between(0, 1e6), &P::sigma_1));
-  rows.push_back(number({"bristle_viscous_s_m", "sigma_2", "s/m", kPaper, "LuGre: viscous friction"}, between(0, 1e6), &P::sigma_2));
-  rows.push_back(number({"stribeck_velocity_m_s", "v_s", "m/s", kPaper, "LuGre: Stribeck velocity"}, between(1e-9, 100), &P::v_s));
+  using engine::FrictionLaw;
+  rows.push_back(choice<FrictionLaw P::*, FrictionLaw>(
+      {"friction", "friction", "", kPaper,
+       "Friction law of the joint. With bristles: lugre, dahl, elasto_plastic; without: coulomb (smoothed), ambrosio"},
+      &P::friction,
+      {{"lugre", FrictionLaw::kLuGre},
+       {"none", FrictionLaw::kNone},
+       {"coulomb", FrictionLaw::kCoulomb},
+       {"ambrosio", FrictionLaw::kAmbrosio},
+       {"dahl", FrictionLaw::kDahl},
+       {"elasto_plastic", FrictionLaw::kElastoPlastic}}));
+  rows.push_back(number({"friction_static", "mu_s", "", kPaper, "lugre, elasto_plastic: static coefficient. The paper prints it below the kinetic one"}, above(0, 10), &P::mu_s));
+  rows.push_back(number({"friction_kinetic", "mu_k", "", kPaper, "Kinetic coefficient of every friction law"}, above(0, 10), &P::mu_k));
+  rows.push_back(number({"bristle_stiffness_1_m", "sigma_0", "1/m", kPaper, "Stiffness of the bristles"}, above(0, 1e9), &P::sigma_0));
+  rows.push_back(number({"bristle_damping_s_m", "sigma_1", "s/m", kPaper, "lugre, elasto_plastic: damping of the bristles"}, between(0, 1e6), &P::sigma_1));
+  rows.push_back(number({"bristle_viscous_s_m", "sigma_2", "s/m", kPaper, "lugre, elasto_plastic: viscous friction"}, between(0, 1e6), &P::sigma_2));
+  rows.push_back(number({"stribeck_velocity_m_s", "v_s", "m/s", kPaper, "lugre, elasto_plastic: Stribeck velocity"}, between(1e-9, 100), &P::v_s));
+  rows.push_back(number({"break_away_ratio", "break_away", "", kChosen, "elasto_plastic: part of its steady deflection up to which a bristle does not creep"},
+                        below(0, 1), &P::break_away));
+  rows.push_back(number({"friction_velocity_0_m_s", "v_0", "m/s", kChosen,
+                         "coulomb: velocity of 1/sqrt(2) of full friction; ambrosio: no friction below it"}, between(1e-9, 100), &P::v_0));
+  rows.push_back(number({"friction_velocity_1_m_s", "v_1", "m/s", kChosen, "ambrosio: full friction above it; more than friction_velocity_0_m_s"},
+                        between(1e-9, 100), &P::v_1));
 }
 
 void add_body_rows(Rows& rows) {

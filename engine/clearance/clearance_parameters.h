@@ -4,17 +4,10 @@
 #include <numbers>
 #include <optional>
 
-namespace engine {
+#include "engine/clearance/cylinder_contact.h"
+#include "engine/clearance/friction_parameters.h"
 
-/// LuGre friction, Eq. (11.2).
-struct LuGreParameters {
-  double mu_s = 0.1;      ///< static, [1]
-  double mu_k = 0.2;      ///< kinetic, [1]
-  double sigma_0 = 100.0; ///< bristle stiffness, [1/m]
-  double sigma_1 = 5.0;   ///< bristle damping, [s/m]
-  double sigma_2 = 0.0;   ///< viscous, [s/m]
-  double v_s = 1e-3;      ///< Stribeck velocity, [m/s]
-};
+namespace engine {
 
 enum class RadialForm { kContinuum, kElements };
 
@@ -30,10 +23,12 @@ struct ClearanceParameters {
   int n_a = 1;                     ///< circles of points on a face
   int n_ce_axial = 8;              ///< points on a circle
   double K = 4.7e10;               ///< Hertz stiffness of the whole bore, [N/m^1.5]
+  CylinderContact cylinders{};     ///< kContinuum: in the place of Hertz's law, if it has another
   double K_a = 1e8;                ///< stiffness of one face, [N/m]
-  double chi = 0.1425;             ///< damping factor of the normal law, 3/4 (1 - k_r^2), [1]
+  double chi = 0.1425;             ///< damping factor of the normal law, [1]
+  double damping = 0.0;            ///< Kelvin and Voigt's, of the whole bore (kContinuum) and of each face, [N s/m]
   double minimum_onset_rate = 1e-3;///< floor of the latched penetration rate, [m/s]
-  std::optional<LuGreParameters> friction;
+  std::optional<FrictionParameters> friction;
 
   [[nodiscard]] double r_j() const { return r_b - c_r; }  ///< journal radius, [m]
 };
@@ -44,8 +39,5 @@ struct ClearanceParameters {
   const double h = (1.0 - nu * nu) / (std::numbers::pi * youngs_modulus);
   return 4.0 / (3.0 * std::numbers::pi * 2.0 * h) * std::sqrt(r_b * (r_b - c_r) / c_r);
 }
-
-/// Hysteresis of Lankarani and Nikravesh: chi = 3/4 (1 - k_r^2).
-[[nodiscard]] inline double calc_damping_factor(double k_r) { return 0.75 * (1.0 - k_r * k_r); }
 
 }  // namespace engine

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/clearance/clearance_parameters.h"
+#include "engine/clearance/friction_law.h"
 #include "engine/math/dual.h"
 #include "engine/math/vec3.h"
 
@@ -29,6 +30,7 @@ struct JointLoad {
   double friction_sum = 0.0;         ///< magnitudes, [N]
   double max_penetration = 0.0;      ///< of radial contacts, [m]
   double elastic_energy = 0.0;       ///< [J]
+  bool out_of_range = false;         ///< a penetration is beyond what the stiffness law holds for
 
   /// Called when all that one touch does has been added. @param bristle  its place in the state
   RPSUP_INLINE void close_touch(int /*bristle*/) {}
@@ -53,42 +55,16 @@ template <typename V>
   return value_of(rate) > minimum ? rate : V(minimum);
 }
 
-/// Lankarani and Nikravesh's damping on a given elastic force, Eq. (11.1): f_n = f_e (1 + chi rate / rate_onset), never negative.
+/// Damping on a given elastic force, Eq. (11.1): f_n = f_e (1 + chi rate / rate_onset) + damping rate, never negative.
 ///
-/// With chi = 3/4 (1 - k_r^2) the rebound is not k_r times the impact velocity: k_r = 0.9 returns 0.9132.
+/// With Lankarani and Nikravesh's chi the rebound is not k_r times the impact velocity: k_r = 0.9 returns 0.9132.
+/// @param damping  Kelvin and Voigt's of this contact, [N s/m]
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE NormalLaw<V> calc_normal_law(const P& elastic, const V& rate, const V& onset_rate, double chi) {
-  const V total = elastic * (1.0 + chi * rate / onset_rate);
+[[nodiscard]] RPSUP_INLINE NormalLaw<V> calc_normal_law(const P& elastic, const V& rate, const V& onset_rate, double chi, double damping) {
+  V total = elastic * (1.0 + chi * rate / onset_rate);
+  if (damping > 0.0) total += damping * rate;
   if (value_of(total) < 0.0) return {V(0.0), -(elastic * rate)};
   return {total, (total - elastic) * rate};
-}
-
-/// Stribeck's curve g(|v|) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2). Beyond (v / v_s)^2 = 40 the exponential is below rounding.
-template <typename V>
-[[nodiscard]] RPSUP_INLINE V calc_stribeck_curve(const LuGreParameters& p, const V& speed) {
-  const V ratio = speed / p.v_s;
-  const V squared = ratio * ratio;
-  if (value_of(squared) > 40.0) return V(p.mu_k);
-  return p.mu_k + (p.mu_s - p.mu_k) * exp(-squared);
-}
-
-/// How fast a bristle that slides lets go: sigma_0 |v| / g(|v|), [1/s].
-template <typename V>
-[[nodiscard]] RPSUP_INLINE V calc_bristle_decay(const LuGreParameters& p, const V& speed) {
-  return p.sigma_0 * speed / calc_stribeck_curve(p, speed);
-}
-
-/// What LuGre's law, Eq. (11.2), gives for one component of the sliding velocity.
-template <typename V>
-struct BristleLaw {
-  V force_ratio;                     ///< sigma_0 z + sigma_1 zd + sigma_2 v, [1]; it acts against v
-  V rate;                            ///< zd = v - sigma_0 |v| z / g(|v|), [m/s]
-};
-
-template <typename V>
-[[nodiscard]] RPSUP_INLINE BristleLaw<V> calc_bristle_law(const LuGreParameters& p, const V& decay, const V& v, const V& z) {
-  const V rate = v - decay * z;
-  return {p.sigma_0 * z + p.sigma_1 * rate + p.sigma_2 * v, rate};
 }
 
 /// One place where journal and bore touch: r from the journal centre, (n_x, n_y, 0) the outward normal of the bore, both in {b}.
@@ -110,23 +86,21 @@ RPSUP_INLINE void add_touch(const ClearanceParameters& joint, const RelativeMoti
   load.radial_normal_sum += value_of(f_n);
   load.impact_power += touch.normal.loss_power;
   if (joint.friction) {
-    const LuGreParameters& law = *joint.friction;
+    const FrictionParameters& law = *joint.friction;
     const Vec3<V> velocity = journal.calc_velocity(touch.r);
     const V v_t = velocity.y * touch.n_x - velocity.x * touch.n_y;
     const V& v_z = velocity.z;
-    const V decay = calc_bristle_decay(law, sqrt(v_t * v_t + v_z * v_z));
-    const BristleLaw<V> along_t = calc_bristle_law(law, decay, v_t, bristle ? bristle[0] : V(0.0));
-    const BristleLaw<V> along_z = calc_bristle_law(law, decay, v_z, bristle ? bristle[1] : V(0.0));
-    const V f_t = f_n * along_t.force_ratio;
-    const V f_z = f_n * along_z.force_ratio;
+    const FrictionForce<V> friction = calc_friction(law, v_t, v_z, bristle ? bristle[0] : V(0.0), bristle ? bristle[1] : V(0.0));
+    const V f_t = f_n * friction.along_t.force_ratio;
+    const V f_z = f_n * friction.along_z.force_ratio;
     force.x += f_t * touch.n_y;
     force.y -= f_t * touch.n_x;
     force.z -= f_z;
     load.friction_sum += std::sqrt(value_of(f_t) * value_of(f_t) + value_of(f_z) * value_of(f_z));
     load.friction_power += f_t * v_t + f_z * v_z;
     if (bristle_rate) {
-      bristle_rate[0] = along_t.rate;
-      bristle_rate[1] = along_z.rate;
+      bristle_rate[0] = friction.along_t.rate;
+      bristle_rate[1] = friction.along_z.rate;
     }
   }
   load.add_force(touch.r, force);

@@ -36,9 +36,26 @@ template <typename P, typename V>
   return ring.n_x * velocity.x + ring.n_y * velocity.y;
 }
 
+template <typename P>
+struct RingForce {
+  P elastic;         ///< [N]
+  double energy;     ///< stored, [J]
+};
+
+/// The elastic force of one of the rings.
+template <typename P>
+[[nodiscard]] RPSUP_INLINE RingForce<P> calc_ring_force(const ClearanceParameters& joint, const P& delta) {
+  if (joint.cylinders.law == StiffnessLaw::kHertz) {
+    const P elastic = (joint.K / joint.n_r) * (delta * sqrt(delta));
+    return {elastic, 0.4 * value_of(elastic) * value_of(delta)};
+  }
+  const ElasticForce whole = joint.cylinders.calc(value_of(delta));
+  return {chain(delta, whole.force / joint.n_r, whole.slope / joint.n_r), whole.energy / joint.n_r};
+}
+
 /// Radial contact in closed form: each ring of the journal against the bore, one force a ring.
 ///
-///     e offset of the ring's centre from the bearing axis,  delta = |e| - c_r,  n = e / |e|,  f_e = K / n_r delta^1.5
+///     e offset of the ring's centre from the bearing axis,  delta = |e| - c_r,  n = e / |e|,  f_e = K / n_r delta^1.5 by Hertz
 /// @tparam Load  a JointLoad<V>
 template <typename P, typename V, typename Load>
 RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
@@ -50,14 +67,15 @@ RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMo
     const P delta = ring.distance - joint.c_r;
     if (!(value_of(delta) > 0.0)) continue;
     const V rate = calc_ring_rate(journal, ring);
-    const P elastic = (joint.K / joint.n_r) * (delta * sqrt(delta));
+    const RingForce<P> force = calc_ring_force(joint, delta);
     const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
+    const NormalLaw<V> normal = calc_normal_law(force.elastic, rate, onset, joint.chi, joint.damping / joint.n_r);
     const double r_j = joint.r_j();
     const Vec3<P> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
-    add_touch(joint, journal, Touch<P, V>{r, ring.n_x, ring.n_y, calc_normal_law(elastic, rate, onset, joint.chi)}, bristles + 2 * i,
-              bristle_rates + 2 * i, load);
-    load.elastic_energy += 0.4 * value_of(elastic) * value_of(delta);
+    add_touch(joint, journal, Touch<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i, bristle_rates + 2 * i, load);
+    load.elastic_energy += force.energy;
     load.max_penetration = std::max(load.max_penetration, value_of(delta));
+    load.out_of_range = load.out_of_range || force.energy != force.energy;
     load.close_touch(2 * i);
   }
 }

@@ -104,7 +104,7 @@ template <typename P, typename V, typename Load>
       const V rate = calc_element_rate(journal, element);
       const P elastic = stiffness * element.delta;
       const V onset = choose_onset_rate(elements.latch(i, k).rate(), rate, joint.minimum_onset_rate);
-      add_touch(joint, journal, Touch<P, V>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi)},
+      add_touch(joint, journal, Touch<P, V>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi, 0.0)},
                 place < 0 ? nullptr : bristles + place, place < 0 ? nullptr : bristle_rates + place, load);
       load.elastic_energy += 0.5 * value_of(elastic) * value_of(element.delta);
       load.max_penetration = std::max(load.max_penetration, value_of(element.delta));

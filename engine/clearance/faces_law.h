@@ -23,7 +23,7 @@ template <typename P, typename V>
 
 /// Contact of the journal's two faces with the bearing's shoulders: points on circles, no friction.
 ///
-///     delta = +-z_b - (L_b / 2 + c_a),  f = K_a / (points of a face) delta (1 + chi rate / rate_onset)
+///     delta = +-z_b - (L_b / 2 + c_a),  f = K_a / (points of a face) delta (1 + chi rate / rate_onset), or as the normal law says
 template <typename P, typename V>
 RPSUP_INLINE void add_faces(const AxialFaces& faces, const RelativeMotion<P, V>& journal, JointLoad<V>& load) {
   const double limit = faces.limit();
@@ -43,7 +43,7 @@ RPSUP_INLINE void add_faces(const AxialFaces& faces, const RelativeMotion<P, V>&
     const P elastic = faces.point_stiffness() * touch.delta;
     const ClearanceParameters& joint = faces.parameters();
     const V onset = choose_onset_rate(faces.latches()[k].rate(), touch.rate, joint.minimum_onset_rate);
-    const NormalLaw<V> normal = calc_normal_law(elastic, touch.rate, onset, joint.chi);
+    const NormalLaw<V> normal = calc_normal_law(elastic, touch.rate, onset, joint.chi, joint.damping / count);
     const V force = -points[k].side * normal.total;
     load.force.z += force;
     load.moment.x += touch.r.y * force;

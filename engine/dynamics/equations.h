@@ -18,6 +18,7 @@ enum class EvaluationStatus {
   kOk,
   kBristleMissing,  ///< an element touched that has no place in the state: widen_bristles() and step again
   kLocked,          ///< the constraints' matrix is singular
+  kOutOfRange,      ///< a penetration beyond what the contact's stiffness law holds for
   kNonFinite,       ///< no number, or a mass matrix that is not positive definite
 };
 

@@ -56,7 +56,8 @@ class EquationsOfMotion {
     if (model_.rows > 0 && !solve_multipliers(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
     calc_losses();
-    return is_finite() ? EvaluationStatus::kOk : EvaluationStatus::kNonFinite;
+    if (is_finite()) return EvaluationStatus::kOk;
+    return is_out_of_range() ? EvaluationStatus::kOutOfRange : EvaluationStatus::kNonFinite;
   }
 
   /// What the constraints lack of the accelerations that they want: lambda <- (Phi_q M^-1 Phi_q^T)^-1 (wanted - Phi_q qdd). After evaluate().
@@ -243,6 +244,12 @@ class EquationsOfMotion {
         losses.structural += joint.numbers().damping[k] * (rate * rate);
       }
     });
+  }
+
+  [[nodiscard]] RPSUP_INLINE bool is_out_of_range() const {
+    bool out = false;
+    for (std::size_t k = 0; k < cuts.size(); ++k) out = out || cuts[k].load.out_of_range;
+    return out;
   }
 
   [[nodiscard]] RPSUP_INLINE bool is_finite() const {

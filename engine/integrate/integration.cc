@@ -107,6 +107,8 @@ void Integration::widen_bristles() {
 void Integration::fail(EvaluationStatus status) {
   if (status == EvaluationStatus::kLocked)
     fail(RunStatus::kLockUp, "the linkage cannot follow its drives any further");
+  else if (status == EvaluationStatus::kOutOfRange)
+    fail(RunStatus::kContactRange, "the journal goes deeper into the bore than the stiffness law holds; hertz and liu have no such limit");
   else
     fail(RunStatus::kNonFinite, "the state is no longer a number; a smaller step or tolerance may help");
 }

@@ -122,8 +122,12 @@ struct Dual {
   return chain(a, e, e);
 }
 
+[[nodiscard]] RPSUP_INLINE Dual sin(const Dual& a) { return chain(a, std::sin(a.value), std::cos(a.value)); }
+
 [[nodiscard]] RPSUP_INLINE double sqrt(double a) { return std::sqrt(a); }
 [[nodiscard]] RPSUP_INLINE double exp(double a) { return std::exp(a); }
+[[nodiscard]] RPSUP_INLINE double sin(double a) { return std::sin(a); }
+[[nodiscard]] RPSUP_INLINE double chain(double /*a*/, double f, double /*df*/) { return f; }
 
 /// The number alone: for decisions, which have no derivative.
 [[nodiscard]] RPSUP_INLINE double value_of(double a) { return a; }

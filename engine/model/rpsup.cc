@@ -87,6 +87,14 @@ CouplerEnd add_flexible_coupler(ChainBuilder& chain, const RpsupParameters& p, F
   return end;
 }
 
+FrictionParameters friction_of(const RpsupParameters& p) {
+  FrictionParameters friction{p.mu_s, p.mu_k, p.sigma_0, p.sigma_1, p.sigma_2, p.v_s, p.friction, p.break_away, p.v_0, p.v_1};
+  if (p.friction != FrictionLaw::kDahl) return friction;
+  friction.mu_s = friction.mu_k;
+  friction.sigma_1 = friction.sigma_2 = 0.0;
+  return friction;
+}
+
 ClearanceParameters clearance_of(const RpsupParameters& p) {
   const double nu = p.youngs_modulus / (2.0 * p.shear_modulus) - 1.0;
   ClearanceParameters joint;
@@ -101,9 +109,11 @@ ClearanceParameters clearance_of(const RpsupParameters& p) {
   joint.n_ce_axial = p.axial_elements;
   joint.K = p.contact_stiffness_scale * calc_hertz_stiffness(p.bearing_radius, p.c_r, p.youngs_modulus, nu);
   joint.K_a = p.axial_stiffness;
-  joint.chi = calc_damping_factor(p.restitution);
+  joint.cylinders = {p.stiffness_law, p.contact_stiffness_scale * p.youngs_modulus / (2.0 * (1.0 - nu * nu)) * p.bearing_length, p.c_r};
+  joint.chi = calc_damping_factor(p.normal_law, p.restitution);
+  if (p.normal_law == NormalForceLaw::kKelvinVoigt) joint.damping = p.contact_damping;
   joint.minimum_onset_rate = p.minimum_impact_velocity;
-  if (p.friction == FrictionLaw::kLuGre) joint.friction = LuGreParameters{p.mu_s, p.mu_k, p.sigma_0, p.sigma_1, p.sigma_2, p.v_s};
+  if (p.friction != FrictionLaw::kNone) joint.friction = friction_of(p);
   return joint;
 }
 

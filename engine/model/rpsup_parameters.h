@@ -2,6 +2,9 @@
 
 #include <array>
 
+#include "engine/clearance/cylinder_contact.h"
+#include "engine/clearance/friction_parameters.h"
+#include "engine/clearance/normal_law.h"
 #include "engine/model/links.h"
 
 namespace engine {
@@ -9,7 +12,6 @@ namespace engine {
 enum class Coupler { kRigid, kFlexible };
 enum class DriveEnforcement { kPrescribed, kBaumgarte };
 enum class ContactForm { kContinuum, kElements };
-enum class FrictionLaw { kLuGre, kNone };
 
 /// Everything that defines one RPSUP linkage, its drives and its clearance joint, in SI units.
 /// The values below are the defaults of the study; the README says where each comes from.
@@ -59,8 +61,11 @@ struct RpsupParameters {
   int axial_elements = 8;                          ///< points on a circle
   double bearing_radius = 5e-3;                    ///< r_b, [m]
   double bearing_length = 20e-3;                   ///< L_b, [m]
+  NormalForceLaw normal_law = NormalForceLaw::kLankaraniNikravesh;
   double restitution = 0.9;                        ///< k_r, (0, 1]
-  double contact_stiffness_scale = 1.0;            ///< factor on the Hertz stiffness K, [1]
+  double contact_damping = 1000.0;                 ///< of Kelvin and Voigt's law, [N s/m]
+  StiffnessLaw stiffness_law = StiffnessLaw::kHertz;
+  double contact_stiffness_scale = 1.0;            ///< factor on the stiffness of the bore, [1]
   double axial_stiffness = 1e8;                    ///< K_a of one face, [N/m]
   double minimum_impact_velocity = 1e-3;           ///< floor of the latched onset velocity, [m/s]
   FrictionLaw friction = FrictionLaw::kLuGre;
@@ -70,6 +75,9 @@ struct RpsupParameters {
   double sigma_1 = 5.0;                            ///< bristle damping, [s/m]
   double sigma_2 = 0.0;                            ///< viscous friction, [s/m]
   double v_s = 1e-3;                               ///< Stribeck velocity, [m/s]
+  double break_away = 0.7;                         ///< elasto-plastic bristles, [0, 1)
+  double v_0 = 1e-4;                               ///< of friction without bristles: FrictionParameters, [m/s]
+  double v_1 = 1e-3;                               ///< [m/s]
 };
 
 }  // namespace engine

@@ -74,7 +74,7 @@ TEST(RadialContinuum, NothingTouchesInsideTheClearance) {
 
 TEST(RadialContinuum, FrictionOpposesTheSlidingAndItsPowerIsLost) {
   ClearanceParameters joint = joint_without_friction();
-  joint.friction = LuGreParameters{};
+  joint.friction = FrictionParameters{};
   JournalMotion journal = journal_at(joint.c_r + 2e-6, 0.0);
   journal.w = {0.0, 0.0, 20.0};
   std::vector<double> rates(4);
@@ -93,7 +93,7 @@ ClearanceParameters joint_of_elements(int n_ce) {
   ClearanceParameters joint = joint_without_friction();
   joint.form = RadialForm::kElements;
   joint.n_ce = n_ce;
-  joint.friction = LuGreParameters{};
+  joint.friction = FrictionParameters{};
   return joint;
 }
 

@@ -35,10 +35,24 @@ std::vector<Case> all_cases() {
   rigid_rows.drive = DriveEnforcement::kBaumgarte;
   RpsupParameters ideal = flexible;
   ideal.c_r = 0.0;
+  RpsupParameters plastic = rigid;  // Kelvin and Voigt's damper, a logarithmic stiffness, elasto-plastic bristles
+  plastic.normal_law = NormalForceLaw::kKelvinVoigt;
+  plastic.stiffness_law = StiffnessLaw::kRadzimovsky;
+  plastic.friction = FrictionLaw::kElastoPlastic;
+  plastic.break_away = 0.01;
+  RpsupParameters no_bristles = flexible;
+  no_bristles.stiffness_law = StiffnessLaw::kLiu;
+  no_bristles.friction = FrictionLaw::kAmbrosio;
+  no_bristles.v_1 = 10.0;
+  RpsupParameters smooth = rigid;
+  smooth.stiffness_law = StiffnessLaw::kJohnson;
+  smooth.friction = FrictionLaw::kCoulomb;
+  smooth.v_0 = 1.0;
   RpsupParameters all_rows = rows;
   all_rows.c_r = 0.0;
   constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
   return {{"rigid", rigid, kPressed, kFine}, {"flexible", flexible, kPressed, kFine}, {"elements", elements, kPressed, kFine},
+          {"elasto_plastic", plastic, kPressed, kFine}, {"ambrosio", no_bristles, kPressed, kFine}, {"coulomb", smooth, kPressed, kFine},
           {"drive_rows", rows, kPressed, kFine}, {"rigid_drive_rows", rigid_rows, kPressed, kFine},
           {"ideal_flexible", ideal, 1e-6, kCoarse}, {"ideal_drive_rows", all_rows, 1e-6, kCoarse}};
 }

@@ -18,7 +18,8 @@ Chapter contact_chapter() {
                 {"axial_faces_obey_statics", compute_axial_faces},
                 {"elements_damp_each_from_its_own_onset", compute_impacts_of_a_ring},
                 {"elements_bend_each_its_own_bristle", compute_turning_journal},
-                {"whole_runs_with_elements", compute_whole_runs_with_elements, Cost::kHeavy}}};
+                {"whole_runs_with_elements", compute_whole_runs_with_elements, Cost::kHeavy},
+                {"the_study_with_other_laws", compare_laws, Cost::kHeavy}}};
 }
 
 }  // namespace engine::validation

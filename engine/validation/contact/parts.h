@@ -18,6 +18,8 @@ namespace engine::validation {
 [[nodiscard]] Findings compute_turning_journal();
 /// Why whole runs with elements have other peaks than those with the closed form.
 [[nodiscard]] Findings compute_whole_runs_with_elements();
+/// What the choice of the joint's laws does to the study.
+[[nodiscard]] Findings compare_laws();
 /// Forces and moments on a tilted journal are those of statics, for rings and for rings of elements.
 [[nodiscard]] Findings compute_tilted_journal();
 /// Forces and moments on the journal's faces are those of statics.

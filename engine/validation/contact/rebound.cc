@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/clearance/normal_law.h"
 #include "engine/model/rpsup.h"
 #include "engine/validation/contact/parts.h"
 #include "engine/validation/contact/sliding_mass.h"
@@ -75,7 +76,7 @@ double simulate_face_rebound(double k_r, double gap, const RunOptions& steps) {
   ClearanceParameters joint = one_ring();
   joint.c_a = kReach;
   joint.K_a = 1e8;
-  joint.chi = calc_damping_factor(k_r);
+  joint.chi = calc_damping_factor(NormalForceLaw::kLankaraniNikravesh, k_r);
   Mechanism mass = make_sliding_mass(joint, kMass);
   mass.coordinates[0].axis = Axis::kZ;
   RunOptions options = steps;
@@ -145,7 +146,7 @@ Findings compute_rebounds() {
     std::vector<std::string> row{number(known.k_r)};
     Largest from_known;
     for (Form& form : forms()) {
-      form.joint.chi = calc_damping_factor(known.k_r);
+      form.joint.chi = calc_damping_factor(NormalForceLaw::kLankaraniNikravesh, known.k_r);
       const Impact impact = simulate_impact(make_sliding_mass(form.joint, kMass), kGap, kSpeed, form.contact_time);
       const double found = impact.speed / kSpeed;
       const std::string at = ", k_r = " + number(known.k_r) + ", " + form.name;

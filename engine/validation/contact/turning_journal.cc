@@ -39,7 +39,7 @@ double simulate_torque(RadialForm form, double sigma_0) {
   joint.form = form;
   joint.n_ce = kElements;
   joint.chi = 0.0;
-  joint.friction = LuGreParameters{.mu_s = 0.1, .mu_k = kMuK, .sigma_0 = sigma_0, .sigma_1 = 5.0, .sigma_2 = 0.0, .v_s = 1e-3};
+  joint.friction = FrictionParameters{.mu_s = 0.1, .mu_k = kMuK, .sigma_0 = sigma_0, .sigma_1 = 5.0, .sigma_2 = 0.0, .v_s = 1e-3};
   Mechanism mechanism;
   mechanism.coordinates.push_back({.name = "psi", .placement = {}, .axis = Axis::kZ, .mass = 1.0, .inertia = Eigen::Matrix3d::Identity()});
   mechanism.drives = {{0, RunUp{kOmega, 0.0}}};

@@ -54,7 +54,7 @@ Check compare_impact(double k_r) {
 
 /// F v integrated: F(t) = g (1 - e) + sigma_1 v e + sigma_2 v with e = exp(-t / tau), tau = g / (sigma_0 v).
 Check compare_friction(double v) {
-  const LuGreParameters law{.sigma_2 = 0.3};
+  const FrictionParameters law{.sigma_2 = 0.3};
   const double g = law.mu_k + (law.mu_s - law.mu_k) * std::exp(-(v / law.v_s) * (v / law.v_s));
   const double tau = g / (law.sigma_0 * v);
   const double duration = 3.0 * tau;

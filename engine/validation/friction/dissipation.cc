@@ -11,13 +11,13 @@ namespace engine::validation {
 namespace {
 
 /// What the contact turns into heat, per normal force: the friction's power less the growth of the bristle's energy sigma_0 z^2 / 2.
-double calc_heat(const LuGreParameters& law, const Eigen::Vector2d& v, const Eigen::Vector2d& z) {
+double calc_heat(const FrictionParameters& law, const Eigen::Vector2d& v, const Eigen::Vector2d& z) {
   const BristleForce f = calc_bristle_force(law, v, z);
   return f.force_ratio.dot(v) - law.sigma_0 * z.dot(f.bristle_rate);
 }
 
 /// Its least value over all bristles along v: through three of them goes the parabola that it is.
-double find_least_heat(const LuGreParameters& law, double v) {
+double find_least_heat(const FrictionParameters& law, double v) {
   const double reach = law.sigma_1 * v / law.sigma_0;  // where the least is to be expected, twice over
   const auto heat = [&](double s) { return calc_heat(law, v * kLine, s * reach * kLine); };
   const double a = heat(0.0);
@@ -28,7 +28,7 @@ double find_least_heat(const LuGreParameters& law, double v) {
 }
 
 /// The speed beyond which some bristle would give energy back.
-double find_limit(const LuGreParameters& law) {
+double find_limit(const FrictionParameters& law) {
   double low = 7.0 * law.v_s;  // from here on Stribeck's curve is flat
   double high = 100.0;
   for (int k = 0; k < 80; ++k) {
@@ -39,7 +39,7 @@ double find_limit(const LuGreParameters& law) {
 }
 
 /// Least heat over bristles that sliding can have made, |z| <= mu_k / sigma_0, in units of mu_k |v|; speeds from 1e-6 to 100 m/s.
-double find_least_reachable_heat(const LuGreParameters& law) {
+double find_least_reachable_heat(const FrictionParameters& law) {
   double least = 1.0;
   for (int i = 0; i <= 320; ++i) {
     const double v = 1e-6 * std::pow(10.0, 0.025 * i);

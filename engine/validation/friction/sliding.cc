@@ -20,7 +20,7 @@ namespace {
 
 struct LawCase {
   std::string name;
-  LuGreParameters law;
+  FrictionParameters law;
 };
 
 std::vector<LawCase> law_cases() {
@@ -29,10 +29,10 @@ std::vector<LawCase> law_cases() {
           {"defaults with sigma_2 = 0.3 s/m", {.sigma_2 = 0.3}}};
 }
 
-double stribeck(const LuGreParameters& p, double v) { return p.mu_k + (p.mu_s - p.mu_k) * std::exp(-(v / p.v_s) * (v / p.v_s)); }
+double stribeck(const FrictionParameters& p, double v) { return p.mu_k + (p.mu_s - p.mu_k) * std::exp(-(v / p.v_s) * (v / p.v_s)); }
 
 /// From rest to `duration` at a constant velocity. @returns force against the motion; the force across it goes to `across`
-double slide(const LuGreParameters& law, double v, double duration, double& across) {
+double slide(const FrictionParameters& law, double v, double duration, double& across) {
   const auto rates = [&](const OdeState& z, OdeState& d, double) {
     const BristleForce f = calc_on_line(law, v, z[0], z[1]);
     d = {f.bristle_rate[0], f.bristle_rate[1]};
@@ -86,7 +86,7 @@ Check compare_turned() {
   Random random(41);
   Largest worst;
   for (int k = 0; k < 200; ++k) {
-    const LuGreParameters law{};
+    const FrictionParameters law{};
     const Eigen::Vector2d v(random.symmetric(3e-3), random.symmetric(3e-3));
     const Eigen::Vector2d z(random.symmetric(2e-3), random.symmetric(2e-3));
     const Eigen::Rotation2Dd turn(random.symmetric(3.14));

@@ -22,7 +22,7 @@ namespace engine::validation {
 
 /// 1 kg that lies in the bore under a gravity of 1 m/s^2, so that the normal force is 1 N, and slides along the bearing's axis z: the
 /// coordinates are that of a carriage driven at constant velocity, the mass's displacement on it, held by a spring, and its height.
-[[nodiscard]] inline Mechanism make_slider(const LuGreParameters& friction, double velocity, double spring) {
+[[nodiscard]] inline Mechanism make_slider(const FrictionParameters& friction, double velocity, double spring) {
   ClearanceParameters joint;
   joint.c_r = 1e-3;
   joint.c_a = 10.0;

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <numbers>
+
+#include "engine/clearance/friction_parameters.h"
+#include "engine/math/dual.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// Stribeck's curve g(|v|) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2). Beyond (v / v_s)^2 = 40 the exponential is below rounding.
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_stribeck_curve(const FrictionParameters& p, const V& speed) {
+  const V ratio = speed / p.v_s;
+  const V squared = ratio * ratio;
+  if (value_of(squared) > 40.0) return V(p.mu_k);
+  return p.mu_k + (p.mu_s - p.mu_k) * exp(-squared);
+}
+
+/// How fast a bristle that slides lets go: sigma_0 |v| / g(|v|), [1/s].
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_bristle_decay(const FrictionParameters& p, const V& speed) {
+  return p.sigma_0 * speed / calc_stribeck_curve(p, speed);
+}
+
+/// What a law gives for one component of the sliding velocity.
+template <typename V>
+struct BristleLaw {
+  V force_ratio;                     ///< of the normal force, sigma_0 z + sigma_1 zd + sigma_2 v with bristles, [1]; it acts against v
+  V rate;                            ///< zd = v - sigma_0 |v| z / g(|v|), [m/s]
+};
+
+template <typename V>
+[[nodiscard]] RPSUP_INLINE BristleLaw<V> calc_bristle_law(const FrictionParameters& p, const V& decay, const V& v, const V& z) {
+  const V rate = v - decay * z;
+  return {p.sigma_0 * z + p.sigma_1 * rate + p.sigma_2 * v, rate};
+}
+
+/// What a law gives for both components.
+template <typename V>
+struct FrictionForce {
+  BristleLaw<V> along_t, along_z;
+};
+
+/// Which part of its decay an elasto-plastic bristle has: none below its break-away and on its way back, all of it at its steady deflection,
+/// half a sine between. Source: Dupont, Hayward, Armstrong, Altpeter, Single state elastoplastic friction models (2002), Eq. (10).
+/// @param ratio  deflection over the steady one
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_plastic_part(const FrictionParameters& p, const V& ratio) {
+  if (value_of(ratio) <= p.break_away) return V(0.0);
+  if (value_of(ratio) >= 1.0) return V(1.0);
+  const double middle = 0.5 * (1.0 + p.break_away);
+  return 0.5 + 0.5 * sin((std::numbers::pi / (1.0 - p.break_away)) * (ratio - middle));
+}
+
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_plastic_decay(const FrictionParameters& p, const V& speed, const V& v_t, const V& v_z, const V& z_t, const V& z_z) {
+  if (value_of(v_t) * value_of(z_t) + value_of(v_z) * value_of(z_z) <= 0.0) return V(0.0);
+  const V curve = calc_stribeck_curve(p, speed);
+  return p.sigma_0 * speed / curve * calc_plastic_part(p, p.sigma_0 * sqrt(z_t * z_t + z_z * z_z) / curve);
+}
+
+/// Friction over sliding speed of the laws without bristles, [s/m].
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_slip_factor(const FrictionParameters& p, const V& speed) {
+  if (p.law == FrictionLaw::kCoulomb) return p.mu_k / sqrt(speed * speed + p.v_0 * p.v_0);
+  if (value_of(speed) <= p.v_0) return V(0.0);
+  if (value_of(speed) >= p.v_1) return p.mu_k / speed;
+  return (p.mu_k / (p.v_1 - p.v_0)) * (speed - p.v_0) / speed;
+}
+
+/// @param v_t, v_z  sliding velocity  @param z_t, z_z  bristle
+template <typename V>
+[[nodiscard]] RPSUP_INLINE FrictionForce<V> calc_friction(const FrictionParameters& p, const V& v_t, const V& v_z, const V& z_t, const V& z_z) {
+  const V speed = sqrt(v_t * v_t + v_z * v_z);
+  if (!has_bristles(p.law)) {
+    const V factor = calc_slip_factor(p, speed);
+    return {{factor * v_t, V(0.0)}, {factor * v_z, V(0.0)}};
+  }
+  const V decay = p.law == FrictionLaw::kElastoPlastic ? calc_plastic_decay(p, speed, v_t, v_z, z_t, z_z) : calc_bristle_decay(p, speed);
+  return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
+}
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine
