@@ -57,7 +57,8 @@ void check_log_has_store(const std::filesystem::path& store) {
 void keep_from_others(const std::string& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || (status.st_mode & 077U) == 0) return;
-  if (::chmod(file.c_str(), kOwnerOnly) != 0) throw system_error("others than its owner may read or write " + file + ", and its mode cannot be changed to 0600");
+  if (::chmod(file.c_str(), kOwnerOnly) == 0) return;
+  throw system_error("others than its owner may read or write " + file + ", and its mode cannot be changed to 0600");
 }
 
 /// SQLite would make the file readable for all; its log and index files copy the file's mode.

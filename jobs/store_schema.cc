@@ -1,5 +1,6 @@
 #include "jobs/store_schema.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -116,11 +117,18 @@ int pragma(SQLite::Database& database, const std::string& name) { return databas
 
 bool is_empty(SQLite::Database& database) { return database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0; }
 
+/// The beginning, on one line: SQLite names up to a hundred damaged pages.
+std::string shortened(std::string text) {
+  constexpr std::size_t kLongest = 200;
+  std::ranges::replace(text, '\n', ' ');
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
+}
+
 /// Looks at all but the trajectories: they are nearly all of a large store, and each carries its own checksum.
 void check_health(SQLite::Database& database, const std::string& name) {
   for (const char* table : {"sweeps", "contents", "results", "jobs"}) {
     const std::string verdict = database.execAndGet(std::string("PRAGMA quick_check(") + table + ")").getString();
-    if (verdict != "ok") throw StorageError("the store " + name + " is damaged (" + verdict + "); it has been left as it is", SQLITE_CORRUPT, false);
+    if (verdict != "ok") throw StorageError("the store " + name + " is damaged (" + shortened(verdict) + "); it has been left as it is", SQLITE_CORRUPT, false);
   }
 }
 

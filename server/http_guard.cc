@@ -57,7 +57,9 @@ GuardedServer::GuardedServer(const HttpLimits& limits, std::function<Response(in
       pool_(kThreads),
       reception_({.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
                  [this](Arrival arrival) { hand_over(std::move(arrival)); },
-                 [this](const std::string& received) { return refusal_text(408, "the head of the request did not come in time", received.starts_with("HEAD ")); }) {
+                 [this](const std::string& received) {
+                   return refusal_text(408, "the head of the request did not come in time", received.starts_with("HEAD "));
+                 }) {
   set_socket_options(set_reuse_address);
   set_tcp_nodelay(true);
   set_payload_max_length(limits.body_bytes);

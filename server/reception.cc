@@ -43,7 +43,8 @@ Reception::Reception(const Limits& limits, std::function<void(Arrival)> hand_ove
     : limits_(limits), hand_over_(std::move(hand_over)), late_answer_(std::move(late_answer)) {
   epoll_ = ::epoll_create1(EPOLL_CLOEXEC);
   bell_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (epoll_ < 0 || bell_ < 0 || !watch(epoll_, bell_, this)) throw std::runtime_error("the system gives no files to wait for clients with (ulimit -n)");
+  if (epoll_ >= 0 && bell_ >= 0 && watch(epoll_, bell_, this)) return;
+  throw std::runtime_error("the system gives no files to wait for clients with (ulimit -n)");
 }
 
 Reception::~Reception() {
