@@ -78,7 +78,10 @@ void copy_to(httplib::Response& to, Response from) {
   } else if (!from.content_type.empty()) {
     to.set_header("Content-Type", from.content_type);
   }
-  for (const auto& [name, value] : from.headers) to.set_header(name, value);
+  for (const auto& [name, value] : from.headers) {
+    if (kSecurityHeaders.contains(name)) to.headers.erase(name);  // in the place of the one that every answer has
+    to.set_header(name, value);
+  }
 }
 
 /// The media type is not looked at beyond this: `curl -d` calls every body a form.

@@ -1,7 +1,10 @@
 #include "server/report/figures.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -49,6 +52,22 @@ void add_line(const std::string& label, const Line& line, const char* colour, Ch
   chart.series.push_back(std::move(means));
 }
 
+/// Leaves room for the legend above what is drawn.
+void make_room_above(std::size_t labels, Chart& chart) {
+  if (labels < 2) return;
+  chart.y_min = std::numeric_limits<double>::infinity();
+  chart.y_max = -chart.y_min;
+  for (const Series& series : chart.series) {
+    for (const double y : series.y) {
+      chart.y_min = std::min(chart.y_min, y);
+      chart.y_max = std::max(chart.y_max, y);
+    }
+  }
+  const double size = std::max(chart.y_max - chart.y_min, 1e-3 * std::abs(chart.y_max));
+  chart.y_min -= 0.04 * size;
+  chart.y_max += 0.08 * static_cast<double>(labels) * size;
+}
+
 }  // namespace
 
 std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& results) {
@@ -78,7 +97,9 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
       }
       if (!line.empty()) add_line(label, line, kColours[g], chart);
     }
-    if (!chart.series.empty()) charts.push_back(std::move(chart));
+    if (chart.series.empty()) continue;
+    make_room_above(std::min(groups.size(), kColours.size()), chart);
+    charts.push_back(std::move(chart));
   }
   if (charts.empty()) return "";
   const std::string more = groups.size() > kColours.size() ? " The first " + std::to_string(kColours.size()) + " of " +

@@ -60,7 +60,8 @@ std::string cell_text(const nlohmann::json& cell) {
 }
 
 std::string make_table(const std::vector<std::string>& headings, const std::vector<std::vector<nlohmann::json>>& rows) {
-  std::string html = "<div class=\"wide\"><table><thead><tr>";
+  // What may be wider than the window is reached with the keyboard, too.
+  std::string html = "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\"><table><thead><tr>";
   for (const std::string& heading : headings) html += "<th scope=\"col\">" + escape(heading) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& row : rows) {

@@ -105,6 +105,7 @@ test("a job shows its acceleration, its orbit and its linkage at one instant", a
   await page.getByText("Wear of the bearing").click();
   await page.getByText(/^Deepest: /).waitFor();
   await page.getByLabel(/^Until a clearance of/).fill("0.3");
+  await page.keyboard.press("Tab");
   await page.getByText(/reached after/).waitFor();
   await expectAccessible(page);
   await picture(page, "small_job", { fullPage: true });
@@ -198,6 +199,12 @@ test("a sweep says what its results mean", async () => {
   await page.locator(".chart:not([hidden]) canvas").nth(1).waitFor();
   await expectAccessible(page);
   await picture(page, "analyses", { fullPage: true });
+  await page.getByRole("link", { name: "Report" }).click();
+  await page.getByRole("heading", { name: "How to do it again" }).waitFor();
+  assert.equal(await page.locator("svg").count(), 1);
+  assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector("table")).borderCollapse), "collapse", "its style is allowed");
+  await expectAccessible(page);
+  await picture(page, "report", { fullPage: true });
   await page.goto(`${url}/#/analyses/${designed.id}`);
   await page.getByRole("region", { name: "Sensitivity" }).getByText("Restitution").waitFor();
   await page.getByText(/predicts a point from all others/).waitFor();

@@ -16,10 +16,10 @@ function optionOf(search, limit) {
     grid: { left: 75, right: 30, top: 30, bottom: 50 },
     tooltip: { formatter: ({ dataIndex, seriesIndex }) => (seriesIndex < 2 ? textOf(search, points[dataIndex]) : "") },
     xAxis: { type: scale === "log" ? "log" : "value", scale: true, name: titleOf(search.parameter), nameLocation: "middle", nameGap: 28, ...axisLook() },
-    yAxis: { type: "value", scale: true, name: titleOf(search.metric), nameLocation: "middle", nameGap: 50, ...axisLook(), max: ({ max }) => Math.max(max, search.bound), min: ({ min }) => Math.min(min, search.bound) },
+    yAxis: { type: "value", scale: true, name: titleOf(search.metric), nameLocation: "middle", nameGap: 50, ...axisLook(), axisLabel: { color: colour("text"), showMinLabel: false, showMaxLabel: false, formatter: (value) => number(value) }, max: ({ max }) => Math.max(max, search.bound), min: ({ min }) => Math.min(min, search.bound) },
     series: [spread(points), { type: "line", color: lineColour(0), symbol: "circle", symbolSize: 8, data: points.map((point) => [point.value, point.quantile]), z: 3,
       markArea: { silent: true, data: fallen },
-      markLine: { symbol: "none", silent: true, lineStyle: { color: lineColour(1), type: "dashed" }, label: { color: colour("text"), formatter: ({ data }) => data.name },
+      markLine: { symbol: "none", silent: true, lineStyle: { color: lineColour(1), type: "dashed" }, label: { position: "insideEndTop", color: colour("text"), formatter: ({ data }) => data.name },
         data: [{ yAxis: search.bound, name: "bound" }, ...(limit.verdict === "found" ? [{ xAxis: limit.limit, name: "limit" }] : [])] } }],
   };
 }
