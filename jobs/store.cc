@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jobs/store_batches.h"
 #include "jobs/store_insert.h"
 #include "jobs/store_quota.h"
 #include "jobs/store_rows.h"
@@ -13,7 +14,7 @@ namespace {
 constexpr std::int64_t kAnswersAreKept_ms = 7LL * 24 * 3600 * 1000;
 
 std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms) {
-  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms, executor) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   add.bind(1, id);
   add.bind(2, plan.name);
   add.bind(3, request);
@@ -21,6 +22,7 @@ std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, con
   add.bind(5, plan.replicated ? 1 : 0);
   add.bind(6, plan.priority);
   add.bind(7, now_ms);
+  if (!plan.executor.empty()) add.bind(8, plan.executor);
   add.exec();
   return database.getLastInsertRowid();
 }
@@ -43,7 +45,8 @@ void keep_answer(SQLite::Database& database, const std::string& key, const std::
 
 Store::Store(const std::filesystem::path& file, std::int64_t most_bytes) : most_bytes_(most_bytes), lock_(file), writer_(file), readers_(file) {
   writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running'");
+    database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
+    release_batches_of_other_engines(database);
     rename_queued_contents(database);
     changes_ = database.execAndGet("SELECT coalesce(max(change), 0) FROM jobs WHERE change IS NOT NULL").getInt64();
   });

@@ -30,6 +30,11 @@ class JobInserter {
   SQLite::Statement add_content_, find_content_, find_result_, add_job_;
 };
 
+/// How many jobs wait, here or in the queue of a cluster: both counts walk an index that holds little else.
+inline constexpr const char* kQueuedCount =
+    "SELECT (SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NULL) + "
+    "(SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NOT NULL)";
+
 /// Throws QueueFull, and so undoes the transaction, if there is no room for what has just been added.
 void check_room(SQLite::Database& database, std::size_t max_queued);
 

@@ -44,6 +44,7 @@ set(page_files
   scene/stage.js
   scene/three.js
   study/data.js
+  study/executors.js
   study/heat_map.js
   study/lines.js
   study/parallel.js
