@@ -9,7 +9,7 @@
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
-#include "jobs/program_info.h"
+#include "jobs/provenance.h"
 #include "jobs/service.h"
 #include "jobs/splitmix64.h"
 #include "jobs/sweep_request.h"
@@ -119,7 +119,7 @@ std::string kind_of(const json& completed) {
 PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, std::string swept) {
   PlannedJob job;
   job.parameters = canonical_text(completed);
-  job.content_id = content_id(job.parameters, kEngineVersion);
+  job.content_id = content_id(job.parameters, engine_version());
   job.kind = kind_of(completed);
   job.replicate = replicate;
   job.swept = std::move(swept);
@@ -152,7 +152,7 @@ double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation
 SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs) {
   const SweepRequest sweep = parse_sweep_request(request, max_jobs);
   SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse,
-                 .priority = sweep.priority, .jobs = {}};
+                 .priority = sweep.priority, .executor = sweep.executor, .jobs = {}};
   PointFaults faults(sweep);
   Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
   do {

@@ -27,6 +27,7 @@ struct SweepPlan {
   bool replicated = false;
   bool reuse = true;
   std::int64_t priority = 0;
+  std::string executor;            ///< that is to compute it; empty: whichever the service has chosen
   std::vector<PlannedJob> jobs;
 };
 

@@ -10,6 +10,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "jobs/machine.h"
+
 namespace jobs {
 namespace {
 
@@ -39,7 +41,7 @@ void keep_freed_memory(int threads) {
 }  // namespace
 
 LocalPool::LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log, const JobLimits& limits)
-    : source_(std::move(source)), runner_(std::move(runner)), limits_(limits), log_(std::move(log)) {
+    : source_(std::move(source)), runner_(std::move(runner)), limits_(limits), slots_(threads), log_(std::move(log)) {
   keep_freed_memory(threads);
   for (int i = 0; i < threads; ++i) {
     threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
@@ -61,6 +63,11 @@ void LocalPool::stop_job(const std::string& id) {
   for (auto& [attempt, stop] : running_) {
     if (attempt.first == id) stop.request_stop();
   }
+}
+
+nlohmann::json LocalPool::status() const {
+  return {{"name", kLocalExecutor}, {"slots", slots_}, {"tasks", nullptr}, {"nodes", {host_name()}}, {"waiting", nlohmann::json::array()},
+          {"problems", nlohmann::json::array()}};
 }
 
 void LocalPool::stop() {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "jobs/executor.h"
 #include "jobs/run_record.h"
 #include "jobs/store.h"
 
@@ -25,23 +26,19 @@ struct JobSource {
 };
 
 /// Computes jobs on threads of this process, as many at a time as it has threads. Threads sleep while there is nothing to do.
-class LocalPool {
+class LocalPool : public Executor {
  public:
   /// @param log     told what needs a human's eye; must not throw
   /// @param limits  of each job
   LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log, const JobLimits& limits = {});
-  ~LocalPool();  ///< stop()
-  LocalPool(const LocalPool&) = delete;
-  LocalPool& operator=(const LocalPool&) = delete;
+  ~LocalPool() override;  ///< stop()
 
-  /// Tells sleeping threads that there may be a job.
-  void wake();
-
-  /// Stops the job if it is being computed; its record comes to nothing unless the source still wants it.
-  void stop_job(const std::string& id);
-
-  /// Stops all running jobs, gives them back to the source and ends the threads. Returns when that is done.
-  void stop();
+  void wake() override;
+  void stop_job(const std::string& id) override;
+  /// Stops all running jobs and gives them back to the source, too.
+  void stop() override;
+  [[nodiscard]] int slots() const override { return slots_; }
+  [[nodiscard]] nlohmann::json status() const override;
 
  private:
   void work(const std::stop_token& stop);
@@ -57,6 +54,7 @@ class LocalPool {
   const JobSource source_;
   const Runner runner_;
   const JobLimits limits_;
+  const int slots_;
   const std::function<void(const std::string&)> log_;
 
   std::mutex claim_mutex_;  // guards running_; held while claiming, so that a job is in the store as running and here at once

@@ -8,9 +8,8 @@
 #include <string_view>
 
 #include "jobs/flat_json.h"
-#include "jobs/machine.h"
 #include "jobs/parameter_path.h"
-#include "jobs/program_info.h"
+#include "jobs/provenance.h"
 #include "jobs/time_left.h"
 #include "jobs/time_text.h"
 
@@ -30,12 +29,15 @@ json time_or_null(const std::optional<std::int64_t>& unix_ms) { return unix_ms ?
 template <typename T>
 json value_or_null(const std::optional<T>& value) { return value ? json(*value) : json(); }
 
+json text_or_null(const std::string& text) { return text.empty() ? json() : json(text); }
+
 json error_json(const std::string& reason, const std::string& detail, const std::optional<double>& t_s) {
   return {{"reason", reason}, {"detail", detail}, {"t_s", value_or_null(t_s)}};
 }
 
 json run_json(const RunRow& run, std::int64_t attempts, bool reused) {
   return {{"wall_time_s", run.wall_time_s}, {"cpu_time_s", run.cpu_time_s}, {"attempts", attempts}, {"host", run.host}, {"cpu", run.cpu},
+          {"libm", text_or_null(run.libm)}, {"numerics", text_or_null(run.numerics)},
           {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}, {"engine", run.engine}}},
           {"reused", reused}};
 }
@@ -153,10 +155,11 @@ json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& 
 json sweep_json(const SweepRow& row, int threads, Detail detail) {
   const std::string self = "/v1/sweeps/" + row.id;
   json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)},
-             {"progress", progress(row.counts)}, {"priority", row.priority}, {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
+             {"progress", progress(row.counts)}, {"priority", row.priority}, {"executor", row.executor},
+             {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
              {"axes", stored_json(row.swept)},
              {"links", {{"self", self}, {"results", self + "/results"}, {"events", self + "/events"}, {"cancel", self + "/cancel"},
-                        {"retry", self + "/retry"}, {"extend", self + "/extend"}}}};
+                        {"retry", self + "/retry"}, {"extend", self + "/extend"}, {"move", self + "/move"}}}};
   sweep.update(time_left_json(row, threads));
   if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
   return sweep;
@@ -170,8 +173,9 @@ json unstored_job_json(const json& parameters, const RunRecord& record, std::int
     state = JobState::kFailed;
     error = error_json(record.error_reason, record.error_detail, record.error_t_s);
   }
-  const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = host_name(), .cpu = cpu_name(),
-                   .version = std::string(kProgramVersion), .commit = std::string(kProgramCommit), .compiler = std::string(kProgramCompiler), .engine = std::string(kEngineVersion)};
+  const Provenance& own = own_provenance();
+  const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = own.host, .cpu = own.cpu, .version = own.version,
+                   .commit = own.commit, .compiler = own.compiler, .engine = own.engine, .libm = own.libm, .numerics = own.numerics};
   return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics}, {"error", error},
           {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)}, {"ended_at", time_text(ended_ms)},
           {"run", run_json(run, 1, false)}};

@@ -1,18 +1,22 @@
 #include "jobs/service.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include "jobs/cluster/slurm_executor.h"
 #include "jobs/content_id.h"
 #include "jobs/expand.h"
 #include "jobs/extend_request.h"
 #include "jobs/keys_in_use.h"
 #include "jobs/local_pool.h"
 #include "jobs/page.h"
+#include "jobs/parameter_path.h"
+#include "jobs/parameter_value.h"
 #include "jobs/resource_json.h"
 #include "jobs/result_query.h"
 #include "jobs/run_record.h"
@@ -53,11 +57,15 @@ class Service::Impl {
   }
 
   void start() {
-    if (pool_) return;
-    pool_.emplace(JobSource{.claim = [this] { return claim(); },
-                            .record = [this](const ClaimedJob& job, const RunRecord& run) { record(job, run); },
-                            .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
-                  options_.runner, options_.threads, options_.log, options_.job_limits);
+    if (!executors_.empty()) return;
+    executors_.push_back(std::make_unique<LocalPool>(JobSource{.claim = [this] { return claim(); },
+                                                               .record = [this](const ClaimedJob& job, const RunRecord& run) { record(job, run); },
+                                                               .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
+                                                     options_.runner, options_.threads, options_.log, options_.job_limits));
+    if (has_cluster()) {
+      executors_.push_back(std::make_unique<cluster::SlurmExecutor>(
+          options_.site, store_, lane_of(kSlurmExecutor), options_.job_limits, [this] { tell_change(); }, options_.log));
+    }
     searcher_ = std::jthread([this] { keep_searching(); });
   }
 
@@ -66,8 +74,9 @@ class Service::Impl {
     const std::string text = request.dump();
     return once(key, "POST /v1/sweeps " + sha256_hex(text), [&](const std::string& name, std::string& answer) {
       const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
+      if (!plan.executor.empty()) check_executor(plan.executor);
       const KeptAnswer<SweepRow> kept{.key = key, .request = name, .make_text = [&](const SweepRow& row) {
-                                        return answer = text_of(sweep_json(row, options_.threads, Detail::kFull));
+                                        return answer = text_of(sweep_resource(row, Detail::kFull));
                                       }};
       const std::string id = store_.add_sweep(plan, text, options_.max_queued_jobs, kept);
       wake();
@@ -108,9 +117,18 @@ class Service::Impl {
     return find_sweep(id);
   }
 
+  std::optional<json> move_sweep(const std::string& id, const json& request) {
+    check_open();
+    check_move(request);
+    if (!store_.move_sweep(id, request.at("executor"))) return std::nullopt;
+    wake();
+    tell_change();
+    return find_sweep(id);
+  }
+
   [[nodiscard]] std::optional<json> find_sweep(const std::string& id) const {
     const auto row = store_.find_sweep(id);
-    return row ? std::optional(sweep_json(*row, options_.threads, Detail::kFull)) : std::nullopt;
+    return row ? std::optional(sweep_resource(*row, Detail::kFull)) : std::nullopt;
   }
 
   [[nodiscard]] std::optional<json> find_job(const std::string& id) const {
@@ -121,7 +139,7 @@ class Service::Impl {
   [[nodiscard]] json list_sweeps(const PageQuery& query) const {
     const PageChecker checker(query, kSweepPrefix, sweep_listing_keys());
     return make_page(store_.list_sweeps(query.state, query.cursor, query.limit + 1), query.limit, checker,
-                     [&](const SweepRow& row) { return sweep_json(row, options_.threads, Detail::kListing); });
+                     [&](const SweepRow& row) { return sweep_resource(row, Detail::kListing); });
   }
 
   [[nodiscard]] json list_jobs(const PageQuery& query) const {
@@ -154,7 +172,7 @@ class Service::Impl {
   [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const {
     const auto changes = store_.find_changes(sweep_id, after);
     if (!changes) return std::nullopt;
-    SweepNews news{.progress = progress_json(changes->sweep, options_.threads), .ended = has_ended(changes->sweep.counts), .jobs = {}};
+    SweepNews news{.progress = progress_json(changes->sweep, slots_for(changes->sweep)), .ended = has_ended(changes->sweep.counts), .jobs = {}};
     for (const EndedJob& job : changes->ended) news.jobs.push_back({.change = job.change, .job = ended_job_json(job)});
     return news;
   }
@@ -190,6 +208,13 @@ class Service::Impl {
   }
 
   [[nodiscard]] Load find_load() const { return store_.find_load(); }
+
+  [[nodiscard]] json list_executors() const {
+    json items = json::array();
+    for (const auto& executor : executors_) items.push_back(executor->status());
+    if (options_.executor != kLocalExecutor) std::reverse(items.begin(), items.end());
+    return {{"items", std::move(items)}};
+  }
 
   [[nodiscard]] std::uint64_t activity() const { return activity_; }
 
@@ -228,7 +253,7 @@ class Service::Impl {
 
   void stop() {
     stopped_ = true;
-    if (pool_) pool_->stop();
+    for (const auto& executor : executors_) executor->stop();
     tell_change();
     const std::lock_guard lock(stop_mutex_);
     if (searcher_.joinable()) searcher_.join();
@@ -250,7 +275,7 @@ class Service::Impl {
   }
 
   std::optional<ClaimedJob> claim() {
-    auto job = store_.claim();
+    auto job = store_.claim(lane_of(kLocalExecutor));
     if (job) ++activity_;
     return job;
   }
@@ -260,7 +285,39 @@ class Service::Impl {
   }
 
   void wake() {
-    if (pool_) pool_->wake();
+    for (const auto& executor : executors_) executor->wake();
+  }
+
+  [[nodiscard]] bool has_cluster() const { return !options_.site.folder.empty(); }
+  [[nodiscard]] Lane lane_of(std::string_view executor) const { return {.executor = std::string(executor), .default_executor = options_.executor}; }
+
+  void check_executor(const std::string& name) const {
+    if (name == kLocalExecutor || has_cluster()) return;
+    throw InvalidRequest(std::vector<Fault>{{"/executor", "this service has no cluster; it has \"local\""}});
+  }
+
+  void check_move(const json& request) const {
+    if (!request.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object with \"executor\""}});
+    std::vector<Fault> faults;
+    constexpr std::array<std::string_view, 1> kKeys{"executor"};
+    for (const auto& [key, value] : request.items()) {
+      if (key != kKeys.front()) faults.push_back({pointer_token(key), describe_unknown_key(key, kKeys)});
+    }
+    const json name = request.value("executor", json());
+    if (std::ranges::find(kExecutorNames, name) == kExecutorNames.end()) faults.push_back({"/executor", "must be \"local\" or \"slurm\""});
+    if (!faults.empty()) throw InvalidRequest(std::move(faults));
+    check_executor(name);
+  }
+
+  [[nodiscard]] int slots_for(const SweepRow& row) const {
+    const std::string& name = row.executor.empty() ? options_.executor : row.executor;
+    return name == kSlurmExecutor && has_cluster() ? options_.site.slots * options_.site.threads : options_.threads;
+  }
+
+  [[nodiscard]] json sweep_resource(const SweepRow& row, Detail detail) const {
+    json sweep = sweep_json(row, slots_for(row), detail);
+    if (row.executor.empty()) sweep["executor"] = options_.executor;
+    return sweep;
   }
 
   void record(const ClaimedJob& job, const RunRecord& run) {
@@ -273,7 +330,7 @@ class Service::Impl {
     if (cancellation.outcome == CancelOutcome::kMissing) return false;
     if (cancellation.outcome == CancelOutcome::kEnded && why_not != nullptr) throw WrongState(why_not);
     for (const std::string& job : cancellation.running) {
-      if (pool_) pool_->stop_job(job);
+      for (const auto& executor : executors_) executor->stop_job(job);
     }
     wake();  // jobs of the same content may have waited
     tell_change();
@@ -323,7 +380,7 @@ class Service::Impl {
   KeysInUse keys_;
   Store store_;
   SearchDesk searches_{store_, options_};
-  std::optional<LocalPool> pool_;  // ends before the store it works for; empty before start()
+  std::vector<std::unique_ptr<Executor>> executors_;  // end before the store they work for; none before start()
   std::mutex stop_mutex_;          // guards the joining of searcher_
   std::jthread searcher_;          // of keep_searching()
 };
@@ -336,6 +393,8 @@ json Service::submit_sweep(const nlohmann::ordered_json& request, const std::str
 json Service::submit_job(const json& parameters, const std::string& key) { return impl_->submit_job(parameters, key); }
 std::optional<json> Service::extend_sweep(const std::string& id, const nlohmann::ordered_json& addition) { return impl_->extend_sweep(id, addition); }
 std::optional<json> Service::retry_sweep(const std::string& id) { return impl_->retry_sweep(id); }
+std::optional<json> Service::move_sweep(const std::string& id, const json& request) { return impl_->move_sweep(id, request); }
+json Service::list_executors() const { return impl_->list_executors(); }
 std::optional<json> Service::find_sweep(const std::string& id) const { return impl_->find_sweep(id); }
 std::optional<json> Service::find_job(const std::string& id) const { return impl_->find_job(id); }
 json Service::list_sweeps(const PageQuery& query) const { return impl_->list_sweeps(query); }

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/simulate_rpsup.h"
+#include "jobs/cluster/site.h"
 #include "jobs/job_limits.h"
 #include "jobs/replicate_statistics.h"
 #include "jobs/store_room.h"
@@ -39,6 +40,8 @@ struct ServiceOptions {
   JobLimits job_limits{};             ///< of each job
   StoreRoom store_room{};
   Start start = Start::kAtOnce;
+  cluster::Site site{};         ///< the cluster; without a folder there is none
+  std::string executor = "local";  ///< of sweeps that name none: "local", or "slurm" if there is a cluster
   Runner runner;                ///< empty: the engine
   /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not throw.
   std::function<void(const std::string&)> log;
@@ -133,6 +136,9 @@ class Service {
   std::optional<nlohmann::json> extend_sweep(const std::string& id, const nlohmann::ordered_json& addition);
   /// Queues the failed and cancelled jobs of a sweep again; those that have succeeded stay.
   std::optional<nlohmann::json> retry_sweep(const std::string& id);
+  /// Gives the queued jobs of a sweep to another executor; what is being computed stays where it is.
+  /// @param request  {"executor": name}
+  std::optional<nlohmann::json> move_sweep(const std::string& id, const nlohmann::json& request);
 
   [[nodiscard]] std::optional<nlohmann::json> find_sweep(const std::string& id) const;
   [[nodiscard]] std::optional<nlohmann::json> find_job(const std::string& id) const;
@@ -154,6 +160,8 @@ class Service {
   bool delete_search(const std::string& id);
 
   [[nodiscard]] Load find_load() const;
+  /// Who computes jobs here: {"items": [status, ...]}, the one first that takes sweeps which name none. See Executor::status().
+  [[nodiscard]] nlohmann::json list_executors() const;
 
   /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there is none.
   /// Cancelling what is already cancelled changes nothing; what has ended otherwise throws WrongState.

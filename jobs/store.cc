@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jobs/store_batches.h"
 #include "jobs/store_insert.h"
 #include "jobs/store_quota.h"
 #include "jobs/store_rows.h"
@@ -30,7 +31,8 @@ void keep_answer(SQLite::Database& database, const std::string& key, const std::
 
 Store::Store(const std::filesystem::path& file, const StoreRoom& room) : file_(file), room_(room), lock_(file), writer_(file), readers_(file) {
   writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running'");
+    database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
+    release_batches_of_other_engines(database);
     rename_queued_contents(database);
     changes_ = database.execAndGet("SELECT coalesce(max(change), 0) FROM jobs WHERE change IS NOT NULL").getInt64();
   });

@@ -11,8 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "jobs/executor.h"
 #include "jobs/expand.h"
 #include "jobs/ids.h"
+#include "jobs/provenance.h"
 #include "jobs/run_record.h"
 #include "jobs/store_connection.h"
 #include "jobs/store_room.h"
@@ -38,6 +40,7 @@ struct SweepRow {
   std::string id, name, request, swept;
   bool replicated = false;
   std::int64_t priority = 0;
+  std::string executor;                              ///< empty: it named none
   std::int64_t created_ms = 0;
   std::optional<std::int64_t> started_ms, ended_ms;  ///< of its first job, and of its last one if all have ended
   StateCounts counts{};
@@ -48,6 +51,7 @@ struct SweepRow {
 struct RunRow {
   double wall_time_s = 0.0, cpu_time_s = 0.0;
   std::string host, cpu, version, commit, compiler, engine;
+  std::string libm, numerics;  ///< empty: of a time when they were not noted
 };
 
 struct JobRow {
@@ -126,6 +130,26 @@ struct ClaimedJob {
   std::string parameters;
 };
 
+/// Jobs that were given to a cluster together.
+struct BatchRow {
+  std::int64_t seq = 0;
+  std::string id, sweep_id;  ///< the latter empty: of single jobs
+};
+
+/// A job of a batch.
+struct PlacedJob {
+  std::uint32_t place = 0;
+  std::string parameters, kind;
+  double duration_s = 0.0;   ///< simulated
+};
+
+/// What a job of a batch has come to.
+struct PlacedRecord {
+  std::uint32_t place = 0;
+  const RunRecord* record = nullptr;           ///< its trajectory is not looked at
+  const std::string* packed_trajectory = nullptr;  ///< by encode_trajectory; empty: none
+};
+
 enum class CancelOutcome { kMissing, kDone, kEnded };
 
 struct Cancellation {
@@ -158,12 +182,34 @@ class Store {
 
   /// Takes a job: of the sweeps of the highest priority the one that was served least recently, of that the first whose content
   /// nobody is computing.
-  [[nodiscard]] std::optional<ClaimedJob> claim();
+  [[nodiscard]] std::optional<ClaimedJob> claim(const Lane& lane = {});
   /// Stores what a run left, and settles every queued job of the same content. False, and nothing is stored, if the job
   /// is no longer this attempt's (it was cancelled).
   bool record(const ClaimedJob& job, const RunRecord& record);
   /// Puts a job back that was not computed to its end. Nothing happens if it is no longer this attempt's.
   void give_back(const ClaimedJob& job);
+
+  /// Takes jobs of one sweep for a cluster, whose turn it is as in claim(). They count as queued until they are said to run.
+  [[nodiscard]] std::optional<BatchRow> claim_batch(const Lane& lane, std::size_t most_jobs);
+  [[nodiscard]] std::vector<BatchRow> find_batches() const;
+  /// The places of a batch whose jobs are still to be computed; ascending.
+  [[nodiscard]] std::vector<std::uint32_t> find_wanted(std::int64_t batch) const;
+  /// The same with all about them.
+  [[nodiscard]] std::vector<PlacedJob> find_placed(std::int64_t batch) const;
+  /// Stores what became of jobs of a batch, and settles queued jobs of the same content. What is not wanted any more, or was computed by another
+  /// engine than it should have been, is left out. Returns how many were stored.
+  std::size_t record_placed(std::int64_t batch, const Provenance& provenance, const std::vector<PlacedRecord>& records);
+  /// Says which jobs of a batch have begun to run, and which wait again.
+  void mark_placed(std::int64_t batch, const std::vector<std::uint32_t>& running, const std::vector<std::uint32_t>& waiting);
+  /// Forgets a batch; what it has not computed is free to be taken again.
+  void end_batch(std::int64_t batch);
+  /// Mean wall time of a simulated second of the newest results, by PlannedJob::kind, [s].
+  [[nodiscard]] std::map<std::string, double> find_cost_rates() const;
+  /// This store among all others.
+  [[nodiscard]] std::string find_identity() const;
+  /// Gives the queued jobs of a sweep to another executor, those that wait in a cluster's queue, too. False if there is no such sweep.
+  /// @throws WrongState if it has ended
+  bool move_sweep(const std::string& id, const std::string& executor);
 
   [[nodiscard]] Cancellation cancel_sweep(const std::string& id);
   [[nodiscard]] Cancellation cancel_job(const std::string& id);

@@ -19,7 +19,7 @@ std::vector<std::string> find_running(SQLite::Database& database, const char* co
 
 /// @param whose  SQL condition on the jobs, with one parameter
 int cancel_where(SQLite::Database& database, const std::string& whose, const std::string& id, std::int64_t change) {
-  SQLite::Statement cancel(database, "UPDATE jobs SET state = 'cancelled', ended_ms = max(?, coalesce(started_ms, created_ms)), change = ? "
+  SQLite::Statement cancel(database, "UPDATE jobs SET state = 'cancelled', ended_ms = max(?, coalesce(started_ms, created_ms)), change = ?, batch = NULL, place = NULL "
                              "WHERE state IN ('queued', 'running') AND " + whose);
   cancel.bind(1, now_unix_ms());
   cancel.bind(2, change);

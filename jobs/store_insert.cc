@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "jobs/content_id.h"
-#include "jobs/program_info.h"
+#include "jobs/provenance.h"
 #include "jobs/store.h"
 
 namespace jobs {
@@ -49,7 +49,7 @@ std::string JobInserter::insert(const PlannedJob& job, std::optional<std::int64_
 std::int64_t JobInserter::content_of(const PlannedJob& job) {
   add_content_.reset();
   add_content_.bind(1, job.content_id);
-  add_content_.bind(2, std::string(kEngineVersion));
+  add_content_.bind(2, engine_version());
   add_content_.bind(3, job.parameters);
   add_content_.exec();
   find_content_.reset();
@@ -67,7 +67,7 @@ std::optional<std::int64_t> JobInserter::known_result(std::int64_t content) {
 }
 
 std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms) {
-  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms, executor) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   add.bind(1, id);
   add.bind(2, plan.name);
   add.bind(3, request);
@@ -75,12 +75,13 @@ std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, con
   add.bind(5, plan.replicated ? 1 : 0);
   add.bind(6, plan.priority);
   add.bind(7, now_ms);
+  if (!plan.executor.empty()) add.bind(8, plan.executor);
   add.exec();
   return database.getLastInsertRowid();
 }
 
 void check_room(SQLite::Database& database, std::size_t max_queued) {
-  const auto queued = database.execAndGet("SELECT count(*) FROM jobs WHERE state = 'queued'").getInt64();
+  const auto queued = database.execAndGet(kQueuedCount).getInt64();
   if (static_cast<std::size_t>(queued) > max_queued) {
     throw QueueFull("with these, " + std::to_string(queued) + " jobs would be waiting; at most " + std::to_string(max_queued) + " may");
   }
@@ -90,14 +91,14 @@ void rename_queued_contents(SQLite::Database& database) {
   SQLite::Statement old(database,
                         "SELECT DISTINCT c.seq, c.parameters FROM jobs j JOIN contents c ON c.seq = j.content "
                         "WHERE j.state = 'queued' AND c.engine_version <> ?");
-  old.bind(1, std::string(kEngineVersion));
+  old.bind(1, engine_version());
   std::vector<std::pair<std::int64_t, std::string>> contents;
   while (old.executeStep()) contents.emplace_back(old.getColumn(0).getInt64(), old.getColumn(1).getString());
   for (const auto& [seq, parameters] : contents) {
-    const std::string name = content_id(parameters, kEngineVersion);
+    const std::string name = content_id(parameters, engine_version());
     SQLite::Statement add(database, "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING");
     add.bind(1, name);
-    add.bind(2, std::string(kEngineVersion));
+    add.bind(2, engine_version());
     add.bind(3, parameters);
     add.exec();
     SQLite::Statement move(database, "UPDATE jobs SET content = (SELECT seq FROM contents WHERE content_id = ?) WHERE content = ? AND state = 'queued'");

@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "jobs/store_insert.h"
+
 namespace jobs {
 namespace {
 
@@ -16,8 +18,7 @@ std::int64_t size_or_zero(const std::filesystem::path& file) {
 
 Load Store::find_load() const {
   return readers_.read([&](const SQLite::Database& database) {
-    // Both counts walk an index that holds nothing but what is counted.
-    SQLite::Statement count(database, "SELECT (SELECT count(*) FROM jobs WHERE state = 'queued'), (SELECT count(*) FROM jobs WHERE state = 'running')");
+    SQLite::Statement count(database, std::string("SELECT (") + kQueuedCount + "), (SELECT count(*) FROM jobs WHERE state = 'running')");
     count.executeStep();
     const std::filesystem::path file = database.getFilename();
     return Load{.queued = count.getColumn(0).getInt64(), .running = count.getColumn(1).getInt64(),

@@ -40,7 +40,7 @@ void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& 
   }
 }
 
-constexpr const char* kSweepColumns = "SELECT seq, id, name, request, swept, replicated, priority, created_ms FROM sweeps";
+constexpr const char* kSweepColumns = "SELECT seq, id, name, request, swept, replicated, priority, created_ms, coalesce(executor, '') FROM sweeps";
 
 SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   SweepRow row;
@@ -52,6 +52,7 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   row.replicated = found.getColumn(5).getInt() != 0;
   row.priority = found.getColumn(6).getInt64();
   row.created_ms = found.getColumn(7).getInt64();
+  row.executor = found.getColumn(8).getString();
   read_counts(database, seq, row);
   if (!has_ended(row.counts)) read_costs(database, seq, row);
   return row;
@@ -60,7 +61,7 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
 /// @param parameters, metrics  SQL of what stands in their columns
 std::string job_columns(const std::string& parameters, const std::string& metrics) {
   return "SELECT j.id, s.id, j.replicate, j.state, j.created_ms, j.started_ms, j.ended_ms, j.attempt, j.reused, r.error_reason, r.error_detail, "
-         "r.error_t_s, r.seq, r.wall_time_s, r.cpu_time_s, r.host, r.cpu, r.version, r.\"commit\", r.compiler, c.engine_version, " +
+         "r.error_t_s, r.seq, r.wall_time_s, r.cpu_time_s, r.host, r.cpu, r.version, r.\"commit\", r.compiler, c.engine_version, r.libm, r.numerics, " +
          parameters + ", " + metrics +
          " FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep LEFT JOIN results r ON r.seq = j.result JOIN contents c ON c.seq = j.content";
 }
@@ -69,7 +70,7 @@ RunRow read_run(SQLite::Statement& found) {
   return {.wall_time_s = found.getColumn(13).getDouble(), .cpu_time_s = found.getColumn(14).getDouble(),
           .host = found.getColumn(15).getString(), .cpu = found.getColumn(16).getString(), .version = found.getColumn(17).getString(),
           .commit = found.getColumn(18).getString(), .compiler = found.getColumn(19).getString(),
-          .engine = found.getColumn(20).getString()};
+          .engine = found.getColumn(20).getString(), .libm = found.getColumn(21).getString(), .numerics = found.getColumn(22).getString()};
 }
 
 JobRow job_row(SQLite::Statement& found) {
@@ -87,8 +88,8 @@ JobRow job_row(SQLite::Statement& found) {
   row.error_detail = found.getColumn(10).getString();
   row.error_t_s = optional_double(found.getColumn(11));
   if (!found.getColumn(12).isNull()) row.run = read_run(found);
-  row.parameters = found.getColumn(21).getString();
-  row.metrics = optional_text(found.getColumn(22));
+  row.parameters = found.getColumn(23).getString();
+  row.metrics = optional_text(found.getColumn(24));
   return row;
 }
 

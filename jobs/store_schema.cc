@@ -14,7 +14,7 @@ namespace {
 constexpr int kApplicationId = 0x52505355;  // "RPSU"
 
 /// Step i brings a store from version i to i + 1. What has been released is never changed, only added to.
-constexpr std::array<const char*, 3> kMigrations{R"sql(
+constexpr std::array<const char*, 4> kMigrations{R"sql(
   CREATE TABLE sweeps (
     seq INTEGER PRIMARY KEY,
     id TEXT NOT NULL UNIQUE,
@@ -110,6 +110,32 @@ constexpr std::array<const char*, 3> kMigrations{R"sql(
     ended_ms INTEGER
   ) STRICT;
   CREATE INDEX running_searches ON searches (sweep) WHERE state = 'running';
+)sql",
+                                                      R"sql(
+  -- Which executor a sweep asks for; null: whichever the service computes with.
+  ALTER TABLE sweeps ADD COLUMN executor TEXT;
+
+  -- Tells this store's folder on a cluster from those of others.
+  CREATE TABLE identity (id TEXT NOT NULL) STRICT;
+  INSERT INTO identity VALUES (lower(hex(randomblob(8))));
+
+  -- Jobs that were given to a cluster together; each has a place in its batch until it ends or is taken back.
+  CREATE TABLE batches (
+    seq INTEGER PRIMARY KEY,
+    id TEXT NOT NULL UNIQUE,
+    sweep_id TEXT,
+    engine_version TEXT NOT NULL,
+    created_ms INTEGER NOT NULL
+  ) STRICT;
+  ALTER TABLE jobs ADD COLUMN batch INTEGER REFERENCES batches;
+  ALTER TABLE jobs ADD COLUMN place INTEGER;
+  CREATE INDEX placed_jobs ON jobs (batch, place, state) WHERE batch IS NOT NULL;
+  CREATE INDEX placed_contents ON jobs (content) WHERE batch IS NOT NULL;
+  DROP INDEX queued_jobs;
+  CREATE INDEX queued_jobs ON jobs (sweep, batch, state) WHERE state = 'queued' AND batch IS NULL;  -- all that is counted stands in it
+
+  ALTER TABLE results ADD COLUMN libm TEXT NOT NULL DEFAULT '';
+  ALTER TABLE results ADD COLUMN numerics TEXT NOT NULL DEFAULT '';
 )sql"};
 constexpr int kNewestVersion = static_cast<int>(kMigrations.size());
 
@@ -126,8 +152,10 @@ std::string shortened(std::string text) {
 
 /// Looks at all but the trajectories: they are nearly all of a large store, and each carries its own checksum.
 void check_health(SQLite::Database& database, const std::string& name) {
-  for (const char* table : {"sweeps", "contents", "results", "jobs"}) {
-    const std::string verdict = database.execAndGet(std::string("PRAGMA quick_check(") + table + ")").getString();
+  SQLite::Statement tables(database, "SELECT name FROM sqlite_schema WHERE type = 'table' AND name <> 'trajectories' AND name NOT LIKE 'sqlite_%'");
+  while (tables.executeStep()) {
+    const std::string table = tables.getColumn(0).getString();
+    const std::string verdict = database.execAndGet("PRAGMA quick_check(" + table + ")").getString();
     if (verdict != "ok") throw StorageError("the store " + name + " is damaged (" + shortened(verdict) + "); it has been left as it is", SQLITE_CORRUPT, false);
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "jobs/executor.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
@@ -26,6 +27,7 @@ class Parser {
     read_name();
     read_reuse();
     read_priority();
+    read_executor();
     read_replicates();
     read_parameters();
     check_cases_shape();
@@ -71,6 +73,15 @@ class Parser {
     const std::string detail = describe_integer_fault(kPriorityRange, priority);
     if (!detail.empty()) return fault("/priority", detail);
     sweep_.priority = priority.get<std::int64_t>();
+  }
+
+  void read_executor() {
+    if (!request_.contains("executor")) return;
+    const ordered_json& name = request_.at("executor");
+    if (!name.is_string() || std::ranges::find(kExecutorNames, name.get<std::string>()) == kExecutorNames.end()) {
+      return fault("/executor", "must be \"local\" or \"slurm\"");
+    }
+    sweep_.executor = name.get<std::string>();
   }
 
   void read_replicates() {

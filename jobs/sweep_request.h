@@ -15,7 +15,8 @@
 namespace jobs {
 
 /// What a request may hold.
-inline constexpr std::array<std::string_view, 8> kSweepRequestKeys{"name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority"};
+inline constexpr std::array<std::string_view, 9> kSweepRequestKeys{"name",       "parameters", "sweep",    "design",  "cases",
+                                                                    "replicates", "reuse",      "priority", "executor"};
 
 inline constexpr std::size_t kLongestName = 200;  ///< bytes
 inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
@@ -40,9 +41,10 @@ struct SweepRequest {
   Replicates replicates;
   bool reuse = true;
   std::int64_t priority = 0;
+  std::string executor;                                  ///< empty: none was named
 };
 
-/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority"}; all are optional.
+/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority", "executor"}; all are optional.
 /// The number of jobs is counted before anything of that size is made.
 /// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
 [[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);

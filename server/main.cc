@@ -8,13 +8,17 @@
 #include <CLI/CLI.hpp>
 
 #include "jobs/parameter_help.h"
+#include "server/commands/check_cluster.h"
+#include "server/commands/cluster_options.h"
 #include "server/commands/command.h"
 #include "server/commands/completion.h"
 #include "server/commands/config_file.h"
 #include "server/commands/export.h"
 #include "server/commands/man_page.h"
+#include "server/commands/numerics.h"
 #include "server/commands/option_table.h"
 #include "server/commands/remote_command_line.h"
+#include "server/commands/run_task.h"
 #include "server/commands/serve.h"
 #include "server/commands/simulate.h"
 #include "server/commands/sweep.h"
@@ -22,9 +26,11 @@
 
 namespace {
 
+using server::commands::CheckClusterOptions;
 using server::commands::Command;
 using server::commands::ExportOptions;
 using server::commands::ServeOptions;
+using server::commands::RunTaskOptions;
 using server::commands::SimulateOptions;
 using server::commands::SweepOptions;
 using server::commands::ValidateOptions;
@@ -104,6 +110,11 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
       ->type_name("FILE")
       ->envname("RPSUP_TOKEN_FILE");
   add_limit_options(*command, options);
+  command->add_option("--executor", options.executor, "Who computes sweeps that do not say it themselves")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str()
+      ->envname("RPSUP_EXECUTOR");
+  server::commands::add_cluster_options(*command, options.cluster);
   command->add_option("--log-level", options.log_level, "What the log on standard error holds")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()
@@ -129,6 +140,25 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   CLI::App* const command = app.add_subcommand("export", "Write a consistent copy of a store, also while a service uses it");
   command->add_option("file", options.file, "SQLite file for the copy; must not exist")->required()->type_name("FILE");
   command->add_option("--db", options.store, "SQLite file that keeps sweeps and results")->required()->type_name("FILE")->envname("RPSUP_DB");
+  return command;
+}
+
+CLI::App* add_check_cluster(CLI::App& app, CheckClusterOptions& options) {
+  CLI::App* const command = app.add_subcommand("check-cluster", "Try a Slurm cluster out as the service would use it, and say what is wrong");
+  server::commands::add_cluster_options(*command, options.cluster);
+  command->add_option("--wait-s", options.wait_s, "Time for a node to compute a job, in s")
+      ->check(CLI::Range(1, 86'400))
+      ->capture_default_str()
+      ->envname("RPSUP_WAIT_S");
+  return command;
+}
+
+CLI::App* add_run_task(CLI::App& app, RunTaskOptions& options) {
+  CLI::App* const command = app.add_subcommand("run-task", "Compute one task of a sweep on a node of a cluster: what the service has Slurm start");
+  command->add_option("folder", options.folder, "The batch's folder")->required()->type_name("FOLDER");
+  command->add_option("generation", options.generation, "Which of its arrays the task belongs to")->required()->check(CLI::Range(0, 1'000'000));
+  command->add_option("--index", options.index, "The task in its array; SLURM_ARRAY_TASK_ID if left out")->check(CLI::Range(0, 100'000'000));
+  command->add_option("--threads", options.threads, "Jobs computed at a time; SLURM_CPUS_PER_TASK or one if left out")->check(CLI::Range(1, 256));
   return command;
 }
 
@@ -199,6 +229,9 @@ int main(int argc, char** argv) {
   ServeOptions serve_options;
   ValidateOptions validate_options;
   ExportOptions export_options;
+  RunTaskOptions run_task_options;
+  CheckClusterOptions check_options;
+  std::string numerics = "native";
   std::string shell;
   std::vector<Command> commands = server::commands::add_remote_commands(app);
   describe(app, commands);
@@ -207,13 +240,19 @@ int main(int argc, char** argv) {
   commands.push_back({add_validate(app, validate_options), [&] { return validate(validate_options); }});
   commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
   commands.push_back({add_export(app, export_options), [&] { return export_store(export_options); }});
+  commands.push_back({add_check_cluster(app, check_options), [&] { return check_cluster(check_options); }});
+  commands.push_back({add_run_task(app, run_task_options), [&] { return run_task(run_task_options); }});
   commands.push_back({add_completion(app, shell), [&] { return print_completion(app, shell); }});
   commands.push_back({app.add_subcommand("man", "Print the manual page: rpsup man | man -l -"), [&] { return print_man_page(app); }});
+  for (const char* const name : {"simulate", "sweep", "serve", "check-cluster"}) server::commands::add_numerics_option(*app.get_subcommand(name), numerics);
   try {
     app.parse(read_arguments(argc, argv));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? server::commands::kDone : server::commands::kBadInput;
   }
   const auto parsed = std::ranges::find_if(commands, [](const Command& command) { return command.line->parsed(); });
-  return server::commands::run_guarded(parsed->run);
+  return server::commands::run_guarded([&] {
+    server::commands::enter_numerics(numerics, argv);
+    return parsed->run();
+  });
 }

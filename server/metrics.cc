@@ -63,15 +63,26 @@ class Metrics::Impl {
         .Observe(seconds);
   }
 
-  std::string text(const jobs::Load& load) {
+  std::string text(const jobs::Load& load, const nlohmann::json& executors) {
     const std::lock_guard lock(load_mutex_);
     queued_.Set(static_cast<double>(load.queued));
     running_.Set(static_cast<double>(load.running));
     store_bytes_.Set(static_cast<double>(load.store_bytes));
+    for (const auto& executor : executors.at("items")) set_executor(executor);
     return prometheus::TextSerializer().Serialize(registry_.Collect());
   }
 
  private:
+  void set_executor(const nlohmann::json& executor) {
+    const auto name = executor.at("name").get<std::string>();
+    slots_.Add({{"executor", name}}).Set(executor.at("slots").get<double>());
+    if (executor.at("tasks").is_null()) return;
+    for (const char* const state : {"pending", "running"}) tasks_.Add({{"executor", name}, {"state", state}}).Set(executor.at("tasks").at(state).get<double>());
+    nodes_.Add({{"executor", name}}).Set(static_cast<double>(executor.at("nodes").size()));
+    problems_.Add({{"executor", name}}).Set(static_cast<double>(executor.at("problems").size()));
+  }
+
+  prometheus::Family<prometheus::Gauge>& add_gauges(const char* name, const char* help) { return prometheus::BuildGauge().Name(name).Help(help).Register(registry_); }
   prometheus::Gauge& add_gauge(const char* name, const char* help) { return prometheus::BuildGauge().Name(name).Help(help).Register(registry_).Add({}); }
 
   prometheus::Registry registry_;  // before all that stands in it
@@ -79,6 +90,10 @@ class Metrics::Impl {
   prometheus::Gauge& queued_ = add_gauge("rpsup_jobs_queued", "Jobs that wait");
   prometheus::Gauge& running_ = add_gauge("rpsup_jobs_running", "Jobs that are being computed");
   prometheus::Gauge& store_bytes_ = add_gauge("rpsup_store_bytes", "Size of the store on disk, with its log");
+  prometheus::Family<prometheus::Gauge>& slots_ = add_gauges("rpsup_executor_slots", "Jobs that an executor computes at a time");
+  prometheus::Family<prometheus::Gauge>& tasks_ = add_gauges("rpsup_executor_tasks", "Tasks in Slurm's queue, by state");
+  prometheus::Family<prometheus::Gauge>& nodes_ = add_gauges("rpsup_executor_nodes", "Machines of the cluster that compute now");
+  prometheus::Family<prometheus::Gauge>& problems_ = add_gauges("rpsup_executor_problems", "What somebody should look at; /v1/executors says what");
   prometheus::Family<prometheus::Histogram>& job_seconds_ = prometheus::BuildHistogram()
                                                                 .Name("rpsup_job_duration_seconds")
                                                                 .Help("Time that jobs took which were computed to their end, by kind of coupler")
@@ -112,6 +127,6 @@ void Metrics::add_request(const std::string& method, std::string_view route, int
   impl_->add_request(method, route, status, seconds);
 }
 
-std::string Metrics::text(const jobs::Load& load) const { return impl_->text(load); }
+std::string Metrics::text(const jobs::Load& load, const nlohmann::json& executors) const { return impl_->text(load, executors); }
 
 }  // namespace server

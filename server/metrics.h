@@ -25,8 +25,8 @@ class Metrics {
   /// @param route  pattern of the path, so that there are not as many as ids; empty: no route
   void add_request(const std::string& method, std::string_view route, int status, double seconds);
 
-  /// Everything, with the load as it is now.
-  [[nodiscard]] std::string text(const jobs::Load& load) const;
+  /// Everything, with the load as it is now. @param executors  Service::list_executors()
+  [[nodiscard]] std::string text(const jobs::Load& load, const nlohmann::json& executors = {{"items", nlohmann::json::array()}}) const;
 
  private:
   class Impl;

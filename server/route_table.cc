@@ -45,6 +45,8 @@ std::vector<Route> make_sweep_routes() {
       {.method = "POST", .pattern = "/v1/sweeps/{id}/extend", .handler = extend_sweep, .operation_id = "extendSweep", .tag = "sweeps",
        .summary = "Add values to the axes of a sweep, or cases; only new jobs run",
        .body = "Extension", .answers = {{kJson, "Sweep"}}, .problems = {404, 409, 422, 429}},
+      {.method = "POST", .pattern = "/v1/sweeps/{id}/move", .handler = move_sweep, .operation_id = "moveSweep", .tag = "sweeps",
+       .summary = "Give the queued jobs of a sweep to another executor", .body = "Move", .answers = {{kJson, "Sweep"}}, .problems = {404, 409, 422}},
   };
 }
 
@@ -135,6 +137,8 @@ std::vector<Route> make_other_routes() {
   return {
       {.method = "GET", .pattern = "/v1/parameters", .handler = get_parameters, .operation_id = "getParameters", .tag = "interface",
        .summary = "JSON Schema of the parameters of a job", .answers = {{kJson, "JsonSchema"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/v1/executors", .handler = get_executors, .operation_id = "listExecutors", .tag = "service",
+       .summary = "Who computes jobs, and what Slurm says of their tasks", .answers = {{kJson, "Executors"}}, .problems = {422}},
       {.method = "GET", .pattern = "/v1/openapi.json", .handler = get_openapi, .operation_id = "getOpenApi", .tag = "interface",
        .summary = "This document", .answers = {{kJson, "OpenApi"}}, .problems = {422}},
       {.method = "GET", .pattern = "/docs", .handler = get_docs, .operation_id = "getDocs", .tag = "interface",

@@ -96,4 +96,16 @@ Response extend_sweep(const Call& call) {
   return make_json(200, to_text(*sweep));
 }
 
+Response move_sweep(const Call& call) {
+  Query(call.request, {}).check();
+  const auto sweep = call.service.move_sweep(call.id, parse_json(call.request.body));
+  if (!sweep) throw no_such_sweep(call.id);
+  return make_json(200, to_text(*sweep));
+}
+
+Response get_executors(const Call& call) {
+  Query(call.request, {}).check();
+  return make_json(200, to_text(call.service.list_executors()));
+}
+
 }  // namespace server

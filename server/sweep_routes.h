@@ -13,5 +13,7 @@ Response get_results(const Call& call);
 Response cancel_sweep(const Call& call);
 Response retry_sweep(const Call& call);
 Response extend_sweep(const Call& call);
+Response move_sweep(const Call& call);
+Response get_executors(const Call& call);
 
 }  // namespace server

@@ -54,6 +54,7 @@ set(page_files
   scene/stage.js
   scene/three.js
   study/data.js
+  study/executors.js
   study/heat_map.js
   study/limit_curve.js
   study/limit_points.js

@@ -109,6 +109,8 @@ int serve(const ServeOptions& options) {
   const std::string address = checked_address(options.host, token);
   const std::vector<std::string>& names = checked_names(options.names);
   const std::vector<std::string>& cors_origins = checked_origins(options.cors_origins);
+  const jobs::cluster::Site site = make_site(options.cluster);
+  if (options.executor == "slurm" && site.folder.empty()) throw BadInput("--executor slurm needs --slurm-folder");
   start_log(options.log_level);
   raise_file_limit();
   keep_memory_reserve();
@@ -122,6 +124,8 @@ int serve(const ServeOptions& options) {
                                 .steps = options.job_steps,
                                 .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
   service_options.store_room = {.most_bytes = options.store_limit_mb * kMegabyte, .reserve_bytes = options.disk_reserve_mb * kMegabyte};
+  service_options.site = site;
+  service_options.executor = options.executor;
   service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
   const auto metrics = std::make_shared<Metrics>();

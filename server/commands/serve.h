@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "server/commands/cluster_options.h"
+
 namespace server::commands {
 
 struct ServeOptions {
@@ -18,6 +20,8 @@ struct ServeOptions {
   long job_memory_mb = 1024;
   long store_limit_mb = 0;
   long disk_reserve_mb = 100;
+  std::string executor = "local";         ///< of sweeps that name none
+  ClusterOptions cluster;
   std::string log_level = "info";
 };
 

@@ -2,6 +2,7 @@
 
 #include "jobs/axis.h"
 #include "jobs/design_kinds.h"
+#include "jobs/executor.h"
 #include "jobs/parameter_path.h"
 #include "jobs/sampled_designs.h"
 #include "jobs/search/search_request.h"
@@ -107,6 +108,12 @@ Json make_priority() {
   return priority;
 }
 
+Json make_executor() {
+  return {{"type", "string"}, {"enum", jobs::kExecutorNames}, {"description", "who computes it; whichever the service has chosen if left out"}};
+}
+
+Json make_move() { return object_of({{"executor", make_executor()}}); }
+
 Json make_extension() {
   Json extension = options_of({{"sweep", ref("Axes")}, {"cases", make_cases()}});
   extension["minProperties"] = 1;
@@ -123,6 +130,7 @@ Json make_sweep_request() {
                              {"cases", make_cases()},
                              {"replicates", make_replicates()},
                              {"priority", make_priority()},
+                             {"executor", make_executor()},
                              {"reuse", {{"type", "boolean"}, {"default", true}, {"description", "whether what was computed before is taken from the store"}}}});
   request["description"] = "A job for every combination of the cases, the points of the design, the values of the axes and the replicates";
   request["examples"] = Json::array({{{"name", "first look"}, {"parameters", {{"duration_s", 0.6}, {"run_up_s", 0.3}}},
@@ -177,6 +185,7 @@ Json make_request_schemas() {
   Json parameters = jobs::parameter_schema();
   parameters.erase("$schema");
   return {{"Parameters", std::move(parameters)}, {"SweepRequest", make_sweep_request()}, {"Extension", make_extension()},
+          {"Move", make_move()},
           {"Axes", make_lists("Span")},          {"Span", make_span()},                  {"Design", make_designs()},
           {"Ranges", make_lists("Range")},       {"Range", make_range()},                {"Values", make_values()},
           {"SearchRequest", make_search_request()}, {"SearchPath", make_search_path()}};

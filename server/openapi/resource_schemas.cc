@@ -1,6 +1,7 @@
 #include "server/openapi/resource_schemas.h"
 
 #include "engine/simulate_rpsup.h"
+#include "jobs/executor.h"
 #include "jobs/parameter_path.h"
 #include "jobs/replicate_statistics.h"
 #include "jobs/store.h"
@@ -45,6 +46,8 @@ Json make_error() {
 
 Json make_run() {
   return object_of({{"wall_time_s", kNumber}, {"cpu_time_s", kNumber}, {"attempts", count()}, {"host", kText}, {"cpu", kText},
+                    {"libm", or_null(described(kText, "the mathematical library that was used"))},
+                    {"numerics", or_null({{"type", "string"}, {"enum", {"native", "portable", nullptr}}})},
                     {"program", object_of({{"version", kText}, {"commit", kText}, {"compiler", kText}, {"engine", kText}})},
                     {"reused", {{"type", "boolean"}, {"description", "whether the result was computed for another job"}}}});
 }
@@ -85,13 +88,26 @@ Json make_sweep(Detail detail) {
                   {"eta_low_s", described(or_null(kNumber), "eta_s less two standard deviations")},
                   {"eta_high_s", described(or_null(kNumber), "eta_s and two standard deviations")},
                   {"priority", {{"type", "integer"}}},
+                  {"executor", {{"type", "string"}, {"enum", jobs::kExecutorNames}}},
                   {"created_at", kTime},
                   {"started_at", or_null(kTime)},
                   {"ended_at", or_null(kTime)},
                   {"axes", described(list_of(kText), "the parameters that differ from job to job")},
-                  {"links", object_of({{"self", kText}, {"results", kText}, {"events", kText}, {"cancel", kText}, {"retry", kText}, {"extend", kText}})}};
+                  {"links", object_of({{"self", kText}, {"results", kText}, {"events", kText}, {"cancel", kText}, {"retry", kText}, {"extend", kText}, {"move", kText}})}};
   if (detail == Detail::kFull) properties["request"] = ref("SweepRequest");
   return detail == Detail::kFull ? object_of(std::move(properties)) : options_of(std::move(properties));
+}
+
+Json make_executors() {
+  const Json tasks = object_of({{"pending", count()}, {"running", count()}});
+  const Json waiting = object_of({{"reason", described(kText, "in Slurm's words")}, {"tasks", count()}});
+  const Json executor = object_of({{"name", {{"type", "string"}, {"enum", jobs::kExecutorNames}}},
+                                   {"slots", described(count(), "jobs that it computes at a time")},
+                                   {"tasks", described(or_null(tasks), "of this service in Slurm's queue; null where there is none")},
+                                   {"nodes", described(list_of(kText), "machines that compute now")},
+                                   {"waiting", described(list_of(waiting), "why tasks wait")},
+                                   {"problems", described(list_of(kText), "what somebody should look at")}});
+  return object_of({{"items", described(list_of(executor), "first the one that takes sweeps which name none")}});
 }
 
 Json make_page(std::string_view item) {
@@ -132,6 +148,7 @@ Json make_resource_schemas() {
           {"Sweep", make_sweep(Detail::kFull)},
           {"SweepSummary", make_sweep(Detail::kListing)},
           {"SweepPage", make_page("SweepSummary")},
+          {"Executors", make_executors()},
           {"ResultRow", make_result_row()},
           {"ResultRows", list_of(ref("ResultRow"))},
           {"Trajectory", make_trajectory()},

@@ -52,7 +52,7 @@ TEST(Service, ComputesASweepAndShowsIt) {
   EXPECT_EQ(sweep.at("axes"), json_of(R"(["crank_velocity_rad_s", "clearance_mm"])"));
   EXPECT_EQ(sweep.at("links"), (json{{"self", "/v1/sweeps/" + id}, {"results", "/v1/sweeps/" + id + "/results"}, {"events", "/v1/sweeps/" + id + "/events"},
                                       {"cancel", "/v1/sweeps/" + id + "/cancel"}, {"retry", "/v1/sweeps/" + id + "/retry"},
-                                      {"extend", "/v1/sweeps/" + id + "/extend"}}));
+                                      {"extend", "/v1/sweeps/" + id + "/extend"}, {"move", "/v1/sweeps/" + id + "/move"}}));
   for (const char* time : {"created_at", "started_at", "ended_at"}) {
     std::string form = sweep.at(time);
     std::replace_if(form.begin(), form.end(), [](char c) { return c >= '0' && c <= '9'; }, 'd');

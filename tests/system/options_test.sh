@@ -33,5 +33,16 @@ expect_code 2 "$rpsup" serve --db a.db --threads 0
 expect_code 2 "$rpsup" serve --db a.db --host 0.0.0.0
 expect_text err 'without a token'
 expect_code 2 "$rpsup" serve
+expect_code 2 "$rpsup" serve --db a.db --executor slurm
+expect_text err 'needs --slurm-folder'
+expect_code 2 "$rpsup" serve --db a.db --slurm-folder nowhere
+expect_text err 'must begin with /'
+expect_code 2 "$rpsup" check-cluster --slurm-folder "$folder/nowhere"
+expect_text err 'there is no such folder'
+expect_code 2 "$rpsup" run-task . 0
+expect_text err SLURM_ARRAY_TASK_ID
+SLURM_ARRAY_TASK_ID=many expect_code 2 "$rpsup" run-task . 0
+expect_code 3 "$rpsup" run-task . 0 --index 0
+expect_text err g0.list
 [ ! -e a.db ] || fail "a refused command has made a store"
 echo "options work"

@@ -69,7 +69,7 @@ test("a sweep shows its metrics, and what is selected in its table is selected e
   const [first] = await resultsOf(sweep);
   assert.match(page.url(), new RegExp(`jobs=${first.job_id}`));
   await expectAccessible(page);
-  const csv = await textOf(page, () => page.getByRole("link", { name: "CSV" }).click());
+  const csv = await textOf(page, () => page.getByRole("link", { name: "CSV", exact: true }).click());
   assert.equal(csv.name, `sweep-${sweep.id}.csv`);
   assert.equal(csv.text.trim().split("\n").length, 7);
   await page.getByRole("link", { name: "Open it" }).click();

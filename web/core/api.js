@@ -42,6 +42,7 @@ const withQuery = (path, query) => {
 };
 
 export const listSweeps = (query, signal) => ask(withQuery("/v1/sweeps", query), { signal });
+export const listExecutors = (signal) => ask("/v1/executors", { signal });
 export const listJobs = (query, signal) => ask(withQuery("/v1/jobs", query), { signal });
 export const findSweep = (id, signal) => ask(sweepPath(id), { signal });
 export const submitSweep = (request) => ask("/v1/sweeps", { method: "POST", body: request });

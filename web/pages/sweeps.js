@@ -1,11 +1,12 @@
 // The list of sweeps, up to date by itself.
-import { cancelSweep, deleteSweep, findSweep, listSweeps, retrySweep } from "/core/api.js";
+import { cancelSweep, deleteSweep, findSweep, listExecutors, listSweeps, retrySweep } from "/core/api.js";
 import { loadCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural } from "/core/format.js";
 import { follow, isUnderWay, settled } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
+import { executorsPanel } from "/study/executors.js";
 import { sweepRow } from "/study/sweep_row.js";
 
 const pageSize = 25;
@@ -44,6 +45,7 @@ class SweepList {
     this.empty = h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
       h("p", {}, h("a", { class: "button main", href: "#/new" }, "Set one up"), " ",
         h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study")));
+    this.executors = executorsPanel();
     this.none = h("p", { class: "card", hidden: true }, "No sweep is like that.");
     const refreshSoon = settled(() => this.signal.aborted || this.refresh(), 300);
     const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
@@ -51,7 +53,7 @@ class SweepList {
       h("label", { class: "choice" }, h("span", {}, "Search by name, id or axis"), search),
       choice("State", [["", "any"], ...states], this.state, (state) => { this.state = state; this.changed(); this.refresh(); }),
       h("a", { class: "button main", href: "#/new" }, "New sweep"));
-    return [h("h1", {}, "Sweeps of the RPSUP linkage"), this.status, tools, this.table, this.none, this.more, this.empty];
+    return [h("h1", {}, "Sweeps of the RPSUP linkage"), this.status, this.executors.element, tools, this.table, this.none, this.more, this.empty];
   }
 
   changed() {
@@ -61,7 +63,9 @@ class SweepList {
 
   async refresh() {
     try {
-      const page = await listSweeps({ limit: this.search ? mostSearched : this.limit, state: this.state }, this.signal);
+      const [page, executors] = await Promise.all([
+        listSweeps({ limit: this.search ? mostSearched : this.limit, state: this.state }, this.signal), listExecutors(this.signal)]);
+      this.executors.update(executors.items);
       this.sweeps = page.items;
       this.more.hidden = !page.next_cursor;
       this.status.classList.remove("trouble");

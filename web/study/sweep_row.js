@@ -31,7 +31,7 @@ export function sweepRow(act, signal) {
     drawn = text;
     const name = sweep.name || sweep.id;
     cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id) }, name), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
-    cells.state.replaceChildren(h("span", { class: sweep.state }, sweep.state));
+    cells.state.replaceChildren(h("span", { class: sweep.state }, sweep.state), sweep.executor === "local" ? "" : h("span", { class: "small quiet" }, ` on ${sweep.executor}`));
     const part = `${Math.floor(100 * sweep.progress)} %`;
     bar.value = sweep.progress;
     bar.setAttribute("aria-label", `Progress of ${name}`);

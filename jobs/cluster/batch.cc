@@ -1,0 +1,111 @@
+#include "jobs/cluster/batch.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace jobs::cluster {
+
+std::vector<std::string> Batch::array_names() const {
+  std::vector<std::string> names;
+  for (int generation = 0; generation < generations_; ++generation) names.push_back(array_name(generation));
+  return names;
+}
+
+void Batch::prepare(const BatchHeader& header, const std::vector<PlacedJob>& jobs) const {
+  std::filesystem::create_directories(folder_.out());
+  std::filesystem::create_directories(folder_.path / "log");
+  BatchJobs texts;
+  for (const PlacedJob& job : jobs) texts.emplace(job.place, job.parameters);
+  write_durably(folder_.jobs(), encode_jobs(header, texts));
+}
+
+void Batch::read_lists() {
+  while (std::filesystem::exists(folder_.list(generations_))) {
+    const auto tasks = read_task_list(read_whole(folder_.list(generations_)));
+    put(generations_++, tasks);
+  }
+  share_out();
+}
+
+int Batch::add_generation(const std::vector<TaskPlan>& tasks, const std::string& script) {
+  const int generation = generations_;
+  write_durably(folder_.script(generation), script);
+  write_durably(folder_.list(generation), write_task_list(tasks));
+  ++generations_;
+  put(generation, tasks);
+  share_out();
+  return generation;
+}
+
+void Batch::put(int generation, const std::vector<TaskPlan>& tasks) {
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const TaskName name{.generation = generation, .index = static_cast<int>(i)};
+    tasks_[name] = {.plan = tasks[i], .wanted = {}, .refused = false};
+    for (const Place place : tasks[i].places) owner_[place] = name;
+  }
+}
+
+void Batch::set_refused(int generation, bool refused) {
+  for (auto& [name, task] : tasks_) {
+    if (name.generation == generation) task.refused = refused;
+  }
+}
+
+void Batch::clear_refused(const std::map<TaskName, TaskReport>& reports) {
+  std::set<int> known;
+  for (const auto& [name, report] : reports) known.insert(name.generation);
+  for (const int generation : known) set_refused(generation, false);
+  if (known.contains(generations_ - 1)) refusals = 0;
+}
+
+void Batch::set_wanted(const std::vector<Place>& wanted) {
+  wanted_ = {wanted.begin(), wanted.end()};
+  share_out();
+}
+
+void Batch::share_out() {
+  for (auto& [name, task] : tasks_) task.wanted.clear();
+  for (const Place place : wanted_) {
+    if (const auto owner = owner_.find(place); owner != owner_.end()) tasks_.at(owner->second).wanted.push_back(place);
+  }
+}
+
+std::vector<Place> Batch::unassigned() const {
+  std::vector<Place> places;
+  std::ranges::copy_if(wanted_, std::back_inserter(places), [&](Place place) { return !owner_.contains(place); });
+  return places;
+}
+
+std::vector<std::filesystem::path> Batch::find_new_results() const {
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::exists(folder_.out())) return files;
+  // Reading the folder, rather than asking for names, makes a network's file system look again.
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.out())) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".results") && !name.starts_with('.') && !seen_.contains(name)) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::map<TaskName, TaskReport> Batch::reports_of(const Reports& all) const {
+  std::map<TaskName, TaskReport> reports;
+  for (int generation = 0; generation < generations_; ++generation) {
+    const auto found = all.find(array_name(generation));
+    if (found == all.end()) continue;
+    for (const auto& [index, report] : found->second) reports.emplace(TaskName{.generation = generation, .index = index}, report);
+  }
+  return reports;
+}
+
+void Batch::take_running(const std::set<Place>& running, std::vector<Place>& begun, std::vector<Place>& waiting) {
+  std::ranges::set_difference(running, running_, std::back_inserter(begun));
+  std::ranges::set_difference(running_, running, std::back_inserter(waiting));
+  running_ = running;
+}
+
+int Batch::open_tasks() const {
+  return static_cast<int>(std::ranges::count_if(tasks_, [](const auto& task) { return !task.second.wanted.empty(); }));
+}
+
+}  // namespace jobs::cluster

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "jobs/cluster/batch_files.h"
+#include "jobs/cluster/reconcile.h"
+#include "jobs/store.h"
+
+namespace jobs::cluster {
+
+/// A batch that a cluster computes, as its folder and the store tell it. What is here can be made from them at any time.
+class Batch {
+ public:
+  /// @param folder  of all batches of the store
+  Batch(BatchRow row, const std::filesystem::path& folder, Clock::duration grace)
+      : row_(std::move(row)), folder_{folder / row_.id}, reconciler_(grace) {}
+
+  [[nodiscard]] const BatchRow& row() const { return row_; }
+  [[nodiscard]] const BatchFolder& folder() const { return folder_; }
+  /// What Slurm knows a generation by.
+  [[nodiscard]] std::string array_name(int generation) const { return "rpsup-" + row_.id + "-g" + std::to_string(generation); }
+  [[nodiscard]] std::vector<std::string> array_names() const;
+  [[nodiscard]] int generations() const { return generations_; }
+
+  /// Whether the folder has what its tasks read.
+  [[nodiscard]] bool is_prepared() const { return std::filesystem::exists(folder_.jobs()); }
+  void prepare(const BatchHeader& header, const std::vector<PlacedJob>& jobs) const;
+  /// Reads the lists that were written so far.
+  void read_lists();
+  /// Writes the list of a new generation and its script. Returns its number.
+  int add_generation(const std::vector<TaskPlan>& tasks, const std::string& script);
+  /// What sbatch said of a generation.
+  void set_refused(int generation, bool refused);
+  /// What Slurm knows it has taken, whatever sbatch said.
+  void clear_refused(const std::map<TaskName, TaskReport>& reports);
+
+  /// Takes over which places have no result yet.
+  void set_wanted(const std::vector<Place>& wanted);
+  [[nodiscard]] const std::set<Place>& wanted() const { return wanted_; }
+  /// Wanted places that no list has.
+  [[nodiscard]] std::vector<Place> unassigned() const;
+
+  /// Names of files in out/ that have not been looked at.
+  [[nodiscard]] std::vector<std::filesystem::path> find_new_results() const;
+  void set_seen(const std::filesystem::path& file) { seen_.insert(file.filename().string()); }
+
+  /// This batch's part of what squeue said.
+  [[nodiscard]] std::map<TaskName, TaskReport> reports_of(const Reports& all) const;
+  [[nodiscard]] Decision decide(const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
+    return reconciler_.decide(tasks_, reports, now);
+  }
+  /// Which places have begun to run since the last time, and which wait again.
+  void take_running(const std::set<Place>& running, std::vector<Place>& begun, std::vector<Place>& waiting);
+
+  /// Tasks that have places left.
+  [[nodiscard]] int open_tasks() const;
+
+  Clock::time_point not_before{};  ///< when what Slurm has refused may be tried again
+  int refusals = 0;                ///< in a row
+
+ private:
+  void put(int generation, const std::vector<TaskPlan>& tasks);
+  void share_out();
+
+  const BatchRow row_;
+  const BatchFolder folder_;
+  Reconciler reconciler_;
+  TaskStates tasks_;
+  int generations_ = 0;
+  std::set<Place> wanted_;
+  std::map<Place, TaskName> owner_;  ///< the last task that has a place
+  std::set<Place> running_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace jobs::cluster

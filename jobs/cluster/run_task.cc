@@ -1,0 +1,173 @@
+#include "jobs/cluster/run_task.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "jobs/cluster/batch_files.h"
+#include "jobs/content_id.h"
+#include "jobs/local_pool.h"
+#include "jobs/trajectory_codec.h"
+
+namespace jobs::cluster {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+std::string file_prefix(const TaskOrder& order) { return "g" + std::to_string(order.generation) + "-" + std::to_string(order.index) + "-"; }
+
+/// What an earlier run of the same task has left: Slurm starts a task again whose node has failed.
+std::set<Place> find_done(const TaskOrder& order, const std::filesystem::path& out, const std::function<void(const std::string&)>& log) {
+  std::set<Place> done;
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
+    if (!entry.path().filename().string().starts_with(file_prefix(order))) continue;
+    try {
+      for (const PlacedResult& result : decode_results(read_whole(entry.path())).results) done.insert(result.place);
+    } catch (const FileError& error) {
+      log(entry.path().string() + ": " + error.what());
+    }
+  }
+  return done;
+}
+
+TaskPlan read_plan(const TaskOrder& order, const BatchFolder& folder) {
+  const auto tasks = read_task_list(read_whole(folder.list(order.generation)));
+  if (order.index < 0 || static_cast<std::size_t>(order.index) >= tasks.size()) {
+    throw FileError(folder.list(order.generation).string() + " has no task " + std::to_string(order.index));
+  }
+  return tasks[static_cast<std::size_t>(order.index)];
+}
+
+/// The results that are ready, and the files they go to.
+class Delivery {
+ public:
+  Delivery(const TaskOrder& order, BatchFolder folder, std::string batch) : order_(order), folder_(std::move(folder)), batch_(std::move(batch)) {}
+
+  void add(Place place, RunRecord record) {
+    PlacedResult result{.place = place, .record = std::move(record), .packed_trajectory = {}};
+    if (!result.record.trajectory.columns.empty()) result.packed_trajectory = encode_trajectory(result.record.trajectory);
+    result.record.trajectory = {};
+    const std::lock_guard lock(mutex_);
+    ready_.push_back(std::move(result));
+    ++total_;
+    changed_.notify_all();
+  }
+
+  /// Waits until so many results have come, or for some time. Returns whether they have.
+  bool await(std::size_t total, milliseconds time) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, time, [&] { return total_ >= total; });
+  }
+
+  /// Writes what is ready. @throws FileError, and then it is still ready
+  void deliver() {
+    std::unique_lock lock(mutex_);
+    if (ready_.empty()) return;
+    ResultFile file{.batch = batch_, .provenance = own_provenance(), .results = std::move(ready_)};
+    ready_.clear();
+    lock.unlock();
+    try {
+      // A name of its own: another process may have been given the same task, and has other jobs ready.
+      constexpr std::size_t kDigits = 16;
+      const std::string bytes = encode_results(file);
+      write_durably(folder_.out() / (file_prefix(order_) + sha256_hex(bytes).substr(0, kDigits) + ".results"), bytes);
+    } catch (const FileError&) {
+      lock.lock();
+      std::ranges::move(ready_, std::back_inserter(file.results));
+      ready_ = std::move(file.results);
+      throw;
+    }
+  }
+
+ private:
+  const TaskOrder& order_;
+  const BatchFolder folder_;
+  const std::string batch_;
+
+  std::mutex mutex_;  // guards the rest
+  std::condition_variable changed_;
+  std::vector<PlacedResult> ready_;
+  std::size_t total_ = 0;
+};
+
+/// Hands out jobs one by one.
+class Remaining {
+ public:
+  explicit Remaining(BatchJobs jobs) : jobs_(std::move(jobs)) {}
+
+  std::optional<ClaimedJob> claim() {
+    const std::lock_guard lock(mutex_);
+    if (jobs_.empty()) return std::nullopt;
+    auto first = jobs_.extract(jobs_.begin());
+    return ClaimedJob{.seq = first.key(), .id = std::to_string(first.key()), .attempt = 1, .parameters = std::move(first.mapped())};
+  }
+
+ private:
+  std::mutex mutex_;  // guards jobs_
+  BatchJobs jobs_;
+};
+
+/// The last results are worth waiting for: the folder may be full or away for a while.
+void deliver_at_the_end(Delivery& delivery, const std::function<void(const std::string&)>& log) {
+  constexpr milliseconds kPause{5'000};
+  constexpr int kTries = 60;
+  for (int tried = 1;; ++tried) {
+    try {
+      return delivery.deliver();
+    } catch (const FileError& error) {
+      log(error.what());
+      if (tried == kTries) throw;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+}  // namespace
+
+bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requested, const std::function<void(const std::string&)>& log) {
+  const BatchFolder folder{order.folder};
+  TaskPlan plan = read_plan(order, folder);
+  const std::set<Place> done = find_done(order, folder.out(), log);
+  std::erase_if(plan.places, [&](Place place) { return done.contains(place); });
+  if (plan.places.empty()) return true;
+  BatchHeader header;
+  Remaining remaining(read_jobs(folder.jobs(), plan.places, header));
+  if (header.engine != engine_version()) throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
+  Delivery delivery(order, folder, header.batch);
+  LocalPool pool({.claim = [&] { return remaining.claim(); },
+                  .record = [&](const ClaimedJob& job, const RunRecord& record) { delivery.add(static_cast<Place>(job.seq), record); },
+                  .give_back = [](const ClaimedJob&) {}},
+                 order.runner, order.threads, log, header.limits);
+  const auto interval = std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(header.deliver_every_s));
+  auto next = SteadyClock::now() + interval;
+  auto next_look = SteadyClock::now();
+  bool complete = false;
+  bool stopped = false;
+  while (!complete && !stopped) {
+    complete = delivery.await(plan.places.size(), milliseconds(100));
+    stopped = stop_requested();
+    const auto now = SteadyClock::now();
+    if (now >= next_look) {
+      stopped = stopped || std::filesystem::exists(folder.cancel());
+      next_look = now + std::chrono::seconds(2);
+    }
+    if (complete || stopped || now < next) continue;
+    next = now + interval;
+    try {
+      delivery.deliver();
+    } catch (const FileError& error) {
+      log(error.what());
+    }
+  }
+  pool.stop();
+  deliver_at_the_end(delivery, log);
+  return delivery.await(plan.places.size(), milliseconds(0));
+}
+
+}  // namespace jobs::cluster

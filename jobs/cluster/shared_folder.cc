@@ -1,0 +1,44 @@
+#include "jobs/cluster/shared_folder.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "jobs/cluster/durable_file.h"
+#include "jobs/cluster/process.h"
+#include "jobs/content_id.h"
+#include "jobs/provenance.h"
+
+namespace jobs::cluster {
+
+std::filesystem::path share_program(const Site& site) {
+  constexpr std::size_t kName = 12;
+  const std::string bytes = read_whole(site.program.empty() ? "/proc/self/exe" : site.program);
+  const auto shared = site.folder / "bin" / ("rpsup-" + sha256_hex(bytes).substr(0, kName));
+  std::error_code error;
+  if (std::filesystem::exists(shared, error)) return shared;
+  std::filesystem::create_directories(shared.parent_path(), error);
+  if (error) throw FileError("cannot make the folder " + shared.parent_path().string() + ": " + error.message());
+  write_durably(shared, bytes);
+  std::filesystem::permissions(shared, std::filesystem::perms(0755), error);
+  if (error) throw FileError("cannot make " + shared.string() + " a program: " + error.message());
+  return shared;
+}
+
+std::string make_script(const Site& site, const std::filesystem::path& program, const std::string& arguments) {
+  std::string script = "#!/bin/sh\n";
+  if (!site.prologue.empty()) script += site.prologue + "\n";
+  if (has_portable_numerics()) script += "export GLIBC_TUNABLES=" + shell_quoted(portable_tunables()) + "\n";
+  return script + "exec " + shell_quoted(program.string()) + " " + arguments + "\n";
+}
+
+std::string tail_of(const std::filesystem::path& file, std::size_t most_bytes) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return "";
+  const auto size = static_cast<std::size_t>(in.tellg());
+  in.seekg(static_cast<std::streamoff>(size > most_bytes ? size - most_bytes : 0));
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace jobs::cluster

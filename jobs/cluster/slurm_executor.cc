@@ -1,0 +1,350 @@
+#include "jobs/cluster/slurm_executor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <utility>
+
+#include "jobs/cluster/shared_folder.h"
+#include "jobs/provenance.h"
+
+namespace jobs::cluster {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kUsualArraySize = 1001;  ///< Slurm's default, where it cannot be asked
+constexpr double kMostJobs = 10'000;
+constexpr std::size_t kLogTail = 1'000;
+constexpr double kSpareTime_s = 300.0;
+constexpr milliseconds kFirstPause{1'000};
+constexpr milliseconds kLongestPause{60'000};
+constexpr std::chrono::seconds kFirstRefusalPause{30};
+constexpr int kMostDoublings = 5;
+
+double cost_of(const PlacedJob& job, const std::map<std::string, double>& rates, double unknown_s) {
+  const auto rate = rates.find(job.kind);
+  return rate == rates.end() ? unknown_s : rate->second * job.duration_s;
+}
+
+/// A log may hold anything; JSON takes UTF-8 only.
+std::string as_utf8(const std::string& text) {
+  return nlohmann::json::parse(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).get<std::string>();
+}
+
+/// Tasks that leave something every so often must not be too much for the folder together: 20 a second.
+double delivery_interval_s(int tasks) { return std::max(30.0, tasks / 20.0); }
+
+}  // namespace
+
+SlurmExecutor::SlurmExecutor(Site site, Store& store, Lane lane, const JobLimits& limits, std::function<void()> changed,
+                             std::function<void(const std::string&)> log)
+    : site_(std::move(site)), store_(store), lane_(std::move(lane)), limits_(limits), changed_(std::move(changed)), log_(std::move(log)),
+      slurm_(site_, stop_.get_token()) {
+  thread_ = std::jthread([this] { work(); });
+}
+
+SlurmExecutor::~SlurmExecutor() { stop(); }
+
+void SlurmExecutor::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++wakes_;
+  }
+  woken_.notify_all();
+}
+
+void SlurmExecutor::stop() {
+  const std::lock_guard lock(stop_mutex_);
+  stop_.request_stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+nlohmann::json SlurmExecutor::status() const {
+  nlohmann::json status = status_.json();
+  status.update({{"name", kSlurmExecutor}, {"slots", slots()}});
+  return status;
+}
+
+void SlurmExecutor::work() {
+  milliseconds pause = site_.folder_poll;
+  while (!stop_.stop_requested()) {
+    try {
+      do_round(Clock::now());
+      pause = site_.folder_poll;
+      tell_problem("folder", "");
+    } catch (const std::exception& error) {  // the folder's errors, the store's, or no memory
+      tell_problem("folder", error.what());
+      pause = std::clamp(2 * pause, kFirstPause, kLongestPause);
+    }
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, stop_.get_token(), pause, [&] { return wakes_ != seen_wakes_; });
+  }
+}
+
+void SlurmExecutor::do_round(Clock::time_point now) {
+  begin();
+  take_results();
+  refresh_wanted();
+  if (now >= next_look_) look(now);
+  take_jobs(now);
+}
+
+/// What is done once, and again until it works.
+void SlurmExecutor::begin() {
+  if (max_array_size_ > 0) return;
+  folder_ = site_.folder / store_.find_identity();
+  std::filesystem::create_directories(folder_);
+  std::filesystem::permissions(folder_, std::filesystem::perms(0700));
+  if (!lock_) lock_.emplace(folder_);
+  program_ = share_program(site_);
+  take_over_batches();
+  std::string problem;
+  const auto limits = slurm_.find_limits(problem);
+  max_array_size_ = limits ? limits->max_array_size : kUsualArraySize;
+}
+
+/// Batches of a former program: those the store knows, and folders that it does not know any more, whose tasks nobody wants.
+void SlurmExecutor::take_over_batches() {
+  live_.clear();
+  std::set<std::string> known;
+  for (const BatchRow& row : store_.find_batches()) {
+    add_batch(row);
+    known.insert(row.id);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && !known.contains(name)) add_batch({.seq = 0, .id = name, .sweep_id = {}});
+  }
+}
+
+SlurmExecutor::Live& SlurmExecutor::add_batch(const BatchRow& row) {
+  live_.push_back(std::make_unique<Live>(Live{.batch = Batch(row, folder_, site_.grace), .costs_s = {}}));
+  Live& live = *live_.back();
+  live.batch.read_lists();
+  const auto rates = store_.find_cost_rates();
+  std::vector<Place> wanted;
+  for (const PlacedJob& job : store_.find_placed(row.seq)) {
+    wanted.push_back(job.place);
+    // Of a kind that is not known: as long as a task should be at least, so that each job is one.
+    live.costs_s[job.place] = cost_of(job, rates, site_.least_task_s * site_.threads);
+  }
+  live.batch.set_wanted(wanted);
+  return live;
+}
+
+void SlurmExecutor::prepare(const Live& live) const {
+  if (live.batch.is_prepared()) return;
+  const BatchRow& row = live.batch.row();
+  const double interval_s = delivery_interval_s(site_.most_tasks());
+  live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_, .deliver_every_s = interval_s}, store_.find_placed(row.seq));
+}
+
+void SlurmExecutor::take_results() {
+  bool any = false;
+  for (const auto& live : live_) any = take_results_of(*live) || any;
+  if (any) changed_();
+}
+
+bool SlurmExecutor::take_results_of(Live& live) {
+  bool any = false;
+  for (const auto& file : live.batch.find_new_results()) {
+    any = take_file(live, file) || any;
+    live.batch.set_seen(file);
+  }
+  if (any) live.batch.set_wanted(store_.find_wanted(live.batch.row().seq));
+  return any;
+}
+
+bool SlurmExecutor::take_file(Live& live, const std::filesystem::path& file) {
+  try {
+    const ResultFile results = decode_results(read_whole(file));
+    if (results.batch != live.batch.row().id) throw FileError("it is of another batch, " + results.batch);
+    std::vector<PlacedRecord> records;
+    for (const PlacedResult& result : results.results) {
+      records.push_back({.place = result.place, .record = &result.record, .packed_trajectory = &result.packed_trajectory});
+    }
+    return store_.record_placed(live.batch.row().seq, results.provenance, records) > 0;
+  } catch (const FileError& error) {
+    log_("results are left out, and are computed again: " + file.string() + ": " + error.what());
+    return false;
+  }
+}
+
+/// Jobs may have been cancelled or taken back.
+void SlurmExecutor::refresh_wanted() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (wakes_ == seen_wakes_) return;
+    seen_wakes_ = wakes_;
+  }
+  for (const auto& live : live_) {
+    const bool had_some = !live->batch.wanted().empty();
+    live->batch.set_wanted(store_.find_wanted(live->batch.row().seq));
+    if (had_some && live->batch.wanted().empty()) next_look_ = {};
+  }
+}
+
+void SlurmExecutor::look(Clock::time_point now) {
+  next_look_ = now + site_.queue_poll;
+  std::vector<std::string> names;
+  for (const auto& live : live_) std::ranges::copy(live->batch.array_names(), std::back_inserter(names));
+  std::optional<Reports> reports(std::in_place);
+  std::string problem;
+  if (!names.empty()) reports = slurm_.observe(names, problem);
+  tell_problem("squeue", problem);
+  if (!reports) return;
+  status_.set_reports(*reports);
+  std::erase_if(live_, [&](const auto& live) {
+    const auto own = live->batch.reports_of(*reports);
+    act(*live, live->batch.decide(own, now), own, now);
+    return retire(*live, own);
+  });
+}
+
+void SlurmExecutor::act(Live& live, const Decision& decision, const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
+  std::vector<Place> begun, waiting;
+  live.batch.take_running(decision.running, begun, waiting);
+  if (!begun.empty() || !waiting.empty()) store_.mark_placed(live.batch.row().seq, begun, waiting);
+  if (live.batch.wanted().empty()) std::ofstream(live.batch.folder().cancel()).flush();
+  cancel(live, decision.cancel, reports);
+  fail(live, decision.fail);
+  live.batch.clear_refused(reports);
+  if (decision.refused && now < live.batch.not_before) return;  // it will be decided again
+  std::vector<TaskPlan> tasks = decision.submit;
+  std::ranges::copy(plan_unassigned(live, bounds()), std::back_inserter(tasks));
+  submit(live, std::move(tasks), now);
+}
+
+std::vector<TaskPlan> SlurmExecutor::plan_unassigned(const Live& live, const TaskBounds& bound) {
+  const auto places = live.batch.unassigned();
+  if (places.empty()) return {};
+  std::vector<double> costs_s;
+  for (const Place place : places) costs_s.push_back(live.costs_s.at(place));
+  return plan_tasks(places, costs_s, bound);
+}
+
+void SlurmExecutor::cancel(Live& live, const std::vector<TaskName>& tasks, const std::map<TaskName, TaskReport>& reports) {
+  std::map<std::string, std::vector<int>> by_array;
+  for (const TaskName& name : tasks) by_array[reports.at(name).array_job].push_back(name.index);
+  if (tasks.size() > 1 && live.batch.wanted().empty()) {
+    for (const std::string& name : live.batch.array_names()) slurm_.cancel_array(name);
+    return;
+  }
+  for (const auto& [array_job, indices] : by_array) slurm_.cancel_tasks(array_job, indices);
+}
+
+void SlurmExecutor::fail(Live& live, const std::vector<LostJob>& jobs) {
+  if (jobs.empty()) return;
+  std::vector<RunRecord> records(jobs.size());
+  std::vector<PlacedRecord> placed;
+  const std::string no_trajectory;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const std::string tail = tail_of(live.batch.folder().log(jobs[i].task.generation, jobs[i].task.index), kLogTail);
+    records[i].end = RunRecord::End::kFailed;
+    records[i].error_reason = jobs[i].reason;
+    records[i].error_detail = as_utf8(jobs[i].detail + (tail.empty() ? "; its log is empty" : "; the end of its log: " + tail));
+    placed.push_back({.place = jobs[i].place, .record = &records[i], .packed_trajectory = &no_trajectory});
+  }
+  store_.record_placed(live.batch.row().seq, own_provenance(), placed);
+  live.batch.set_wanted(store_.find_wanted(live.batch.row().seq));
+  changed_();
+}
+
+void SlurmExecutor::submit(Live& live, std::vector<TaskPlan> tasks, Clock::time_point now) {
+  const auto most = static_cast<std::size_t>(std::max(1, std::min(max_array_size_, site_.most_tasks())));
+  for (std::size_t first = 0; first < tasks.size(); first += most) {
+    const auto end = std::min(first + most, tasks.size());
+    submit_generation(live, {tasks.begin() + static_cast<std::ptrdiff_t>(first), tasks.begin() + static_cast<std::ptrdiff_t>(end)}, now);
+  }
+}
+
+/// The list is in the folder before Slurm is asked. If Slurm does not say that it has the array, it may have it all the same: only a look at
+/// its queue tells, after some time.
+void SlurmExecutor::submit_generation(Live& live, const std::vector<TaskPlan>& tasks, Clock::time_point now) {
+  prepare(live);
+  const int generation = live.batch.generations();
+  const BatchFolder& folder = live.batch.folder();
+  const std::string arguments = "run-task " + shell_quoted(folder.path.string()) + " " + std::to_string(generation);
+  live.batch.add_generation(tasks, make_script(site_, program_, arguments));
+  const auto largest = std::ranges::max_element(tasks, {}, &TaskPlan::memory_factor);
+  const Submission answer = slurm_.submit({.name = live.batch.array_name(generation), .tasks = static_cast<int>(tasks.size()),
+                                           .time_s = time_limit_s(live, tasks), .memory_factor = largest->memory_factor, .folder = folder.path,
+                                           .script = folder.script(generation),
+                                           .log = (folder.path / "log" / ("g" + std::to_string(generation) + "-%a.log")).string()});
+  tell_problem("sbatch", answer.problem);
+  live.batch.set_refused(generation, !answer.array_job);
+  if (answer.array_job) {
+    live.batch.refusals = 0;
+    return;
+  }
+  const int doublings = std::min(live.batch.refusals++, kMostDoublings);
+  live.batch.not_before = now + kFirstRefusalPause * (1 << doublings);
+}
+
+double SlurmExecutor::time_limit_s(const Live& live, const std::vector<TaskPlan>& tasks) const {
+  double longest_s = 0.0;
+  for (const TaskPlan& task : tasks) {
+    double cost_s = 0.0;
+    for (const Place place : task.places) cost_s += live.costs_s.at(place);
+    longest_s = std::max(longest_s, task.time_factor * (2.0 * cost_s / site_.threads + kSpareTime_s));
+  }
+  return longest_s;
+}
+
+void SlurmExecutor::take_jobs(Clock::time_point now) {
+  // Room is left for a sweep that comes later: it need not wait for the tasks of a large one to end.
+  const int most = site_.most_tasks();
+  for (int room = most - open_tasks(); room > 0 && 4 * room >= most; room = most - open_tasks()) {
+    const bool refused = std::ranges::any_of(live_, [](const auto& live) { return live->batch.refusals > 0; });
+    if (refused || !take_batch(std::max(1, room / 2), now)) return;
+  }
+}
+
+/// @param room  tasks
+bool SlurmExecutor::take_batch(int room, Clock::time_point now) {
+  const auto rates = store_.find_cost_rates();
+  TaskBounds bound = bounds();
+  bound.most_tasks = room;
+  std::size_t most_jobs = static_cast<std::size_t>(probe_size(bound));
+  // While nothing is known of what jobs cost, the first ones are to tell.
+  if (rates.empty() && !live_.empty()) return false;
+  if (job_cost_s_ && !rates.empty()) {
+    const double wished = room * std::max(site_.task_s, site_.least_task_s) * site_.threads / *job_cost_s_;
+    most_jobs = static_cast<std::size_t>(std::clamp(wished, 1.0, kMostJobs));
+  }
+  const auto batch = store_.claim_batch(lane_, most_jobs);
+  if (!batch) return false;
+  Live& live = add_batch(*batch);
+  double total_s = 0.0;
+  for (const auto& [place, cost_s] : live.costs_s) total_s += cost_s;
+  job_cost_s_ = std::max(1e-6, total_s / static_cast<double>(live.costs_s.size()));
+  submit(live, plan_unassigned(live, bound), now);
+  return true;
+}
+
+/// Whether nothing is left of a batch, here and in Slurm; then it is forgotten.
+bool SlurmExecutor::retire(const Live& live, const std::map<TaskName, TaskReport>& reports) {
+  const bool alive = std::ranges::any_of(reports, [](const auto& report) { return is_alive(report.second.phase); });
+  if (alive || !live.batch.wanted().empty()) return false;
+  store_.end_batch(live.batch.row().seq);
+  std::error_code ignored;  // what cannot be removed is found at the next start
+  std::filesystem::remove_all(live.batch.folder().path, ignored);
+  return true;
+}
+
+int SlurmExecutor::open_tasks() const {
+  return std::accumulate(live_.begin(), live_.end(), 0, [](int sum, const auto& live) { return sum + live->batch.open_tasks(); });
+}
+
+TaskBounds SlurmExecutor::bounds() const {
+  return {.threads = site_.threads, .slots = site_.slots, .most_tasks = site_.most_tasks(), .task_s = site_.task_s,
+          .least_task_s = site_.least_task_s};
+}
+
+void SlurmExecutor::tell_problem(const std::string& topic, const std::string& text) {
+  if (status_.set_problem(topic, text) && !text.empty()) log_(text);
+}
+
+}  // namespace jobs::cluster

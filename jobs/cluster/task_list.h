@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jobs::cluster {
+
+/// Where a job stands in its batch, from 0.
+using Place = std::uint32_t;
+
+/// What one task is to compute, and what has become of the tasks that were to do it before.
+struct TaskPlan {
+  std::vector<Place> places;  ///< ascending
+  int tries = 0;              ///< how often these jobs were lost
+  int strikes = 0;            ///< how often it was the task itself that failed
+  int memory_factor = 1;      ///< of what the site gives a task
+  int time_factor = 1;        ///< of the time that it is expected to take
+  bool operator==(const TaskPlan&) const = default;
+};
+
+/// The list of a generation as a text, a task a line: "0-4,7 tries 1 strikes 0 memory 1 time 1".
+[[nodiscard]] std::string write_task_list(const std::vector<TaskPlan>& tasks);
+
+/// @throws FileError if it is no such list
+[[nodiscard]] std::vector<TaskPlan> read_task_list(std::string_view text);
+
+}  // namespace jobs::cluster

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace jobs {
+
+inline constexpr std::string_view kLocalExecutor = "local";
+inline constexpr std::string_view kSlurmExecutor = "slurm";
+inline constexpr std::array<std::string_view, 2> kExecutorNames{kLocalExecutor, kSlurmExecutor};
+
+/// Takes jobs from the store, computes them, and leaves their results there. Nothing above it knows how. All members may be called from any thread.
+class Executor {
+ public:
+  Executor() = default;
+  virtual ~Executor() = default;
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+
+  /// There may be new jobs, or some that are not wanted any more.
+  virtual void wake() = 0;
+  /// Stops the job if it is being computed; its record comes to nothing unless the store still wants it.
+  virtual void stop_job(const std::string& id) = 0;
+  /// Ends the executor's own threads. Returns when that is done.
+  virtual void stop() = 0;
+  /// How many jobs it can compute at a time.
+  [[nodiscard]] virtual int slots() const = 0;
+  /// {"name", "slots", "tasks": {"pending", "running"}, "nodes": [...], "problems": [...]}: what it does beside computing jobs, and what
+  /// a human should know.
+  [[nodiscard]] virtual nlohmann::json status() const = 0;
+};
+
+/// Whose jobs an executor takes.
+struct Lane {
+  std::string executor{kLocalExecutor};
+  std::string default_executor{kLocalExecutor};  ///< of sweeps that name none, and of single jobs
+};
+
+}  // namespace jobs

@@ -1,0 +1,32 @@
+// What computes, for a service with a cluster: its slots, tasks and nodes, and what somebody should look at.
+import { h } from "/core/dom.js";
+import { plural } from "/core/format.js";
+
+const shownNodes = 6;
+
+function nodesText(nodes) {
+  const shown = nodes.slice(0, shownNodes).join(", ");
+  return nodes.length > shownNodes ? `${shown} and ${nodes.length - shownNodes} more` : shown;
+}
+
+function clusterText({ name, slots, tasks, nodes, waiting }) {
+  const running = `${plural(tasks.running, "task")} on ${nodes.length === 0 ? "no node" : nodesText(nodes)}`;
+  const reasons = waiting.map(({ reason, tasks: count }) => `${count.toLocaleString("en")} for ${reason}`).join(", ");
+  return `${name}: ${plural(slots, "slot")}; ${running}; ${tasks.pending.toLocaleString("en")} wait${reasons ? ` (${reasons})` : ""}`;
+}
+
+export function executorsPanel() {
+  const element = h("section", { class: "card", hidden: true, "aria-label": "Cluster" });
+
+  /// @param executors  the items of /v1/executors
+  function update(executors) {
+    const clusters = executors.filter(({ tasks }) => tasks !== null);
+    element.hidden = clusters.length === 0;
+    element.replaceChildren(...clusters.flatMap((cluster) => [
+      h("p", { class: "small" }, clusterText(cluster)),
+      ...cluster.problems.map((problem) => h("p", { class: "small trouble" }, problem)),
+    ]));
+  }
+
+  return { element, update };
+}
