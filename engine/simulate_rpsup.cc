@@ -1,10 +1,12 @@
 #include "engine/simulate_rpsup.h"
 
 #include <optional>
+#include <utility>
 
 #include "engine/analysis/ideal_peak.h"
-#include "engine/analysis/rpsup_channels.h"
-#include "engine/analysis/rpsup_metrics.h"
+#include "engine/analysis/rpsup_quantities.h"
+#include "engine/analysis/run_observer.h"
+#include "engine/analysis/sliding_work.h"
 #include "engine/model/rpsup.h"
 #include "engine/simulate.h"
 
@@ -12,26 +14,19 @@ namespace engine {
 
 namespace {
 
-class RpsupObserver : public Observer {
+/// Gathers what slid in the joint beside channels and metrics, which read it.
+class RpsupObserver final : public RunObserver {
  public:
-  RpsupObserver(const RpsupParameters& parameters, const Rpsup& rpsup, const StopQuery& stop_requested)
-      : metrics(parameters, rpsup.layout), channels(parameters, rpsup), stop_requested_(stop_requested) {}
+  RpsupObserver(RunMetrics run_metrics, RunChannels run_channels, SlidingWork& sliding_work, const StopQuery& stop_requested)
+      : RunObserver(std::move(run_metrics), std::move(run_channels), stop_requested), sliding_work_(sliding_work) {}
 
   void on_step(const Evaluation& start, const Evaluation& end) override {
-    metrics.take_step(start, end);
-    channels.take_step(start, end);
+    sliding_work_.take_step(start, end);
+    RunObserver::on_step(start, end);
   }
-  [[nodiscard]] bool wants_middle() override { return metrics.wants_middle(); }
-  void on_middle(const Evaluation& at) override { metrics.take_middle(at); }
-  void on_sample(const Evaluation& at) override { channels.take_sample(at); }
-  void on_onsets(int count) override { metrics.take_onsets(count); }
-  [[nodiscard]] bool stop_requested(double t) override { return stop_requested_ && stop_requested_(t); }
-
-  RpsupMetrics metrics;
-  RpsupChannels channels;
 
  private:
-  const StopQuery& stop_requested_;
+  SlidingWork& sliding_work_;
 };
 
 }  // namespace
@@ -39,7 +34,9 @@ class RpsupObserver : public Observer {
 RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& options, const StopQuery& stop_requested) {
   check_parameters(parameters, options);
   const Rpsup rpsup = build_rpsup(parameters);
-  RpsupObserver observer(parameters, rpsup, stop_requested);
+  SlidingWork sliding_work(parameters);
+  RpsupObserver observer(RunMetrics(rpsup_measured(parameters, rpsup.layout)),
+                         RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links), sliding_work, stop_requested);
   const RunEnd end = simulate(rpsup.mechanism, options, observer);
   RunResult result{.status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
   if (end.status == RunStatus::kSucceeded) {
@@ -48,7 +45,7 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
       result.status = RunStatus::kStopped;
       result.detail = "stopped on request";
     } else {
-      result.metrics = observer.metrics.calc(end, ideal, observer.channels.sliding_work().total());
+      result.metrics = calc_rpsup_metrics(parameters, observer.metrics, sliding_work, end, ideal);
     }
   }
   result.trajectory = observer.channels.finish(observer.metrics.work_turned_over());

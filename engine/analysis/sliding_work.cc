@@ -49,6 +49,8 @@ void SlidingWork::add(const JointState& joint, double time) {
 
 void SlidingWork::take_step(const Evaluation& start, const Evaluation& end) {
   before_ = after_;
+  start_ = start.t;
+  end_ = end.t;
   for (const Evaluation* at : {&start, &end}) add(at->joints[0], 0.5 * (end.t - start.t));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -26,6 +27,8 @@ class SlidingWork {
 
   void take_step(const Evaluation& start, const Evaluation& end);
 
+  /// Where in the last step a time is, in [0, 1].
+  [[nodiscard]] double place_of(double t) const { return end_ > start_ ? std::clamp((t - start_) / (end_ - start_), 0.0, 1.0) : 1.0; }
   /// A ring's at a part of the last step, in [0, 1].
   [[nodiscard]] Ring at(std::size_t ring, double part) const;
   /// Of all rings together, [J].
@@ -37,6 +40,7 @@ class SlidingWork {
 
   const RpsupParameters& parameters_;
   std::vector<Ring> before_, after_;  ///< at the ends of the last step
+  double start_ = 0.0, end_ = 0.0;    ///< of it, [s]
   std::vector<double> shares_;        ///< of the rings in the normal force; kept for its room
 };
 

@@ -159,6 +159,7 @@ void CompiledEquations<Shapes>::read_out(Evaluation& at) const {
     copy(from.journal.v, to.journal.v.data());
     copy(from.journal.w, to.journal.w.data());
     copy(from.reaction, to.reaction_W.data());
+    copy(from.moment, to.moment_W.data());
     copy(from.load.force, to.load.force.data());
     copy(from.load.moment, to.load.moment.data());
     to.load.radial_normal_sum = from.load.radial_normal_sum;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
@@ -9,9 +7,11 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Rows of the constraints Phi(q, t) = 0: five for each ideal cut joint, one for each drive that is enforced by a multiplier.
+/// Rows of the constraints Phi(q, t) = 0: those of each ideal cut joint (see CutRows), one for each coupling, one for each drive that is
+/// enforced by a multiplier.
 ///
-///     p_J - p_B = 0 (3),  z_b . x_j = 0,  z_b . y_j = 0,    q_d - q_d(t) = 0
+///     p_J - p_B = 0 (3), or x_b . (p_J - p_B) = 0, y_b . (p_J - p_B) = 0;   of z_b . x_j = 0, z_b . y_j = 0, x_b . y_j = 0 as many as are held
+///     q_a - ratio q_b = 0,    q_d - q_d(t) = 0
 ///
 /// The multipliers are the forces that the rows exert: of an ideal joint on its journal (in W), of a drive on its coordinate.
 struct ConstraintRows {
@@ -33,104 +33,141 @@ struct ConstraintRows {
   Buffer<double> Phi_q;  ///< row after row, one entry a coordinate
 };
 
-/// What an ideal joint's five rows come to.
+/// What an ideal joint's rows come to.
 template <typename P, typename V>
 struct JointViolation {
-  P Phi[5];
-  V Phi_d[5], Phi_dd[5];
-  Vec3<P> x_z, y_z;  ///< axes of its fourth and fifth multipliers' moments on the journal: those of {j} across the bearing's
+  P Phi[6];
+  V Phi_d[6], Phi_dd[6];
+  Vec3<P> turn[3];  ///< of each row of axes: the moment that its multiplier, being one, exerts on the journal
 };
 
 /// @param b, j  bearing and journal with their accelerations
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE JointViolation<P, V> calc_joint_violation(const Frame<P, V>& b, const Frame<P, V>& j) {
+[[nodiscard]] RPSUP_INLINE JointViolation<P, V> calc_joint_violation(const CutRows& rows, const Frame<P, V>& b, const Frame<P, V>& j) {
   JointViolation<P, V> violation;
-  const auto set = [](auto* to, const auto& v) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-  };
-  set(violation.Phi, j.p - b.p);
-  set(violation.Phi_d, j.v - b.v);
-  set(violation.Phi_dd, j.vd - b.vd);
-  const Vec3<P>& z = b.R.z;
+  const Vec3<P> d = j.p - b.p;
+  const Vec3<V> v = j.v - b.v, a = j.vd - b.vd;
+  if (rows.positions == 3) {
+    const auto set = [](auto* to, const auto& from) {
+      to[0] = from.x;
+      to[1] = from.y;
+      to[2] = from.z;
+    };
+    set(violation.Phi, d);
+    set(violation.Phi_d, v);
+    set(violation.Phi_dd, a);
+  } else {
+    const Vec3<V> seen = v - cross(b.w, d);  // by the bearing
+    const Vec3<V> changing = a - cross(b.wd, d) - cross(b.w, v);
+    const auto set_along = [&](int at, const Vec3<P>& u) {
+      violation.Phi[at] = dot(u, d);
+      violation.Phi_d[at] = dot(u, seen);
+      violation.Phi_dd[at] = dot(cross(b.w, u), seen) + dot(u, changing);
+    };
+    set_along(0, b.R.x);
+    set_along(1, b.R.y);
+  }
   const Vec3<V> w = j.w - b.w;
-  const auto set_axis = [&](int at, const Vec3<P>& x, Vec3<P>& x_z) {
-    x_z = cross(x, z);
+  const auto set_axis = [&](int k, const Vec3<P>& z, const Vec3<P>& x) {
+    const int at = rows.positions + k;
+    const Vec3<P> x_z = cross(x, z);
+    violation.turn[k] = x_z;
     violation.Phi[at] = dot(z, x);
     violation.Phi_d[at] = dot(w, x_z);
     violation.Phi_dd[at] = dot(j.wd - b.wd, x_z) + dot(w, cross(cross(j.w, x), z) + cross(x, cross(b.w, z)));
   };
-  set_axis(3, j.R.x, violation.x_z);
-  set_axis(4, j.R.y, violation.y_z);
+  if (rows.axes > 0) set_axis(0, b.R.z, j.R.x);
+  if (rows.axes > 1) set_axis(1, b.R.z, j.R.y);
+  if (rows.axes > 2) set_axis(2, b.R.x, j.R.y);
   return violation;
+}
+
+/// Force on the journal, and moment about the point where it acts, of an ideal joint's multipliers.
+template <typename P>
+struct JointReaction {
+  Vec3<P> force, moment;
+};
+
+/// @param R_b  of the bearing
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE JointReaction<P> calc_joint_reaction(const CutRows& rows, const JointViolation<P, V>& violation, const Mat3<P>& R_b,
+                                                                const double* multipliers) {
+  JointReaction<P> reaction;
+  if (rows.positions == 3) {
+    reaction.force.x += multipliers[0];
+    reaction.force.y += multipliers[1];
+    reaction.force.z += multipliers[2];
+  } else {
+    reaction.force = multipliers[0] * R_b.x + multipliers[1] * R_b.y;
+  }
+  for (int k = 0; k < rows.axes; ++k) reaction.moment += multipliers[rows.positions + k] * violation.turn[k];
+  return reaction;
+}
+
+/// Where the force on the bearing acts: at its own centre, or where the journal has slid to.
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE const Vec3<P>& bearing_point(const CutRows& rows, const Frame<P, V>& b, const Frame<P, V>& j) {
+  return rows.positions == 3 ? b.p : j.p;
 }
 
 /// Adds to the rows what the chain from the ground to a joint's body does to a point p of it, and to the journal's axes seen along the
 /// bearing's.
-RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>* frames, const JointAxes* axes, int last, const Vec3<double>& p,
-                            const JointViolation<double, double>& violation, double sign, int first_row, ConstraintRows& rows) {
+RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>* frames, const JointAxes* axes, const TreeCutJoint& joint, int last,
+                            const Vec3<double>& p, const Mat3<double>& R_b, const JointViolation<double, double>& violation, double sign,
+                            ConstraintRows& rows) {
   for (int i = last; i >= 0; i = model.joints[static_cast<std::size_t>(i)].parent) {
-    const TreeJoint& joint = model.joints[static_cast<std::size_t>(i)];
-    const bool rotates = joint.rotates();
+    const TreeJoint& carrier = model.joints[static_cast<std::size_t>(i)];
+    const bool rotates = carrier.rotates();
     const Vec3<double> arm = p - frames[i].p;
-    for (int k = 0; k < joint.count(); ++k) {
+    for (int k = 0; k < carrier.count(); ++k) {
       const Vec3<double> axis = sign * axes[i].axis[k];
       const Vec3<double> v = rotates ? cross(axis, arm) : axis;
-      const int at = joint.first + k;
-      rows.row(first_row)[at] += v.x;
-      rows.row(first_row + 1)[at] += v.y;
-      rows.row(first_row + 2)[at] += v.z;
+      const int at = carrier.first + k;
+      int row = joint.first_row;
+      if (joint.rows.positions == 3) {
+        rows.row(row++)[at] += v.x;
+        rows.row(row++)[at] += v.y;
+        rows.row(row++)[at] += v.z;
+      } else {
+        rows.row(row++)[at] += dot(v, R_b.x);
+        rows.row(row++)[at] += dot(v, R_b.y);
+      }
       if (!rotates) continue;
-      rows.row(first_row + 3)[at] += dot(axis, violation.x_z);
-      rows.row(first_row + 4)[at] += dot(axis, violation.y_z);
+      for (int turn = 0; turn < joint.rows.axes; ++turn) rows.row(row++)[at] += dot(axis, violation.turn[turn]);
     }
   }
 }
 
-/// @param b, j  bearing and journal with their accelerations
+/// @param b, j  bearing and journal  @param violation  of the joint
 RPSUP_INLINE void calc_joint_rows(const TreeModel& model, const TreeCutJoint& joint, const Frame<double, double>* frames, const JointAxes* axes,
-                                  const Frame<double, double>& b, const Frame<double, double>& j, ConstraintRows& rows) {
+                                  const Frame<double, double>& b, const Frame<double, double>& j,
+                                  const JointViolation<double, double>& violation, ConstraintRows& rows) {
   const int first = joint.first_row;
-  const JointViolation<double, double> violation = calc_joint_violation(b, j);
-  for (int r = 0; r < 5; ++r) {
+  const int count = joint.rows.count();
+  for (int r = 0; r < count; ++r) {
     const auto row = static_cast<std::size_t>(first + r);
     rows.Phi[row] = violation.Phi[r];
     rows.Phi_d[row] = violation.Phi_d[r];
     rows.bias[row] = violation.Phi_dd[r];
   }
-  for (int i = 0; i < 5 * rows.coordinates; ++i) rows.row(first)[i] = 0.0;
-  add_chain(model, frames, axes, joint.journal_joint, j.p, violation, 1.0, first, rows);
-  add_chain(model, frames, axes, joint.bearing_joint, b.p, violation, -1.0, first, rows);
+  for (int i = 0; i < count * rows.coordinates; ++i) rows.row(first)[i] = 0.0;
+  add_chain(model, frames, axes, joint, joint.journal_joint, j.p, b.R, violation, 1.0, rows);
+  add_chain(model, frames, axes, joint, joint.bearing_joint, bearing_point(joint.rows, b, j), b.R, violation, -1.0, rows);
 }
 
-/// The lower triangle of a symmetric matrix, factored in place: L L^T. False if a pivot is below `singular` of its diagonal entry.
-[[nodiscard]] RPSUP_INLINE bool factor_cholesky(int n, double singular, double* A) {
-  for (int c = 0; c < n; ++c) {
-    double pivot = A[c * n + c];
-    for (int k = 0; k < c; ++k) pivot -= A[c * n + k] * A[c * n + k];
-    if (!(pivot > singular * A[c * n + c])) return false;
-    const double inverse = 1.0 / std::sqrt(pivot);
-    A[c * n + c] = inverse;  // what solving needs
-    for (int r = c + 1; r < n; ++r) {
-      double sum = A[r * n + c];
-      for (int k = 0; k < c; ++k) sum -= A[r * n + k] * A[c * n + k];
-      A[r * n + c] = sum * inverse;
-    }
-  }
-  return true;
-}
-
-/// x <- (L L^T)^-1 x. @tparam T  a number, or several side by side
-template <typename T>
-RPSUP_INLINE void solve_cholesky(int n, const double* L, T* x) {
-  for (int r = 0; r < n; ++r) {
-    for (int k = 0; k < r; ++k) x[r] -= L[r * n + k] * x[k];
-    x[r] = L[r * n + r] * x[r];
-  }
-  for (int r = n - 1; r >= 0; --r) {
-    for (int k = r + 1; k < n; ++k) x[r] -= L[k * n + r] * x[k];
-    x[r] = L[r * n + r] * x[r];
+/// @param q, qd, qdd  one entry a coordinate; qdd of driven ones only
+RPSUP_INLINE void calc_coupling_rows(const TreeModel& model, const double* q, const double* qd, const double* qdd, ConstraintRows& rows) {
+  const auto given = [&](int coordinate) RPSUP_INLINE_LAMBDA { return model.is_eliminated(coordinate) ? qdd[coordinate] : 0.0; };
+  for (std::size_t k = 0; k < model.couplings.size(); ++k) {
+    const Coupling& coupling = model.couplings[k];
+    const std::size_t row = static_cast<std::size_t>(model.first_coupling_row) + k;
+    const int a = coupling.coordinate, b = coupling.follows;
+    rows.Phi[row] = q[a] - coupling.ratio * q[b];
+    rows.Phi_d[row] = qd[a] - coupling.ratio * qd[b];
+    rows.bias[row] = given(a) - coupling.ratio * given(b);
+    double* entries = rows.row(static_cast<int>(row));
+    entries[a] = 1.0;
+    entries[b] = -coupling.ratio;
   }
 }
 

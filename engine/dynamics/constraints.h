@@ -12,7 +12,7 @@
 
 namespace engine {
 
-/// The five rows Phi(q) = 0 of each ideal cut joint, for whoever gives the motion of every coordinate; see ConstraintRows.
+/// The rows Phi(q) = 0 of all ideal cut joints and couplings, for whoever gives the motion of every coordinate; see ConstraintRows.
 class Constraints {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -20,17 +20,19 @@ class Constraints {
   TreeModel model_;
   Buffer<Frame<double, double>> frames_;
   Buffer<JointAxes> axes_;
+  Buffer<JointViolation<double, double>> violations_;  ///< one a cut joint
   ConstraintRows rows_;
 
  public:
   explicit Constraints(const Mechanism& mechanism);
 
   [[nodiscard]] Eigen::Index count() const { return Phi.size(); }
-  /// First row of a cut joint, -1 if it has clearance.
-  [[nodiscard]] Eigen::Index row_of_joint(std::size_t joint) const { return model_.cut_joints[joint].first_row; }
 
-  /// Computes all rows from the frames' motions. Bias is Phi's second derivative with the accelerations that the frames carry.
-  void calc(const std::vector<FrameMotion>& frames);
+  /// Computes all rows from the coordinates and the frames' motions. Bias is Phi's second derivative with the accelerations given.
+  void calc(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, const std::vector<FrameMotion>& frames);
+
+  /// After calc(): the force that these multipliers are on the journal of an ideal cut joint, in W, [N]
+  [[nodiscard]] Eigen::Vector3d calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const;
 
   const Eigen::Map<const Eigen::VectorXd> Phi;    ///< [m] and [1]
   const Eigen::Map<const Eigen::VectorXd> Phi_d;  ///< first derivative by time

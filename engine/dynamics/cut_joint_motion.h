@@ -13,7 +13,8 @@ struct CutJointMotion {
   Frame<P, V> b, j;                ///< bearing and journal
   RelativeMotion<P, V> journal;    ///< {j} seen from {b}
   JointLoad<V> load;               ///< of a joint with clearance
-  Vec3<V> reaction;                ///< force on the journal, in W, [N]
+  Vec3<V> reaction;                ///< force on the journal at its centre, in W, [N]
+  Vec3<V> moment;                  ///< on the journal, about its centre, in W, [N m]
 };
 
 /// A bearing or journal on its body. @param accelerations  whether they are wanted

@@ -7,6 +7,7 @@
 #include "engine/dynamics/constraint_rows.h"
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/equations.h"
+#include "engine/dynamics/multiplier_matrix.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -44,7 +45,9 @@ class EquationsOfMotion {
         given_(model.joints.size()),
         needed_(model.joints.size()),
         response_(static_cast<std::size_t>(model.rows) * q.size()),
-        A_(static_cast<std::size_t>(model.rows * model.rows)) {}
+        violations_(model.cut_joints.size()),
+        matrix_(model),
+        multiplier_scratch_(model) {}
 
   /// Computes everything below from q, qd, the driven qdd (free ones: zero) and the bristles.
   [[nodiscard]] RPSUP_INLINE EvaluationStatus evaluate(const DrivenMotion* drives) {
@@ -63,10 +66,10 @@ class EquationsOfMotion {
   /// What the constraints lack of the accelerations that they want: lambda <- (Phi_q M^-1 Phi_q^T)^-1 (wanted - Phi_q qdd). After evaluate().
   /// @param multipliers  in: wanted  @tparam T  a number, or several side by side
   template <typename T>
-  RPSUP_INLINE void find_multipliers(const T* accelerations, T* multipliers) const {
+  RPSUP_INLINE void find_multipliers(const T* accelerations, T* multipliers, MultiplierMatrix::Scratch<T>& scratch) const {
     for (int r = 0; r < rows.count; ++r)
       for (const int i : model_.free) multipliers[r] -= rows.row(r)[i] * accelerations[i];
-    solve_cholesky(rows.count, A_.data(), multipliers);
+    matrix_.solve(multipliers, scratch);
   }
 
   /// tau <- tau + Phi_q^T lambda
@@ -122,6 +125,7 @@ class EquationsOfMotion {
       cuts[k].load = {};
       complete = add_contacts(contact, cuts[k].journal, bristles.data() + bristle, bristle_rates.data() + bristle, cuts[k].load) && complete;
       cuts[k].reaction = cuts[k].b.R * cuts[k].load.force;
+      cuts[k].moment = cuts[k].b.R * cuts[k].load.moment;
       bristle += static_cast<std::size_t>(contact.bristle_count());
     }
     return complete;
@@ -140,18 +144,17 @@ class EquationsOfMotion {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (joint.clearance < 0) continue;
       const CutJointMotion<double, double>& cut = cuts[k];
-      const Vec3<double> moment = cut.b.R * cut.load.moment;
       // Both act at the journal's centre: on the journal, and the opposite on the bearing.
       if (joint.journal_joint >= 0) {
         SpatialForce<double>& needed = needed_[static_cast<std::size_t>(joint.journal_joint)];
         needed.force -= cut.reaction;
-        needed.moment -= moment;
+        needed.moment -= cut.moment;
         if (joint.journal.shifted) needed.moment -= cross(cut.j.p - frames[static_cast<std::size_t>(joint.journal_joint)].p, cut.reaction);
       }
       if (joint.bearing_joint >= 0) {
         SpatialForce<double>& needed = needed_[static_cast<std::size_t>(joint.bearing_joint)];
         needed.force += cut.reaction;
-        needed.moment += moment + cross(cut.j.p - frames[static_cast<std::size_t>(joint.bearing_joint)].p, cut.reaction);
+        needed.moment += cut.moment + cross(cut.j.p - frames[static_cast<std::size_t>(joint.bearing_joint)].p, cut.reaction);
       }
     }
   }
@@ -174,36 +177,50 @@ class EquationsOfMotion {
   /// (Phi_q M^-1 Phi_q^T) lambda = -(Phi_q qdd_0 + bias) - 2 alpha Phi_d - beta^2 Phi, with qdd_0 the accelerations without constraints.
   RPSUP_INLINE bool solve_multipliers(const DrivenMotion* drives) {
     calc_rows(drives);
+    if (model_.least_multipliers && is_apart()) return false;
     const int n = model_.coordinates;
-    const int count = rows.count;
-    for (int r = 0; r < count; ++r) {
+    matrix_.start(rows, model_.free);
+    for (int k = 0; k < matrix_.acting_count(); ++k) {
+      const double* row = rows.row(matrix_.acting(k));
       scratch_.forces.fill({});
-      bodies.solve(axes.data(), rows.row(r), scratch_, response_.data() + r * n);
-      for (int c = 0; c <= r; ++c) {
+      bodies.solve(axes.data(), row, scratch_, response_.data() + k * n);
+      for (int l = 0; l <= k; ++l) {
         double entry = 0.0;
-        for (const int i : model_.free) entry += rows.row(r)[i] * response_[static_cast<std::size_t>(c * n + i)];
-        A_[static_cast<std::size_t>(r * count + c)] = entry;
+        for (const int i : model_.free) entry += row[i] * response_[static_cast<std::size_t>(l * n + i)];
+        matrix_.entry(k, l) = entry;
       }
     }
-    constexpr double kSingular = 1e-12;  // of a pivot, relative to its row: the loop stands at the end of its reach
-    if (!factor_cholesky(count, kSingular, A_.data())) return false;
+    if (!matrix_.factor()) return false;
     for (std::size_t r = 0; r < lambda.size(); ++r)
       lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
-    find_multipliers(qdd.data(), lambda.data());
+    find_multipliers(qdd.data(), lambda.data(), multiplier_scratch_);
     add_reactions(lambda.data(), tau_.data());
     solve();
     for (std::size_t k = 0; k < cuts.size(); ++k) {
-      const int first = model_.cut_joints[k].first_row;
-      if (first < 0) continue;
-      const double* force = lambda.data() + first;
-      cuts[k].reaction = {force[0], force[1], force[2]};
+      const TreeCutJoint& joint = model_.cut_joints[k];
+      if (joint.first_row < 0) continue;
+      const JointReaction<double> reaction = calc_joint_reaction(joint.rows, violations_[k], cuts[k].b.R, lambda.data() + joint.first_row);
+      cuts[k].reaction = reaction.force;
+      cuts[k].moment = reaction.moment;
     }
     return true;
   }
 
+  /// Where rows depend on each other no singular matrix tells that the loops cannot follow: they come apart.
+  [[nodiscard]] RPSUP_INLINE bool is_apart() const {
+    constexpr double kApart = 1e-2;  // [m] or [1]
+    double largest = 0.0;
+    for (int r = 0; r < model_.first_drive_row; ++r) largest = std::max(largest, std::abs(rows.Phi[static_cast<std::size_t>(r)]));
+    return !(largest < kApart);
+  }
+
   RPSUP_INLINE void calc_rows(const DrivenMotion* drives) {
     for (std::size_t k = 0; k < cuts.size(); ++k)
-      if (model_.cut_joints[k].first_row >= 0) calc_joint_rows(model_, model_.cut_joints[k], frames.data(), axes.data(), cuts[k].b, cuts[k].j, rows);
+      if (model_.cut_joints[k].first_row >= 0) {
+        violations_[k] = calc_joint_violation(model_.cut_joints[k].rows, cuts[k].b, cuts[k].j);
+        calc_joint_rows(model_, model_.cut_joints[k], frames.data(), axes.data(), cuts[k].b, cuts[k].j, violations_[k], rows);
+      }
+    if (!model_.couplings.empty()) calc_coupling_rows(model_, q.data(), qd.data(), qdd.data(), rows);
     if (!model_.drive_rows) return;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const auto d = static_cast<std::size_t>(model_.drives[k]);
@@ -268,7 +285,9 @@ class EquationsOfMotion {
   Buffer<SpatialForce<double>> given_;          ///< needed by the bodies that move with time only
   Buffer<SpatialForce<double>> needed_;
   Buffer<double> response_;                     ///< M^-1 Phi_q^T, row after row of Phi
-  Buffer<double> A_;                            ///< Phi_q M^-1 Phi_q^T, factored
+  Buffer<JointViolation<double, double>> violations_;  ///< one a cut joint; of ideal ones
+  MultiplierMatrix matrix_;                     ///< factored
+  MultiplierMatrix::Scratch<double> multiplier_scratch_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

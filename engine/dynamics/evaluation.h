@@ -14,7 +14,8 @@ namespace engine {
 struct JointState {
   JournalMotion journal;                                    ///< {j} seen from {b}
   ContactLoad load;                                         ///< of a joint with clearance; zero for an ideal one
-  Eigen::Vector3d reaction_W = Eigen::Vector3d::Zero();     ///< force on the journal, [N]
+  Eigen::Vector3d reaction_W = Eigen::Vector3d::Zero();     ///< force on the journal at its centre, [N]
+  Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();       ///< on the journal, about its centre, [N m]
 };
 
 /// Energy and work since the start of the run, and the power with which they change.

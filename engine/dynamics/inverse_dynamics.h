@@ -29,6 +29,8 @@ class InverseDynamics {
   const Eigen::VectorXd& calc(const std::vector<FrameMotion>& frames);
   /// What calc() found last, one a coordinate, [N] or [N m].
   [[nodiscard]] const Eigen::VectorXd& forces() const { return forces_; }
+  /// What calc() found to pass from a coordinate's joint to its frame, about the frame's origin.
+  [[nodiscard]] const Wrench& transmitted(FrameIndex frame) const { return needed_[static_cast<std::size_t>(frame)]; }
 
  private:
   TreeModel model_;

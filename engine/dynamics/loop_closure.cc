@@ -19,26 +19,49 @@ Mechanism make_ideal(Mechanism mechanism) {
   return mechanism;
 }
 
-std::vector<FrameIndex> find_unknown_coordinates(const Mechanism& mechanism) {
-  std::vector<FrameIndex> unknown;
+/// Coordinates that are not driven and of which this holds.
+template <typename Holds>
+std::vector<FrameIndex> find_coordinates(const Mechanism& mechanism, const Holds& holds) {
+  std::vector<FrameIndex> found;
   for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) {
     const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
-    if (!driven && mechanism.coordinates[static_cast<std::size_t>(i)].stiffness == 0.0) unknown.push_back(i);
+    if (!driven && holds(mechanism.coordinates[static_cast<std::size_t>(i)])) found.push_back(i);
   }
-  return unknown;
+  return found;
+}
+
+bool is_unloaded_spring(const Coordinate& c) { return c.stiffness != 0.0 && !c.spring_yields; }
+bool is_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !c.start; }
+bool is_rate_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !c.start_rate; }
+bool is_any(const Coordinate&) { return true; }
+
+/// Of a matrix that may be without full rank, as the rows of a flat mechanism make it.
+Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::MatrixXd& J) {
+  constexpr double kDependent = 1e-9;  // of the largest pivot
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(kDependent);
+  decomposition.compute(J);
+  return decomposition;
 }
 
 }  // namespace
 
 LoopClosure::LoopClosure(const Mechanism& mechanism)
-    : ideal_(make_ideal(mechanism)), unknown_(find_unknown_coordinates(ideal_)), constraints_(ideal_), inverse_dynamics_(ideal_) {
+    : ideal_(make_ideal(mechanism)), unknown_(find_coordinates(ideal_, is_found_by_loops)), constraints_(ideal_), inverse_dynamics_(ideal_) {
+  Eigen::Index row = 0;
+  for (const CutJoint& joint : mechanism.cut_joints)
+    for (const Eigen::Index end = row + rows_of(joint.kind).count(); row < end; ++row)
+      if (!joint.clearance) rigid_rows_.push_back(row);
+  for (; row < constraints_.count(); ++row) rigid_rows_.push_back(row);
   J_.setZero(constraints_.count(), static_cast<Eigen::Index>(unknown_.size()));
   step_.setZero(J_.cols());
   lambda_.setZero(J_.rows());
 }
 
 bool LoopClosure::is_determined() const {
-  return constraints_.count() == static_cast<Eigen::Index>(unknown_.size()) &&
+  const auto at_rest = [](const Coordinate& c) { return c.stiffness == 0.0 && c.damping == 0.0; };
+  return std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
+      constraints_.count() == static_cast<Eigen::Index>(unknown_.size()) &&
          unknown_.size() + ideal_.drives.size() == ideal_.coordinates.size();
 }
 
@@ -54,7 +77,7 @@ void LoopClosure::set_drives(double t, Evaluation& at) const {
 
 void LoopClosure::calc_rows(Evaluation& at) {
   calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
-  constraints_.calc(at.frames);
+  constraints_.calc(at.q, at.qd, at.qdd, at.frames);
   for (std::size_t k = 0; k < unknown_.size(); ++k) J_.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(unknown_[k]);
 }
 
@@ -62,20 +85,44 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
   at.q.setZero();
   at.qd.setZero();
   at.qdd.setZero();
-  for (const FrameIndex i : unknown_) at.q[i] = ideal_.coordinates[static_cast<std::size_t>(i)].assembly_guess;
+  for (std::size_t i = 0; i < ideal_.coordinates.size(); ++i) {
+    const Coordinate& c = ideal_.coordinates[i];
+    at.q[static_cast<Eigen::Index>(i)] = c.start ? *c.start : is_unloaded_spring(c) ? 0.0 : c.assembly_guess;
+    at.qd[static_cast<Eigen::Index>(i)] = c.start_rate.value_or(0.0);
+  }
   set_drives(t, at);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     calc_rows(at);
-    if (residual() < kClosed) {
-      const Eigen::VectorXd rates = -J_.completeOrthogonalDecomposition().solve(constraints_.Phi_d);
-      for (std::size_t k = 0; k < unknown_.size(); ++k) at.qd[unknown_[k]] = rates[static_cast<Eigen::Index>(k)];
-      return true;
-    }
-    Eigen::VectorXd step = -J_.completeOrthogonalDecomposition().solve(constraints_.Phi);
+    if (residual() < kClosed) return assemble_rates(at);
+    if (unknown_.empty()) return false;
+    Eigen::VectorXd step = -decompose(J_).solve(constraints_.Phi);
     step *= std::min(1.0, kMaxStep / step.cwiseAbs().maxCoeff());
     for (std::size_t k = 0; k < unknown_.size(); ++k) at.q[unknown_[k]] += step[static_cast<Eigen::Index>(k)];
   }
   return false;
+}
+
+/// Rates that are not given follow from the rows; where those leave them free, the least ones.
+bool LoopClosure::assemble_rates(Evaluation& at) {
+  constexpr double kFits = 1e-9;  // of what the given rates do to the rows, [m/s] and [1/s]
+  if (constraints_.count() == 0) return true;
+  const auto rigid = static_cast<Eigen::Index>(rigid_rows_.size());
+  if (rigid > 0) redundant_ = rigid - decompose(calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all)).rank();
+  const std::vector<FrameIndex> open = find_coordinates(ideal_, is_rate_found_by_loops);
+  const double given = constraints_.Phi_d.cwiseAbs().maxCoeff();
+  if (!open.empty()) {
+    const Eigen::VectorXd rates = -decompose(calc_columns(open)).solve(constraints_.Phi_d);
+    for (std::size_t k = 0; k < open.size(); ++k) at.qd[open[k]] = rates[static_cast<Eigen::Index>(k)];
+    calc_rows(at);
+  }
+  rates_fit_ = constraints_.Phi_d.cwiseAbs().maxCoeff() <= kFits * std::max(1.0, given);
+  return rates_fit_;
+}
+
+Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordinates) const {
+  Eigen::MatrixXd columns(constraints_.count(), static_cast<Eigen::Index>(coordinates.size()));
+  for (std::size_t k = 0; k < coordinates.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(coordinates[k]);
+  return columns;
 }
 
 bool LoopClosure::solve(double t, Evaluation& at) {
@@ -147,7 +194,7 @@ void LoopClosure::solve_forces(Evaluation& at) {
   J_lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(step_);
   Eigen::VectorXd& lambda = lambda_;
   lambda.noalias() = J_lu_.permutationP().transpose() * step_;
-  for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = lambda.segment<3>(constraints_.row_of_joint(k));
+  for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = constraints_.calc_reaction(k, lambda, at.frames);
   for (std::size_t k = 0; k < ideal_.drives.size(); ++k) {
     const FrameIndex d = ideal_.drives[k].coordinate;
     at.drive_force[static_cast<Eigen::Index>(k)] = forces[d] - constraints_.Phi_q.col(d).dot(lambda);

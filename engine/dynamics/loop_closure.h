@@ -23,9 +23,15 @@ class LoopClosure {
   /// The coordinates that the loops decide.
   [[nodiscard]] const std::vector<FrameIndex>& unknown_coordinates() const { return unknown_; }
 
-  /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, and solves for the velocities.
-  /// @returns false if they do not close; residual() then says by how much
+  /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, or with it held at its start, and solves for the
+  /// velocities that are not given.
+  /// @returns false if they do not close; residual() then says by how much; or if the given velocities tear them apart: see rates_fit()
   [[nodiscard]] bool assemble(double t, Evaluation& at);
+
+  /// After assemble(): whether the velocities given for the start go with the loops.
+  [[nodiscard]] bool rates_fit() const { return rates_fit_; }
+  /// After assemble(): how many of the constraint rows (joints with clearance have none) follow from the others.
+  [[nodiscard]] Eigen::Index redundant() const { return redundant_; }
 
   /// Position, velocity, acceleration, joint reactions and drive forces at time t of a determined mechanism: solve_motion, then solve_forces.
   [[nodiscard]] bool solve(double t, Evaluation& at);
@@ -45,6 +51,8 @@ class LoopClosure {
   [[nodiscard]] double residual() const { return constraints_.Phi.size() ? constraints_.Phi.cwiseAbs().maxCoeff() : 0.0; }
 
  private:
+  [[nodiscard]] bool assemble_rates(Evaluation& at);
+  [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;
   void calc_rows(Evaluation& at);
@@ -56,6 +64,9 @@ class LoopClosure {
   std::vector<FrameIndex> unknown_;
   Constraints constraints_;
   InverseDynamics inverse_dynamics_;
+  std::vector<Eigen::Index> rigid_rows_;  ///< those of joints without clearance, and of couplings
+  Eigen::Index redundant_ = 0;
+  bool rates_fit_ = true;
   Eigen::MatrixXd J_;  ///< Phi_q of the unknown coordinates
   Eigen::PartialPivLU<Eigen::MatrixXd> J_lu_;
   Eigen::VectorXd step_, lambda_;  ///< of the unknown coordinates; of the rows

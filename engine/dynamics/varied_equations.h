@@ -42,7 +42,8 @@ class VariedEquations {
         forces_(model.joints.size()),
         scratch_(model),
         tau_(qdd.size()),
-        lambda_(static_cast<std::size_t>(model.rows)) {
+        lambda_(static_cast<std::size_t>(model.rows)),
+        multiplier_scratch_(model) {
     ground_.vd = {-model.gravity[0], -model.gravity[1], -model.gravity[2]};
     for (const ClearanceJoint& joint : joints)
       contacts_.push_back(std::make_unique<ContactDerivative>(static_cast<std::size_t>(joint.bristle_count())));
@@ -99,18 +100,15 @@ class VariedEquations {
       const TreeCutJoint& joint = model_.cut_joints[k];
       const CutJointMotion<double, double>& cut = solved_.cuts[k];
       if (joint.clearance < 0) {
-        const double* multipliers = solved_.lambda.data() + joint.first_row;
-        const Vec3<double> moment = multipliers[3] * cross(cut.j.R.x, cut.b.R.z) + multipliers[4] * cross(cut.j.R.y, cut.b.R.z);
-        hold_load(joint.journal_joint, cut.j.p, cut.reaction, moment);
-        hold_load(joint.bearing_joint, cut.b.p, -cut.reaction, -moment);
+        hold_load(joint.journal_joint, cut.j.p, cut.reaction, cut.moment);
+        hold_load(joint.bearing_joint, bearing_point(joint.rows, cut.b, cut.j), -cut.reaction, -cut.moment);
         continue;
       }
       const ClearanceJoint& clearance = joints_[static_cast<std::size_t>(joint.clearance)];
       contacts_[static_cast<std::size_t>(joint.clearance)]->calc(clearance, cut.journal, bristles);
       bristles += clearance.bristle_count();
-      const Vec3<double> moment = cut.b.R * cut.load.moment;
-      hold_load(joint.journal_joint, cut.j.p, cut.reaction, moment);
-      hold_load(joint.bearing_joint, cut.j.p, -cut.reaction, -moment);
+      hold_load(joint.journal_joint, cut.j.p, cut.reaction, cut.moment);
+      hold_load(joint.bearing_joint, cut.j.p, -cut.reaction, -cut.moment);
     }
   }
 
@@ -161,7 +159,7 @@ class VariedEquations {
     for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (joint.clearance < 0) {
-        vary_reaction(joint, solved_.cuts[k]);
+        vary_reaction(joint);
         continue;
       }
       vary_contact(joint, solved_.cuts[k], first_bristle);
@@ -220,19 +218,17 @@ class VariedEquations {
   }
 
   /// What an ideal joint exerts with its multipliers held, and what its rows lack then.
-  RPSUP_INLINE void vary_reaction(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut) {
+  RPSUP_INLINE void vary_reaction(const TreeCutJoint& joint) {
     const Frame<Dual, Dual> b = place(joint.bearing, see_at_rest(joint.bearing_joint), true);
     const Frame<Dual, Dual> j = place(joint.journal, see_at_rest(joint.journal_joint), true);
-    const JointViolation<Dual, Dual> violation = calc_joint_violation(b, j);
+    const JointViolation<Dual, Dual> violation = calc_joint_violation(joint.rows, b, j);
     const auto first = static_cast<std::size_t>(joint.first_row);
-    for (std::size_t r = 0; r < 5; ++r)
+    for (std::size_t r = 0; r < static_cast<std::size_t>(joint.rows.count()); ++r)
       lambda_[first + r] =
           -(violation.Phi_dd[r].d + 2.0 * model_.alpha * violation.Phi_d[r].d + (model_.beta * model_.beta) * violation.Phi[r].d);
-    const double* multipliers = solved_.lambda.data() + first;
-    const Vec3<Dual> moment = multipliers[3] * violation.x_z + multipliers[4] * violation.y_z;
-    const Vec3<Dual> force = join(cut.reaction, {});
-    vary_load(joint.journal_joint, j.p, force, moment);
-    vary_load(joint.bearing_joint, b.p, -force, -moment);
+    const JointReaction<Dual> reaction = calc_joint_reaction(joint.rows, violation, b.R, solved_.lambda.data() + first);
+    vary_load(joint.journal_joint, j.p, reaction.force, reaction.moment);
+    vary_load(joint.bearing_joint, bearing_point(joint.rows, b, j), -reaction.force, -reaction.moment);
   }
 
   /// The frame of a joint's body, with all accelerations, as an observer at rest sees it.
@@ -295,10 +291,22 @@ class VariedEquations {
   }
 
   RPSUP_INLINE void vary_multipliers(const Lanes& time, const DrivenMotion* drives) {
+    vary_coupling_rows();
     if (model_.drive_rows) vary_drive_rows(time, drives);
-    solved_.find_multipliers(qdd.data(), lambda_.data());
+    solved_.find_multipliers(qdd.data(), lambda_.data(), multiplier_scratch_);
     solved_.add_reactions(lambda_.data(), tau_.data());
     solve();
+  }
+
+  RPSUP_INLINE void vary_coupling_rows() {
+    for (std::size_t k = 0; k < model_.couplings.size(); ++k) {
+      const Coupling& coupling = model_.couplings[k];
+      const CoordinateVariation& a = coordinates_[coupling.coordinate];
+      const CoordinateVariation& b = coordinates_[coupling.follows];
+      lambda_[static_cast<std::size_t>(model_.first_coupling_row) + k] = -(a.qdd - coupling.ratio * b.qdd) -
+                                                                         2.0 * model_.alpha * (a.qd - coupling.ratio * b.qd) -
+                                                                         (model_.beta * model_.beta) * (a.q - coupling.ratio * b.q);
+    }
   }
 
   /// The drives' motion varies in time, and by nothing else.
@@ -357,6 +365,7 @@ class VariedEquations {
   typename ArticulatedBodies<Shapes>::template Scratch<Lanes> scratch_;
   Buffer<Lanes> tau_;
   Buffer<Lanes> lambda_;                    ///< variation of the multipliers; before that, of what their rows lack
+  MultiplierMatrix::Scratch<Lanes> multiplier_scratch_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

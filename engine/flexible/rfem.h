@@ -17,6 +17,18 @@ struct UniformRod {
   double damping_ratio = 0.0;   ///< zeta of the first pinned-pinned bending mode, [1]
 };
 
+/// A straight uniform beam of any section along x, its frame's axes those of the section.
+struct UniformBeam {
+  double length = 0.0;          ///< l, [m]
+  double mass = 0.0;            ///< [kg]
+  double I_x = 0.0;             ///< of the mass about its axis, [kg m^2]
+  double share_y = 0.5;         ///< part of I_x that turns about y: I_y / (I_y + I_z) of the section, [1]
+  double EI_y = 0.0;            ///< bending stiffness about y, [N m^2]
+  double EI_z = 0.0;            ///< about z, [N m^2]
+  double GJ = 0.0;              ///< torsional stiffness, [N m^2]
+  double damping_ratio = 0.0;   ///< zeta of the first pinned-pinned bending mode, [1]
+};
+
 /// A rigid finite element: a piece of the rod, its frame's origin at the near end.
 struct RigidElement {
   double length = 0.0;                                  ///< [m]
@@ -36,11 +48,20 @@ struct DividedRod {
   SpringDamperElement sde;  ///< all alike
 };
 
-/// Divides the rod into n_sde = n_rfe - 1 equal segments with an sde in the middle of each; the pieces between are the elements.
+/// Divides the beam into n_sde = n_rfe - 1 equal segments with an sde in the middle of each; the pieces between are the elements.
 ///
 ///     S = diag(E I, E I, G J) / dl,  D = (2 zeta / omega_1) S,  omega_1 = (pi / l)^2 sqrt(E I l / m)
 ///
+/// Of a beam that is stiffer about one axis, S = diag(E I_z, E I_y, G J) / dl and omega_1 is that of the softer one.
 /// @param n_rfe  elements, >= 2
-[[nodiscard]] DividedRod divide_rod(const UniformRod& rod, int n_rfe);
+[[nodiscard]] DividedRod divide_beam(const UniformBeam& beam, int n_rfe);
+
+[[nodiscard]] UniformBeam make_beam(const UniformRod& rod);
+
+/// The same of a rod.
+[[nodiscard]] inline DividedRod divide_rod(const UniformRod& rod, int n_rfe) { return divide_beam(make_beam(rod), n_rfe); }
+
+/// Moments of a uniform beam along x about its end: I_y = m l^2 / 3 + share_y I_x, I_z with the other share, [kg m^2].
+[[nodiscard]] Eigen::Vector3d calc_beam_inertia(const UniformBeam& beam);
 
 }  // namespace engine

@@ -107,9 +107,23 @@ class JointFinder {
 
 }  // namespace
 
+CutRows rows_of(CutKind kind) {
+  switch (kind) {
+    case CutKind::kRevolute: return {3, 2};
+    case CutKind::kSpherical: return {3, 0};
+    case CutKind::kUniversal: return {3, 1};
+    case CutKind::kCylindrical: return {2, 2};
+    case CutKind::kPrismatic: return {2, 3};
+    case CutKind::kWeld: return {3, 3};
+  }
+  return {};
+}
+
 TreeModel::TreeModel(const Mechanism& mechanism)
     : coordinates(static_cast<int>(mechanism.coordinates.size())),
+      couplings(mechanism.couplings),
       drive_rows(mechanism.drive_rows == DriveRows::kMultipliers),
+      least_multipliers(mechanism.least_multipliers),
       alpha(mechanism.baumgarte_alpha),
       beta(mechanism.baumgarte_beta),
       gravity(array_of(mechanism.gravity_W)) {
@@ -124,17 +138,24 @@ TreeModel::TreeModel(const Mechanism& mechanism)
   int clearances = 0;
   for (const CutJoint& joint : mechanism.cut_joints) {
     TreeCutJoint cut{.bearing_joint = finder.joint_of(joint.bearing_frame), .journal_joint = finder.joint_of(joint.journal_frame),
-                     .bearing = make_placement(joint.bearing), .journal = make_placement(joint.journal)};
+                     .bearing = make_placement(joint.bearing), .journal = make_placement(joint.journal), .rows = {}};
     if (joint.clearance) {
       cut.clearance = clearances++;
     } else {
       cut.first_row = rows;
-      rows += 5;
+      cut.rows = rows_of(joint.kind);
+      rows += cut.rows.count();
     }
     cut_joints.push_back(cut);
   }
+  first_coupling_row = rows;
+  rows += static_cast<int>(couplings.size());
   first_drive_row = rows;
   if (drive_rows) rows += static_cast<int>(drives.size());
+}
+
+bool TreeModel::is_eliminated(int coordinate) const {
+  return !drive_rows && std::find(drives.begin(), drives.end(), coordinate) != drives.end();
 }
 
 TreeModel make_given_model(Mechanism mechanism) {

@@ -28,26 +28,43 @@ struct TreeJoint : JointShape {
   [[nodiscard]] const TreeJoint& numbers() const { return *this; }
 };
 
+/// The rows of an ideal cut joint: that the journal's centre stays at the bearing's, in W or, where it may slide, across the bearing's z;
+/// then that pairs of axes of bearing and journal stay at right angles, the first so many of (z, x), (z, y), (x, y).
+struct CutRows {
+  int positions = 3;  ///< 3, or 2: along the bearing's x and y
+  int axes = 2;
+
+  [[nodiscard]] constexpr int count() const { return positions + axes; }
+};
+
+[[nodiscard]] CutRows rows_of(CutKind kind);
+
 /// A joint at which a loop is cut. Its bearing and journal sit on the bodies of two joints of the tree, -1: on the ground.
 struct TreeCutJoint {
   int bearing_joint = -1, journal_joint = -1;
   TreePlacement bearing, journal;
   int clearance = -1;                 ///< index among the joints with clearance; -1: ideal
-  int first_row = -1;                 ///< of its five constraint rows; -1: it has clearance
+  int first_row = -1;                 ///< of its constraint rows; -1: it has clearance
+  CutRows rows;
 };
 
 /// A mechanism made ready for evaluation.
 struct TreeModel {
   explicit TreeModel(const Mechanism& mechanism);
 
+  [[nodiscard]] bool is_eliminated(int coordinate) const;
+
   int coordinates = 0;
   std::vector<TreeJoint> joints;      ///< each behind the one that carries it
   std::vector<TreeCutJoint> cut_joints;
+  std::vector<Coupling> couplings;
   std::vector<int> free;              ///< free coordinates
   std::vector<int> drives;            ///< coordinate of each drive
   std::vector<int> drive_joints;      ///< joint of each drive
   bool drive_rows = false;            ///< drives are constraint rows
+  bool least_multipliers = false;     ///< see Mechanism
   int rows = 0;                       ///< constraint rows
+  int first_coupling_row = 0;
   int first_drive_row = 0;
   double alpha = 0.0, beta = 0.0;     ///< Baumgarte's, [1/s]
   std::array<double, 3> gravity{};    ///< [m/s^2]

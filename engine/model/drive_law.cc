@@ -26,6 +26,11 @@ Cycloid calc_cycloid(double u) {
 /// A corner found before, but for rounding, is not the next one.
 double beyond(double t) { return t + 1e-12 * std::abs(t); }
 
+/// Time in which a motion goes on by one.
+double scale_of(const DrivenMotion& motion) {
+  return 1.0 / std::max({std::abs(motion.qd), std::sqrt(std::abs(motion.qdd)), std::cbrt(std::abs(motion.qddd))});
+}
+
 }  // namespace
 
 DrivenMotion calc_driven_motion(const RunUp& law, double t) {
@@ -48,6 +53,33 @@ DrivenMotion calc_driven_motion(const RiseReturnPause& law, double t) {
           direction * law.stroke * cycloid.ddc / (T * T), direction * law.stroke * cycloid.dddc / (T * T * T)};
 }
 
+DrivenMotion calc_driven_motion(const CycloidalRise& law, double t) {
+  if (t <= law.begin) return {law.from, 0.0, 0.0, 0.0};
+  const double u = (t - law.begin) / law.time;
+  if (u >= 1.0) return {law.from + law.rise, 0.0, 0.0, 0.0};
+  const Cycloid cycloid = calc_cycloid(u);
+  const double rate = law.rise / law.time;
+  return {law.from + law.rise * cycloid.c, rate * cycloid.dc, rate / law.time * cycloid.ddc, rate / (law.time * law.time) * cycloid.dddc};
+}
+
+DrivenMotion calc_driven_motion(const Harmonic& law, double t) {
+  const double s = law.amplitude * std::sin(law.omega * t + law.phase);
+  const double c = law.amplitude * law.omega * std::cos(law.omega * t + law.phase);
+  const double omega2 = law.omega * law.omega;
+  return {law.mean + s, c, -omega2 * s, -omega2 * c};
+}
+
+DrivenMotion calc_driven_motion(const Polynomial& law, double t) {
+  double p = 0.0, first = 0.0, second = 0.0, third = 0.0;  // Taylor's coefficients at t, by Horner's scheme
+  for (std::size_t k = law.coefficients.size(); k-- > 0;) {
+    third = third * t + second;
+    second = second * t + first;
+    first = first * t + p;
+    p = p * t + law.coefficients[k];
+  }
+  return {p, first, 2.0 * second, 6.0 * third};
+}
+
 DrivenMotion calc_driven_motion(const DriveLaw& law, double t) {
   return std::visit([t](const auto& l) { return calc_driven_motion(l, t); }, law);
 }
@@ -61,6 +93,15 @@ double find_next_corner(const RiseReturnPause& law, double t) {
     for (const double corner : {start, start + law.stroke_time, start + 2.0 * law.stroke_time})
       if (corner > beyond(t)) return corner;
 }
+
+double find_next_corner(const CycloidalRise& law, double t) {
+  for (const double corner : {law.begin, law.begin + law.time})
+    if (corner > beyond(t)) return corner;
+  return kNever;
+}
+
+double find_next_corner(const Harmonic&, double) { return kNever; }
+double find_next_corner(const Polynomial&, double) { return kNever; }
 
 double find_next_corner(const DriveLaw& law, double t) {
   return std::visit([t](const auto& l) { return find_next_corner(l, t); }, law);
@@ -77,6 +118,14 @@ double calc_time_scale(const RiseReturnPause& law, double t) {
   const double in_cycle = std::fmod(t, 2.0 * law.stroke_time + law.pause);
   return law.stroke == 0.0 || in_cycle >= 2.0 * law.stroke_time ? kNever : law.stroke_time / kTwoPi;
 }
+
+double calc_time_scale(const CycloidalRise& law, double t) {
+  return law.rise == 0.0 || t < law.begin || t >= law.begin + law.time ? kNever : law.time / kTwoPi;
+}
+
+double calc_time_scale(const Harmonic& law, double) { return law.amplitude == 0.0 ? kNever : 1.0 / std::abs(law.omega); }
+
+double calc_time_scale(const Polynomial& law, double t) { return scale_of(calc_driven_motion(law, t)); }
 
 double calc_time_scale(const DriveLaw& law, double t) {
   return std::visit([t](const auto& l) { return calc_time_scale(l, t); }, law);

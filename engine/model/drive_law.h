@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <variant>
+#include <vector>
 
 namespace engine {
 
@@ -27,22 +29,73 @@ struct RiseReturnPause {
   double pause = 0.0;        ///< [s], >= 0
 };
 
-using DriveLaw = std::variant<RunUp, RiseReturnPause>;
+/// Rest, one rise by the cycloidal law, rest.
+struct CycloidalRise {
+  double from = 0.0;    ///< [rad] or [m]
+  double rise = 0.0;    ///< [rad] or [m]
+  double begin = 0.0;   ///< [s]
+  double time = 1.0;    ///< [s], > 0
+};
+
+/// mean + amplitude sin(omega t + phase)
+struct Harmonic {
+  double mean = 0.0;       ///< [rad] or [m]
+  double amplitude = 0.0;  ///< [rad] or [m]
+  double omega = 1.0;      ///< [rad/s], not 0
+  double phase = 0.0;      ///< [rad]
+};
+
+/// c_0 + c_1 t + c_2 t^2 + ...
+struct Polynomial {
+  std::vector<double> coefficients;  ///< [rad/s^k] or [m/s^k]
+};
+
+/// Points joined by the natural cubic spline, whose second derivative is continuous; before the first and after the last of them it goes on
+/// straight.
+class Spline {
+ public:
+  /// @param t, q  two points or more, t rising
+  Spline(std::vector<double> t, std::vector<double> q);
+
+  [[nodiscard]] DrivenMotion calc(double t) const;
+  [[nodiscard]] double next_knot(double t) const;  ///< infinite behind the last
+  [[nodiscard]] double time_scale(double t) const;
+
+ private:
+  [[nodiscard]] std::size_t piece_of(double t) const;
+
+  std::vector<double> t_, q_;
+  std::vector<double> bend_;  ///< second derivative at each point
+};
+
+using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, Polynomial, Spline>;
 
 [[nodiscard]] DrivenMotion calc_driven_motion(const RunUp& law, double t);
 [[nodiscard]] DrivenMotion calc_driven_motion(const RiseReturnPause& law, double t);
+[[nodiscard]] DrivenMotion calc_driven_motion(const CycloidalRise& law, double t);
+[[nodiscard]] DrivenMotion calc_driven_motion(const Harmonic& law, double t);
+[[nodiscard]] DrivenMotion calc_driven_motion(const Polynomial& law, double t);
+[[nodiscard]] inline DrivenMotion calc_driven_motion(const Spline& law, double t) { return law.calc(t); }
 [[nodiscard]] DrivenMotion calc_driven_motion(const DriveLaw& law, double t);
 
 /// First instant after t at which one piece of the law meets the next: the acceleration has a kink there, and derivatives of any order
 /// only in between. Infinite if none follows, [s]
 [[nodiscard]] double find_next_corner(const RunUp& law, double t);
 [[nodiscard]] double find_next_corner(const RiseReturnPause& law, double t);
+[[nodiscard]] double find_next_corner(const CycloidalRise& law, double t);
+[[nodiscard]] double find_next_corner(const Harmonic& law, double t);
+[[nodiscard]] double find_next_corner(const Polynomial& law, double t);
+[[nodiscard]] inline double find_next_corner(const Spline& law, double t) { return law.next_knot(t); }
 [[nodiscard]] double find_next_corner(const DriveLaw& law, double t);
 
 /// Time in which the drive moves on by about one radian, of its own angle or of its law's sine, from t on; infinite at rest, [s].
 /// It holds for a tenth of itself.
 [[nodiscard]] double calc_time_scale(const RunUp& law, double t);
 [[nodiscard]] double calc_time_scale(const RiseReturnPause& law, double t);
+[[nodiscard]] double calc_time_scale(const CycloidalRise& law, double t);
+[[nodiscard]] double calc_time_scale(const Harmonic& law, double t);
+[[nodiscard]] double calc_time_scale(const Polynomial& law, double t);
+[[nodiscard]] inline double calc_time_scale(const Spline& law, double t) { return law.time_scale(t); }
 [[nodiscard]] double calc_time_scale(const DriveLaw& law, double t);
 
 }  // namespace engine

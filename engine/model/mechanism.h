@@ -41,6 +41,9 @@ struct Coordinate {
   double stiffness = 0.0;             ///< spring on the coordinate, [N m/rad] or [N/m]
   double damping = 0.0;               ///< damper on the coordinate, [N m s/rad] or [N s/m]
   double assembly_guess = 0.0;        ///< where Newton's method begins to close the loops, [rad] or [m]
+  std::optional<double> start = {};   ///< where it is at t = 0, whatever the loops ask of the others, [rad] or [m]
+  std::optional<double> start_rate = {};  ///< its rate then; empty: what the loops ask, 0 if they leave it free, [rad/s] or [m/s]
+  bool spring_yields = false;         ///< closing the loops may load its spring; those inside a flexible link are unloaded then
 
   double mass = 0.0;                                      ///< [kg]
   Eigen::Vector3d com = Eigen::Vector3d::Zero();          ///< centre of mass in the frame, [m]
@@ -50,14 +53,32 @@ struct Coordinate {
 /// True for a rotation about the parent frame's own origin, as between the axes of a spherical joint: nothing to shift there.
 [[nodiscard]] inline bool is_inside_joint(const Coordinate& c) { return c.motion == Motion::kRotation && c.placement.p.isZero(0.0); }
 
-/// A revolute joint at which a loop is cut: a bearing on one frame, a journal on another, z their common axis.
-/// Without clearance it is five constraint rows, with it only the forces between the two surfaces.
+/// What a joint at which a loop is cut lets its journal do in the bearing.
+enum class CutKind {
+  kRevolute,     ///< turn about z
+  kSpherical,    ///< turn about any axis
+  kUniversal,    ///< turn about the bearing's z and the journal's x, which stay at right angles
+  kCylindrical,  ///< turn about z and slide along it
+  kPrismatic,    ///< slide along z
+  kWeld,         ///< nothing
+};
+
+/// A joint at which a loop is cut: a bearing on one frame, a journal on another. Without clearance it is a constraint row for each
+/// freedom that it takes away; a revolute joint with clearance is only the forces between the two surfaces.
 struct CutJoint {
+  CutKind kind = CutKind::kRevolute;
   FrameIndex bearing_frame = kGround;
   FrameIndex journal_frame = kGround;
   Placement bearing;                                      ///< {b} in bearing_frame
   Placement journal;                                      ///< {j} in journal_frame
-  std::optional<ClearanceParameters> clearance;           ///< empty: the ideal joint
+  std::optional<ClearanceParameters> clearance;           ///< empty: the ideal joint; of revolute joints only
+};
+
+/// Two coordinates that move together: q_coordinate = ratio q_follows, a screw or a pair of gears.
+struct Coupling {
+  FrameIndex coordinate = 0;
+  FrameIndex follows = 0;
+  double ratio = 1.0;
 };
 
 /// A coordinate whose motion is given.
@@ -75,12 +96,16 @@ enum class DriveRows {
 struct NamedFrame {
   std::string name;  ///< of the link, "1,3" say
   FrameIndex frame = 0;
+  Placement placement = {};  ///< in that frame, of a link that is welded to what it carries
 };
 
 /// Open chains of bodies and joints, the joints that close them, the drives. Constant once a run has begun.
 struct Mechanism {
   std::vector<Coordinate> coordinates;
   std::vector<CutJoint> cut_joints;
+  std::vector<Coupling> couplings;
+  /// The constraints depend on each other, here or somewhere on the way: of the multipliers that do, the least ones are taken.
+  bool least_multipliers = false;
   std::vector<Drive> drives;
   DriveRows drive_rows = DriveRows::kEliminated;
   double baumgarte_alpha = 100.0;                         ///< [1/s]

@@ -5,86 +5,51 @@
 #include <utility>
 
 #include "engine/flexible/rfem.h"
+#include "engine/model/linkage.h"
 
 namespace engine {
 
 namespace {
 
-struct MassProperties {
-  double mass;
-  Eigen::Vector3d com;
-  Eigen::Vector3d inertia;
-};
-
 /// Links of chain 1 have their centre of mass in the middle, those of chain 2 in the origin of their frame.
-MassProperties mass_of(const RpsupParameters& parameters, Link link, double length) {
+LinkageBody make_body(const RpsupParameters& parameters, Link link, const std::string& name, double length) {
   const LinkInertia& given = parameters.links[static_cast<std::size_t>(link)];
-  return {given.mass, {0.5 * length, 0.0, 0.0}, given.inertia};
+  return {.name = name, .mass = given.mass, .com = {0.5 * length, 0.0, 0.0}, .inertia = given.inertia.asDiagonal()};
 }
 
-/// Appends chains of joints to a mechanism.
-class ChainBuilder {
- public:
-  explicit ChainBuilder(Mechanism& mechanism) : mechanism_(mechanism) {}
-
-  FrameIndex add(Coordinate coordinate) {
-    mechanism_.coordinates.push_back(std::move(coordinate));
-    return static_cast<FrameIndex>(mechanism_.coordinates.size()) - 1;
-  }
-
-  /// R_z(psi) R_y(theta) R_x(phi) at the point p_PJ of the parent's frame.
-  FrameIndex add_spherical(const std::string& suffix, FrameIndex parent, const Eigen::Vector3d& p_PJ, const SpringDamperElement& sde) {
-    const FrameIndex psi = add({.name = "psi" + suffix, .parent = parent, .placement = {.p = p_PJ}, .axis = Axis::kZ,
-                                .stiffness = sde.stiffness[0], .damping = sde.damping[0]});
-    const FrameIndex theta = add({.name = "theta" + suffix, .parent = psi, .placement = {}, .axis = Axis::kY,
-                                  .stiffness = sde.stiffness[1], .damping = sde.damping[1]});
-    return add({.name = "phi" + suffix, .parent = theta, .placement = {}, .axis = Axis::kX,
-                .stiffness = sde.stiffness[2], .damping = sde.damping[2]});
-  }
-
-  void set_body(FrameIndex frame, const MassProperties& body) {
-    Coordinate& c = mechanism_.coordinates[static_cast<std::size_t>(frame)];
-    c.mass = body.mass;
-    c.com = body.com;
-    c.inertia = body.inertia.asDiagonal();
-  }
-
-  void name_link(std::string name, FrameIndex frame) { mechanism_.links.push_back({std::move(name), frame}); }
-
- private:
-  Mechanism& mechanism_;
-};
-
-/// Frame that carries the bearing, and how far along its x axis.
-struct CouplerEnd {
-  FrameIndex frame;
-  double x;
-};
-
-CouplerEnd add_rigid_coupler(ChainBuilder& chain, const RpsupParameters& p, FrameIndex rod, FrameIndex& first) {
-  first = chain.add_spherical("_1_3_0", rod, {p.rod_length, 0.0, 0.0}, {});
-  chain.set_body(first, mass_of(p, Link::k13, p.coupler_length));
-  chain.name_link("1,3", first);
-  return {first, p.coupler_length};
+LinkageBody make_coupler(const RpsupParameters& p) {
+  LinkageBody coupler = make_body(p, Link::k13, "1,3", p.coupler_length);
+  if (p.coupler == Coupler::kRigid) return coupler;
+  coupler.elements = p.rigid_elements;
+  coupler.beam = make_beam({.length = p.coupler_length, .mass = coupler.mass, .I_x = coupler.inertia(0, 0), .diameter = p.coupler_diameter,
+                            .youngs_modulus = p.youngs_modulus, .shear_modulus = p.shear_modulus, .damping_ratio = p.coupler_damping_ratio});
+  return coupler;
 }
 
-CouplerEnd add_flexible_coupler(ChainBuilder& chain, const RpsupParameters& p, FrameIndex rod, FrameIndex& first) {
-  const LinkInertia& link = p.links[static_cast<std::size_t>(Link::k13)];
-  const DividedRod divided = divide_rod({.length = p.coupler_length, .mass = link.mass, .I_x = link.inertia[0],
-                                         .diameter = p.coupler_diameter, .youngs_modulus = p.youngs_modulus,
-                                         .shear_modulus = p.shear_modulus, .damping_ratio = p.coupler_damping_ratio},
-                                        p.rigid_elements);
-  CouplerEnd end{rod, p.rod_length};
-  for (std::size_t r = 0; r < divided.elements.size(); ++r) {
-    const RigidElement& rfe = divided.elements[r];
-    const std::string suffix = "_1_3_" + std::to_string(r);
-    end.frame = chain.add_spherical(suffix, end.frame, {end.x, 0.0, 0.0}, r == 0 ? SpringDamperElement{} : divided.sde);
-    end.x = rfe.length;
-    if (r == 0) first = end.frame;
-    chain.set_body(end.frame, {rfe.mass, {0.5 * rfe.length, 0.0, 0.0}, rfe.inertia});
-    chain.name_link("1,3," + std::to_string(r), end.frame);
-  }
-  return end;
+LinkageFreedom driven(std::string name, const DriveLaw& law) { return {.name = std::move(name), .drive = law}; }
+
+Linkage describe_rpsup(const RpsupParameters& p) {
+  Linkage linkage;
+  linkage.bodies = {make_body(p, Link::k11, "1,1", p.crank_length), make_body(p, Link::k12, "1,2", p.rod_length), make_coupler(p),
+                    make_body(p, Link::k21, "2,1", 0.0), make_body(p, Link::k22, "2,2", 0.0)};
+  linkage.joints = {
+      {.name = "crank", .from = kGroundName, .to = "1,1", .placement = {}, .freedoms = {driven("psi_1_1", RunUp{p.crank_velocity, p.run_up})}},
+      {.name = "rod", .kind = JointKind::kPrismatic, .from = "1,1", .to = "1,2", .placement = {}, .axes = {Axis::kX},
+       .freedoms = {driven("z_1_2", RiseReturnPause{p.rod_stroke, p.rod_stroke_time, p.rod_pause})}},
+      {.name = "ball", .kind = JointKind::kSpherical, .from = "1,2", .to = "1,3", .placement = {.p = {p.rod_length, 0.0, 0.0}},
+       .freedoms = {{.name = "psi_1_3_0"}, {.name = "theta_1_3_0"}, {.name = "phi_1_3_0"}}},
+      {.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "2,1",
+       .placement = {.p = {0.0, p.guide_offset_y, p.guide_offset_z}},
+       .axes = {Axis::kX}, .freedoms = {{.name = "z_2_1", .guess = p.rod_length + p.coupler_length}}},
+      {.name = "cross", .from = "2,1", .to = "2,2", .placement = {}, .axes = {Axis::kY}, .freedoms = {{.name = "psi_2_2"}}},
+      {.name = "bearing", .from = "1,3", .to = "2,2", .placement = {.p = {p.coupler_length, 0.0, 0.0}}, .cut = true},
+  };
+  if (p.c_r > 0.0) linkage.joints.back().clearance = make_clearance(p);
+  linkage.drive_rows = p.drive == DriveEnforcement::kBaumgarte ? DriveRows::kMultipliers : DriveRows::kEliminated;
+  linkage.baumgarte_alpha = p.baumgarte_alpha;
+  linkage.baumgarte_beta = p.baumgarte_beta;
+  linkage.gravity_W = {0.0, -p.gravity, 0.0};
+  return linkage;
 }
 
 FrictionParameters friction_of(const RpsupParameters& p) {
@@ -95,7 +60,9 @@ FrictionParameters friction_of(const RpsupParameters& p) {
   return friction;
 }
 
-ClearanceParameters clearance_of(const RpsupParameters& p) {
+}  // namespace
+
+ClearanceParameters make_clearance(const RpsupParameters& p) {
   const double nu = p.youngs_modulus / (2.0 * p.shear_modulus) - 1.0;
   ClearanceParameters joint;
   joint.r_b = p.bearing_radius;
@@ -117,42 +84,11 @@ ClearanceParameters clearance_of(const RpsupParameters& p) {
   return joint;
 }
 
-}  // namespace
-
 Rpsup build_rpsup(const RpsupParameters& p) {
-  Rpsup rpsup;
-  Mechanism& m = rpsup.mechanism;
-  RpsupLayout& layout = rpsup.layout;
-  ChainBuilder chain(m);
-
-  layout.crank = chain.add({.name = "psi_1_1", .placement = {}, .axis = Axis::kZ});
-  chain.set_body(layout.crank, mass_of(p, Link::k11, p.crank_length));
-  chain.name_link("1,1", layout.crank);
-  layout.rod = chain.add({.name = "z_1_2", .parent = layout.crank, .placement = {}, .motion = Motion::kTranslation, .axis = Axis::kX});
-  chain.set_body(layout.rod, mass_of(p, Link::k12, p.rod_length));
-  chain.name_link("1,2", layout.rod);
-  const CouplerEnd end = p.coupler == Coupler::kFlexible ? add_flexible_coupler(chain, p, layout.rod, layout.coupler)
-                                                         : add_rigid_coupler(chain, p, layout.rod, layout.coupler);
-
-  layout.slider = chain.add({.name = "z_2_1", .placement = {.p = {0.0, p.guide_offset_y, p.guide_offset_z}},
-                             .motion = Motion::kTranslation, .axis = Axis::kX, .assembly_guess = p.rod_length + p.coupler_length});
-  chain.set_body(layout.slider, mass_of(p, Link::k21, 0.0));
-  chain.name_link("2,1", layout.slider);
-  const FrameIndex cross = chain.add({.name = "psi_2_2", .parent = layout.slider, .placement = {}, .axis = Axis::kY});
-  chain.set_body(cross, mass_of(p, Link::k22, 0.0));
-  chain.name_link("2,2", cross);
-
-  CutJoint joint{.bearing_frame = end.frame, .journal_frame = cross, .bearing = {.p = {end.x, 0.0, 0.0}}, .journal = {}, .clearance = {}};
-  if (p.c_r > 0.0) joint.clearance = clearance_of(p);
-  m.cut_joints.push_back(joint);
-
-  m.drives = {{layout.crank, RunUp{p.crank_velocity, p.run_up}},
-              {layout.rod, RiseReturnPause{p.rod_stroke, p.rod_stroke_time, p.rod_pause}}};
-  m.drive_rows = p.drive == DriveEnforcement::kBaumgarte ? DriveRows::kMultipliers : DriveRows::kEliminated;
-  m.baumgarte_alpha = p.baumgarte_alpha;
-  m.baumgarte_beta = p.baumgarte_beta;
-  m.gravity_W = {0.0, -p.gravity, 0.0};
-  return rpsup;
+  BuiltLinkage built = build_linkage(describe_rpsup(p));
+  const auto first = [&](std::size_t joint) { return built.joints[joint].first; };
+  const RpsupLayout layout{.crank = first(0), .rod = first(1), .coupler = built.bodies[2].parts[0].frame, .slider = first(3)};
+  return {std::move(built.mechanism), layout};
 }
 
 Rpsup build_ideal_rpsup(RpsupParameters p) {

@@ -22,6 +22,9 @@ struct Rpsup {
 /// closed by the revolute joint between coupler and cross link. Source: project paper, section 2 and Table 1.
 [[nodiscard]] Rpsup build_rpsup(const RpsupParameters& parameters);
 
+/// The joint of the linkage, with clearance; Hertz's stiffness is that of its material.
+[[nodiscard]] ClearanceParameters make_clearance(const RpsupParameters& parameters);
+
 /// The same linkage and drives with a rigid coupler, prescribed drives and an ideal joint: what the mechanism is meant to do.
 [[nodiscard]] Rpsup build_ideal_rpsup(RpsupParameters parameters);
 

@@ -1,0 +1,31 @@
+#include "engine/analysis/joint_reactions.h"
+
+#include <cstddef>
+
+namespace engine {
+
+JointReactions::JointReactions(const Mechanism& mechanism)
+    : mechanism_(mechanism), inverse_dynamics_(mechanism), frames_(mechanism.coordinates.size()) {}
+
+void JointReactions::calc(const Evaluation& at) {
+  calc_frame_motions(mechanism_, at.q, at.qd, at.qdd, frames_);  // those of `at` may lack the free coordinates' accelerations
+  for (std::size_t k = 0; k < at.joints.size(); ++k) add_cut_joint(mechanism_.cut_joints[k], at.joints[k]);
+  (void)inverse_dynamics_.calc(frames_);
+}
+
+/// Force and moment act where the journal's centre is, the opposite ones on the bearing there.
+void JointReactions::add_cut_joint(const CutJoint& joint, const JointState& state) {
+  const auto frame_of = [&](FrameIndex index) { return index == kGround ? FrameMotion{} : frames_[static_cast<std::size_t>(index)]; };
+  const FrameMotion journal = frame_of(joint.journal_frame);
+  const Eigen::Vector3d point = journal.p + journal.R * joint.journal.p;
+  const auto add = [&](FrameIndex index, double sign) {
+    if (index == kGround) return;
+    const Eigen::Vector3d force = sign * state.reaction_W;
+    const Eigen::Vector3d arm = point - frames_[static_cast<std::size_t>(index)].p;
+    inverse_dynamics_.add_load(index, {force, sign * state.moment_W + arm.cross(force)});
+  };
+  add(joint.journal_frame, 1.0);
+  add(joint.bearing_frame, -1.0);
+}
+
+}  // namespace engine

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/dynamics/evaluation.h"
+#include "engine/dynamics/inverse_dynamics.h"
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// What every joint exerts on the body that it carries, by Newton and Euler from the motion and the forces of the cut joints.
+class JointReactions {
+ public:
+  explicit JointReactions(const Mechanism& mechanism);
+
+  void calc(const Evaluation& at);
+
+  /// After calc(): about the origin of the joint's last frame, in W. With it come the joint's drives and springs.
+  [[nodiscard]] const Wrench& of(FrameIndex last_frame) const { return inverse_dynamics_.transmitted(last_frame); }
+
+ private:
+  void add_cut_joint(const CutJoint& joint, const JointState& state);
+
+  const Mechanism& mechanism_;
+  InverseDynamics inverse_dynamics_;
+  std::vector<FrameMotion> frames_;
+};
+
+}  // namespace engine

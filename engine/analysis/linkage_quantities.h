@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/analysis/joint_reactions.h"
+#include "engine/analysis/run_channels.h"
+#include "engine/analysis/run_metrics.h"
+#include "engine/integrate/run_end.h"
+#include "engine/model/linkage.h"
+
+namespace engine {
+
+/// What is sampled and measured of a described linkage, each by the names of its joints: coordinates and drives, reactions of all joints,
+/// clearance joints, poses of the bodies.
+class LinkageQuantities {
+ public:
+  /// @param linkage, built  must outlive what is made of them
+  LinkageQuantities(const Linkage& linkage, const BuiltLinkage& built, double steady_from);
+  LinkageQuantities(const LinkageQuantities&) = delete;
+  LinkageQuantities& operator=(const LinkageQuantities&) = delete;
+
+  [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
+  [[nodiscard]] const Measured& measured() const { return measured_; }
+  [[nodiscard]] Preparation prepare();
+  /// All channels, those of the poses with them.
+  [[nodiscard]] std::vector<QuantityInfo> channel_table() const;
+  [[nodiscard]] const std::vector<QuantityInfo>& metric_table() const { return metrics_; }
+
+  /// In the order of metric_table(). @param metrics  of measured()
+  [[nodiscard]] std::vector<double> calc_metrics(const RunMetrics& metrics, const RunEnd& end) const;
+
+ private:
+  void add_coordinate(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_drive(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_joint(const LinkageJoint& joint, const BuiltJoint& built);
+  void add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench);
+  void add_clearance(const LinkageJoint& joint, std::size_t cut);
+  void add_energies();
+  void add_channel(std::string key, std::string help, Reading read);
+  void add_load(std::string key, std::string help, double scale, Reading read);
+
+  /// How a metric follows from what was measured.
+  using Result = std::function<double(const RunMetrics&, const RunEnd&)>;
+  void add_metric(QuantityInfo info, Result result);
+
+  const BuiltLinkage& built_;
+  JointReactions reactions_;
+  std::vector<Channel> channels_;
+  Measured measured_;
+  std::vector<QuantityInfo> metrics_;
+  std::vector<Result> results_;
+};
+
+}  // namespace engine

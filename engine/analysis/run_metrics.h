@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/analysis/readings.h"
+#include "engine/analysis/step_quadratic.h"
+#include "engine/analysis/stepped_peak.h"
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// What of a run is measured.
+struct Measured {
+  std::vector<FrameIndex> accelerations;  ///< coordinates whose acceleration is
+  std::vector<Reading> loads;             ///< of which the largest magnitude counts
+  std::vector<std::size_t> contacts;      ///< cut joints with clearance
+  double steady_from = 0.0;               ///< where the steady window begins, [s]
+  Preparation prepare = {};
+};
+
+/// Peaks, losses and balances of one run, gathered at every step; peaks are those inside the steps.
+class RunMetrics {
+ public:
+  explicit RunMetrics(Measured measured);
+
+  void take_step(const Evaluation& start, const Evaluation& end);
+  /// Whether the last step may hold a larger load than its ends show: its middle should be taken.
+  [[nodiscard]] bool wants_middle() const { return wants_middle_; }
+  void take_middle(const Evaluation& middle);
+  void take_onsets(int count) { onsets_ += count; }
+
+  /// One of Measured::accelerations.
+  struct Acceleration {
+    Peak steady, whole_run;
+    double square_integral = 0.0;  ///< over the steady window
+  };
+  [[nodiscard]] const Acceleration& acceleration(std::size_t k) const { return accelerations_[k]; }
+  /// Length of the steady window, as far as the run came; 0: it did not come there.
+  [[nodiscard]] double steady_time() const { return steady_time_; }
+  /// Root mean square over the steady window; not a number if there is none.
+  [[nodiscard]] double calc_rms(std::size_t k) const;
+  /// Largest magnitude of one of Measured::loads.
+  [[nodiscard]] double largest_load(std::size_t k) const { return loads_[k].peak().magnitude; }
+  /// How long the bore of one of Measured::contacts was touched, [s]
+  [[nodiscard]] double contact_time(std::size_t k) const { return contact_times_[k]; }
+  [[nodiscard]] long onsets() const { return onsets_; }
+  [[nodiscard]] const EnergyAccount& last_energy() const { return last_energy_; }
+  /// Largest |E - E(0) - work of the drives + losses|, [J]
+  [[nodiscard]] double largest_imbalance() const { return largest_imbalance_; }
+  /// Work of the drives and losses, counted without sign: what an energy residual is measured against, [J].
+  [[nodiscard]] double work_turned_over() const { return turned_over_; }
+  /// The one over the other; not a number if nothing was turned over.
+  [[nodiscard]] double calc_energy_residual() const;
+
+ private:
+  void take_acceleration(FrameIndex coordinate, const Evaluation& start, const Evaluation& end, Acceleration& taken) const;
+  void take_loads(const Evaluation& start, const Evaluation& end);
+  void take_energy(const EnergyAccount& start, const EnergyAccount& end);
+
+  Measured measured_;
+  std::vector<Acceleration> accelerations_;
+  std::vector<SteppedPeak> loads_;
+  std::vector<double> start_loads_;
+  std::vector<double> contact_times_;
+  double steady_time_ = 0.0;
+  bool wants_middle_ = false;
+  long onsets_ = 0;
+  double first_balance_ = 0.0;
+  double largest_imbalance_ = 0.0;
+  double turned_over_ = 0.0;
+  EnergyAccount last_energy_;
+  bool started_ = false;
+};
+
+}  // namespace engine

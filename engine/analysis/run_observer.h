@@ -1,0 +1,33 @@
+#pragma once
+
+#include "engine/analysis/run_channels.h"
+#include "engine/analysis/run_metrics.h"
+#include "engine/integrate/observer.h"
+#include "engine/run_result.h"
+
+namespace engine {
+
+/// Gathers channels and metrics of one run.
+class RunObserver : public Observer {
+ public:
+  RunObserver(RunMetrics run_metrics, RunChannels run_channels, const StopQuery& stop_requested)
+      : metrics(std::move(run_metrics)), channels(std::move(run_channels)), stop_requested_(stop_requested) {}
+
+  void on_step(const Evaluation& start, const Evaluation& end) override {
+    metrics.take_step(start, end);
+    channels.take_step(start, end);
+  }
+  [[nodiscard]] bool wants_middle() override { return metrics.wants_middle(); }
+  void on_middle(const Evaluation& at) override { metrics.take_middle(at); }
+  void on_sample(const Evaluation& at) override { channels.take_sample(at); }
+  void on_onsets(int count) override { metrics.take_onsets(count); }
+  [[nodiscard]] bool stop_requested(double t) override { return stop_requested_ && stop_requested_(t); }
+
+  RunMetrics metrics;
+  RunChannels channels;
+
+ private:
+  const StopQuery& stop_requested_;
+};
+
+}  // namespace engine

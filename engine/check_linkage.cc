@@ -1,0 +1,110 @@
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+
+#include "engine/dynamics/energies.h"
+#include "engine/dynamics/loop_closure.h"
+#include "engine/dynamics/motion_system.h"
+#include "engine/errors.h"
+#include "engine/simulate_linkage.h"
+
+namespace engine {
+
+namespace {
+
+void require(bool holds, const std::string& field, const std::string& allowed) {
+  if (!holds) throw InvalidInput(field, "must be " + allowed);
+}
+
+/// About the centre of mass no principal moment is below 0 or above the sum of the other two; those of a thin rod are 0 and equal.
+bool is_inertia_of_a_body(const LinkageBody& body) {
+  const Eigen::Vector3d& c = body.com;
+  const Eigen::Matrix3d central = body.inertia - body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(central, Eigen::EigenvaluesOnly).eigenvalues();
+  const double rounding = 1e-9 * body.inertia.trace();
+  return moments.allFinite() && moments.minCoeff() >= -rounding && moments.sum() - 2.0 * moments.maxCoeff() >= -rounding;
+}
+
+void check_body(const LinkageBody& body) {
+  const std::string name = "bodies." + body.name;
+  if (body.beam) {
+    require(body.beam->mass > 0.0, name + ".mass", "above 0, as the body is a beam");
+    return;
+  }
+  require(body.mass >= 0.0 && std::isfinite(body.mass), name + ".mass", "a finite number of at least 0");
+  require(body.mass > 0.0 || body.inertia.isZero(0.0), name + ".inertia", "left out, as the body has no mass");
+  require(is_inertia_of_a_body(body), name + ".inertia",
+          "that of a body: about the centre of mass no principal moment is below 0 or larger than the sum of the other two");
+}
+
+/// The joint that a coordinate is part of, or the body inside which it is.
+std::string owner_of(const Linkage& linkage, const BuiltLinkage& built, FrameIndex coordinate) {
+  for (std::size_t k = 0; k < built.joints.size(); ++k)
+    if (coordinate >= built.joints[k].first && coordinate < built.joints[k].first + built.joints[k].count) return "joints." + linkage.joints[k].name;
+  return "";
+}
+
+/// Twice the kinetic energy of each free coordinate at unit speed must not vanish.
+void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled, const std::vector<FrameIndex>& free) {
+  constexpr double kNothing = 1e-15;  // [kg m^2] or [kg], of what the heaviest freedom moves
+  const Mechanism& m = built.mechanism;
+  Eigen::VectorXd qd = Eigen::VectorXd::Zero(assembled.q.size());
+  const Eigen::VectorXd qdd = qd;
+  std::vector<FrameMotion> frames(m.coordinates.size());
+  std::vector<double> moved;
+  for (const FrameIndex i : free) {
+    qd[i] = 1.0;
+    calc_frame_motions(m, assembled.q, qd, qdd, frames);
+    moved.push_back(calc_kinetic_energy(m, frames));
+    qd[i] = 0.0;
+  }
+  double most = 0.0;
+  for (const double energy : moved) most = std::max(most, energy);
+  for (std::size_t k = 0; k < free.size(); ++k)
+    if (!(moved[k] > kNothing * most))
+      throw InvalidInput(owner_of(linkage, built, free[k]), "is free to move by its coordinate " +
+                         m.coordinates[static_cast<std::size_t>(free[k])].name +
+                                                                 ", and nothing that it moves has mass: give the bodies that it carries a mass_kg, or drive it");
+}
+
+/// The cut joint whose parts stand furthest apart.
+std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& at) {
+  const auto place_of = [&](FrameIndex frame, const Placement& placement) -> Eigen::Vector3d {
+    if (frame == kGround) return placement.p;
+    const FrameMotion& f = at.frames[static_cast<std::size_t>(frame)];
+    return f.p + f.R * placement.p;
+  };
+  std::string widest;
+  double most = -1.0;
+  for (std::size_t k = 0; k < built.joints.size(); ++k) {
+    if (built.joints[k].cut < 0) continue;
+    const CutJoint& joint = built.mechanism.cut_joints[static_cast<std::size_t>(built.joints[k].cut)];
+    const double gap = (place_of(joint.journal_frame, joint.journal) - place_of(joint.bearing_frame, joint.bearing)).norm();
+    if (gap > most) {
+      most = gap;
+      widest = linkage.joints[k].name;
+    }
+  }
+  return widest.empty() ? "joints" : "joints." + widest;
+}
+
+}  // namespace
+
+void check_linkage(const Linkage& linkage) {
+  for (const LinkageBody& body : linkage.bodies) check_body(body);
+  const BuiltLinkage built = build_linkage(linkage);
+  const MotionSystem system(built.mechanism);
+  LoopClosure closure(built.mechanism);
+  Evaluation assembled = system.make_evaluation();
+  if (!closure.assemble(0.0, assembled)) {
+    const std::string joint = widest_gap(linkage, built, assembled);
+    if (!closure.rates_fit()) throw InvalidInput(joint, "would be torn apart by the start rates given: they and the drives contradict each other");
+    throw InvalidInput(joint, "does not close at t = 0: the nearest position found leaves a gap of " + std::to_string(closure.residual()) +
+                                  " m (or between right angles); other lengths, or a guess or start of a coordinate nearer to the closed position, may help");
+  }
+  check_masses(linkage, built, assembled, system.free_coordinates());
+}
+
+}  // namespace engine

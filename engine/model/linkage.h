@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/clearance/clearance_parameters.h"
+#include "engine/flexible/rfem.h"
+#include "engine/model/drive_law.h"
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// What the joint of a linkage lets the body that it carries do. Several freedoms come in the order in which they stand here.
+enum class JointKind {
+  kRevolute,     ///< turn about the axis
+  kPrismatic,    ///< slide along the axis
+  kCylindrical,  ///< slide along the axis, turn about it
+  kScrew,        ///< slide along the axis as far as the lead asks, turn about it
+  kUniversal,    ///< turn about the first axis, then about the second
+  kSpherical,    ///< turn about z, y, x
+  kPlanar,       ///< slide along x and y, turn about z
+  kFree,         ///< slide along x, y and z, turn about z, y, x
+  kWeld,         ///< nothing
+};
+
+/// One freedom of a joint.
+struct LinkageFreedom {
+  std::string name;                     ///< of the coordinate
+  double guess = 0.0;                   ///< see Coordinate, as the next three, [rad] or [m]
+  std::optional<double> start = {};
+  std::optional<double> start_rate = {};
+  double stiffness = 0.0;
+  double damping = 0.0;
+  std::optional<DriveLaw> drive = {};   ///< empty: free
+};
+
+/// A body, in the frame of the joint that carries it.
+struct LinkageBody {
+  std::string name;
+  double mass = 0.0;                                  ///< [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();      ///< [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the frame's origin, [kg m^2]
+  /// Given: the body is this straight beam from its frame's origin along x, divided into rigid elements; its mass properties are the beam's.
+  std::optional<UniformBeam> beam = {};
+  int elements = 0;                                   ///< n_rfe of the beam
+};
+
+/// A joint between two bodies. One that closes a loop is cut; the others carry their second body, whose frame is the joint's.
+struct LinkageJoint {
+  std::string name;
+  JointKind kind = JointKind::kRevolute;
+  std::string from, to;                 ///< names of bodies; from may be kGroundName
+  Placement placement;                  ///< in the first body's frame
+  std::array<Axis, 2> axes{Axis::kZ, Axis::kY};  ///< the axis, and the second one of a universal joint
+  double lead = 0.0;                    ///< of a screw, per radian, [m/rad]
+  std::vector<LinkageFreedom> freedoms = {};  ///< one for each of freedoms_of(); none of a cut joint
+  bool cut = false;
+  Placement to_placement = {};          ///< of a cut joint in the second body's frame
+  std::optional<ClearanceParameters> clearance = {};  ///< of a cut revolute joint
+};
+
+inline constexpr const char* kGroundName = "ground";
+
+/// A linkage as data: any number of bodies in chains or trees from the ground, closed by any number of cut joints.
+struct Linkage {
+  std::vector<LinkageBody> bodies;
+  std::vector<LinkageJoint> joints;     ///< in the order in which bodies are placed, each behind the one that carries its first body
+  Eigen::Vector3d gravity_W = Eigen::Vector3d::Zero();
+  DriveRows drive_rows = DriveRows::kEliminated;
+  double baumgarte_alpha = 100.0;       ///< [1/s]
+  double baumgarte_beta = 100.0;        ///< [1/s]
+};
+
+/// How a joint that is not cut lets its second body move: of a screw in two ways, which its lead couples.
+struct FreedomKind {
+  Motion motion;
+  Axis axis;
+};
+[[nodiscard]] std::vector<FreedomKind> freedoms_of(const LinkageJoint& joint);
+
+/// Where a body is: its own frame, of a divided one that of each element, the first at its origin.
+struct BodyFrames {
+  struct Part {
+    FrameIndex frame = kGround;
+    Placement placement;  ///< of the part's frame in `frame`: not the identity for a welded body
+    double begin = 0.0;   ///< along the beam, [m]
+  };
+  std::vector<Part> parts;
+};
+
+/// A joint as built: its coordinates, or which of the mechanism's cut joints it is.
+struct BuiltJoint {
+  FrameIndex first = kGround;           ///< coordinate; kGround: it has none
+  int count = 0;
+  int cut = -1;
+};
+
+struct BuiltLinkage {
+  Mechanism mechanism;
+  std::vector<BodyFrames> bodies;       ///< in the order of Linkage::bodies
+  std::vector<BuiltJoint> joints;       ///< in the order of Linkage::joints
+};
+
+/// Builds the mechanism. Bodies and joints must fit together: every body but the ground is the second one of exactly one joint that is not
+/// cut, which stands behind the joint that carries its first body.
+[[nodiscard]] BuiltLinkage build_linkage(const Linkage& linkage);
+
+}  // namespace engine

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/model/linkage.h"
+#include "engine/run_result.h"
+
+namespace engine {
+
+/// The channels of a run of this linkage, and its metrics in the order of RunResult::metrics.
+struct LinkageTables {
+  std::vector<QuantityInfo> channels, metrics;
+};
+[[nodiscard]] LinkageTables linkage_tables(const Linkage& linkage);
+
+/// Refuses a linkage that cannot be simulated: a beam, spring or clearance out of bounds, an inertia no body can have, a freedom that moves
+/// nothing that weighs, loops that do not close at t = 0. Bodies and joints must fit together as build_linkage() asks.
+/// @throws InvalidInput for the first fault; its field is "bodies.NAME.mass" and the like, "joints.NAME" for a loop or a freedom.
+void check_linkage(const Linkage& linkage);
+
+/// Simulates a described linkage from its assembled position.
+/// The same linkage gives the same bytes, whatever else the process does.
+/// @param steady_from  where the steady window of the metrics begins, [s]
+/// @throws InvalidInput as check_linkage does.
+[[nodiscard]] RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, double steady_from, const StopQuery& stop_requested);
+
+}  // namespace engine

@@ -1,0 +1,186 @@
+// Linkages of data: loops cut at one joint or another, screws, welds, redundant joints, springs; what is refused.
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/errors.h"
+#include "engine/simulate_linkage.h"
+#include "tests/engine/linkage_cases.h"
+
+namespace engine {
+namespace {
+
+RunOptions accurate(double duration) {
+  return {.duration = duration, .output_rate = 100.0, .integrator = Integrator::kDopri5, .relative_tolerance = 1e-10, .absolute_tolerance = 1e-10};
+}
+
+/// A run with its numbers by their names.
+class LinkageRun {
+ public:
+  LinkageRun(const Linkage& linkage, const RunOptions& options) : tables_(linkage_tables(linkage)), result_(simulate_linkage(linkage, options, 0.0, {})) {
+    EXPECT_EQ(result_.status, RunStatus::kSucceeded) << result_.detail;
+  }
+
+  [[nodiscard]] const std::vector<double>& column(const std::string& key) const {
+    const auto& channels = result_.trajectory.channels;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+      if (channels[k].key == key) return result_.trajectory.columns[k];
+    throw std::out_of_range("no channel " + key);
+  }
+  [[nodiscard]] double last(const std::string& key) const { return column(key).back(); }
+  [[nodiscard]] double metric(const std::string& key) const {
+    for (std::size_t k = 0; k < tables_.metrics.size(); ++k)
+      if (tables_.metrics[k].key == key) return result_.metrics.at(k);
+    throw std::out_of_range("no metric " + key);
+  }
+
+ private:
+  LinkageTables tables_;
+  RunResult result_;
+};
+
+TEST(Linkage, MovesTheSameWhereverItsLoopIsCut) {
+  const LinkageRun ball(make_spatial_slider_crank(JointKind::kSpherical), accurate(1.0));
+  for (const JointKind cut : {JointKind::kUniversal, JointKind::kPrismatic}) {
+    const LinkageRun other(make_spatial_slider_crank(cut), accurate(1.0));
+    // The tolerance of 1e-10, grown by the motion's own sensitivity.
+    EXPECT_NEAR(other.last("theta_rad"), ball.last("theta_rad"), 2e-8);
+    EXPECT_EQ(other.metric("redundant_constraints"), 0.0);
+    EXPECT_NEAR(other.last("pose_slider_x_m"), ball.last("x_m"), 1e-8);
+    // The same joints exert the same forces, cut or not.
+    for (const char* const axis : {"x", "y", "z"})
+      EXPECT_NEAR(other.last(std::string("ball_force_") + axis + "_n"), ball.last(std::string("ball_force_") + axis + "_n"), 1e-5) << axis;
+  }
+}
+
+TEST(Linkage, MovesTheSameWithAFlatLoopCutAnywhere) {
+  const LinkageRun revolute(make_four_bar(JointKind::kRevolute), accurate(1.0));
+  EXPECT_EQ(revolute.metric("redundant_constraints"), 3.0);
+  const LinkageRun cylindrical(make_four_bar(JointKind::kCylindrical), accurate(1.0));
+  EXPECT_EQ(cylindrical.metric("redundant_constraints"), 2.0);
+  const LinkageRun weld(make_four_bar(JointKind::kWeld), accurate(1.0));
+  EXPECT_EQ(weld.metric("redundant_constraints"), 3.0);
+  for (const LinkageRun* other : {&cylindrical, &weld}) EXPECT_NEAR(other->last("crank_rad"), revolute.last("crank_rad"), 2e-8);
+  EXPECT_LT(revolute.metric("energy_imbalance_j"), 1e-8);
+}
+
+// Turning the nut by phi lowers it by lead phi: (I + m lead^2) phi'' = m g lead - c phi'.
+TEST(Linkage, AScrewTurnsUnderItsLoad) {
+  const LinkageRun run(make_screw(), accurate(2.0));
+  const double lead = 0.02 / (2.0 * std::numbers::pi);
+  const double inertia = 1.5e-3 + 2.0 * lead * lead;
+  const double rate = -2.0 * 9.81 * lead / 1e-3 * (1.0 - std::exp(-1e-3 * 2.0 / inertia));
+  EXPECT_NEAR(run.last("turn_rad_s"), rate, 1e-7 * std::abs(rate));
+  EXPECT_NEAR(run.last("slide_m"), lead * run.last("turn_rad"), 1e-12);
+}
+
+// A pendulum held twice at one point: the rows depend on each other, and the least reactions share its weight.
+TEST(Linkage, RedundantJointsShareTheLoad) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -9.81, 0.0};
+  linkage.bodies = {make_body("bar", 10.0, {0.4, 0.0, 0.0}, {1.0, 1.0, 1.0})};
+  linkage.joints = {{.name = "float", .kind = JointKind::kPlanar, .from = kGroundName, .to = "bar", .placement = {},
+                     .freedoms = {{.name = "x"}, {.name = "y"}, {.name = "angle", .start = 0.0}}},
+                    {.name = "one", .from = kGroundName, .to = "bar", .placement = {}, .cut = true},
+                    {.name = "two", .from = kGroundName, .to = "bar", .placement = {}, .cut = true}};
+  const LinkageRun run(linkage, accurate(0.5));
+  EXPECT_EQ(run.metric("redundant_constraints"), 8.0);
+  // At the start I alpha = m g c: the pivot bears m g (1 - m c^2 / I), half of it in each joint.
+  const double inertia = 1.0 + 10.0 * 0.16;
+  // Rounding, over what is added to the matrix of dependent rows: 1e-16 / 1e-9 of about 100 N.
+  constexpr double kShared = 1e-5;
+  EXPECT_NEAR(run.column("one_force_y_n").front(), 0.5 * 98.1 * (1.0 - 1.6 / inertia), kShared);
+  for (const char* const axis : {"x", "y", "z"}) {
+    const std::string force = std::string("_force_") + axis + "_n";
+    EXPECT_NEAR(run.last("one" + force), run.last("two" + force), kShared) << axis;
+    EXPECT_NEAR(run.last("float" + force), 0.0, 1e-6) << axis;  // lets the bar go where it will
+  }
+}
+
+TEST(Linkage, ASpringOfTheUsersYieldsWhereTheLoopCloses) {
+  Linkage linkage = make_four_bar(JointKind::kRevolute);
+  linkage.joints[2].freedoms[0].stiffness = 5.0;
+  const LinkageRun run(linkage, accurate(0.5));
+  const double rocker = run.column("rocker_rad").front();
+  EXPECT_GT(rocker, 1.0);
+  // The spring's energy is in the account from the start.
+  EXPECT_LT(run.metric("energy_imbalance_j"), 1e-8);
+  EXPECT_GT(run.column("potential_energy_j").front(), 0.5 * 5.0 * rocker * rocker);
+}
+
+TEST(Linkage, AWeldedBodyIsPartOfWhatCarriesIt) {
+  Linkage whole;
+  whole.gravity_W = {0.0, -9.81, 0.0};
+  whole.bodies = {make_body("bar", 2.0, {0.5, 0.0, 0.0}, {0.0, 2.0 / 12.0, 2.0 / 12.0})};
+  whole.joints = {{.name = "pivot", .from = kGroundName, .to = "bar", .placement = {}, .freedoms = {{.name = "angle"}}}};
+  Linkage halves = whole;
+  halves.bodies = {make_body("bar", 1.0, {0.25, 0.0, 0.0}, {0.0, 1.0 / 48.0, 1.0 / 48.0}),
+                   make_body("tip", 1.0, {0.0, 0.25, 0.0}, {1.0 / 48.0, 0.0, 1.0 / 48.0})};
+  const Eigen::Matrix3d quarter = (Eigen::Matrix3d() << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0).finished();
+  halves.joints.push_back({.name = "joint", .kind = JointKind::kWeld, .from = "bar", .to = "tip", .placement = {quarter, {0.5, 0.0, 0.0}}});
+  EXPECT_NEAR(LinkageRun(halves, accurate(1.0)).last("angle_rad"), LinkageRun(whole, accurate(1.0)).last("angle_rad"), 1e-12);
+}
+
+/// @returns field of the refusal; empty if there is none
+std::string refused_field(const Linkage& linkage) {
+  try {
+    check_linkage(linkage);
+  } catch (const InvalidInput& refused) {
+    return refused.field();
+  }
+  return "";
+}
+
+TEST(LinkageRefusal, NamesWhatIsAtFault) {
+  EXPECT_EQ(refused_field(make_four_bar(JointKind::kRevolute)), "");
+  Linkage open = make_four_bar(JointKind::kRevolute);
+  open.joints[2].placement.p.x() = 2.0;
+  EXPECT_EQ(refused_field(open), "joints.end");
+  Linkage torn = make_four_bar(JointKind::kRevolute);
+  torn.joints[2].freedoms[0].start_rate = 50.0;
+  torn.joints[1].freedoms[0].start_rate = 0.0;
+  EXPECT_EQ(refused_field(torn), "joints.end");
+  Linkage massless = make_four_bar(JointKind::kRevolute);
+  massless.bodies.push_back({.name = "nothing"});
+  massless.joints.push_back({.name = "loose", .from = "coupler", .to = "nothing", .placement = {}, .freedoms = {{.name = "loose"}}});
+  EXPECT_EQ(refused_field(massless), "joints.loose");
+  Linkage impossible = make_four_bar(JointKind::kRevolute);
+  impossible.bodies[1].inertia(2, 2) *= 3.0;
+  EXPECT_EQ(refused_field(impossible), "bodies.coupler.inertia");
+}
+
+/// A law's derivatives are those of its position, here by differences.
+TEST(DriveLaws, HaveTheirDerivatives) {
+  const std::vector<DriveLaw> laws{CycloidalRise{0.1, 0.4, 0.2, 0.8}, Harmonic{0.1, 0.3, 5.0, 0.4}, Polynomial{{0.1, -0.2, 0.3, 0.4, -0.1}},
+                                   Spline({0.0, 0.3, 0.5, 1.0}, {0.0, 0.2, 0.1, 0.4})};
+  constexpr double h = 1e-4;
+  for (const DriveLaw& law : laws)
+    for (const double t : {0.1, 0.42, 0.77}) {
+      const DrivenMotion before = calc_driven_motion(law, t - h), at = calc_driven_motion(law, t), after = calc_driven_motion(law, t + h);
+      EXPECT_NEAR(at.qd, (after.q - before.q) / (2.0 * h), 1e-5) << law.index() << " at " << t;
+      EXPECT_NEAR(at.qdd, (after.qd - before.qd) / (2.0 * h), 1e-4) << law.index() << " at " << t;
+      EXPECT_NEAR(at.qddd, (after.qdd - before.qdd) / (2.0 * h), 1e-3) << law.index() << " at " << t;
+    }
+}
+
+TEST(DriveLaws, ASplineGoesThroughItsPointsWithoutAKink) {
+  const std::vector<double> t{0.0, 0.3, 0.5, 1.0}, q{0.0, 0.2, 0.1, 0.4};
+  const Spline spline(t, q);
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    EXPECT_NEAR(spline.calc(t[k]).q, q[k], 1e-15);
+    const DrivenMotion before = spline.calc(t[k] - 1e-12), after = spline.calc(t[k] + 1e-12);
+    EXPECT_NEAR(before.qd, after.qd, 1e-9);
+    EXPECT_NEAR(before.qdd, after.qdd, 1e-9);
+  }
+  EXPECT_EQ(spline.calc(2.0).qdd, 0.0);
+  EXPECT_NEAR(spline.calc(2.0).q, 0.4 + spline.calc(1.0).qd, 1e-14);
+  EXPECT_EQ(spline.next_knot(0.3), 0.5);
+}
+
+}  // namespace
+}  // namespace engine
