@@ -19,7 +19,7 @@ export async function showLimits(main, id, signal) {
 }
 
 /// The combination of a limit: "10 rad/s, flexible".
-export const combinationOf = (search, limit) => search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
+const combinationOf = (search, limit) => search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
 
 class LimitView {
   constructor(search, signal) {
