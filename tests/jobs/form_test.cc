@@ -43,7 +43,7 @@ TEST(StoreForm, TakesOverAStoreOfForm1) {
     EXPECT_TRUE(store.find_trajectory(results.rows[0].job_id).has_value());
     EXPECT_TRUE(store.find_job(results.rows[0].job_id).has_value());
   }
-  EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "3");
+  EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "4");
   EXPECT_EQ(query_sql(temporary.file(), "PRAGMA integrity_check"), "ok");
 }
 
