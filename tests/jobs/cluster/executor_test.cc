@@ -117,6 +117,25 @@ TEST_F(ClusterTest, HasTheResultsThatTheLocalPoolHas) {
   }
 }
 
+TEST_F(ClusterTest, ComputesJobsOfNoSweep) {
+  start();
+  const std::string id = service_->submit_job({{"duration_s", 0.1}, {"run_up_s", 0.05}}).at("id");
+  compute(await_generation(0), 0);
+  wait_until([&] { return service_->find_job(id)->at("state") == "succeeded"; }, "the job succeeds");
+}
+
+TEST_F(ClusterTest, ComputesASetOnceThatTwoSweepsHave) {
+  start();
+  const std::string first = submit(2);
+  const auto batch = await_generation(0);
+  const std::string second = submit(2);
+  compute(batch, 0);
+  EXPECT_TRUE(service_->wait_for_sweep(first, 20s));
+  EXPECT_TRUE(service_->wait_for_sweep(second, 20s));
+  EXPECT_EQ(engine_.begun_speeds().size(), 2U);
+  EXPECT_EQ(fake_.count("sbatch"), 1);
+}
+
 TEST_F(ClusterTest, NamesNodeAndNumericsInEachResult) {
   start();
   const std::string id = submit(1);
@@ -143,6 +162,7 @@ TEST_F(ClusterTest, DoesNotSubmitAgainWhatSlurmHasAlthoughItSaidSocketTimedOut) 
 
 TEST_F(ClusterTest, ShowsWhatSbatchRefusesAndTriesAgainOnlyLater) {
   fake_.answer("sbatch", "echo 'sbatch: error: QOSMaxSubmitJobPerUserLimit' >&2; exit 1");
+  fake_.report("");
   start();
   const std::string id = submit(2);
   wait_until([&] { return status().at("problems").dump().find("QOSMaxSubmitJobPerUserLimit") != std::string::npos; }, "the problem is shown");
@@ -284,6 +304,7 @@ TEST_F(ClusterTest, LeavesBatchesOfAnotherEngineToNobody) {
   await_generation(0);
   service_.reset();
   execute_sql(store_.file(), "UPDATE batches SET engine_version = 'of yesterday'");
+  fake_.report("");
   start();
   compute(await_generation(1), 0);  // a new batch
   EXPECT_TRUE(service_->wait_for_sweep(id, 20s));

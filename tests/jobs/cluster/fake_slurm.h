@@ -20,12 +20,11 @@ class FakeSlurm {
     answer("squeue", "cat '" + file("reports") + "'");
     answer("scancel", "true");
     answer("scontrol", "echo 'MaxArraySize            = 1001'; echo 'SLURM_VERSION           = 22.05.8'");
-    report("");
   }
 
   /// @param script  of shell: what the command does from now on
   void answer(const std::string& command, const std::string& script) { write(command, script + "\n"); }
-  /// What squeue prints from now on.
+  /// What squeue prints from now on; until the first time it fails, so that nothing is concluded.
   void report(const std::string& lines) { replace("reports", lines); }
 
   [[nodiscard]] std::string calls() const {

@@ -98,6 +98,7 @@ TEST(Slurm, AsksForAllArraysAtOnceAndReadsTheirTasks) {
 
 TEST(Slurm, KnowsNoTaskThatHasVanished) {
   FakeSlurm fake;
+  fake.report("");
   std::string problem;
   const auto reports = Slurm(fake.site()).observe({"a-g0"}, problem);
   ASSERT_TRUE(reports);
