@@ -169,7 +169,7 @@ std::size_t Store::record_placed(std::int64_t batch, const Provenance& provenanc
       if (succeeded) settle_waiting(statements, found->content, result, now_ms, changes_);
       ++stored;
     }
-    check_quota(*statements.use(kUsedBytesQuery).operator->(), most_bytes_);
+    check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
     return stored;
   });
 }

@@ -141,7 +141,7 @@ Linkage make_flores_slider_crank() {
   clearance.c_r = 0.5e-3;
   clearance.c_a = 1.0;
   clearance.n_r = 1;
-  clearance.chi = calc_damping_factor(0.9);
+  clearance.chi = calc_damping_factor(NormalForceLaw::kLankaraniNikravesh, 0.9);
   clearance.K = calc_hertz_stiffness(10e-3, 0.5e-3, 207e9, 0.3);
   Linkage linkage;
   linkage.bodies = {make_body("crank", 0.3, {0.025, 0.0, 0.0}, {1e-5, 1e-4, 1e-4}),
