@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/clearance/normal_law.h"
 #include "engine/model/linkage.h"
 #include "engine/simulate.h"
 #include "engine/simulate_linkage.h"

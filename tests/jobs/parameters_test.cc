@@ -107,9 +107,11 @@ TEST(CompleteParameters, FillsInTheDefaults) {
     "coupler": "rigid", "clearance_mm": 0.25, "axial_clearance_mm": 0, "crank_velocity_rad_s": 10, "duration_s": 5, "output_rate_hz": 1000,
     "run_up_s": 2, "rod_stroke_mm": 50, "rod_stroke_time_s": 0.5, "rod_pause_s": 0.5, "drive": "prescribed", "baumgarte_alpha_1_s": 100,
     "baumgarte_beta_1_s": 100, "contact": "continuum", "radial_levels": 2, "radial_elements": 180, "axial_levels": 1, "axial_elements": 8,
-    "bearing_radius_mm": 5, "bearing_length_mm": 20, "restitution": 0.9, "contact_stiffness_scale": 1, "axial_stiffness_n_m": 1e8,
+    "bearing_radius_mm": 5, "bearing_length_mm": 20, "normal_law": "lankarani_nikravesh", "restitution": 0.9,
+    "contact_damping_n_s_m": 1000, "stiffness_law": "hertz", "contact_stiffness_scale": 1, "axial_stiffness_n_m": 1e8,
     "minimum_impact_velocity_m_s": 0.001, "friction": "lugre", "friction_static": 0.1, "friction_kinetic": 0.2, "bristle_stiffness_1_m": 100,
-    "bristle_damping_s_m": 5, "bristle_viscous_s_m": 0, "stribeck_velocity_m_s": 0.001, "rigid_elements": 4, "youngs_modulus_pa": 2.1e11,
+    "bristle_damping_s_m": 5, "bristle_viscous_s_m": 0, "stribeck_velocity_m_s": 0.001, "break_away_ratio": 0.7,
+    "friction_velocity_0_m_s": 1e-4, "friction_velocity_1_m_s": 1e-3, "rigid_elements": 4, "youngs_modulus_pa": 2.1e11,
     "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.01, "integrator": "rodas5", "step_s": 1e-5,
     "relative_tolerance": 1.5e-5, "absolute_tolerance": 1.5e-5, "crank_length_m": 0.2, "rod_length_m": 0.2, "coupler_length_m": 0.5,
     "guide_offset_y_m": 0, "guide_offset_z_m": 0.2, "gravity_m_s2": 9.81})");

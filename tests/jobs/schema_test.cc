@@ -15,9 +15,10 @@ using nlohmann::json;
 const std::set<std::string> kKeys{
     "coupler", "clearance_mm", "axial_clearance_mm", "crank_velocity_rad_s", "duration_s", "output_rate_hz", "run_up_s", "rod_stroke_mm",
     "rod_stroke_time_s", "rod_pause_s", "drive", "baumgarte_alpha_1_s", "baumgarte_beta_1_s", "contact", "radial_levels", "radial_elements",
-    "axial_levels", "axial_elements", "bearing_radius_mm", "bearing_length_mm", "restitution", "contact_stiffness_scale", "axial_stiffness_n_m",
+    "axial_levels", "axial_elements", "bearing_radius_mm", "bearing_length_mm", "normal_law", "restitution", "contact_damping_n_s_m",
+    "stiffness_law", "contact_stiffness_scale", "axial_stiffness_n_m",
     "minimum_impact_velocity_m_s", "friction", "friction_static", "friction_kinetic", "bristle_stiffness_1_m", "bristle_damping_s_m",
-    "bristle_viscous_s_m", "stribeck_velocity_m_s", "rigid_elements", "youngs_modulus_pa", "shear_modulus_pa", "coupler_diameter_mm",
+    "bristle_viscous_s_m", "stribeck_velocity_m_s", "break_away_ratio", "friction_velocity_0_m_s", "friction_velocity_1_m_s", "rigid_elements", "youngs_modulus_pa", "shear_modulus_pa", "coupler_diameter_mm",
     "coupler_damping_ratio", "integrator", "step_s", "relative_tolerance", "absolute_tolerance", "crank_length_m", "rod_length_m",
     "coupler_length_m", "guide_offset_y_m", "guide_offset_z_m", "gravity_m_s2", "links"};
 
