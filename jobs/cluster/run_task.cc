@@ -54,6 +54,7 @@ class Delivery {
     if (!result.record.trajectory.columns.empty()) result.packed_trajectory = encode_trajectory(result.record.trajectory);
     result.record.trajectory = {};
     const std::lock_guard lock(mutex_);
+    ready_bytes_ += result.packed_trajectory.size();
     ready_.push_back(std::move(result));
     ++total_;
     changed_.notify_all();
@@ -65,12 +66,20 @@ class Delivery {
     return changed_.wait_for(lock, time, [&] { return total_ >= total; });
   }
 
+  /// Whether so much is ready that it should not wait: one file is read at once at the other end.
+  bool is_large() {
+    constexpr std::size_t kLarge = std::size_t{32} << 20U;
+    const std::lock_guard lock(mutex_);
+    return ready_bytes_ >= kLarge;
+  }
+
   /// Writes what is ready. @throws FileError, and then it is still ready
   void deliver() {
     std::unique_lock lock(mutex_);
     if (ready_.empty()) return;
     ResultFile file{.batch = batch_, .provenance = own_provenance(), .results = std::move(ready_)};
     ready_.clear();
+    ready_bytes_ = 0;
     lock.unlock();
     try {
       // A name of its own: another process may have been given the same task, and has other jobs ready.
@@ -93,6 +102,7 @@ class Delivery {
   std::mutex mutex_;  // guards the rest
   std::condition_variable changed_;
   std::vector<PlacedResult> ready_;
+  std::size_t ready_bytes_ = 0;
   std::size_t total_ = 0;
 };
 
@@ -157,7 +167,7 @@ bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requeste
       stopped = stopped || std::filesystem::exists(folder.cancel());
       next_look = now + std::chrono::seconds(2);
     }
-    if (complete || stopped || now < next) continue;
+    if (complete || stopped || (now < next && !delivery.is_large())) continue;
     next = now + interval;
     try {
       delivery.deliver();

@@ -34,7 +34,7 @@ std::string as_utf8(const std::string& text) {
 }
 
 /// Tasks that leave something every so often must not be too much for the folder together: 20 a second.
-double delivery_interval_s(int tasks) { return std::max(30.0, tasks / 20.0); }
+double delivery_interval_s(int running) { return std::max(30.0, running / 20.0); }
 
 }  // namespace
 
@@ -137,7 +137,7 @@ SlurmExecutor::Live& SlurmExecutor::add_batch(const BatchRow& row) {
 void SlurmExecutor::prepare(const Live& live) const {
   if (live.batch.is_prepared()) return;
   const BatchRow& row = live.batch.row();
-  const double interval_s = delivery_interval_s(site_.most_tasks());
+  const double interval_s = delivery_interval_s(site_.slots);
   live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_, .deliver_every_s = interval_s}, store_.find_placed(row.seq));
 }
 

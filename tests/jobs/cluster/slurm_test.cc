@@ -52,7 +52,8 @@ TEST_P(BadSubmission, IsNoNumberButAProblem) {
 INSTANTIATE_TEST_SUITE_P(Answers, BadSubmission,
                          testing::Values(BadAnswer{"Error", "echo 'sbatch: error: invalid partition specified' >&2; exit 1", "invalid partition"},
                                          BadAnswer{"ErrorAlthoughANumber", "echo 12; exit 1", "12"},
-                                         BadAnswer{"TimedOut", "echo 'sbatch: error: Batch job submission failed: Socket timed out' >&2; exit 1", "timed out"},
+                                         BadAnswer{"TimedOut",
+                                                   "echo 'sbatch: error: Batch job submission failed: Socket timed out' >&2; exit 1", "timed out"},
                                          BadAnswer{"Silence", "exit 0", "no number"},
                                          BadAnswer{"Garbage", "echo '<html>login</html>'", "<html>login"},
                                          BadAnswer{"Hang", "sleep 100", "did not answer in time"}, BadAnswer{"Killed", "kill -9 $$", "137"}),
@@ -77,9 +78,12 @@ TEST_P(BadObservation, IsNoObservation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Answers, BadObservation,
-                         testing::Values(BadAnswer{"Error", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1", "to contact"},
-                                         BadAnswer{"Garbage", "echo 'motd: welcome'", "cannot be read: motd"}, BadAnswer{"Hang", "sleep 100", "in time"},
-                                         BadAnswer{"CutOff", "printf 'rpsup-bat_1-g0|1|0|RUNNING|1|n1|None\\nrpsup-bat_1-g0|1|1|RUN'", "cannot be read"}),
+                         testing::Values(BadAnswer{"Error",
+                                                   "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1", "to contact"},
+                                         BadAnswer{"Garbage", "echo 'motd: welcome'", "cannot be read: motd"},
+                                         BadAnswer{"Hang", "sleep 100", "in time"},
+                                         BadAnswer{"CutOff",
+                                                   "printf 'rpsup-bat_1-g0|1|0|RUNNING|1|n1|None\\nrpsup-bat_1-g0|1|1|RUN'", "cannot be read"}),
                          [](const auto& each) { return each.param.name; });
 
 TEST(Slurm, AsksForAllArraysAtOnceAndReadsTheirTasks) {

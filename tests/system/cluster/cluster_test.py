@@ -1,4 +1,6 @@
-"""The paper's sweep on a Slurm cluster of two nodes, undisturbed and disturbed: always the bytes of the local pool. cluster_test.py PROGRAM PAPER.JSON"""
+"""The paper's sweep on a Slurm cluster of two nodes, undisturbed and disturbed: always the bytes of the local pool.
+
+cluster_test.py PROGRAM PAPER.JSON [TRIAL...]"""
 
 import getpass
 import json
@@ -24,7 +26,7 @@ def trajectories(store):
         database.close()
 
 
-def wait_until(holds, what, seconds=30):
+def wait_until(holds, what, seconds=60):
     deadline = time.monotonic() + seconds
     while not holds():
         check(time.monotonic() < deadline, what)
@@ -63,7 +65,7 @@ class Lab:
 
     def finish(self, service, sweep_id):
         try:
-            state = service.wait_for_end(sweep_id, 40)
+            state = service.wait_for_end(sweep_id, 120)
             errors = [job["error"] for job in service.get("/v1/jobs?state=failed")["items"]]
             check(state == "succeeded", f"{state}: {errors}")
         except AssertionError:
@@ -105,7 +107,8 @@ def plain(lab):
     job = service.get("/v1/jobs?limit=1")["items"][0]
     check(job["run"]["libm"].startswith("glibc ") and job["run"]["numerics"] == "native", f"provenance: {job['run']}")
     metrics = service.ask("GET", "/metrics")[2].decode()
-    check('rpsup_executor_slots{executor="slurm"} 4' in metrics and 'rpsup_executor_tasks{executor="slurm",state="running"}' in metrics, metrics[-2000:])
+    for line in ('rpsup_executor_slots{executor="slurm"} 4', 'rpsup_executor_tasks{executor="slurm",state="running"}'):
+        check(line in metrics, metrics[-2000:])
     lab.compare(service, sweep_id, "plain")
 
 
@@ -129,7 +132,8 @@ def poisonous_job(lab):
                      "sed -n ${line}p \"$2/g$3.list\" | grep -q '^0[-, ]' && { echo 'it broke here' >&2; exit 9; }\n"
                      f"exec '{lab.program}' \"$@\"\n")
     service = lab.start("poisonous", "--slurm-program", program)
-    sweep_id = service.submit({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "sweep": {"clearance_mm": [0, 0.1, 0.2, 0.3]}, "executor": "slurm"})
+    sweep_id = service.submit({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "sweep": {"clearance_mm": [0, 0.1, 0.2, 0.3]},
+                               "executor": "slurm"})
     check(service.wait_for_end(sweep_id, 60) == "failed", "a poisonous job was computed")
     jobs = service.get("/v1/jobs?limit=10")["items"]
     failed = [job["error"] for job in jobs if job["state"] == "failed"]
@@ -142,7 +146,8 @@ def poisonous_job(lab):
 def killed_service(lab):
     # Once Slurm has the first array and before the service hears of it, the service is killed.
     mark = lab.folder / "killed"
-    prefix = script(lab.folder / "killing.sh", f"\"$@\"\ncode=$?\nif [ $1 = sbatch ] && mkdir {mark} 2>/dev/null; then kill -KILL $PPID; fi\nexit $code\n")
+    prefix = script(lab.folder / "killing.sh",
+                    f"\"$@\"\ncode=$?\nif [ $1 = sbatch ] && mkdir {mark} 2>/dev/null; then kill -KILL $PPID; fi\nexit $code\n")
     service = lab.start("killed", "--slurm-prefix", prefix)
     sweep_id = lab.submit(service, "slurm", wait=False)
     service.process.wait(timeout=20)

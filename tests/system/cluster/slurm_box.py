@@ -80,7 +80,8 @@ def why_not():
         loopback = socket.gethostbyname(socket.gethostname()).startswith("127.")
     except OSError:
         loopback = False
-    return "" if loopback else f"the name of this machine, {socket.gethostname()}, does not stand for 127.x, so that Slurm would listen on the network"
+    name = socket.gethostname()
+    return "" if loopback else f"the name of this machine, {name}, does not stand for 127.x, so that Slurm would listen on the network"
 
 
 def plugins():
@@ -155,7 +156,9 @@ class SlurmBox:
         self.run("slurmctld", "-f", str(self.config), *options)
 
     def lose_controller_state(self):
-        """The controller as after a crash that took its disk: it knows no job. Numbers begin elsewhere, or tasks that still run would have theirs."""
+        """The controller as after a crash that took its disk: it knows no job.
+
+        Numbers begin elsewhere, or new tasks would have those of tasks that still run."""
         self.kill(self.box / "run/slurmctld.pid")
         with open(self.config, "a", encoding="ascii") as config:
             config.write(f"FirstJobId={100000 + secrets.randbelow(30000)}\n")
