@@ -105,11 +105,14 @@ std::optional<ClaimedJob> LocalPool::claim_next(const std::stop_token& stop, std
 
 void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) {
   // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the user of the job.
+  // It sees the specification that is read here, whose linkage says which metrics there are.
+  JobSpec spec;
   const auto read_and_run = [&](const JobSpec&, const engine::StopQuery& query) {
-    return runner_(within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_), query);
+    spec = within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_);
+    return runner_(spec, query);
   };
   const auto stopped = [&](double) { return stop.stop_requested() || job_stop.stop_requested(); };
-  const RunRecord record = run_and_record({}, read_and_run, stopped, limits_.wall_time_s);
+  const RunRecord record = run_and_record(spec, read_and_run, stopped, limits_.wall_time_s);
   deliver(job, record, stop);
   // If another job has waited for this one, this thread is about to claim it: nobody need be woken.
   const std::lock_guard lock(claim_mutex_);

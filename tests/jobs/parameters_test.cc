@@ -112,7 +112,7 @@ TEST(CompleteParameters, FillsInTheDefaults) {
     "bristle_damping_s_m": 5, "bristle_viscous_s_m": 0, "stribeck_velocity_m_s": 0.001, "rigid_elements": 4, "youngs_modulus_pa": 2.1e11,
     "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.01, "integrator": "rodas4", "step_s": 1e-5,
     "relative_tolerance": 2e-5, "absolute_tolerance": 2e-5, "crank_length_m": 0.2, "rod_length_m": 0.2, "coupler_length_m": 0.5,
-    "guide_offset_y_m": 0, "guide_offset_z_m": 0.2, "gravity_m_s2": 9.81})");
+    "guide_offset_y_m": 0, "guide_offset_z_m": 0.2, "gravity_m_s2": 9.81, "linkage": "rpsup"})");
   json completed = jobs::complete_parameters(json::object(), "");
   completed.erase("links");
   EXPECT_EQ(completed, expected);
