@@ -51,7 +51,7 @@ TEST(ParameterSchema, SaysTypeRangeUnitDefaultAndSource) {
 TEST(ParameterSchema, AgreesWithTheChecks) {
   const json schema = jobs::parameter_schema();
   for (const auto& [key, property] : schema.at("properties").items()) {
-    if (key == "links" || key == "linkage") continue;
+    if (key == "links") continue;
     EXPECT_NO_THROW((void)jobs::complete_parameters({{key, property.at("default")}}, "")) << key;
     if (property.contains("maximum")) {
       EXPECT_THROW((void)jobs::complete_parameters({{key, property.at("maximum").get<double>() * 1.001 + 1.0}}, ""), jobs::InvalidRequest) << key;
