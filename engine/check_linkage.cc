@@ -66,7 +66,7 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
     if (!(moved[k] > kNothing * most))
       throw InvalidInput(owner_of(linkage, built, free[k]), "is free to move by its coordinate " +
                          m.coordinates[static_cast<std::size_t>(free[k])].name +
-                                                                 ", and nothing that it moves has mass: give the bodies that it carries a mass_kg, or drive it");
+                         ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
 }
 
 /// The cut joint whose parts stand furthest apart.
@@ -102,7 +102,8 @@ void check_linkage(const Linkage& linkage) {
     const std::string joint = widest_gap(linkage, built, assembled);
     if (!closure.rates_fit()) throw InvalidInput(joint, "would be torn apart by the start rates given: they and the drives contradict each other");
     throw InvalidInput(joint, "does not close at t = 0: the nearest position found leaves a gap of " + std::to_string(closure.residual()) +
-                                  " m (or between right angles); other lengths, or a guess or start of a coordinate nearer to the closed position, may help");
+                                  " m (or between right angles); other lengths, or a guess or start of a coordinate nearer to the closed "
+                                  "position, may help");
   }
   check_masses(linkage, built, assembled, system.free_coordinates());
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "jobs/linkage_json.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
@@ -81,9 +82,7 @@ void add_list_values(const json& list, const std::string& pointer, Axis& axis) {
 void find_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, std::vector<Fault>& faults) {
   std::set<std::string> seen;
   for (std::size_t k = 0; k < axis.values.size(); ++k) {
-    json alone = json::object();
-    set_at_path(alone, axis.path, axis.values[k]);
-    const auto value_faults = find_value_faults(alone);
+    const auto value_faults = find_path_faults(axis.path, axis.values[k]);
     const std::string which = is_span ? "value " + axis.values[k].dump() + ": " : "";
     for (const Fault& fault : value_faults) faults.push_back({axis.pointers[k], which + fault.detail});
     if (repeats == Repeats::kRefused && value_faults.empty() && !seen.insert(value_identity(axis.path, axis.values[k])).second) {
@@ -96,8 +95,10 @@ void find_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, std
 
 bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults) {
   const auto& known = known_paths();
-  if (std::find(known.begin(), known.end(), path) != known.end()) return true;
-  if (path == "links") {
+  if (std::find(known.begin(), known.end(), path) != known.end() || is_linkage_path(path)) return true;
+  if (path == kLinkageKey) {
+    faults.push_back({pointer, "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole linkages are cases"});
+  } else if (path == "links") {
     faults.push_back({pointer, "the parts of links are swept one by one: \"links.1,3.mass_kg\", say"});
   } else {
     const std::vector<std::string_view> views(known.begin(), known.end());
@@ -108,7 +109,7 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
 
 bool is_numeric(const std::string& path) {
   const ParameterInfo* info = find_parameter(path);
-  return info != nullptr ? info->kind != ParameterKind::kChoice : path.ends_with("mass_kg");
+  return info != nullptr ? info->kind != ParameterKind::kChoice : is_linkage_path(path) || path.ends_with("mass_kg");
 }
 
 std::string value_identity(const std::string& path, const json& value) {
@@ -129,9 +130,7 @@ std::uint64_t count_axis_values(const std::string& path, const json& axis, const
 bool axis_contains(const std::string& path, const json& axis, const json& value) {
   if (axis.is_object()) return SpanValues(axis).contains(value.get<double>());
   return std::ranges::any_of(axis, [&](const json& other) {
-    json alone = json::object();
-    set_at_path(alone, path, other);
-    return find_value_faults(alone).empty() && value_identity(path, other) == value_identity(path, value);
+    return find_path_faults(path, other).empty() && value_identity(path, other) == value_identity(path, value);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jobs/content_id.h"
+#include "jobs/linkage_json.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
@@ -83,7 +84,7 @@ class PointFaults {
   [[nodiscard]] std::string pointer_in_request(const std::string& pointer, const Position& position) const {
     const std::string path = path_of_pointer(pointer);
     for (const Axis& axis : sweep_.axes) {
-      if (axis.path == path) return "/sweep" + pointer_token(path);
+      if (axis.path == path || pointer_of_path(axis.path) == pointer) return "/sweep" + pointer_token(axis.path);
     }
     if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end()) return "/design/over" + pointer_token(path);
     if (!sweep_.cases.empty() && sweep_.cases[position.case_index].contains(json::json_pointer(pointer))) {
@@ -107,12 +108,16 @@ class PointFaults {
 /// The values of what is swept, at a point.
 std::string swept_text(const json& completed, const std::vector<std::string>& swept) {
   json values = json::array();
-  for (const std::string& path : swept) values.push_back(value_at_path(completed, path));
+  for (const std::string& path : swept) {
+    const json& value = value_at_path(completed, path);
+    values.push_back(value.is_object() ? json(value.value("name", std::string("described"))) : value);
+  }
   return values.dump();
 }
 
 /// Ideal joints cost a small part of what contact does, and rigid couplers of flexible ones.
 std::string kind_of(const json& completed) {
+  if (describes_linkage(completed)) return "described";
   return completed.at("coupler").get<std::string>() + (completed.at("clearance_mm").get<double>() > 0.0 ? ", clearance" : ", ideal");
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "engine/analysis/quantities.h"
 #include "jobs/service.h"
 
 namespace jobs {
@@ -14,7 +13,7 @@ namespace {
 /// Samples are kept in double precision until the job has ended.
 double trajectory_bytes(const JobSpec& spec) {
   const double samples = std::floor(spec.options.duration * spec.options.output_rate) + 1.0;
-  return samples * static_cast<double>(engine::channel_table(spec.parameters).size() * sizeof(double));
+  return samples * static_cast<double>(channel_table(spec).size() * sizeof(double));
 }
 
 std::string megabytes(double bytes) { return std::to_string(std::lround(std::ceil(bytes * 1e-6))) + " MB"; }

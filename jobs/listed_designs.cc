@@ -41,9 +41,7 @@ void check_centre(const ordered_json& design, std::vector<Fault>& faults) {
       faults.push_back({pointer, "is not in over; what all points have in common stands under \"parameters\" of the request"});
       continue;
     }
-    json alone = json::object();
-    set_at_path(alone, path, value);
-    for (const Fault& fault : find_value_faults(alone)) faults.push_back({pointer, fault.detail});
+    for (const Fault& fault : find_path_faults(path, value)) faults.push_back({pointer, fault.detail});
   }
 }
 

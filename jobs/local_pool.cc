@@ -127,12 +127,15 @@ void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, cons
 
 std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const {
   // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the user of the job.
+  // It sees the specification that is read here, whose linkage says which metrics there are.
+  JobSpec spec;
   const auto read_and_run = [&](const JobSpec&, const engine::StopQuery& query) {
-    return runner_(within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_), query);
+    spec = within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_);
+    return runner_(spec, query);
   };
   const auto stopped = [&](double) { return stop.stop_requested() || job_stop.stop_requested(); };
   try {
-    return run_and_record({}, read_and_run, stopped, limits_.wall_time_s);
+    return run_and_record(spec, read_and_run, stopped, limits_.wall_time_s);
   } catch (const std::bad_alloc& error) {
     tell("the end of a job could not be noted, so it is to be computed again", job.id, error);
     return std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "jobs/link_parameters.h"
+#include "jobs/linkage_json.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_table.h"
 
@@ -37,6 +38,7 @@ std::string parameter_help() {
     text += line_of(std::string(info.key), choice ? value.get<std::string>() : number_text(value.get<double>()), info.unit,
                     choice ? words_of(info) : info.range.text(), info.help);
   }
+  text += line_of(std::string(kLinkageKey), std::string(kRpsupName), "", "or an object", "The linkage; an object describes another one");
   const nlohmann::json defaults = complete_parameters(nlohmann::json::object(), "");
   for (const std::string& path : known_paths()) {
     if (path.starts_with("links.")) text += link_line(path, defaults);

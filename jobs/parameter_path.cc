@@ -39,6 +39,16 @@ std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
   return paths;
 }
 
+bool is_linkage_path(std::string_view path) { return path.starts_with("linkage."); }
+
+std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path) {
+  const nlohmann::json::json_pointer pointer(pointer_of_path(path));
+  if (parameters.contains(pointer)) return parameters.at(pointer).is_number() ? "" : "is no number of the linkage described";
+  // What is left out has a default, and may be swept as well.
+  const bool has_place = parameters.contains(pointer.parent_pointer()) && parameters.at(pointer.parent_pointer()).is_object();
+  return has_place ? "" : "there is no such place in the linkage described";
+}
+
 std::string pointer_of_path(std::string_view path) {
   std::string pointer;
   for (std::size_t start = 0; start <= path.size();) {
@@ -62,7 +72,9 @@ void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohma
 }
 
 const nlohmann::json& value_at_path(const nlohmann::json& completed, std::string_view path) {
-  return completed.at(nlohmann::json::json_pointer(pointer_of_path(path)));
+  static const nlohmann::json kNone;
+  const nlohmann::json::json_pointer pointer(pointer_of_path(path));
+  return completed.contains(pointer) ? completed.at(pointer) : kNone;
 }
 
 }  // namespace jobs

@@ -16,6 +16,12 @@ namespace jobs {
 /// The paths that a parameter set without faults gives values to, in its order.
 [[nodiscard]] std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters);
 
+/// Whether a path names a number inside a described linkage: "linkage.bodies.rod.mass_kg".
+[[nodiscard]] bool is_linkage_path(std::string_view path);
+
+/// What keeps a path from naming a number of the linkage that a parameter set describes; empty if nothing does.
+[[nodiscard]] std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path);
+
 /// "links.1,3.mass_kg" -> "/links/1,3/mass_kg".
 [[nodiscard]] std::string pointer_of_path(std::string_view path);
 
@@ -24,7 +30,7 @@ namespace jobs {
 
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value);
 
-/// @param completed  all parameters
+/// @param completed  all parameters  @returns null if the linkage of the set has no such value
 [[nodiscard]] const nlohmann::json& value_at_path(const nlohmann::json& completed, std::string_view path);
 
 }  // namespace jobs

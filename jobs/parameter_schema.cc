@@ -1,4 +1,5 @@
 #include "jobs/link_parameters.h"
+#include "jobs/linkage_json.h"
 #include "jobs/parameter_table.h"
 #include "jobs/service.h"
 
@@ -56,7 +57,7 @@ json schema_of_links() {
 }  // namespace
 
 json parameter_schema() {
-  json properties{{"links", schema_of_links()}};
+  json properties{{kLinkageKey, linkage_schema()}, {"links", schema_of_links()}};
   for (const ParameterInfo& info : parameter_table()) properties[info.key] = schema_of(info);
   return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
           {"title", "Parameters of a job"},

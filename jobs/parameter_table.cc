@@ -1,6 +1,8 @@
 #include "jobs/parameter_table.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -29,7 +31,7 @@ struct About {
 };
 
 ParameterInfo row(const About& about, ParameterKind kind) {
-  return {.key = about.key, .member = about.member, .kind = kind, .unit = about.unit, .source = about.source,
+  return {.key = about.key, .member = about.member, .kind = kind, .unit = about.unit, .source = about.source, .scope = ParameterScope::kRpsup,
           .range = {}, .choices = {}, .help = about.help, .read = {}, .write = {}};
 }
 
@@ -209,13 +211,26 @@ void add_body_rows(Rows& rows) {
   rows.push_back(number({"gravity_m_s2", "gravity", "m/s^2", kChosen, "Acceleration of gravity, along -y"}, between(-1000, 1000), &P::gravity));
 }
 
+/// The scope of parameters that are not of joints. What is said of the RPSUP linkage's own bodies and drives is for it alone.
+ParameterScope scope_of(std::string_view key) {
+  constexpr std::array<std::string_view, 11> kOfAnyRun{"duration_s", "output_rate_hz", "integrator", "step_s", "relative_tolerance", "absolute_tolerance",
+                                                       "run_up_s", "drive", "baumgarte_alpha_1_s", "baumgarte_beta_1_s", "gravity_m_s2"};
+  constexpr std::array<std::string_view, 3> kOfMaterial{"rigid_elements", "youngs_modulus_pa", "shear_modulus_pa"};
+  if (std::find(kOfAnyRun.begin(), kOfAnyRun.end(), key) != kOfAnyRun.end()) return ParameterScope::kRun;
+  return std::find(kOfMaterial.begin(), kOfMaterial.end(), key) != kOfMaterial.end() ? ParameterScope::kMaterial : ParameterScope::kRpsup;
+}
+
 Rows make_table() {
   Rows rows;
   add_run_rows(rows);
   add_drive_rows(rows);
+  const std::size_t first_joint = rows.size();
   add_joint_rows(rows);
   add_friction_rows(rows);
+  const std::size_t end_joint = rows.size();
   add_body_rows(rows);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    rows[k].scope = k >= first_joint && k < end_joint ? ParameterScope::kJoint : scope_of(rows[k].key);
   return rows;
 }
 

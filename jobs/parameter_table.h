@@ -14,6 +14,9 @@ namespace jobs {
 
 enum class ParameterKind { kNumber, kInteger, kChoice };
 
+/// What a parameter is of: any job, each joint with clearance, each flexible body, or the RPSUP linkage alone.
+enum class ParameterScope { kRun, kJoint, kMaterial, kRpsup };
+
 /// Where a default comes from: printed in the paper, deduced from its numbers, or chosen by this project.
 enum class DefaultSource { kPaper, kDeduced, kChosen };
 
@@ -27,6 +30,7 @@ struct ParameterInfo {
   ParameterKind kind = ParameterKind::kNumber;
   std::string_view unit;    ///< empty: none
   DefaultSource source = DefaultSource::kChosen;
+  ParameterScope scope = ParameterScope::kRpsup;
   Range range;                            ///< in the key's unit; of numbers and integers
   std::vector<std::string_view> choices;  ///< the words of a choice
   std::string_view help;

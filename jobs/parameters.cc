@@ -6,7 +6,10 @@
 #include <string_view>
 
 #include "engine/errors.h"
+#include "engine/simulate_linkage.h"
 #include "jobs/link_parameters.h"
+#include "jobs/linkage_json.h"
+#include "jobs/parameter_path.h"
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/service.h"
@@ -21,9 +24,24 @@ constexpr double kMostStoredValues = 1.28e8;   // samples times channels: 1 GB w
 constexpr double kLeastClearance_mm = 1e-6;    // 1 nm: below, a gap between atoms
 
 std::vector<std::string_view> known_keys() {
-  std::vector<std::string_view> keys{"links"};
+  std::vector<std::string_view> keys{"links", kLinkageKey};
   for (const ParameterInfo& info : parameter_table()) keys.push_back(info.key);
   return keys;
+}
+
+/// The faults of what is given beside a described linkage, and of the description: by itself, with the values given and else the defaults.
+void find_linkage_faults(const json& given, std::vector<Fault>& faults) {
+  const json& linkage = given.at(kLinkageKey);
+  if (!linkage.is_object()) {
+    if (linkage != kRpsupName) faults.push_back({"/linkage", "must be \"rpsup\", or an object that describes a linkage"});
+    return;
+  }
+  for (const auto& [key, value] : given.items()) {
+    const ParameterInfo* info = find_parameter(key);
+    if (key == "links" || (info != nullptr && info->scope == ParameterScope::kRpsup))
+      faults.push_back({pointer_token(key), "belongs to the linkage \"rpsup\"; a described linkage says it in its description"});
+  }
+  if (faults.empty()) (void)read_linkage(linkage, to_job_spec(fill_in_defaults({{"linkage", json::object()}})).parameters, faults);
 }
 
 double number_at(const json& completed, std::string_view key) { return completed.at(key).get<double>(); }
@@ -52,7 +70,7 @@ void add_size_faults(const json& completed, const JobSpec& spec, std::vector<Fau
   if (samples > kMostSamples) {
     faults.push_back({"/output_rate_hz", "duration_s times output_rate_hz is " + readable_number(std::floor(samples)) + " samples; at most " +
                                              readable_number(kMostSamples) + " are kept"});
-  } else if (const double values = samples * static_cast<double>(engine::channel_table(spec.parameters).size()); values > kMostStoredValues) {
+  } else if (const double values = samples * static_cast<double>(channel_table(spec).size()); values > kMostStoredValues) {
     faults.push_back({"/output_rate_hz", "the trajectory would have " + readable_number(std::floor(values)) + " values; at most " +
                                              readable_number(kMostStoredValues) + " are kept"});
   }
@@ -87,11 +105,19 @@ std::string pointer_of_reach(const json& completed) {
 
 void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
   try {
+    if (spec.linkage) return engine::check_linkage(*spec.linkage);
     engine::check_parameters(spec.parameters, spec.options);
   } catch (const engine::InvalidInput& fault) {
-    std::string pointer = fault.field() == "reach" ? pointer_of_reach(completed) : pointer_of_member(fault.field());
+    std::string pointer = spec.linkage               ? pointer_of_linkage_field(fault.field())
+                          : fault.field() == "reach" ? pointer_of_reach(completed) : pointer_of_member(fault.field());
     faults.push_back({pointer, pointer.empty() ? fault.what() : fault.detail()});
   }
+}
+
+/// The job's other parameters alone.
+json without_linkage(json completed) {
+  completed[kLinkageKey] = json::object();
+  return completed;
 }
 
 }  // namespace
@@ -106,25 +132,41 @@ std::vector<Fault> find_value_faults(const json& given) {
     } else if (const ParameterInfo* info = find_parameter(key)) {
       if (std::string detail = describe_fault(*info, value); !detail.empty()) faults.push_back({pointer_token(key), std::move(detail)});
     } else {
-      faults.push_back({pointer_token(key), describe_unknown_key(key, known)});
+      if (key != kLinkageKey) faults.push_back({pointer_token(key), describe_unknown_key(key, known)});
     }
   }
+  if (faults.empty() && given.contains(kLinkageKey)) find_linkage_faults(given, faults);
   return faults;
+}
+
+std::vector<Fault> find_path_faults(const std::string& path, const json& value) {
+  if (is_linkage_path(path)) return value.is_number() ? std::vector<Fault>{} : std::vector<Fault>{{pointer_of_path(path), "must be a number"}};
+  json alone = json::object();
+  set_at_path(alone, path, value);
+  return find_value_faults(alone);
 }
 
 json fill_in_defaults(const json& given) {
   json completed = json::object();
+  const bool described = describes_linkage(given);
   for (const ParameterInfo& info : parameter_table()) {
+    if (described && info.scope == ParameterScope::kRpsup) continue;
     const auto found = given.find(info.key);
     completed[info.key] = canonical_value(info, found == given.end() ? default_value(info) : *found);
   }
-  completed["links"] = complete_links(given.value("links", json::object()), completed);
+  completed[kLinkageKey] = described ? canonical_linkage(given.at(kLinkageKey)) : json(kRpsupName);
+  if (!described) completed["links"] = complete_links(given.value("links", json::object()), completed);
   return completed;
 }
 
 std::vector<Fault> find_combination_faults(const json& completed) {
+  std::vector<Fault> faults;
+  if (describes_linkage(completed)) {
+    if (!read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults)) return faults;
+  } else {
+    faults = find_inertia_faults(completed);
+  }
   const JobSpec spec = to_job_spec(completed);
-  std::vector<Fault> faults = find_inertia_faults(completed);
   add_clearance_faults(completed, faults);
   add_material_faults(completed, faults);
   add_size_faults(completed, spec, faults);
@@ -147,9 +189,22 @@ json complete_parameters(const json& given, const std::string& pointer) {
 
 JobSpec to_job_spec(const json& completed_parameters) {
   JobSpec spec;
-  for (const ParameterInfo& info : parameter_table()) info.write(spec, completed_parameters.at(info.key));
-  write_links(completed_parameters.at("links"), spec.parameters);
+  const bool described = describes_linkage(completed_parameters);
+  for (const ParameterInfo& info : parameter_table()) {
+    if (!described || info.scope != ParameterScope::kRpsup) info.write(spec, completed_parameters.at(info.key));
+  }
+  if (!described) {
+    write_links(completed_parameters.at("links"), spec.parameters);
+  } else if (const json& linkage = completed_parameters.at(kLinkageKey); !linkage.empty()) {
+    std::vector<Fault> faults;
+    spec.linkage = read_linkage(linkage, spec.parameters, faults);
+    if (!spec.linkage) throw InvalidRequest(std::move(faults));
+  }
   return spec;
+}
+
+std::vector<engine::QuantityInfo> channel_table(const JobSpec& spec) {
+  return spec.linkage ? engine::linkage_tables(*spec.linkage).channels : engine::channel_table(spec.parameters);
 }
 
 }  // namespace jobs

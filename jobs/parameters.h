@@ -14,6 +14,9 @@ namespace jobs {
 /// The faults that the given values have each by itself: unknown key, wrong type, out of range.
 [[nodiscard]] std::vector<Fault> find_value_faults(const nlohmann::json& given);
 
+/// The faults of the value of one path by itself. What a number inside a described linkage may be is judged with the whole description.
+[[nodiscard]] std::vector<Fault> find_path_faults(const std::string& path, const nlohmann::json& value);
+
 /// The given values and all defaults, in canonical form. @param given  an object whose values have no faults
 [[nodiscard]] nlohmann::json fill_in_defaults(const nlohmann::json& given);
 

@@ -7,8 +7,11 @@
 #include <numeric>
 #include <string_view>
 
+#include "engine/simulate_linkage.h"
 #include "jobs/flat_json.h"
+#include "jobs/linkage_json.h"
 #include "jobs/parameter_path.h"
+#include "jobs/parameters.h"
 #include "jobs/provenance.h"
 #include "jobs/time_left.h"
 #include "jobs/time_text.h"
@@ -75,10 +78,32 @@ std::vector<std::string> keys_of(const json& object) {
 /// Where the metrics stand in a row of a table, by their keys.
 using MetricColumns = std::map<std::string, std::size_t, std::less<>>;
 
-MetricColumns metric_columns(std::size_t first) {
+MetricColumns metric_columns(const std::vector<std::string>& keys, std::size_t first) {
   MetricColumns columns;
-  for (const engine::QuantityInfo& metric : engine::metric_table()) columns.emplace(metric.key, first++);
+  for (const std::string& key : keys) columns.emplace(key, first++);
   return columns;
+}
+
+/// The metrics of a sweep: those of all the linkages that its cases have, each key once.
+std::vector<std::string> metric_keys_of(const SweepRow& sweep) {
+  const json request = stored_json(sweep.request);
+  const json common = request.value("parameters", json::object());
+  std::vector<std::string> keys;
+  const auto add = [&](const auto& table) {
+    for (const engine::QuantityInfo& metric : table)
+      if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
+  };
+  const auto add_of = [&](const json& given) {
+    if (describes_linkage(given)) add(engine::linkage_tables(*to_job_spec(fill_in_defaults(given)).linkage).metrics);
+    else add(engine::metric_table());
+  };
+  bool every_case = true;
+  for (const json& each : request.value("cases", json::array())) {
+    if (each.contains(kLinkageKey)) add_of({{kLinkageKey, each.at(kLinkageKey)}});
+    else every_case = false;
+  }
+  if (keys.empty() || !every_case) add_of(describes_linkage(common) ? json{{kLinkageKey, common.at(kLinkageKey)}} : json::object());
+  return keys;
 }
 
 /// Puts the metrics of a result into the cells of its row. False if the text is not as simple as it should be.
@@ -213,11 +238,13 @@ ResultTable result_table(const SweepResults& results, const std::vector<std::str
   ResultTable table{.columns = {"job_id", "state"}, .rows = {}, .ended = has_ended(sweep.counts)};
   if (sweep.replicated) table.columns.emplace_back("replicate");
   table.columns.insert(table.columns.end(), swept.begin(), swept.end());
-  const MetricColumns metrics = metric_columns(table.columns.size());
-  for (const engine::QuantityInfo& metric : engine::metric_table()) table.columns.push_back(metric.key);
+  const std::vector<std::string> keys = metric_keys_of(sweep);
+  const MetricColumns metrics = metric_columns(keys, table.columns.size());
+  const auto replicated = metrics.find(kReplicateMetric);
+  const std::size_t peak = replicated == metrics.end() ? table.columns.size() : replicated->second;
+  table.columns.insert(table.columns.end(), keys.begin(), keys.end());
   const std::size_t own = table.columns.size();
   table.columns.insert(table.columns.end(), others.begin(), others.end());
-  const std::size_t peak = metrics.at(std::string(kReplicateMetric));
   table.rows.reserve(results.rows.size());
   std::vector<ReplicateValue> peaks;
   peaks.reserve(results.rows.size());

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <ctime>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "engine/simulate_linkage.h"
 #include "jobs/trajectory_codec.h"
 
 namespace jobs {
@@ -26,21 +28,21 @@ json metric_value(const engine::QuantityInfo& info, double value) {
   return info.integer ? json(std::llround(value)) : json(value);
 }
 
-json metrics_json(const std::vector<double>& values) {
-  const auto table = engine::metric_table();
+json metrics_json(const std::vector<double>& values, std::span<const engine::QuantityInfo> table) {
   if (values.size() != table.size()) throw std::logic_error("the run has " + std::to_string(values.size()) + " metrics instead of " + std::to_string(table.size()));
   json metrics = json::object();
   for (std::size_t i = 0; i < values.size(); ++i) metrics[table[i].key] = metric_value(table[i], values[i]);
   return metrics;
 }
 
-void take_result(engine::RunResult result, RunRecord& record) {
+void take_result(engine::RunResult result, const JobSpec& spec, RunRecord& record) {
   record.trajectory = std::move(result.trajectory);
   check_is_table(record.trajectory);
   // Single precision resolves a column to 6e-8 of itself; the metrics keep all their digits.
   for (engine::QuantityInfo& channel : record.trajectory.channels) channel.single_precision = channel.key != "t_s";
   if (result.status == engine::RunStatus::kSucceeded) {
-    record.metrics = metrics_json(result.metrics);
+    record.metrics = spec.linkage ? metrics_json(result.metrics, engine::linkage_tables(*spec.linkage).metrics)
+                                  : metrics_json(result.metrics, engine::metric_table());
     return;
   }
   record.end = result.status == engine::RunStatus::kStopped ? RunRecord::End::kStopped : RunRecord::End::kFailed;
@@ -85,7 +87,7 @@ RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine
   };
   const double cpu_start_s = thread_cpu_time_s();
   try {
-    take_result(runner(spec, stopped_or_late), record);
+    take_result(runner(spec, stopped_or_late), spec, record);
     if (late && record.end == RunRecord::End::kStopped) fail_for_time(most_s, record);
   } catch (const NeedsTooMuchMemory& error) {
     take_exception("memory_limit", error.what(), record);
@@ -103,6 +105,7 @@ RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine
 
 Runner engine_runner() {
   return [](const JobSpec& spec, const engine::StopQuery& stop_requested) {
+    if (spec.linkage) return engine::simulate_linkage(*spec.linkage, spec.options, spec.parameters.run_up, stop_requested);
     return engine::simulate_rpsup(spec.parameters, spec.options, stop_requested);
   };
 }

@@ -25,6 +25,7 @@ struct RunRecord {
 
 /// Runs one job on this thread and measures it. Whatever the runner throws becomes a failure with the reason "internal",
 /// or "memory_limit" if it is NeedsTooMuchMemory or that the machine has none left.
+/// @param spec    may be filled in by the runner; its linkage says which metrics there are
 /// @param most_s  wall time after which the run is stopped and has failed with the reason "time_limit"; 0: none
 [[nodiscard]] RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine::StopQuery& stop_requested, double most_s = 0.0);
 

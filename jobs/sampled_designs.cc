@@ -37,9 +37,7 @@ bool check_range(const std::string& path, const json& given, std::vector<Fault>&
   const auto span = read_span(given, {}, pointer_of(path), faults);
   if (!span) return false;
   for (const char* end : {"from", "to"}) {
-    json alone = json::object();
-    set_at_path(alone, path, given.at(end));
-    for (const Fault& fault : find_value_faults(alone)) faults.push_back({pointer_of(path) + "/" + end, fault.detail});
+    for (const Fault& fault : find_path_faults(path, given.at(end))) faults.push_back({pointer_of(path) + "/" + end, fault.detail});
   }
   if (!(span->from < span->to)) faults.push_back({pointer_of(path) + "/to", "must be more than from"});
   return faults.size() == before;

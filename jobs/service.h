@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/model/linkage.h"
 #include "engine/simulate_rpsup.h"
 #include "jobs/cluster/site.h"
 #include "jobs/job_limits.h"
@@ -24,6 +25,7 @@ namespace jobs {
 struct JobSpec {
   engine::RpsupParameters parameters;
   engine::RunOptions options;
+  std::optional<engine::Linkage> linkage{};  ///< a described linkage; empty: RPSUP
 };
 
 /// Computes one job; tests put their own in the place of engine::simulate_rpsup.
@@ -202,6 +204,9 @@ class Service {
 
 /// The engine's view of completed parameters: the only place where units are converted.
 [[nodiscard]] JobSpec to_job_spec(const nlohmann::json& completed_parameters);
+
+/// The channels of the job's trajectory.
+[[nodiscard]] std::vector<engine::QuantityInfo> channel_table(const JobSpec& spec);
 
 /// A job computed on the spot, without a store.
 struct Outcome {

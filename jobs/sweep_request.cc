@@ -36,6 +36,7 @@ class Parser {
     read_design();
     read_axes();
     check_places();
+    check_linkage_paths();
     if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
     return std::move(sweep_);
   }
@@ -199,6 +200,21 @@ class Parser {
         if (std::ranges::find(sweep_.swept, path) == sweep_.swept.end()) sweep_.swept.push_back(path);
       }
     }
+  }
+
+  /// Numbers inside a description can only be swept where there is one that has them.
+  void check_linkage_paths() {
+    const auto check = [&](const std::string& path, const std::string& pointer) {
+      if (!is_linkage_path(path)) return;
+      for (std::size_t i = 0; i < std::max<std::size_t>(1, sweep_.cases.size()); ++i) {
+        json given = sweep_.parameters;
+        if (!sweep_.cases.empty()) given.merge_patch(sweep_.cases[i]);
+        const std::string detail = describe_linkage_path_fault(given, path);
+        if (!detail.empty()) return fault(pointer, detail);
+      }
+    };
+    for (const Axis& axis : sweep_.axes) check(axis.path, "/sweep" + pointer_token(axis.path));
+    for (const std::string& path : sweep_.design.paths) check(path, "/design/over" + pointer_token(path));
   }
 
   const ordered_json& request_;

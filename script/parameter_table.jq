@@ -1,7 +1,8 @@
 # The README's table of parameters, from the JSON Schema that GET /v1/parameters answers:
 #   curl -s http://127.0.0.1:8080/v1/parameters | jq -r -f script/parameter_table.jq
 def range:
-  if .enum then (.enum | map("`\(.)`") | join(", "))
+  if .oneOf then "`rpsup`, or an object that describes another: [jobs/LINKAGES.md](jobs/LINKAGES.md)"
+  elif .enum then (.enum | map("`\(.)`") | join(", "))
   else (if has("exclusiveMinimum") then "> \(.exclusiveMinimum)" elif has("minimum") then "≥ \(.minimum)" else "" end)
     + (if has("exclusiveMaximum") then ", < \(.exclusiveMaximum)" elif has("maximum") then ", ≤ \(.maximum)" else "" end)
   end;

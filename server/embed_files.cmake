@@ -4,6 +4,7 @@
 set(types_html "text/html; charset=utf-8")
 set(types_css "text/css; charset=utf-8")
 set(types_js "text/javascript; charset=utf-8")
+set(types_json "application/json")
 set(types_svg "image/svg+xml")
 
 string(REPLACE "," ";" FILES "${FILES}")

@@ -27,12 +27,18 @@ set(page_files
   form/field.js
   form/fields.js
   form/request.js
+  linkages/bricard.json
+  linkages/four_bar.json
+  linkages/rpsup.json
+  linkages/rsup.json
+  linkages/slider_crank.json
   pages/analyses.js
   pages/job.js
   pages/new_sweep.js
   pages/searches.js
   pages/sweep.js
   pages/sweeps.js
+  run/described.js
   run/facts.js
   run/ideal.js
   run/labels.js
@@ -46,6 +52,7 @@ set(page_files
   run/time_bar.js
   run/time_plot.js
   run/time_window.js
+  scene/described.js
   scene/linkage.js
   scene/player.js
   scene/poses.js

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace server::commands {
 
@@ -14,11 +17,35 @@ namespace {
 constexpr std::size_t kMargin = 10;          // characters for the numbers at the left
 constexpr std::size_t kDotsAcross = 2, kDotsDown = 4;  // of one character
 
-const std::vector<double>& column(const engine::Trajectory& trajectory, std::string_view key) {
+/// Whether a channel of that name is there, and which one.
+std::optional<std::size_t> find_channel(const engine::Trajectory& trajectory, const std::function<bool(std::string_view)>& is_wanted) {
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
-    if (trajectory.channels[c].key == key) return trajectory.columns.at(c);
+    if (is_wanted(trajectory.channels[c].key)) return c;
   }
-  throw std::logic_error("no channel " + std::string(key));
+  return std::nullopt;
+}
+
+/// What is drawn: between which two columns it lies, and its title.
+struct Drawn {
+  const std::vector<double>& least;
+  const std::vector<double>& most;
+  std::string title;
+};
+
+Drawn choose_drawn(const engine::Trajectory& trajectory) {
+  const auto named = [&](std::string_view name) { return find_channel(trajectory, [&](std::string_view key) { return key == name; }); };
+  const auto least = named("slider_acceleration_min_m_s2");
+  const auto most = named("slider_acceleration_max_m_s2");
+  if (least && most) return {trajectory.columns.at(*least), trajectory.columns.at(*most), AccelerationBand{}.title};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kUnits{{{"_m_s2", "m/s^2"}, {"_rad_s2", "rad/s^2"}}};
+  for (const auto& [suffix, unit] : kUnits) {
+    const auto found = find_channel(trajectory, [&](std::string_view key) { return key.ends_with(suffix); });
+    if (!found) continue;
+    const std::string& key = trajectory.channels[*found].key;
+    const auto& values = trajectory.columns.at(*found);
+    return {values, values, "acceleration of " + key.substr(0, key.size() - suffix.size()) + ", " + std::string(unit)};
+  }
+  throw std::logic_error("the trajectory has no acceleration");
 }
 
 /// Where the axis of values begins and ends: multiples of a round step around the values and zero.
@@ -106,12 +133,11 @@ std::string right_aligned(const std::string& text, std::size_t width) { return s
 }  // namespace
 
 AccelerationBand calc_acceleration_band(const engine::Trajectory& trajectory, std::size_t columns) {
-  const auto& t = column(trajectory, "t_s");
-  const auto& least = column(trajectory, "slider_acceleration_min_m_s2");
-  const auto& most = column(trajectory, "slider_acceleration_max_m_s2");
+  const auto& t = trajectory.columns.at(0);
   if (t.empty()) return {};
+  const auto& [least, most, title] = choose_drawn(trajectory);
   const std::size_t n = std::min(columns, t.size());
-  AccelerationBand band{.t_begin = t.front(), .t_end = t.back(), .least = {}, .most = {}};
+  AccelerationBand band{.title = title, .t_begin = t.front(), .t_end = t.back(), .least = {}, .most = {}};
   for (std::size_t i = 0; i < n; ++i) {
     const auto from = static_cast<std::ptrdiff_t>(i * t.size() / n);
     const auto to = static_cast<std::ptrdiff_t>((i + 1) * t.size() / n);
@@ -133,7 +159,7 @@ std::string draw_for_terminal(const AccelerationBand& band, const TerminalSize& 
   const std::size_t rows = plot_rows(size);
   const double per_row = (axis.top - axis.bottom) / static_cast<double>(rows);
   const auto zero_row = std::min(static_cast<std::size_t>(axis.top / per_row), rows - 1);
-  std::string text = "slider acceleration, m/s^2\n";
+  std::string text = band.title + "\n";
   for (std::size_t y = 0; y < rows; ++y) {
     std::string label;
     if (y == 0) label = number(axis.top);
@@ -174,7 +200,9 @@ std::string draw_svg(const AccelerationBand& band) {
     const double part = 0.25 * i;
     svg += text_at(kLeft + part * kWidth, 368, "middle", number(band.t_begin + part * (band.t_end - band.t_begin)));
   }
-  return svg + text_at(kLeft + 0.5 * kWidth, 390, "middle", "time, s") + text_at(kLeft, 18, "start", "slider acceleration, m/s\u00b2") + "</svg>\n";
+  std::string title = band.title;
+  if (title.ends_with("^2")) title.replace(title.size() - 2, 2, "\u00b2");
+  return svg + text_at(kLeft + 0.5 * kWidth, 390, "middle", "time, s") + text_at(kLeft, 18, "start", title) + "</svg>\n";
 }
 
 }  // namespace server::commands

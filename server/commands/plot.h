@@ -9,9 +9,11 @@
 namespace server::commands {
 
 /// The slider's acceleration over time, cut into columns: between which values it moved in each. No spike is lost, however short.
+/// Of a described linkage, what is drawn is the first acceleration that it has, from sample to sample.
 struct AccelerationBand {
+  std::string title = "slider acceleration, m/s^2";
   double t_begin = 0.0, t_end = 0.0;      ///< [s]
-  std::vector<double> least, most;        ///< [m/s^2], one a column
+  std::vector<double> least, most;        ///< one a column
 };
 
 /// @param columns  at most; fewer if the trajectory has fewer samples

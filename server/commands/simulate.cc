@@ -67,12 +67,12 @@ void plot_on_terminal(const engine::Trajectory& trajectory) {
   std::cerr << draw_for_terminal(calc_acceleration_band(trajectory, plot_columns(size)), size, terminal_characters());
 }
 
-void check_channels(const SimulateOptions& options, const engine::RpsupParameters& parameters) {
+void check_channels(const SimulateOptions& options, const jobs::JobSpec& spec) {
   if (options.channels.empty()) return;
   if (options.trajectory.empty()) throw BadInput("--channels needs --trajectory");
   std::string known;
   std::vector<jobs::Fault> faults;
-  const auto channels = engine::channel_table(parameters);
+  const auto channels = jobs::channel_table(spec);
   for (const auto& channel : channels) known += (known.empty() ? "" : ", ") + channel.key;
   for (const std::string& wanted : options.channels) {
     const bool found = std::any_of(channels.begin(), channels.end(), [&](const auto& c) { return c.key == wanted; });
@@ -107,7 +107,7 @@ int simulate(const SimulateOptions& options) {
   check_trajectory_file(options.trajectory);
   check_plot_file(options.plot);
   const nlohmann::json parameters = read_json(options.file);
-  check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")).parameters);
+  check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")));
   const jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
   if (!options.trajectory.empty()) {
     const auto trajectory = select(jobs::rounded_to_stored(outcome.trajectory), options.channels);  // as the service would give it

@@ -32,21 +32,28 @@ Json make_range() {
 }
 
 /// An object with a key a parameter, each of which has a list of values, or what stands for one.
+/// The keys of a parameter each, and of numbers inside a described linkage.
+Json by_paths(Json properties, Json of_linkage) {
+  Json schema = options_of(std::move(properties));
+  schema["patternProperties"] = {{"^linkage\\.", described(std::move(of_linkage), "a number inside the linkage that parameters describe")}};
+  return schema;
+}
+
 /// @param instead  the schema that numbers may have in the place of a list
 Json make_lists(std::string_view instead) {
   Json properties = Json::object();
-  for (const std::string& path : jobs::known_paths()) {
-    Json list = list_of(parameter_ref(path));
+  const auto list_or_instead = [&](Json list, bool numeric) {
     list["minItems"] = 1;
-    properties[path] = jobs::is_numeric(path) ? Json{{"anyOf", Json::array({std::move(list), ref(instead)})}} : std::move(list);
-  }
-  return options_of(std::move(properties));
+    return numeric ? Json{{"anyOf", Json::array({std::move(list), ref(instead)})}} : std::move(list);
+  };
+  for (const std::string& path : jobs::known_paths()) properties[path] = list_or_instead(list_of(parameter_ref(path)), jobs::is_numeric(path));
+  return by_paths(std::move(properties), list_or_instead(list_of({{"type", "number"}}), true));
 }
 
 Json make_values() {
   Json properties = Json::object();
   for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
-  return options_of(std::move(properties));
+  return by_paths(std::move(properties), {{"type", "number"}});
 }
 
 /// What a key of a design may be.

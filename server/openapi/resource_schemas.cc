@@ -18,11 +18,6 @@ const Json kText{{"type", "string"}};
 const Json kNumber{{"type", "number"}};
 const Json kTime{{"type", "string"}, {"format", "date-time"}, {"pattern", "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]{3}Z$"}};
 
-Json described(Json schema, std::string_view description) {
-  schema["description"] = description;
-  return schema;
-}
-
 Json count() { return {{"type", "integer"}, {"minimum", 0}}; }
 
 Json make_problem_schema() {
@@ -120,7 +115,10 @@ Json make_result_row() {
   properties.update(make_metrics());
   properties["replicates_count"] = described(count(), "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"}) properties[key] = or_null(kNumber);
-  return described(options_of(std::move(properties)), "Every key stands in every row, save those that fields leaves out, and those of what the sweep does not vary");
+  properties["linkage"] = described(kText, "of a described one its name");
+  Json row = options_of(std::move(properties));
+  row["additionalProperties"] = described(or_null(kNumber), "numbers swept inside a described linkage, and its metrics, which go by the names of its joints");
+  return described(std::move(row), "Every key stands in every row, save those that fields leaves out, and those of what the sweep does not vary");
 }
 
 Json make_trajectory() {
@@ -139,7 +137,9 @@ Json make_resource_schemas() {
   Json schemas{{"Id", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
           {"State", {{"type", "string"}, {"enum", jobs::kJobStates}}},
           {"Problem", make_problem_schema()},
-          {"Metrics", object_of(make_metrics())},
+          {"Metrics", {{"anyOf", Json::array({object_of(make_metrics()),
+                                              {{"type", "object"}, {"description", "of a described linkage, by the names of its joints"},
+                                               {"additionalProperties", or_null(kNumber)}}})}}},
           {"JobError", make_error()},
           {"Run", make_run()},
           {"Job", make_job(Detail::kFull)},

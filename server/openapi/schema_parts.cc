@@ -20,6 +20,11 @@ Json options_of(Json properties) {
 
 Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
+Json described(Json schema, std::string_view description) {
+  schema["description"] = description;
+  return schema;
+}
+
 Json or_null(Json schema) { return {{"anyOf", Json::array({std::move(schema), {{"type", "null"}}})}}; }
 
 Json parameter_ref(std::string_view path) {

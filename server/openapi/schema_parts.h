@@ -20,6 +20,8 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json list_of(Json items);
 
+[[nodiscard]] Json described(Json schema, std::string_view description);
+
 /// What a schema describes, or null.
 [[nodiscard]] Json or_null(Json schema);
 

@@ -112,6 +112,32 @@ test("a job shows its acceleration, its orbit and its linkage at one instant", a
   await leave(page);
 });
 
+test("another linkage is taken, swept over a number inside it, and seen in motion", async () => {
+  const page = await visit("#/new");
+  await page.getByLabel("Take another linkage").selectOption("slider_crank");
+  await page.waitForURL(/linkage=slider_crank/);
+  await page.locator('[data-path="duration_s"]').getByRole("textbox").fill("0.03");
+  await page.getByLabel(/^Axes over numbers inside it/).fill('{"linkage.joints.crank_pin.clearance.clearance_mm": [0.05, 0.1]}');
+  await page.getByText("2 jobs").waitFor();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Submit" }).click();
+  await page.waitForURL(/#\/sweeps\/swp_/);
+  await page.getByText("2 succeeded of 2 jobs").waitFor();
+  const rows = await resultsOf({ id: page.url().split("/").at(-1) });
+  assert.deepEqual(rows.map((row) => row["linkage.joints.crank_pin.clearance.clearance_mm"]), [0.05, 0.1]);
+  assert.ok(rows.every((row) => row.peak_crank_pin_contact_force_n > 0 && row.peak_slider_pin_contact_force_n > 0));
+  await page.goto(`${url}/#/jobs/${rows[0].job_id}`);
+  await page.getByRole("heading", { name: "planar slider-crank with clearance at both ends of the rod" }).waitFor();
+  await page.locator("canvas.orbit[data-samples]").nth(1).waitFor();
+  await page.locator("canvas.scene[data-instant='0']").waitFor();
+  await page.locator(".uplot").nth(4).waitFor();
+  await expectAccessible(page);
+  await picture(page, "described", { fullPage: true });
+  await page.goto(`${url}/#/new?linkage=bricard`);
+  await page.getByText("1 job").waitFor();
+  await leave(page);
+});
+
 test("a browser without WebGL shows the rest of a job", async () => {
   const sweep = await runSweep({ parameters: { ...short, clearance_mm: 0.25 } });
   const [{ job_id: id }] = await resultsOf(sweep);

@@ -87,6 +87,9 @@ export async function findTrajectory(id, { channels, ...query }, signal) {
 let schema = null;
 
 /// The JSON Schema of the parameters, asked for once.
+/// One of the linkages that the program brings along, as a set of parameters.
+export const exampleLinkage = (name, signal) => ask(`/linkages/${name}.json`, { signal });
+
 export function parameterSchema() {
   schema ??= ask("/v1/parameters").catch((error) => {
     schema = null;

@@ -22,7 +22,8 @@ export async function measureCosts(signal) {
   return kinds;
 }
 
-const kindOf = ({ coupler, clearance_mm: clearance }) => `${coupler}, ${clearance > 0 ? "clearance" : "ideal joint"}`;
+/// Linkages that are described have no coupler by that name.
+const kindOf = ({ coupler, clearance_mm: clearance }) => (coupler === null ? "described linkages" : `${coupler}, ${clearance > 0 ? "clearance" : "ideal joint"}`);
 
 /// @param defaults  the value of each parameter that a request leaves out
 /// @returns {seconds, unknown, bytes}: seconds of computing on one core; kinds of which no job has been measured
@@ -34,7 +35,8 @@ export function estimate(request, defaults, jobs, costs) {
   let sets = 0;
   for (const each of cases) {
     const values = (path) => axisValues(request.sweep?.[path] ?? request.design?.over?.[path]) ?? [each[path] ?? request.parameters?.[path] ?? defaults[path]];
-    for (const coupler of values("coupler")) for (const clearance of values("clearance_mm")) for (const duration of values("duration_s")) {
+    const described = typeof (each.linkage ?? request.parameters?.linkage) === "object";
+    for (const coupler of described ? [null] : values("coupler")) for (const clearance of values("clearance_mm")) for (const duration of values("duration_s")) {
       const kind = kindOf({ coupler, clearance_mm: clearance });
       const cost = costs.get(kind);
       if (cost) seconds += (cost.seconds / cost.simulated) * duration;

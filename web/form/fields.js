@@ -2,7 +2,8 @@
 
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {
-  return Object.entries(schema.properties).flatMap(([key, property]) =>
+  // The linkage is described in JSON, not in fields.
+  return Object.entries(schema.properties).filter(([key]) => key !== "linkage").flatMap(([key, property]) =>
     (property.type === "object" ? fieldsOf(property, `${prefix}${key}.`) : [fieldOf(prefix + key, property)]));
 }
 
@@ -40,6 +41,8 @@ export function pathOfPointer(pointer, fields) {
   const parts = pointer.split("/").slice(1).map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
   if (parts[0] === "cases" || parts[0] === "design") return parts[0];
   if (parts[0] !== "sweep" && parts[0] !== "parameters") return "";
+  if (parts[0] === "parameters" && parts[1] === "linkage") return "linkage";
+  if (parts[1]?.startsWith("linkage.")) return "inside";
   const path = parts.slice(1).join(".");
   return fields.map((field) => field.path).find((known) => path === known || path.startsWith(`${known}.`)) ?? "";
 }

@@ -5,7 +5,7 @@ export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", coun
 
 const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
 
-/// @param state  {name, priority, reuse, cases, design, replicates: {count, perturbation, seed}, entries: {path: entry}}
+/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed}, entries: {path: entry}}
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
   const problems = [];
@@ -14,6 +14,10 @@ export function buildRequest(fields, state) {
     const entry = state.entries[field.path];
     if (entry) addEntry(field, entry, request, (detail) => problems.push({ path: field.path, detail }));
   }
+  addJson("linkage", state.linkage, request.parameters, problems);
+  const inside = {};
+  addJson("inside", state.inside, inside, problems);
+  Object.assign(request.sweep, inside.inside);
   if (Object.keys(request.parameters).length === 0) delete request.parameters;
   if (Object.keys(request.sweep).length === 0) delete request.sweep;
   addJson("cases", state.cases, request, problems);
@@ -53,12 +57,17 @@ function addRange(field, entry, request, refuse) {
   else request.sweep[field.path] = entry.scale === "log" ? { ...range, scale: "log" } : range;
 }
 
+const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
+
 const jsonKinds = {
+  linkage: { fits: (value) => isObject(value) || value === "rpsup", detail: "must be a JSON object that describes a linkage, with bodies and joints" },
+  inside: { fits: (value) => isObject(value) && Object.keys(value).every((path) => path.startsWith("linkage.")),
+    detail: "must be a JSON object of axes, such as {\"linkage.bodies.rod.mass_kg\": [0.2, 0.4]}" },
   cases: { fits: Array.isArray, detail: "must be a JSON list of objects, such as [{\"clearance_mm\": 0.1}]" },
   design: { fits: (value) => typeof value?.over === "object", detail: "must be a JSON object with a type and parameters, such as {\"type\": \"sobol\", \"count\": 64, \"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
 };
 
-/// What is written as JSON: cases and the design.
+/// What is written as JSON: the linkage and axes inside it, cases and the design.
 function addJson(key, text, request, problems) {
   if (text.trim() === "") return;
   const { fits, detail } = jsonKinds[key];
@@ -87,11 +96,14 @@ export function readRequest(fields, request = {}) {
   for (const field of fields) {
     const fixed = valueAtPath(request.parameters, field.path);
     const axis = request.sweep?.[field.path];
-    if (fixed !== undefined) entries[field.path] = entryOf(field, [fixed].flat(), "one");
+    if (fixed !== undefined && fixed !== null) entries[field.path] = entryOf(field, [fixed].flat(), "one");
     if (Array.isArray(axis)) entries[field.path] = entryOf(field, axis, "list");
     else if (axis !== undefined) entries[field.path] = { ...emptyEntry(), mode: "range", from: String(axis.from), to: String(axis.to), count: String(axis.count), scale: axis.scale ?? "linear" };
   }
-  return { name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
+  const { linkage } = request.parameters ?? {};
+  const inside = Object.fromEntries(Object.entries(request.sweep ?? {}).filter(([path]) => path.startsWith("linkage.")));
+  return { linkage: isObject(linkage) ? JSON.stringify(linkage, null, 1) : "", inside: Object.keys(inside).length > 0 ? JSON.stringify(inside, null, 1) : "",
+    name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
     cases: request.cases ? JSON.stringify(request.cases, null, 1) : "", design: request.design ? JSON.stringify(request.design, null, 1) : "",
     replicates: { count: 1, perturbation: 1e-6, seed: 1, ...request.replicates } };
 }

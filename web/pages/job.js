@@ -5,6 +5,7 @@ import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
 import { seldom } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
+import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, titleOfLinkage } from "/run/described.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
 import { idealOf, isIdeal } from "/run/ideal.js";
 import { motionCard } from "/analysis/motion.js";
@@ -17,7 +18,7 @@ import { TimeWindow } from "/run/time_window.js";
 import { linksOf } from "/scene/poses.js";
 import { sceneCard } from "/scene/scene_card.js";
 
-const acceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
+const sliderAcceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
 const pollMs = 1000;
 const rememberMs = 400;  // browsers refuse to change the address many times a second
 
@@ -39,13 +40,14 @@ class JobPage {
 
   head() {
     const { job } = this;
-    const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity } = job.parameters;
+    const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity, linkage } = job.parameters;
+    const title = isDescribed(job) ? titleOfLinkage(linkage) : `${coupler} coupler, clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "its sweep") : "no sweep";
     this.state = h("span", { class: job.state }, job.state);
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
     const links = job.state === "succeeded" ? h("p", { class: "actions" }, ["csv", "json", "npz"].map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
       : h("p", { class: "actions" }, job.state === "queued" || job.state === "running" ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
-    return [h("div", { class: "head" }, h("div", {}, h("h1", {}, `${coupler} coupler, clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`),
+    return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
       h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
   }
 
@@ -59,7 +61,7 @@ class JobPage {
   }
 
   async body() {
-    const { duration_s: end, output_rate_hz: rate, clearance_mm: clearance } = this.job.parameters;
+    const { duration_s: end, output_rate_hz: rate } = this.job.parameters;
     this.times = new TimeWindow(end, Math.min(end, 5 / rate));
     const [from, to] = ["from", "to"].map((key) => Number(this.query.get(key) ?? NaN));
     if (Number.isFinite(from + to)) this.times.set(from, to);
@@ -69,16 +71,21 @@ class JobPage {
     const all = Object.keys(await findTrajectory(this.job.id, { from: 0, to: 0 }, this.signal));
     // The poses are for drawing.
     const columns = all.filter((name) => name !== "t_s" && !name.startsWith("pose_"));
+    const described = isDescribed(this.job);
+    this.acceleration = described ? { channel: mainAcceleration(columns) } : sliderAcceleration;
+    const joints = clearanceJoints(this.job, columns);
+    const drives = described ? driveChannels(columns) : ["crank_torque_n_m", "rod_force_n"];
     this.main = h("div");
     this.drawAcceleration([]);
     this.extra = h("div");
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
     const add = choice("Add a channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
-    const plots = [this.main, clearance > 0 ? this.card("Contact force", ["contact_force_n"]) : null, this.card("Drive torque and force", ["crank_torque_n_m", "rod_force_n"]),
+    const plots = [this.main, joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
+      drives.length > 0 ? this.card("Drive torque and force", drives) : null,
       this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay()), motionCard(this.job, columns, this.signal),
-      clearance > 0 ? wearCard(this.job, this.signal) : null];
-    const side = [sceneCard(this.job, linksOf(all), this.times, this.signal), clearance > 0 ? orbit(this.job, this.times, this.signal) : null, metricsCard(this.jobs), runCard(this.job, this.schema)];
-    return [timeBar(this.times, this.job, this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
+      !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
+    const side = [sceneCard(this.job, linksOf(all), this.times, this.signal), ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs), runCard(this.job, this.schema)];
+    return [timeBar(this.times, this.job, this.acceleration.envelope ?? [this.acceleration.channel], this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }
 
   card(title, channels, more = {}) {
@@ -86,13 +93,14 @@ class JobPage {
   }
 
   drawAcceleration(ideal) {
+    const { acceleration } = this;
     const behind = ideal.map((job) => ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: () => colour("quiet"), dash: [6, 4] }));
     const button = h("button", { onclick: () => this.compare(button) }, "Lay over the ideal linkage");
-    const tools = isIdeal(this.job) || ideal.length > 0 ? [] : [button];
+    const tools = isDescribed(this.job) || isIdeal(this.job) || ideal.length > 0 ? [] : [button];
     this.mainLife?.abort();
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
-    this.main.replaceChildren(plotCard("Slider acceleration", { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], times: this.times, height: 320, signal, tools }));
+    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration", { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], times: this.times, height: 320, signal, tools }));
   }
 
   async compare(button) {

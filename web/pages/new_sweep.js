@@ -1,5 +1,5 @@
 // A new sweep: a form made from the service's own description of its parameters.
-import { Refusal, findSweep, parameterSchema, submitSweep } from "/core/api.js";
+import { Refusal, exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
 import { choice, h, notify } from "/core/dom.js";
 import { bytes, plural, span } from "/core/format.js";
 import { routeTo } from "/core/route.js";
@@ -10,6 +10,9 @@ import { buildRequest, countJobs, emptyEntry, readRequest } from "/form/request.
 
 // The study of the paper: every other parameter has the paper's value by default.
 const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12], coupler: ["rigid", "flexible"] } };
+// Linkages that the program brings along, as sets of parameters.
+const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"], ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
+  ["four_bar", "four-bar with a flexible coupler"], ["bricard", "Bricard's linkage"]];
 // What most studies are about; the others are one click away.
 const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", "run_up_s", "restitution", "integrator"];
 
@@ -17,15 +20,17 @@ export async function show(main, { query, signal }) {
   document.title = "RPSUP: new sweep";
   const fields = fieldsOf(await parameterSchema());
   const from = query.get("from");
-  const request = from ? (await findSweep(from, signal)).request : query.get("template") === "paper" ? paper : {};
-  const form = new SweepForm(fields, readRequest(fields, request), signal);
+  const example = examples.find(([name]) => name === query.get("linkage"))?.[0];
+  const request = from ? (await findSweep(from, signal)).request : example ? { name: example, parameters: await exampleLinkage(example, signal) }
+    : query.get("template") === "paper" ? paper : {};
+  const form = new SweepForm(fields, readRequest(fields, request), example ?? "", signal);
   main.replaceChildren(...form.parts());
   form.update();
 }
 
 class SweepForm {
-  constructor(fields, state, signal) {
-    Object.assign(this, { fields, state, signal, costs: new Map(), rows: new Map() });
+  constructor(fields, state, example, signal) {
+    Object.assign(this, { fields, state, example, signal, costs: new Map(), rows: new Map() });
     this.defaults = Object.fromEntries(fields.map((field) => [field.path, field.default]));
     measureCosts(signal).then((costs) => { this.costs = costs; this.update(); }).catch(() => {});
   }
@@ -39,10 +44,11 @@ class SweepForm {
     const others = h("details", { open },
       h("summary", {}, "All other parameters"), h("label", { class: "choice" }, h("span", {}, "Filter"), filter), this.rest);
     return [h("h1", {}, "New sweep"),
-      h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study"), h("a", { class: "button", href: "#/new" }, "Start empty")),
+      h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study"), h("a", { class: "button", href: "#/new" }, "Start empty"),
+        choice("Take another linkage", [["", "choose …"], ...examples], this.example, (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
       h("div", { class: "columns" },
         h("form", { class: "card", novalidate: true, onsubmit: (event) => { event.preventDefault(); this.submit(); } },
-          this.text("Name", this.state, "name"), inOrder.map((field) => this.row(field)), others, this.more()),
+          this.text("Name", this.state, "name"), inOrder.map((field) => this.row(field)), others, this.linkage(), this.more()),
         h("aside", { class: "card sticky", "aria-label": "Summary" }, ...this.summary()))];
   }
 
@@ -56,6 +62,13 @@ class SweepForm {
   text(label, object, key, attributes = {}) {
     const input = h("input", { type: "text", value: object[key], ...attributes, oninput: () => { object[key] = input.value; this.update(); } });
     return h("label", { class: "choice" }, h("span", {}, label), input);
+  }
+
+  linkage() {
+    return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Another linkage than RPSUP"),
+      h("p", { class: "quiet small" }, "A described linkage has its own bodies, joints and drives; the parameters of the coupler, the crank, the rod and the guide above belong to RPSUP alone."),
+      ...this.json("linkage", "Linkage: its bodies and joints, as a JSON object"),
+      ...this.json("inside", "Axes over numbers inside it, as a JSON object of lists and ranges"));
   }
 
   more() {

@@ -9,15 +9,17 @@ import { drawRing, drawScale, paintOrbit } from "/run/orbit_drawing.js";
 
 const points = 6000;
 const refineMs = 200;
-const channels = ["t_s", "journal_x_mm", "journal_y_mm", "contact_force_n"];
+const quantities = ["journal_x_mm", "journal_y_mm", "contact_force_n"];
 
-/// @param job  with a clearance
-export function orbit(job, times, signal) {
-  const canvas = h("canvas", { class: "orbit", role: "img", "aria-label": "Journal orbit inside the clearance circle" });
+/// @param joint  with clearance: its name, empty if it is the only one, the prefix of its channels, its clearance [mm]
+export function orbit(job, { name, prefix, clearance }, times, signal) {
+  const title = name ? `Journal orbit of ${name.replaceAll("_", " ")}` : "Journal orbit";
+  const channels = ["t_s", ...quantities.map((quantity) => prefix + quantity)];
+  const columnsOf = async (more) => plain(await findTrajectory(job.id, { channels, ...more, points }, signal), prefix);
+  const canvas = h("canvas", { class: "orbit", role: "img", "aria-label": `${title} inside the clearance circle` });
   const bar = h("canvas", { class: "palette", width: 256, height: 1, "aria-hidden": "true" });
   const [low, high] = [h("span"), h("span")];
   const caption = h("p", { class: "quiet small", role: "status" });
-  const clearance = job.parameters.clearance_mm;
   let by = "time";
   let whole = null;
   let shown = null;
@@ -25,8 +27,8 @@ export function orbit(job, times, signal) {
 
   async function load() {
     try {
-      whole ??= await findTrajectory(job.id, { channels, points }, signal);
-      shown = times.isWhole ? whole : await findTrajectory(job.id, { channels, from: times.from, to: times.to, points }, signal);
+      whole ??= await columnsOf({});
+      shown = times.isWhole ? whole : await columnsOf({ from: times.from, to: times.to });
       paint();
     } catch (error) {
       if (error.name !== "AbortError") caption.textContent = error.message;
@@ -68,9 +70,14 @@ export function orbit(job, times, signal) {
   signal.addEventListener("abort", () => sizes.disconnect());
   load();
   const picker = choice("Colour by", [["time", "time"], ["force", "contact force"]], by, (value) => { by = value; paint(); });
-  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, "Journal orbit"),
+  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
     h("span", { class: "actions" }, picker, h("button", { onclick: () => saveCanvas(canvas, "orbit.png") }, "PNG"))), canvas,
     h("p", { class: "scale small" }, low, bar, high), caption);
+}
+
+/// The columns by their names without the joint's.
+function plain(columns, prefix) {
+  return Object.fromEntries(Object.entries(columns).map(([name, values]) => [name.startsWith(prefix) ? name.slice(prefix.length) : name, values]));
 }
 
 function extremes(values) {

@@ -1,22 +1,24 @@
 // The whole run in a strip. The stretch that all plots show is marked in it; drawing over the strip sets another one.
 import { h, laidOut } from "/core/dom.js";
+import { nameOf } from "/core/format.js";
 import { colour, lineColour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
 import { loadAligned } from "/run/plot_data.js";
 
 const height = 64;
 
-export function overview(job, times, signal) {
-  const element = h("div", { class: "overview", role: "img", "aria-label": "Slider acceleration of the whole run, with the stretch that the plots show. The sliders below set it too." });
-  make(element, job, times, signal).catch((error) => { if (error.name !== "AbortError") element.textContent = error.message; });
+/// @param envelope  channels: the least and the largest of one quantity, or one alone
+export function overview(job, envelope, times, signal) {
+  const element = h("div", { class: "overview", role: "img", "aria-label": `${nameOf(envelope[0].replace("_min_", "_"))} of the whole run, with the stretch that the plots show. The sliders below set it too.` });
+  make(element, job, envelope, times, signal).catch((error) => { if (error.name !== "AbortError") element.textContent = error.message; });
   return element;
 }
 
-async function make(element, job, times, signal) {
+async function make(element, job, envelope, times, signal) {
   const uPlot = await loadUplot();
   await laidOut(element, signal);
   // Only the extremes: between them lies the acceleration itself.
-  const [trace, other] = ["max", "min"].map((extreme) => ({ job: job.id, channel: `slider_acceleration_${extreme}_m_s2` }));
+  const [other, trace = other] = envelope.map((channel) => ({ job: job.id, channel }));
   const whole = { isWhole: true, from: 0, to: times.end, end: times.end };
   const data = await loadAligned(uPlot, [trace, other], whole, element.clientWidth, signal);
   let plot = null;

@@ -5,8 +5,9 @@ import { overview } from "/run/overview.js";
 
 const aroundPeak = 0.02;
 
-/// @param job  with parameters and metrics; the buttons lead to its steady window and its peak
-export function timeBar(times, job, signal) {
+/// @param job       with parameters and metrics; the buttons lead to its steady window and its peak
+/// @param envelope  channels that the strip shows: the least and the largest of one quantity, or one alone
+export function timeBar(times, job, envelope, signal) {
   const slider = (label, moved) => {
     const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label, oninput: () => moved(Number(input.value)) });
     return input;
@@ -28,7 +29,7 @@ export function timeBar(times, job, signal) {
     h("p", { class: "actions" }, h("strong", {}, "Time"), text, jump("Whole run", () => times.reset()),
       runUp < times.end ? jump("Steady part", () => times.set(runUp, times.end)) : null,
       typeof peak === "number" ? jump("Around the peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null),
-    overview(job, times, signal),
+    overview(job, envelope, times, signal),
     h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from), h("label", { class: "small quiet" }, "to", to)),
     h("p", { class: "quiet small" }, "In a plot or in the strip: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run. Keys: ← → + − 0."));
 }

@@ -3,6 +3,8 @@ import { findTrajectory } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
 import { number } from "/core/format.js";
+import { isDescribed } from "/run/described.js";
+import { DescribedLinkage, bodyColours, reachOf } from "/scene/described.js";
 import { Linkage, linkColours } from "/scene/linkage.js";
 import { Player, impactsOf } from "/scene/player.js";
 import { Poses } from "/scene/poses.js";
@@ -15,7 +17,8 @@ const impactPoints = 4000;
 
 /// @param links  names of the links as in the channels of their poses
 export function sceneCard(job, links, times, signal) {
-  const hasClearance = job.parameters.clearance_mm > 0;
+  const described = isDescribed(job) ? job.parameters.linkage : null;
+  const hasClearance = !described && job.parameters.clearance_mm > 0;
   const isFlexible = job.parameters.coupler === "flexible";
   const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1 };
   const canvas = h("canvas", { class: "scene", role: "img", tabindex: 0, "aria-label": "The linkage in three dimensions. Drag to turn it, wheel to come closer, arrow keys to move." });
@@ -36,8 +39,8 @@ export function sceneCard(job, links, times, signal) {
     const libraries = await loadThree();
     if (signal.aborted) return;
     const { parameters } = job;
-    const linkage = new Linkage(libraries.THREE, parameters, links);
-    const stage = new Stage(libraries, canvas, parameters.crank_length_m + parameters.coupler_length_m, signal);
+    const linkage = described ? new DescribedLinkage(libraries.THREE, described, links) : new Linkage(libraries.THREE, parameters, links);
+    const stage = new Stage(libraries, canvas, described ? reachOf(described) : parameters.crank_length_m + parameters.coupler_length_m, signal);
     stage.scene.add(linkage.group);
     const poses = new Poses(job, links, (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
     draw = () => {
@@ -66,10 +69,10 @@ export function sceneCard(job, links, times, signal) {
     h("div", { class: "head" }, h("h2", {}, "The linkage in motion"), h("button", { onclick: () => saveCanvas(canvas, "linkage.png") }, "PNG")),
     canvas,
     h("p", { class: "actions" }, play, scrub, instant),
-    h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]), String(player.speed), (value) => { player.speed = Number(value); draw(); }), views,
+    h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]), String(player.speed), (value) => { player.speed = Number(value); draw(); }), described ? null : views,
       hasClearance ? enlarge("Clearance drawn", "clearance") : null, isFlexible ? enlarge("Bend drawn", "bend") : null,
       hasClearance ? h("label", { class: "small" }, slow, " slow through hard impacts") : null),
-    h("p", { class: "legend small" }, linkColours.map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
+    h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours).map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
 }
 
 function swatch(colour) {

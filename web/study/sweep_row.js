@@ -1,11 +1,11 @@
 // One sweep in the list: its row is made once and then kept up to date.
 import { findResults } from "/core/api.js";
 import { h } from "/core/dom.js";
-import { moment, nameOf, number, span } from "/core/format.js";
+import { moment, nameOf, number, span, unitOf } from "/core/format.js";
 import { isUnderWay } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
-const peak = "peak_slider_acceleration_m_s2";
+const usualPeak = "peak_slider_acceleration_m_s2";
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 
 /// @param act  is called with "cancel", "retry" or "delete"
@@ -49,14 +49,18 @@ export function sweepRow(act, signal) {
   }
 
   async function showPeaks(sweep) {
-    const extreme = async (order) => {
+    const extreme = async (peak, order) => {
       const rows = await findResults(sweep.id, { fields: `job_id,${peak}`, [`${peak}_ge`]: 0, order_by: order, limit: 1 }, signal);
       return rows[0];
     };
     try {
-      const [least, largest] = await Promise.all([extreme(peak), extreme(`-${peak}`)]);
+      // A described linkage has peaks by the names of its joints: the first one stands for them.
+      const [any] = await findResults(sweep.id, { limit: 1 }, signal);
+      const peak = usualPeak in any ? usualPeak : Object.keys(any).find((name) => name.startsWith("peak_"));
+      if (!peak) return;
+      const [least, largest] = await Promise.all([extreme(peak, peak), extreme(peak, `-${peak}`)]);
       const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
-      cells.peaks.replaceChildren(...(least ? [link(least), " … ", link(largest), " m/s²"] : ["–"]));
+      cells.peaks.replaceChildren(...(least ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
     } catch (error) {
       if (error.name !== "AbortError") cells.peaks.textContent = "–";
     }

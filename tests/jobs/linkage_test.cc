@@ -1,0 +1,219 @@
+// Described linkages as parameters of a job: the examples, what is refused and where, sweeps over numbers inside a description.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/simulate_linkage.h"
+#include "jobs/expand.h"
+#include "jobs/service.h"
+#include "tests/jobs/request_support.h"
+#include "tests/jobs/service_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using nlohmann::json;
+
+json example(const std::string& name) { return json::parse(std::ifstream(std::string(LINKAGE_FOLDER) + "/" + name + ".json")); }
+
+const std::vector<double>& column(const engine::Trajectory& trajectory, const std::string& key) {
+  for (std::size_t k = 0; k < trajectory.channels.size(); ++k)
+    if (trajectory.channels[k].key == key) return trajectory.columns[k];
+  throw std::out_of_range("no channel " + key);
+}
+
+engine::RunResult run(const json& parameters) {
+  const jobs::JobSpec spec = jobs::to_job_spec(jobs::complete_parameters(parameters, ""));
+  if (!spec.linkage) return engine::simulate_rpsup(spec.parameters, spec.options, {});
+  return engine::simulate_linkage(*spec.linkage, spec.options, spec.parameters.run_up, {});
+}
+
+class LinkageExample : public testing::TestWithParam<const char*> {};
+
+TEST_P(LinkageExample, Runs) {
+  json parameters = example(GetParam());
+  parameters["duration_s"] = 0.1;
+  const jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
+  ASSERT_EQ(outcome.job.at("state"), "succeeded") << outcome.job.at("error");
+  const json& metrics = outcome.job.at("metrics");
+  // What the account misses, against the energy that there is.
+  double energy = 0.0;
+  for (const double value : column(outcome.trajectory, "kinetic_energy_j")) energy = std::max(energy, value);
+  EXPECT_LT(metrics.at("energy_imbalance_j").get<double>(), 2e-3 * energy);
+  EXPECT_GT(energy, 0.0);
+  for (const std::size_t samples = outcome.trajectory.columns[0].size(); const auto& each : outcome.trajectory.columns) EXPECT_EQ(each.size(),
+      samples);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LinkageExample, testing::Values("rpsup", "rsup", "slider_crank", "four_bar", "bricard"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST(LinkageExamples, HaveTheirJointsAndFreedoms) {
+  const json both = jobs::run_job(example("slider_crank"), [](double) { return false; }).job.at("metrics");
+  EXPECT_GT(both.at("peak_crank_pin_contact_force_n"), 0.0);
+  EXPECT_GT(both.at("peak_slider_pin_contact_force_n"), 0.0);
+  json bricard = example("bricard");
+  bricard["duration_s"] = 0.01;
+  EXPECT_EQ(jobs::run_job(bricard, [](double) { return false; }).job.at("metrics").at("redundant_constraints"), 1);
+}
+
+/// RPSUP by data and the built-in one, channel for channel.
+const std::vector<std::pair<std::string, std::string>> kSame{
+    {"t_s", "t_s"}, {"crank_rad", "crank_angle_rad"}, {"rod_m", "rod_displacement_m"}, {"guide_m", "slider_position_m"},
+    {"guide_m_s", "slider_velocity_m_s"}, {"guide_m_s2", "slider_acceleration_m_s2"}, {"crank_drive_n_m", "crank_torque_n_m"},
+    {"rod_drive_n", "rod_force_n"}, {"bearing_force_x_n", "reaction_x_n"}, {"bearing_force_y_n", "reaction_y_n"},
+        {"bearing_force_z_n", "reaction_z_n"},
+    {"kinetic_energy_j", "kinetic_energy_j"}, {"potential_energy_j", "potential_energy_j"}, {"pose_cross_qy", "pose_2_2_qy"}};
+
+void expect_same_bytes(const json& described, const json& built_in, const std::vector<std::pair<std::string, std::string>>& channels) {
+  const engine::RunResult data = run(described), own = run(built_in);
+  ASSERT_EQ(data.status, engine::RunStatus::kSucceeded) << data.detail;
+  for (const auto& [by_data, by_name] : channels) EXPECT_EQ(column(data.trajectory, by_data), column(own.trajectory, by_name)) << by_data;
+}
+
+TEST(RpsupByData, GivesTheSameBytes) {
+  json described = example("rpsup");
+  described["duration_s"] = 0.05;
+  auto channels = kSame;
+  for (const char* const key : {"journal_x_mm", "journal_y_mm", "contact_force_n", "friction_force_n"}) channels.emplace_back("bearing_" +
+      std::string(key), key);
+  expect_same_bytes(described, {{"duration_s", 0.05}}, channels);
+  described["clearance_mm"] = 0;
+  expect_same_bytes(described, {{"duration_s", 0.05}, {"clearance_mm", 0}}, kSame);
+}
+
+TEST(RpsupByData, GivesTheSameBytesWithAFlexibleCoupler) {
+  json described = example("rpsup");
+  described["duration_s"] = 0.02;
+  described["linkage"]["bodies"]["coupler"] = {
+      {"mass_kg", 0.306}, {"beam", {{"length_m", 0.5}, {"diameter_mm", 10}, {"axial_inertia_kg_m2", 3.829e-6}, {"damping_ratio", 0.01}}}};
+  expect_same_bytes(described, {{"duration_s", 0.02}, {"coupler", "flexible"}}, kSame);
+}
+
+struct Refusal {
+  const char* name;
+  const char* change;   ///< JSON patch of the four-bar example
+  const char* pointer;
+  const char* says;
+};
+void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
+
+class LinkageRefusal : public testing::TestWithParam<Refusal> {};
+
+TEST_P(LinkageRefusal, IsNamedWithItsPlace) {
+  const json changed = example("four_bar").patch(json_of(GetParam().change));
+  const auto faults = faults_of([&] { (void)jobs::complete_parameters(changed, ""); });
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].pointer, GetParam().pointer);
+  EXPECT_NE(faults[0].detail.find(GetParam().says), std::string::npos) << faults[0].detail;
+}
+
+constexpr Refusal kRefusals[] = {
+    {"no_linkage", R"([{"op": "replace", "path": "/linkage", "value": "rsup"}])", "/linkage", "describes a linkage"},
+    {"unknown_key", R"([{"op": "add", "path": "/linkage/joint", "value": {}}])", "/linkage/joint", "did you mean joints?"},
+    {"unknown_body", R"([{"op": "replace", "path": "/linkage/joints/rocker/to", "value": "roker"}, {"op": "remove", "path": "/linkage/bodies/rocker"},
+       {"op": "remove", "path": "/linkage/joints/rocker_pin"}])", "/linkage/joints/rocker/to", "no body roker"},
+    {"bad_name", R"([{"op": "add", "path": "/linkage/bodies/a b", "value": {"mass_kg": 1}}])", "/linkage/bodies/a b", "a name is"},
+    {"not_carried", R"([{"op": "add", "path": "/linkage/bodies/loose", "value": {"mass_kg": 1}}])", "/linkage/bodies/loose", "carried by no joint"},
+    {"carried_twice", R"([{"op": "remove", "path": "/linkage/joints/rocker_pin/closes_loop"},
+     {"op": "remove", "path": "/linkage/joints/rocker_pin/to_at_m"}])",
+     "/linkage/joints/rocker_pin/to", "closes_loop"},
+    {"unknown_kind", R"([{"op": "replace", "path": "/linkage/joints/rocker/kind", "value": "hinge"},
+     {"op": "remove", "path": "/linkage/joints/rocker/guess_rad"}])",
+     "/linkage/joints/rocker/kind", "revolute"},
+    {"unit_of_the_other_kind", R"([{"op": "move", "from": "/linkage/joints/rocker/guess_rad", "path": "/linkage/joints/rocker/guess_m"}])",
+     "/linkage/joints/rocker/guess_m", "unknown key"},
+    {"clearance_in_a_chain", R"([{"op": "add", "path": "/linkage/joints/crank/clearance", "value": {}}])", "/linkage/joints/crank/clearance",
+     "closes a loop"},
+    {"clearance_too_large", R"([{"op": "add", "path": "/linkage/joints/rocker_pin/clearance", "value": {"clearance_mm": 6}}])",
+     "/linkage/joints/rocker_pin/clearance/clearance_mm", "bearing_radius_mm"},
+    {"unknown_law", R"([{"op": "replace", "path": "/linkage/joints/crank/drive", "value": {"law": "sine"}}])", "/linkage/joints/crank/drive/law",
+     "harmonic"},
+    {"table_that_turns_back", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "table", "times_s": [0, 2, 1], "values_rad": [0, 1, 2]}}])",
+     "/linkage/joints/crank/drive/times_s", "later"},
+    {"driven_and_given", R"([{"op": "add", "path": "/linkage/joints/crank/start_rad", "value": 1}])", "/linkage/joints/crank/start_rad", "drive"},
+    {"beam_without_section", R"([{"op": "remove", "path": "/linkage/bodies/coupler/beam/width_mm"}])", "/linkage/bodies/coupler/beam", "section"},
+    {"inertia_of_no_body", R"([{"op": "replace", "path": "/linkage/bodies/rocker/inertia_kg_m2", "value": [1, 1, 3]}])",
+     "/linkage/bodies/rocker/inertia_kg_m2", "principal moment"},
+    {"loop_that_does_not_close", R"([{"op": "replace", "path": "/linkage/joints/rocker/at_m", "value": [2, 0, 0]}])", "/linkage/joints/rocker_pin",
+     "does not close"},
+    {"massless_and_free", R"([{"op": "add", "path": "/linkage/bodies/pointer", "value": {"mass_kg": 0}},
+       {"op": "add", "path": "/linkage/joints/loose", "value": {"kind": "revolute", "from": "crank",
+                                                                "to": "pointer"}}])", "/linkage/joints/loose", "has mass"},
+    {"rpsup_alone", R"([{"op": "add", "path": "/coupler_length_m", "value": 0.4}])", "/coupler_length_m", "belongs to the linkage"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, LinkageRefusal, testing::ValuesIn(kRefusals), [](const auto& test) { return std::string(test.param.name); });
+
+TEST(LinkageRefusals, ComeAllAtOnce) {
+  json given = example("four_bar");
+  given["linkage"]["bodies"]["crank"]["mass_kg"] = -1;
+  given["linkage"]["joints"]["rocker"]["axis"] = "w";
+  given["linkage"]["joints"]["crank"]["from"] = "nowhere";
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
+            (std::vector<std::string>{"/linkage/bodies/crank/mass_kg", "/linkage/joints/crank/from", "/linkage/joints/rocker/axis"}));
+}
+
+TEST(LinkageSweep, GoesOverNumbersInsideADescription) {
+  nlohmann::ordered_json request{{"parameters", example("slider_crank")},
+                                 {"sweep", {{"linkage.joints.crank_pin.clearance.clearance_mm", {0.05, 0.1}},
+                                            {"linkage.bodies.rod.mass_kg", {0.2, 0.3}},
+                                            {"linkage.joints.slider_pin.clearance.restitution", {0.8}}}}};
+  const jobs::SweepPlan plan = jobs::plan_sweep(request, 100);
+  ASSERT_EQ(plan.jobs.size(), 4U);
+  const json first = json::parse(plan.jobs[1].parameters);
+  EXPECT_EQ(first.at("linkage").at("bodies").at("rod").at("mass_kg"), 0.3);
+  EXPECT_EQ(first.at("linkage").at("joints").at("slider_pin").at("clearance").at("restitution"), 0.8);
+  EXPECT_EQ(plan.jobs[1].swept, "[0.05,0.3,0.8]");
+}
+
+TEST(LinkageSweep, IsComputedAndTabulated) {
+  const TemporaryStore store;
+  jobs::ServiceOptions options;
+  options.store = store.file();
+  options.threads = 1;
+  jobs::Service service(std::move(options));
+  json parameters = example("slider_crank");
+  parameters["duration_s"] = 0.01;
+  const std::string path = "linkage.joints.crank_pin.clearance.clearance_mm";
+  const auto sweep = service.submit_sweep({{"parameters", parameters}, {"sweep", {{path, {0.05, 0.1}}}}});
+  const std::string id = sweep.at("id");
+  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::minutes(2)));
+  const auto table = service.find_results(id);
+  ASSERT_TRUE(table);
+  const auto place_of = [&](const std::string& column) {
+    return static_cast<std::size_t>(std::find(table->columns.begin(), table->columns.end(), column) - table->columns.begin());
+  };
+  ASSERT_EQ(table->rows.size(), 2U);
+  for (const std::size_t row : {0U, 1U}) {
+    EXPECT_EQ(table->rows[row].at(place_of("state")), "succeeded");
+    EXPECT_EQ(table->rows[row].at(place_of(path)), row == 0 ? 0.05 : 0.1);
+    EXPECT_GT(table->rows[row].at(place_of("peak_guide_acceleration_whole_run_m_s2")).get<double>(), 0.0);
+  }
+  EXPECT_EQ(place_of("peak_slider_acceleration_m_s2"), table->columns.size()) << "a metric of another linkage";
+}
+
+TEST(LinkageSweep, RefusesWhatIsNoPlaceOrNoValueOfTheDescription) {
+  const auto pointers = [](const json& axes, const json& parameters) {
+    return pointers_of(faults_of([&] { (void)jobs::plan_sweep({{"parameters", parameters}, {"sweep", axes}}, 100); }));
+  };
+  const json parameters = example("slider_crank");
+  EXPECT_EQ(pointers({{"linkage.bodies.pod.mass_kg", {1, 2}}}, parameters), std::vector<std::string>{"/sweep/linkage.bodies.pod.mass_kg"});
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, 2}}}, json::object()), std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg"});
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, "heavy"}}}, parameters), std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg/1"});
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, -1}}}, parameters), std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg"});
+  EXPECT_EQ(pointers({{"linkage", {"rpsup"}}}, json::object()), std::vector<std::string>{"/sweep/linkage"});
+}
+
+}  // namespace
+}  // namespace jobs_tests
