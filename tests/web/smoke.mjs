@@ -172,8 +172,8 @@ test("the list follows, searches, and deletes after asking", async () => {
 });
 
 test("a sweep is cancelled and retried in the list", async () => {
-  const long = await ask("/v1/sweeps", { name: "long", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
   const page = await visit("");
+  const long = await ask("/v1/sweeps", { name: "long", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
   const row = page.getByRole("row").filter({ hasText: "long" });
   await page.getByRole("button", { name: "Retry long" }).waitFor({ state: "hidden" });
   await page.getByRole("button", { name: "Cancel long" }).click();

@@ -5,13 +5,14 @@ import { choice, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
+import { isDescribed, mainAcceleration } from "/run/described.js";
 
 /// @param columns  channels that may be chosen
 export function motionCard(job, columns, signal) {
   const body = h("div");
   const open = () => {
     if (!details.open || body.hasChildNodes()) return;
-    const parts = [spectrum(job, columns, signal), job.parameters.clearance_mm > 0 ? section(job, signal) : null].filter(Boolean);
+    const parts = [spectrum(job, columns, signal), !isDescribed(job) && job.parameters.clearance_mm > 0 ? section(job, signal) : null].filter(Boolean);
     body.replaceChildren(...parts.map(({ element }) => element));
     for (const part of parts) part.fill().catch((error) => error.name !== "AbortError" && part.element.append(h("p", { class: "trouble" }, error.message)));
   };
@@ -20,7 +21,7 @@ export function motionCard(job, columns, signal) {
 }
 
 function spectrum(job, columns, signal) {
-  const view = { channel: "slider_acceleration_m_s2", window: "hann" };
+  const view = { channel: isDescribed(job) ? mainAcceleration(columns) : "slider_acceleration_m_s2", window: "hann" };
   let found = null;
   let chart = null;
   const drawing = h("div", { class: "chart" });

@@ -28,7 +28,7 @@ class Tmpfs:
         inside = folder / "small"
         inside.mkdir()
         namespace = ["unshare", "--mount", "--"] if os.geteuid() == 0 else ["unshare", "--map-root-user", "--mount", "--"]
-        mount = ["sh", "-c", f"mount -t tmpfs -o size=3m none '{inside}' && exec \"$@\"", "sh"]
+        mount = ["sh", "-c", f"mount -t tmpfs -o size=5m none '{inside}' && exec \"$@\"", "sh"]
         if subprocess.run([*namespace, *mount, "true"], capture_output=True, check=False).returncode != 0:
             skip("this user may not mount a file system")
         self.service = Service(program, folder / "small/store.db", "--threads", "2", "--disk-reserve-mb", "0", wrapper=[*namespace, *mount], log=folder / "log")
