@@ -23,6 +23,11 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
   return is_implicit(integrator) && std::ranges::none_of(mechanism.cut_joints, has_clearance) ? kLongestFree : kLongestStep;
 }
 
+/// With which power of the step the error estimate of a step falls.
+double order_of_error(Integrator integrator) {
+  return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas4 ? 4.0 : 5.0;
+}
+
 /// Steps are below this when error control has failed: a hundred roundings of the time.
 double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
 
@@ -38,7 +43,8 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       dopri5_(tolerance_),
       rodas4_(tolerance_),
       rodas5_(tolerance_),
-      control_(options.integrator == Integrator::kRodas4 ? 4.0 : 5.0),
+      radau5_(tolerance_),
+      control_(order_of_error(options.integrator)),
       samples_(options.output_rate, options.duration),
       longest_step_(choose_longest_step(mechanism, options.integrator)) {}
 
@@ -85,15 +91,16 @@ void Integration::prepare(double dt) {
 }
 
 void Integration::evaluate_again(StepEnd& end) {
-  forget_jacobian();
+  forget_equations();
   ++run_end_.evaluations;
   (void)system_.calc_derivative(end.t, end.y, end.f, end.at);  // where it could be evaluated before, it can be now
   system_.calc_energies(end.at);
 }
 
-void Integration::forget_jacobian() {
+void Integration::forget_equations() {
   rodas4_.begin_step();
   rodas5_.begin_step();
+  radau5_.forget();
 }
 
 void Integration::widen_bristles() {
@@ -163,6 +170,7 @@ Trial Integration::try_step(double dt) {
 
 Trial Integration::try_method(double dt) {
   switch (options_.integrator) {
+    case Integrator::kRadau5: return radau5_.try_step(system_, start_, dt, end_);
     case Integrator::kRodas5: return rodas5_.try_step(system_, start_, dt, end_);
     case Integrator::kRodas4: return rodas4_.try_step(system_, start_, dt, end_);
     case Integrator::kDopri5: return dopri5_.try_step(system_, start_, dt, end_);
@@ -213,12 +221,14 @@ void Integration::accept() {
     observer_.on_middle(sample_.at);
   }
   take_samples();
+  rodas4_.begin_step();
+  rodas5_.begin_step();
+  radau5_.accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
   std::swap(rings_start_, rings_end_);
-  forget_jacobian();
 }
 
 /// Samples up to the end of the step, with the contacts as they were in it.
