@@ -14,13 +14,17 @@ namespace {
 constexpr double kFirstStep = 1e-6;       // [s]; the controller finds its own within some steps
 constexpr double kLongestStep = 1e-3;     // [s]; short enough for the cubic that finds a ring's contact inside a step
 constexpr double kLongestFree = 5e-3;     // [s]; of an implicit method without such a joint: short enough for what is read from inside
+constexpr double kImpactWeight = 30.0;  // of radau5's errors where there are impacts: one sets off what the next ones are
 constexpr double kWidenBelow = 1e-5;      // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;           // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
 
+bool has_clearance(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return joint.clearance.has_value(); });
+}
+
 double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
-  const auto has_clearance = [](const CutJoint& joint) { return joint.clearance.has_value(); };
-  return is_implicit(integrator) && std::ranges::none_of(mechanism.cut_joints, has_clearance) ? kLongestFree : kLongestStep;
+  return is_implicit(integrator) && !has_clearance(mechanism) ? kLongestFree : kLongestStep;
 }
 
 /// With which power of the step the error estimate of a step falls.
@@ -43,7 +47,7 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       dopri5_(tolerance_),
       rodas4_(tolerance_),
       rodas5_(tolerance_),
-      radau5_(tolerance_),
+      radau5_(tolerance_, has_clearance(mechanism) ? kImpactWeight : 1.0),
       control_(order_of_error(options.integrator)),
       samples_(options.output_rate, options.duration),
       longest_step_(choose_longest_step(mechanism, options.integrator)) {}

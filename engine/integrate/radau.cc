@@ -16,7 +16,6 @@ constexpr int kMaxIterations = 10;
 constexpr double kGoodContraction = 0.05;  // with less, the Jacobian is good for another step
 // In units of the tolerance:
 constexpr double kClose = 3e-4;      // what may be left of the iteration: more is noise to the energy account
-constexpr double kErrorWeight = 30;  // the estimate is damped where the motion is fast; so weighted, peaks are as good as of rodas5
 constexpr double kNoStep = 40.0;     // error of a step whose iteration does not converge: the next try takes about two fifths of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
@@ -42,7 +41,7 @@ Trial Radau5::try_step(MotionSystem& system, const StepEnd& start, double dt, St
     trial.error = kNoStep;
   }
   if (newton != Newton::kConverged) return trial;
-  trial.error = kErrorWeight * estimate_error(system, start, dt);
+  trial.error = error_weight_ * estimate_error(system, start, dt);
   if (!(trial.error <= 1.0)) return trial;
   tried_dt_ = dt;
   end.t = start.t + dt;

@@ -15,7 +15,8 @@ namespace engine {
 /// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.8.
 class Radau5 {
  public:
-  explicit Radau5(const Tolerance& tolerance) : tolerance_(tolerance) {}
+  /// @param error_weight  by which the error estimate counts more than it says. It is of order 3, and damped where the motion is fast
+  explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0) : tolerance_(tolerance), error_weight_(error_weight) {}
 
   /// A step from start. Tries from one start may follow each other; between two starts stands accept() or forget().
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
@@ -38,6 +39,7 @@ class Radau5 {
   [[nodiscard]] double estimate_error(MotionSystem& system, const StepEnd& start, double dt);
 
   const Tolerance& tolerance_;
+  double error_weight_;
   Eigen::VectorXd weights_;    ///< of what error control looks at, at the step's start
   Stages Z_;                   ///< the stages' differences from the start
   Stages f_;                   ///< derivatives there
