@@ -84,7 +84,7 @@ std::string plain_message(const std::string& what) {
 }
 
 Json parse_strictly(std::string_view text) {
-  // Twice: a callback of the parser could watch it, but for every object that ends the parser then looks at all before it in their list.
+  // Twice: a callback of the parser could watch it, but then the parser looks, for every object that ends, at all before it in their list.
   Bounds bounds;
   Json::sax_parse(text.begin(), text.end(), &bounds);
   try {
