@@ -112,8 +112,8 @@ TEST(CompleteParameters, FillsInTheDefaults) {
     "minimum_impact_velocity_m_s": 0.001, "friction": "lugre", "friction_static": 0.1, "friction_kinetic": 0.2, "bristle_stiffness_1_m": 100,
     "bristle_damping_s_m": 5, "bristle_viscous_s_m": 0, "stribeck_velocity_m_s": 0.001, "break_away_ratio": 0.7,
     "friction_velocity_0_m_s": 1e-4, "friction_velocity_1_m_s": 1e-3, "rigid_elements": 4, "youngs_modulus_pa": 2.1e11,
-    "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.01, "integrator": "rodas5", "step_s": 1e-5,
-    "relative_tolerance": 1.5e-5, "absolute_tolerance": 1.5e-5, "crank_length_m": 0.2, "rod_length_m": 0.2, "coupler_length_m": 0.5,
+    "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.01, "integrator": "radau5", "step_s": 1e-5,
+    "relative_tolerance": 1e-5, "absolute_tolerance": 1e-5, "crank_length_m": 0.2, "rod_length_m": 0.2, "coupler_length_m": 0.5,
     "guide_offset_y_m": 0, "guide_offset_z_m": 0.2, "gravity_m_s2": 9.81, "linkage": "rpsup"})");
   json completed = jobs::complete_parameters(json::object(), "");
   completed.erase("links");
