@@ -10,6 +10,7 @@
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
+#include "jobs/plan_budget.h"
 #include "jobs/provenance.h"
 #include "jobs/service.h"
 #include "jobs/splitmix64.h"
@@ -28,6 +29,10 @@ struct Position {
   std::size_t design_point = 0;
   std::vector<std::size_t> values;  ///< one index an axis
 
+  [[nodiscard]] bool is_first_of_case() const {
+    return design_point == 0 && std::ranges::all_of(values, [](std::size_t index) { return index == 0; });
+  }
+
   /// Moves on to the next point. False after the last.
   bool advance(const SweepRequest& sweep) {
     for (std::size_t axis = values.size(); axis-- > 0;) {
@@ -39,6 +44,12 @@ struct Position {
     return ++case_index < sweep.cases.size();
   }
 };
+
+std::uint64_t points_of_a_case(const SweepRequest& sweep) {
+  std::uint64_t points = std::max<std::uint64_t>(1, sweep.design.points.size());
+  for (const Axis& axis : sweep.axes) points *= axis.values.size();
+  return points;
+}
 
 json parameters_at(const SweepRequest& sweep, const Position& position) {
   json given = sweep.parameters;
@@ -159,9 +170,11 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
   SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse,
                  .priority = sweep.priority, .executor = sweep.executor, .jobs = {}};
   PointFaults faults(sweep);
+  PlanBudget budget(max_jobs);
   Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
   do {
     const json completed = fill_in_defaults(parameters_at(sweep, position));
+    if (position.is_first_of_case()) budget.take(completed, points_of_a_case(sweep), sweep.replicates.count);
     const auto found = find_combination_faults(completed);
     for (const Fault& fault : found) faults.add(fault, position, completed);
     if (found.empty()) add_jobs(completed, sweep, plan);
