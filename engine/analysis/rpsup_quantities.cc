@@ -146,7 +146,7 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
        .kind = Channel::Kind::kImbalance},
   };
   for (const BentLink& link : layout.bent)
-    channels.push_back({.info = {.key = link.name + "_deflection_mm", .help = "of the flexible link's end from where the undeformed one would hold it"},
+    channels.push_back({.info = {.key = link.name + "_deflection_mm", .help = "of the link's end from where the undeformed link would hold it"},
                         .read = [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); }});
   for (int ring = 0; ring < parameters.radial_levels; ++ring) add_sliding_work(ring, clearance, sliding_work, channels);
   return channels;
