@@ -95,10 +95,11 @@ void add_run_rows(Rows& rows) {
                         above(0, 100'000), &O::output_rate));
   rows.push_back(choice<engine::Integrator O::*, engine::Integrator>(
       {"integrator", "integrator", "", kChosen,
-       "rodas5, rodas4: error-controlled Rosenbrock 5(4) and 4(3), L-stable; dopri5: error-controlled Dormand-Prince 5(4); rk4: classical "
-       "Runge-Kutta, fixed step (the paper's)"},
+       "Error-controlled and L-stable: radau5, Radau IIA of order 5, and rodas5 and rodas4, Rosenbrock 5(4) and 4(3); error-controlled: dopri5, "
+       "Dormand-Prince 5(4); with a fixed step: rk4, classical Runge-Kutta (the paper's)"},
       &O::integrator,
-      {{"rodas5", engine::Integrator::kRodas5},
+      {{"radau5", engine::Integrator::kRadau5},
+       {"rodas5", engine::Integrator::kRodas5},
        {"rodas4", engine::Integrator::kRodas4},
        {"dopri5", engine::Integrator::kDopri5},
        {"rk4", engine::Integrator::kRk4}}));
@@ -106,7 +107,7 @@ void add_run_rows(Rows& rows) {
   rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen, "Of the error-controlled integrators"},
                         between(1e-13, 1e-2), &O::relative_tolerance));
   rows.push_back(number({"absolute_tolerance", "absolute_tolerance", "", kChosen,
-                         "Of the error-controlled integrators, in m, rad and their rates; of rodas5 and rodas4 in m and m/s, rotations by the radius of gyration of what they carry"},
+                         "Of the error-controlled integrators, in m, rad and their rates; of all but dopri5 in m and m/s, rotations by the radius of gyration of what they carry"},
                         between(1e-13, 1e-2), &O::absolute_tolerance));
 }
 

@@ -11,7 +11,9 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
       model_(mechanism),
       instruction_set_(instruction_set.empty() ? instruction_sets().back() : instruction_set),
       drives_(mechanism.drives.size()),
-      jacobian_(0, 0, 0) {
+      jacobian_(0, 0, 0),
+      shifted_(0, 0, 0),
+      complex_shifted_(0, 0, 0) {
   for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
     if (!mechanism.cut_joints[k].clearance) continue;
     clearance_joints_.emplace_back(*mechanism.cut_joints[k].clearance);
@@ -29,7 +31,12 @@ void MotionSystem::make_room() {
   const Eigen::Index size = controlled_size() + static_cast<Eigen::Index>(drives_.size()) + 3;
   solved_y_.resize(size);
   dydt_.resize(size);
-  jacobian_ = ShiftedJacobian(static_cast<int>(free_count()), static_cast<int>(bristles_), static_cast<int>(drives_.size()));
+  const auto free = static_cast<int>(free_count());
+  const auto bristles = static_cast<int>(bristles_);
+  const auto drives = static_cast<int>(drives_.size());
+  jacobian_ = StateJacobian(free, bristles, drives);
+  shifted_ = {free, bristles, drives};
+  complex_shifted_ = {free, bristles, drives};
 }
 
 Eigen::VectorXd MotionSystem::make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -40,10 +41,12 @@ class MotionSystem {
   [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y);
   /// df/dt of the last linearise(), one for each entry of y.
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }
-  /// Factors (shift 1 - J). False if it is singular.
-  [[nodiscard]] bool factor(double shift) { return jacobian_.factor(shift); }
-  /// x <- (shift 1 - J)^-1 x after factor().
-  void solve_in_place(Eigen::VectorXd& x) { jacobian_.solve_in_place(x); }
+  /// Factors (shift 1 - J). False if it is singular. There is room for one real and one complex shift.
+  [[nodiscard]] bool factor(double shift) { return shifted_.factor(jacobian_, shift); }
+  [[nodiscard]] bool factor(std::complex<double> shift) { return complex_shifted_.factor(jacobian_, shift); }
+  /// x <- (shift 1 - J)^-1 x after factor() of such a shift.
+  void solve_in_place(Eigen::VectorXd& x) { shifted_.solve_in_place(jacobian_, x.data()); }
+  void solve_in_place(Eigen::VectorXcd& x) { complex_shifted_.solve_in_place(jacobian_, x.data()); }
 
   /// Kinetic and potential energy of an evaluation.
   void calc_energies(Evaluation& at) const;
@@ -79,7 +82,9 @@ class MotionSystem {
   bool solved_ = false;        ///< the equations hold their solution at (drives_time_, solved_y_), with the contacts as they are
   Eigen::VectorXd solved_y_;
   Eigen::VectorXd dydt_;       ///< for linearise()
-  ShiftedJacobian jacobian_;
+  StateJacobian jacobian_;
+  ShiftedJacobian<double> shifted_;
+  ShiftedJacobian<std::complex<double>> complex_shifted_;
   Eigen::VectorXd time_derivative_;
 };
 

@@ -14,13 +14,22 @@ namespace {
 constexpr double kFirstStep = 1e-6;       // [s]; the controller finds its own within some steps
 constexpr double kLongestStep = 1e-3;     // [s]; short enough for the cubic that finds a ring's contact inside a step
 constexpr double kLongestFree = 5e-3;     // [s]; of an implicit method without such a joint: short enough for what is read from inside
+constexpr double kImpactWeight = 30.0;  // of radau5's errors where there are impacts: one sets off what the next ones are
 constexpr double kWidenBelow = 1e-5;      // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;           // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
 
+bool has_clearance(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return joint.clearance.has_value(); });
+}
+
 double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
-  const auto has_clearance = [](const CutJoint& joint) { return joint.clearance.has_value(); };
-  return is_implicit(integrator) && std::ranges::none_of(mechanism.cut_joints, has_clearance) ? kLongestFree : kLongestStep;
+  return is_implicit(integrator) && !has_clearance(mechanism) ? kLongestFree : kLongestStep;
+}
+
+/// With which power of the step the error estimate of a step falls.
+double order_of_error(Integrator integrator) {
+  return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas4 ? 4.0 : 5.0;
 }
 
 /// Steps are below this when error control has failed: a hundred roundings of the time.
@@ -38,7 +47,8 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       dopri5_(tolerance_),
       rodas4_(tolerance_),
       rodas5_(tolerance_),
-      control_(options.integrator == Integrator::kRodas4 ? 4.0 : 5.0),
+      radau5_(tolerance_, has_clearance(mechanism) ? kImpactWeight : 1.0),
+      control_(order_of_error(options.integrator)),
       samples_(options.output_rate, options.duration),
       longest_step_(choose_longest_step(mechanism, options.integrator)) {}
 
@@ -85,15 +95,16 @@ void Integration::prepare(double dt) {
 }
 
 void Integration::evaluate_again(StepEnd& end) {
-  forget_jacobian();
+  forget_equations();
   ++run_end_.evaluations;
   (void)system_.calc_derivative(end.t, end.y, end.f, end.at);  // where it could be evaluated before, it can be now
   system_.calc_energies(end.at);
 }
 
-void Integration::forget_jacobian() {
+void Integration::forget_equations() {
   rodas4_.begin_step();
   rodas5_.begin_step();
+  radau5_.forget();
 }
 
 void Integration::widen_bristles() {
@@ -163,6 +174,7 @@ Trial Integration::try_step(double dt) {
 
 Trial Integration::try_method(double dt) {
   switch (options_.integrator) {
+    case Integrator::kRadau5: return radau5_.try_step(system_, start_, dt, end_);
     case Integrator::kRodas5: return rodas5_.try_step(system_, start_, dt, end_);
     case Integrator::kRodas4: return rodas4_.try_step(system_, start_, dt, end_);
     case Integrator::kDopri5: return dopri5_.try_step(system_, start_, dt, end_);
@@ -213,12 +225,14 @@ void Integration::accept() {
     observer_.on_middle(sample_.at);
   }
   take_samples();
+  rodas4_.begin_step();
+  rodas5_.begin_step();
+  radau5_.accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
   std::swap(rings_start_, rings_end_);
-  forget_jacobian();
 }
 
 /// Samples up to the end of the step, with the contacts as they were in it.

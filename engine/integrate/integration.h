@@ -5,6 +5,7 @@
 
 #include "engine/integrate/energy_control.h"
 #include "engine/integrate/observer.h"
+#include "engine/integrate/radau.h"
 #include "engine/integrate/run_end.h"
 #include "engine/integrate/sample_times.h"
 #include "engine/integrate/step_control.h"
@@ -32,7 +33,7 @@ class Integration {
   void take_samples();
   void evaluate_inside(double t);
   void prepare(double dt);
-  void forget_jacobian();
+  void forget_equations();
   void evaluate_again(StepEnd& end);
   void widen_bristles();
   void fail(EvaluationStatus status);
@@ -48,6 +49,7 @@ class Integration {
   Dopri5 dopri5_;
   Rodas4 rodas4_;
   Rodas5 rodas5_;
+  Radau5 radau5_;
   StepControl control_;
   SampleTimes samples_;
   StepEnd start_, end_;

@@ -57,4 +57,12 @@ double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y
   return std::sqrt(sum / static_cast<double>(controlled));
 }
 
+void Tolerance::calc_weights(const Eigen::VectorXd& y, Eigen::VectorXd& weights) const {
+  const Eigen::Index n = radii_.size();
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    const double radius = i < n ? radii_[i] : i < 2 * n ? radii_[i - n] : 1.0;
+    weights[i] = radius / (absolute_ + relative_ * radius * std::abs(y[i]));
+  }
+}
+
 }  // namespace engine

@@ -22,6 +22,9 @@ class Tolerance {
   /// Root mean square over the first `controlled` entries of an error of the state, each in units of its tolerance.
   [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const;
 
+  /// What each of the first entries of an error is to be multiplied by to be in units of its tolerance; as many as `weights` has.
+  void calc_weights(const Eigen::VectorXd& y, Eigen::VectorXd& weights) const;
+
  private:
   double relative_, absolute_;
   Eigen::VectorXd radii_;  ///< one a free coordinate, [m]; 1 for those that slide

@@ -4,19 +4,21 @@
 
 namespace engine {
 
-enum class Integrator { kRodas5, kRodas4, kDopri5, kRk4 };
+enum class Integrator { kRadau5, kRodas5, kRodas4, kDopri5, kRk4 };
 
-/// Whether a method solves for what it steps over: the Rosenbrock methods.
-[[nodiscard]] constexpr bool is_implicit(Integrator integrator) { return integrator == Integrator::kRodas5 || integrator == Integrator::kRodas4; }
+/// Whether a method solves for what it steps over.
+[[nodiscard]] constexpr bool is_implicit(Integrator integrator) {
+  return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas5 || integrator == Integrator::kRodas4;
+}
 
 /// How a run is integrated and what is kept of it.
 struct RunOptions {
   double duration = 5.0;                    ///< [s], > 0
   double output_rate = 1000.0;              ///< samples of the trajectory, [Hz]
-  Integrator integrator = Integrator::kRodas5;
+  Integrator integrator = Integrator::kRadau5;
   double step = 1e-5;                       ///< of rk4, [s]
-  double relative_tolerance = 1.5e-5;         ///< of the error-controlled integrators, [1]
-  double absolute_tolerance = 1.5e-5;         ///< of the error-controlled integrators, in m and m/s; rotations by what they carry: Tolerance
+  double relative_tolerance = 1e-5;         ///< of the error-controlled integrators, [1]
+  double absolute_tolerance = 1e-5;         ///< of the error-controlled integrators, in m and m/s; rotations by what they carry: Tolerance
   long step_limit = 100'000'000;            ///< steps after which the run ends with kStepLimit
 };
 

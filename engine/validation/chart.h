@@ -29,6 +29,7 @@ struct Chart {
 inline constexpr const char* kBlue = "#1f78b4";
 inline constexpr const char* kOrange = "#d95f02";
 inline constexpr const char* kGreen = "#33a02c";
+inline constexpr const char* kRed = "#e31a1c";
 inline constexpr const char* kPurple = "#6a3d9a";
 inline constexpr const char* kGrey = "#999999";
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "jobs/errors.h"
@@ -12,6 +13,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The three channels of a ring: its sliding work, and the same times the normal.
 struct RingChannels {
@@ -73,9 +75,9 @@ ResultTable make_wear_map(const json& parameters, const engine::Trajectory& run,
     for (std::size_t s = 0; s < work.size(); ++s) {
       const double depth_um = 1e6 * query.wear_coefficient * work[s] / area;
       const double rate = depth_um / hours;
-      const bool lives = query.worn_clearance && rate > 0.0;
+      const double life = query.worn_clearance ? 1e3 * (*query.worn_clearance - clearance_mm) / rate : kNever;
       table.rows.push_back({ring, position_mm, (static_cast<double>(s) + 0.5) * sector, work[s], depth_um, rate,
-                            lives ? json(1e3 * (*query.worn_clearance - clearance_mm) / rate) : json()});
+                            std::isfinite(life) ? json(life) : json()});
     }
   }
   return table;

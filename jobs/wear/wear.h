@@ -13,7 +13,7 @@
 namespace jobs {
 
 inline constexpr Range kSectorsRange{.minimum = 4, .maximum = 720};
-inline constexpr Range kWearCoefficientRange{.minimum = 0.0, .lower = Bound::kExclusive};
+inline constexpr Range kWearCoefficientRange{.minimum = 0.0, .maximum = 1e-6, .lower = Bound::kExclusive};  ///< [m^2/N]
 
 /// What is wanted of a wear map.
 struct WearQuery {
@@ -26,11 +26,11 @@ struct WearQuery {
 [[nodiscard]] std::vector<std::string> wear_channels(const nlohmann::json& parameters);
 
 /// The depth that Archard's law wears off the bore along a run, k W / A in each cell of the bearing: a sector of the circumference, and of the
-/// length the part
-/// that belongs to one ring of the journal. What was worn between two samples is put where the contact was on the mean.
+/// length the part that
+/// belongs to one ring of the journal. What was worn between two samples is put where the contact was on the mean.
 ///
 /// Rows: ring, position_mm (of the ring along the journal), angle_rad (the sector's middle in the bearing frame), sliding_work_j, depth_um,
-/// rate_um_h (if the run went on as it was), life_h (until the clearance there is worn_clearance; null without it, or where nothing is worn).
+/// rate_um_h (if the run went on as it was), life_h (until the clearance there is worn_clearance; null without it, or where it lasts for ever).
 /// @param run  t_s and wear_channels(), two samples or more
 /// @throws WrongState if the job has no clearance, InvalidRequest ("/worn_clearance_mm") if that is not above the job's
 [[nodiscard]] ResultTable make_wear_map(const nlohmann::json& parameters, const engine::Trajectory& run, const WearQuery& query);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/dynamics/loop_closure.h"
+#include "engine/integrate/radau.h"
 #include "engine/integrate/step_method.h"
 #include "engine/model/rpsup.h"
 
@@ -52,15 +53,23 @@ TEST_P(RightHandSide, AllocatesNothing) {
   (void)system.prepare_step(start.at, 1e-9, start.y);  // the elements' bristles go where the contact is
   ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
   EXPECT_EQ(start.at.joints[0].load.max_penetration > 0.0, GetParam().parameters.c_r > 0.0);
-  Rodas5 implicit(tolerance);
+  Rodas5 rodas(tolerance);
+  Radau5 radau(tolerance);
   ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the methods' own vectors
-  ASSERT_EQ(implicit.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
+  ASSERT_EQ(rodas.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
+  for (int i = 0; i < 2; ++i) {  // the second one has a step before it
+    ASSERT_EQ(radau.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
+    radau.accept();
+  }
 
   const long before = allocations;
   for (int i = 0; i < 100; ++i) {
     ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
-    implicit.begin_step();
-    ASSERT_EQ(implicit.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
+    rodas.begin_step();
+    ASSERT_EQ(rodas.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
+    if (i % 2 == 0) radau.forget();
+    ASSERT_EQ(radau.try_step(system, start, 1e-9, end).error <= 1.0, true);
+    radau.accept();
     system.calc_energies(end.at);
   }
   EXPECT_EQ(allocations - before, 0);

@@ -11,20 +11,10 @@
 #include "engine/integrate/interpolation.h"
 #include "engine/model/mechanism.h"
 #include "engine/simulate.h"
+#include "tests/engine/pendulum.h"
 
 namespace engine {
 namespace {
-
-/// A double pendulum of two bodies: smooth, free, with an energy.
-Mechanism make_pendulum() {
-  Mechanism m;
-  m.coordinates.push_back({.name = "angle", .placement = {}, .axis = Axis::kZ, .assembly_guess = 1.0, .mass = 2.0,
-                           .com = {0.3, 0.0, 0.0}, .inertia = Eigen::Vector3d(0.01, 0.25, 0.25).asDiagonal()});
-  m.coordinates.push_back({.name = "second", .parent = 0, .placement = {.p = {0.5, 0.0, 0.0}}, .axis = Axis::kZ, .assembly_guess = -0.5,
-                           .mass = 1.0, .com = {0.2, 0.1, 0.0}, .inertia = Eigen::Vector3d(0.02, 0.06, 0.08).asDiagonal()});
-  m.gravity_W = {0.0, -9.81, 0.0};
-  return m;
-}
 
 class LastState : public Observer {
  public:
@@ -82,6 +72,19 @@ TEST(Rodas, AgreesWithDopri5AsCloselyAsItsTolerance) {
       ASSERT_EQ(observer.sampled_q.size(), exact.sampled_q.size());
       for (std::size_t k = 0; k < exact.sampled_q.size(); ++k) EXPECT_NEAR(observer.sampled_q[k], exact.sampled_q[k], tolerance) << tolerance;
     }
+}
+
+TEST(Radau, AgreesWithDopri5AsCloselyAsItsTolerance) {
+  LastState exact;
+  const RunOptions tight{.duration = 0.4, .integrator = Integrator::kDopri5, .relative_tolerance = 1e-12, .absolute_tolerance = 1e-12};
+  ASSERT_EQ(simulate(make_pendulum(), tight, exact).status, RunStatus::kSucceeded);
+  for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+    LastState observer;
+    const RunOptions options{.duration = 0.4, .integrator = Integrator::kRadau5, .relative_tolerance = tolerance, .absolute_tolerance = tolerance};
+    ASSERT_EQ(simulate(make_pendulum(), options, observer).status, RunStatus::kSucceeded);
+    ASSERT_EQ(observer.sampled_q.size(), exact.sampled_q.size());
+    for (std::size_t k = 0; k < exact.sampled_q.size(); ++k) EXPECT_NEAR(observer.sampled_q[k], exact.sampled_q[k], tolerance) << tolerance;
+  }
 }
 
 TEST(Rodas, StepsFromTheSameStartGiveTheSame) {

@@ -116,7 +116,8 @@ TEST(Analyses, MapWearOnTheBearing) {
   EXPECT_NEAR(worn.at("life_h").get<double>() * worn.at("rate_um_h").get<double>(), 100.0, 1e-9);
   EXPECT_TRUE(rows.at(2).at("life_h").is_null());
   EXPECT_NE(bench.call("GET", wear, "", {{"format", "csv"}}).body.find("ring,position_mm,angle_rad"), std::string::npos);
-  for (const auto& [key, value] : {std::pair{"sectors", "3"}, {"sectors", "8.5"}, {"wear_coefficient_m2_n", "0"}, {"worn_clearance_mm", "0.2"}}) {
+  for (const auto& [key, value] : {std::pair{"sectors", "3"}, {"sectors", "8.5"}, {"wear_coefficient_m2_n", "0"}, {"wear_coefficient_m2_n", "1e-5"},
+                                   {"worn_clearance_mm", "0.2"}}) {
     const auto refused = bench.call("GET", wear, "", {{key, value}});
     EXPECT_EQ(refused.status, 422) << key;
     EXPECT_EQ(json::parse(refused.body).at("errors").at(0).at("pointer"), std::string("/") + key);

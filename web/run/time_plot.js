@@ -18,6 +18,7 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   let plot = null;
   let data = null;
   let asked = 0;
+  let isSeen = true;
   const now = h("div", { class: "now", hidden: true });
 
   async function load() {
@@ -49,7 +50,7 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   }
 
   function follow() {
-    if (plot) plot.batch(() => {
+    if (plot && isSeen) plot.batch(() => {
       plot.setScale("x", { min: times.from, max: times.to });
     });
     showInstant();
@@ -64,7 +65,10 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   onColours(() => data && make(), signal);
   const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });
   sizes.observe(element);
-  signal.addEventListener("abort", () => { sizes.disconnect(); plot?.destroy(); });
+  // What is out of sight is drawn when it comes into sight: a page has many plots, and all move at every frame.
+  const sight = new IntersectionObserver((entries) => { isSeen = entries.at(-1).isIntersecting; follow(); });
+  sight.observe(element);
+  signal.addEventListener("abort", () => { sizes.disconnect(); sight.disconnect(); plot?.destroy(); });
   element.setAttribute("role", "group");
   element.setAttribute("aria-label", `${label}, over time. Arrow keys move, plus and minus zoom, 0 shows the whole run.`);
   listenToKeys(element, times);

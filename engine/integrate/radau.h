@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "engine/integrate/step_method.h"
+#include "engine/integrate/tolerance.h"
+
+namespace engine {
+
+/// The Radau IIA method of order 5, L-stable and stiffly accurate: the three stages of a step are solved for at once, by Newton's method.
+/// Where little but slow motion is left, in lasting contact above all, its steps are several times those of a Rosenbrock method, whose
+/// stages follow the Jacobian at their start; and the Jacobian is made anew only when Newton's method has become slow with it.
+/// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.8.
+class Radau5 {
+ public:
+  /// @param error_weight  by which the error estimate counts more than it says. It is of order 3, and damped where the motion is fast
+  explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0) : tolerance_(tolerance), error_weight_(error_weight) {}
+
+  /// A step from start. Tries from one start may follow each other; between two starts stands accept() or forget().
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
+  /// The last try is part of the run: the next one goes on from its end.
+  void accept();
+  /// The equations of motion are others than in the last try: nothing that was learned in it holds.
+  void forget();
+
+ private:
+  using Stages = std::array<Eigen::VectorXd, 3>;
+
+  enum class Newton { kConverged, kTooSlow, kFailed };
+
+  void make_room(const MotionSystem& system, const Eigen::VectorXd& y);
+  void guess_stages(const StepEnd& start, Eigen::Index free, double dt);
+  void extrapolate(double ratio);
+  [[nodiscard]] Newton solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
+  [[nodiscard]] Newton iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
+  [[nodiscard]] double correct_stages(MotionSystem& system, double dt);
+  [[nodiscard]] double estimate_error(MotionSystem& system, const StepEnd& start, double dt);
+
+  const Tolerance& tolerance_;
+  double error_weight_;
+  Eigen::VectorXd weights_;    ///< of what error control looks at, at the step's start
+  Stages Z_;                   ///< the stages' differences from the start
+  Stages f_;                   ///< derivatives there
+  Eigen::VectorXd W_;          ///< Z in the variables in which J couples no stages: the real one ...
+  Eigen::VectorXcd W_complex_; ///< ... and the pair
+  Eigen::VectorXd change_, stage_;
+  Eigen::VectorXcd complex_change_;
+
+  Stages last_Z_;              ///< of the step that ends at the start of this one
+  double last_dt_ = 0.0;       ///< 0: none
+  double tried_dt_ = 0.0;      ///< of the last try, if it was a good one
+  double factored_dt_ = 0.0;   ///< the system's matrices are for this step; 0: none
+  bool linearised_ = false;    ///< the system has a Jacobian ...
+  bool fresh_ = false;         ///< ... and it is of this start
+  static constexpr double kUnknownContraction = 0.5;
+  double contraction_ = kUnknownContraction;  ///< by which an iteration brings Newton's method closer
+};
+
+}  // namespace engine
