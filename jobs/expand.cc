@@ -126,10 +126,13 @@ std::string swept_text(const json& completed, const std::vector<std::string>& sw
   return values.dump();
 }
 
-/// Ideal joints cost a small part of what contact does, and rigid couplers of flexible ones.
+/// Ideal joints cost a small part of what contact does, and rigid links of flexible ones.
 std::string kind_of(const json& completed) {
   if (describes_linkage(completed)) return "described";
-  return completed.at("coupler").get<std::string>() + (completed.at("clearance_mm").get<double>() > 0.0 ? ", clearance" : ", ideal");
+  std::string kind = completed.at("coupler").get<std::string>();
+  for (const char* const link : {"crank", "rod", "cross"})
+    if (completed.at(link) == "flexible") kind += std::string(" + ") + link;
+  return kind + (completed.at("clearance_mm").get<double>() > 0.0 ? ", clearance" : ", ideal");
 }
 
 PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, std::string swept) {
