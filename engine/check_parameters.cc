@@ -13,6 +13,8 @@ namespace engine {
 
 namespace {
 
+constexpr double kMostWear = 0.1;  ///< over the bearing's radius: what a shallow depth is
+
 std::string to_text(double value) {
   std::ostringstream text;
   text << value;
@@ -114,6 +116,19 @@ void check_friction(const RpsupParameters& p) {
   require(p.friction != FrictionLaw::kAmbrosio || p.v_1 > p.v_0, "v_1", "above v_0, " + to_text(p.v_0) + " m/s");
 }
 
+void check_wear(const RpsupParameters& p) {
+  if (p.wear_depth.empty()) return;
+  require(p.c_r > 0.0, "wear_depth", "left out for the ideal joint, which has no bore to wear");
+  require(p.contact == ContactForm::kContinuum, "wear_depth", "left out for contact elements: a worn bore is for contact continuum");
+  require(p.wear_depth.size() == static_cast<std::size_t>(p.radial_levels), "wear_depth", "one list for each of the rings, " + std::to_string(p.radial_levels));
+  const double most = kMostWear * p.bearing_radius;
+  for (const std::vector<double>& ring : p.wear_depth) {
+    require(ring.size() >= 3 && ring.size() == p.wear_depth.front().size(), "wear_depth", "lists of the same three sectors or more");
+    for (const double depth : ring)
+      require(depth >= 0.0 && depth <= most, "wear_depth", "shallow: at least 0 and at most a tenth of the bearing radius, " + to_text(1e6 * most) + " um");
+  }
+}
+
 void check_joint(const RpsupParameters& p) {
   require_positive(p.bearing_radius, "bearing_radius");
   require_positive(p.bearing_length, "bearing_length");
@@ -133,6 +148,7 @@ void check_joint(const RpsupParameters& p) {
   require(p.stiffness_law == StiffnessLaw::kHertz || p.contact == ContactForm::kContinuum, "stiffness_law",
           "hertz for contact elements: the others are laws of a whole ring");
   check_friction(p);
+  check_wear(p);
 }
 
 void check_options(const RunOptions& options) {

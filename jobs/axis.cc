@@ -11,6 +11,7 @@
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
 #include "jobs/span.h"
+#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -98,6 +99,8 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
   if (std::find(known.begin(), known.end(), path) != known.end() || is_linkage_path(path)) return true;
   if (path == kLinkageKey) {
     faults.push_back({pointer, "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole linkages are cases"});
+  } else if (path == kWearKey) {
+    faults.push_back({pointer, "worn bores are cases, each with its lists"});
   } else if (path == "links") {
     faults.push_back({pointer, "the parts of links are swept one by one: \"links.1,3.mass_kg\", say"});
   } else {

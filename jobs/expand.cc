@@ -15,6 +15,7 @@
 #include "jobs/service.h"
 #include "jobs/splitmix64.h"
 #include "jobs/sweep_request.h"
+#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -63,6 +64,13 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
+/// What stands for a value in a line: of a described linkage its name, of a worn bore the largest depth.
+json shown_value(const json& completed, const std::string& path) {
+  const json& value = value_at_path(completed, path);
+  if (path == kWearKey && !value.is_null()) return deepest_wear(value);
+  return value.is_object() ? json(value.value("name", std::string("described"))) : value;
+}
+
 /// Gathers the faults of points: one entry for each place in the request, however many points share it.
 class PointFaults {
  public:
@@ -107,7 +115,7 @@ class PointFaults {
   [[nodiscard]] std::string point_text(const json& completed) const {
     std::string text;
     for (const std::string& path : sweep_.swept) {
-      text += (text.empty() ? " (at " : ", ") + path + " = " + value_at_path(completed, path).dump();
+      text += (text.empty() ? " (at " : ", ") + path + " = " + shown_value(completed, path).dump();
     }
     return text.empty() ? "" : text + ")";
   }
@@ -119,10 +127,7 @@ class PointFaults {
 /// The values of what is swept, at a point.
 std::string swept_text(const json& completed, const std::vector<std::string>& swept) {
   json values = json::array();
-  for (const std::string& path : swept) {
-    const json& value = value_at_path(completed, path);
-    values.push_back(value.is_object() ? json(value.value("name", std::string("described"))) : value);
-  }
+  for (const std::string& path : swept) values.push_back(shown_value(completed, path));
   return values.dump();
 }
 

@@ -6,6 +6,7 @@
 #include "jobs/linkage_json.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_table.h"
+#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -39,6 +40,7 @@ std::string parameter_help() {
                     choice ? words_of(info) : info.range.text(), info.help);
   }
   text += line_of(std::string(kLinkageKey), std::string(kRpsupName), "", "or an object", "The linkage; an object describes another one");
+  text += line_of(std::string(kWearKey), "none", "", "lists", kWearHelp);
   const nlohmann::json defaults = complete_parameters(nlohmann::json::object(), "");
   for (const std::string& path : known_paths()) {
     if (path.starts_with("links.")) text += link_line(path, defaults);

@@ -2,6 +2,7 @@
 #include "jobs/linkage_json.h"
 #include "jobs/parameter_table.h"
 #include "jobs/service.h"
+#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -57,7 +58,7 @@ json schema_of_links() {
 }  // namespace
 
 json parameter_schema() {
-  json properties{{kLinkageKey, linkage_schema()}, {"links", schema_of_links()}};
+  json properties{{kLinkageKey, linkage_schema()}, {"links", schema_of_links()}, {kWearKey, wear_schema()}};
   for (const ParameterInfo& info : parameter_table()) properties[info.key] = schema_of(info);
   return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
           {"title", "Parameters of a job"},

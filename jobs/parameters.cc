@@ -13,6 +13,7 @@
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/service.h"
+#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kMostStoredValues = 1.28e8;   // samples times channels: 1 GB w
 constexpr double kLeastClearance_mm = 1e-6;    // 1 nm: below, a gap between atoms
 
 std::vector<std::string_view> known_keys() {
-  std::vector<std::string_view> keys{"links", kLinkageKey};
+  std::vector<std::string_view> keys{"links", kLinkageKey, kWearKey};
   for (const ParameterInfo& info : parameter_table()) keys.push_back(info.key);
   return keys;
 }
@@ -38,7 +39,7 @@ void find_linkage_faults(const json& given, std::vector<Fault>& faults) {
   }
   for (const auto& [key, value] : given.items()) {
     const ParameterInfo* info = find_parameter(key);
-    if (key == "links" || (info != nullptr && info->scope == ParameterScope::kRpsup))
+    if (key == "links" || key == kWearKey || (info != nullptr && info->scope == ParameterScope::kRpsup))
       faults.push_back({pointer_token(key), "belongs to the linkage \"rpsup\"; a described linkage says it in its description"});
   }
   if (faults.empty()) (void)read_linkage(linkage, to_job_spec(fill_in_defaults({{"linkage", json::object()}})).parameters, faults);
@@ -102,6 +103,7 @@ std::string pointer_of_member(const std::string& member) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.member == member) return pointer_token(info.key);
   }
+  if (member == "wear_depth") return pointer_token(kWearKey);
   for (const std::string_view link : kLinkNames) {
     const std::string prefix = "links." + std::string(link);
     if (member == prefix + ".mass") return "/links" + pointer_token(link) + pointer_token(kMassKey);
@@ -145,6 +147,8 @@ std::vector<Fault> find_value_faults(const json& given) {
   for (const auto& [key, value] : given.items()) {
     if (key == "links") {
       std::ranges::move(find_link_faults(value), std::back_inserter(faults));
+    } else if (key == kWearKey) {
+      std::ranges::move(find_wear_faults(value), std::back_inserter(faults));
     } else if (const ParameterInfo* info = find_parameter(key)) {
       if (std::string detail = describe_fault(*info, value); !detail.empty()) faults.push_back({pointer_token(key), std::move(detail)});
     } else {
@@ -172,6 +176,7 @@ json fill_in_defaults(const json& given) {
   }
   completed[kLinkageKey] = described ? canonical_linkage(given.at(kLinkageKey)) : json(kRpsupName);
   if (!described) completed["links"] = complete_links(given.value("links", json::object()), completed);
+  if (given.contains(kWearKey)) completed[kWearKey] = canonical_wear(given.at(kWearKey));
   return completed;
 }
 
@@ -212,6 +217,7 @@ JobSpec to_job_spec(const json& completed_parameters) {
   }
   if (!described) {
     write_links(completed_parameters.at("links"), spec.parameters);
+    if (completed_parameters.contains(kWearKey)) spec.parameters.wear_depth = to_wear_depth(completed_parameters.at(kWearKey));
   } else if (const json& linkage = completed_parameters.at(kLinkageKey); !linkage.empty()) {
     std::vector<Fault> faults;
     spec.linkage = read_linkage(linkage, spec.parameters, faults);

@@ -20,11 +20,13 @@
 #include "jobs/resource_json.h"
 #include "jobs/result_query.h"
 #include "jobs/run_record.h"
-#include "jobs/search/search_desk.h"
+#include "jobs/search/limit_study.h"
+#include "jobs/search/study_desk.h"
 #include "jobs/store.h"
 #include "jobs/time_text.h"
 #include "jobs/trajectory_codec.h"
 #include "jobs/trajectory_query.h"
+#include "jobs/wear/wear_study.h"
 
 namespace jobs {
 namespace {
@@ -177,34 +179,34 @@ class Service::Impl {
     return news;
   }
 
-  json submit_search(const nlohmann::ordered_json& request) {
+  json submit_study(Study study, const nlohmann::ordered_json& request) {
     check_open();
-    json search = searches_.submit(request);
+    json begun = desk(study).submit(request);
     wake();
     tell_change();  // its first results may be known already
-    return search;
+    return begun;
   }
 
-  [[nodiscard]] const SearchDesk& searches() const { return searches_; }
+  [[nodiscard]] const StudyDesk& desk(Study study) const { return study == Study::kLimit ? searches_ : wear_studies_; }
+  [[nodiscard]] StudyDesk& desk(Study study) { return study == Study::kLimit ? searches_ : wear_studies_; }
 
-  std::optional<json> cancel_search(const std::string& id) {
-    const bool found = searches_.cancel(id, [this](const std::string& sweep) { finish_cancelling(store_.cancel_sweep(sweep), nullptr); });
-    return found ? searches_.find(id) : std::nullopt;
+  std::optional<json> cancel_study(Study study, const std::string& id) {
+    const bool found = desk(study).cancel(id, [this](const std::string& sweep) { finish_cancelling(store_.cancel_sweep(sweep), nullptr); });
+    return found ? desk(study).find(id) : std::nullopt;
   }
 
-  std::optional<json> retry_search(const std::string& id) {
+  std::optional<json> retry_study(Study study, const std::string& id) {
     check_open();
-    if (!searches_.retry(id, [this](const std::string& sweep) { store_.retry_sweep(sweep, options_.max_queued_jobs); })) return std::nullopt;
+    const auto retry_sweep = [this](const std::string& sweep) { store_.retry_sweep(sweep, options_.max_queued_jobs); };
+    if (!desk(study).retry(id, retry_sweep)) return std::nullopt;
     wake();
     tell_change();
-    return searches_.find(id);
+    return desk(study).find(id);
   }
 
-  bool delete_search(const std::string& id) {
-    const auto search = store_.find_search(id);
-    if (!search) return false;
-    if (search->state == "running") throw WrongState("the search has not ended; cancel it first");
-    return delete_sweep(search->sweep_id);
+  bool delete_study(Study study, const std::string& id) {
+    const auto sweep = desk(study).find_ended_sweep(id);
+    return sweep && delete_sweep(*sweep);
   }
 
   [[nodiscard]] Load find_load() const { return store_.find_load(); }
@@ -346,7 +348,7 @@ class Service::Impl {
     changed_.notify_all();
   }
 
-  /// Lets searches go on whenever something has changed, until the service is stopped.
+  /// Lets studies go on whenever something has changed, until the service is stopped.
   void keep_searching() {
     constexpr std::chrono::seconds kPause{5};  // after a failure of the store
     for (std::uint64_t seen = 0; !stopped_;) {
@@ -356,12 +358,13 @@ class Service::Impl {
         seen = changes_;
       }
       try {
-        if (searches_.advance()) {
+        const bool searched = searches_.advance();
+        if (wear_studies_.advance() || searched) {
           wake();
           tell_change();
         }
       } catch (const std::exception& error) {  // the store's errors, or no memory
-        options_.log(std::string("the searches could not go on yet: ") + error.what());
+        options_.log(std::string("the studies could not go on yet: ") + error.what());
         failed = true;
       }
       std::unique_lock lock(change_mutex_);
@@ -379,7 +382,8 @@ class Service::Impl {
   std::atomic<std::uint64_t> activity_ = 0;
   KeysInUse keys_;
   Store store_;
-  SearchDesk searches_{store_, options_};
+  StudyDesk searches_{store_, options_, make_limit_study()};
+  StudyDesk wear_studies_{store_, options_, make_wear_study(store_)};
   std::vector<std::unique_ptr<Executor>> executors_;  // end before the store they work for; none before start()
   std::mutex stop_mutex_;          // guards the joining of searcher_
   std::jthread searcher_;          // of keep_searching()
@@ -409,13 +413,13 @@ const std::filesystem::path& Service::store_file() const { return impl_->store_f
 std::optional<engine::Trajectory> Service::find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const {
   return impl_->find_trajectory(job_id, query);
 }
-json Service::submit_search(const nlohmann::ordered_json& request) { return impl_->submit_search(request); }
-std::optional<json> Service::find_search(const std::string& id) const { return impl_->searches().find(id); }
-json Service::list_searches(const PageQuery& query) const { return impl_->searches().list(query); }
-std::optional<ResultTable> Service::find_limits(const std::string& search_id) const { return impl_->searches().find_limits(search_id); }
-std::optional<json> Service::cancel_search(const std::string& id) { return impl_->cancel_search(id); }
-std::optional<json> Service::retry_search(const std::string& id) { return impl_->retry_search(id); }
-bool Service::delete_search(const std::string& id) { return impl_->delete_search(id); }
+json Service::submit_study(Study study, const nlohmann::ordered_json& request) { return impl_->submit_study(study, request); }
+std::optional<json> Service::find_study(Study study, const std::string& id) const { return impl_->desk(study).find(id); }
+json Service::list_studies(Study study, const PageQuery& query) const { return impl_->desk(study).list(query); }
+std::optional<ResultTable> Service::find_study_table(Study study, const std::string& id) const { return impl_->desk(study).find_table(id); }
+std::optional<json> Service::cancel_study(Study study, const std::string& id) { return impl_->cancel_study(study, id); }
+std::optional<json> Service::retry_study(Study study, const std::string& id) { return impl_->retry_study(study, id); }
+bool Service::delete_study(Study study, const std::string& id) { return impl_->delete_study(study, id); }
 Load Service::find_load() const { return impl_->find_load(); }
 std::optional<json> Service::cancel_sweep(const std::string& id) { return impl_->cancel_sweep(id); }
 std::optional<json> Service::cancel_job(const std::string& id) { return impl_->cancel_job(id); }

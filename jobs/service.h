@@ -107,6 +107,9 @@ struct Load {
   std::int64_t store_bytes = 0;          ///< on disk, with its log
 };
 
+/// A sweep to which evaluations are added as its results ask for them: a search for a limit, a bearing that is worn over the hours.
+enum class Study { kLimit, kWear };
+
 /// The study queue: validates, stores, computes and hands out sweeps and jobs. One per store.
 ///
 /// Every JSON it returns is the resource as the HTTP interface and the command line show it.
@@ -150,16 +153,18 @@ class Service {
   /// Empty if there is no such job or it has no trajectory (yet).
   [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const;
 
-  /// Stores a search and the jobs of its first evaluations, or nothing at all; others follow by themselves. See parse_search_request().
-  nlohmann::json submit_search(const nlohmann::ordered_json& request);
-  [[nodiscard]] std::optional<nlohmann::json> find_search(const std::string& id) const;
-  [[nodiscard]] nlohmann::json list_searches(const PageQuery& query) const;
-  [[nodiscard]] std::optional<ResultTable> find_limits(const std::string& search_id) const;
-  std::optional<nlohmann::json> cancel_search(const std::string& id);
-  /// Queues failed and cancelled jobs of a search again, and lets it go on.
-  std::optional<nlohmann::json> retry_search(const std::string& id);
-  /// Deletes a search that has ended, with the sweep of its evaluations. False if there is none.
-  bool delete_search(const std::string& id);
+  /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves. See parse_search_request() and
+  /// parse_wear_request().
+  nlohmann::json submit_study(Study study, const nlohmann::ordered_json& request);
+  [[nodiscard]] std::optional<nlohmann::json> find_study(Study study, const std::string& id) const;
+  [[nodiscard]] nlohmann::json list_studies(Study study, const PageQuery& query) const;
+  /// Flat rows: the limits of a search, the cycles of a bearing that is worn.
+  [[nodiscard]] std::optional<ResultTable> find_study_table(Study study, const std::string& id) const;
+  std::optional<nlohmann::json> cancel_study(Study study, const std::string& id);
+  /// Queues failed and cancelled jobs of a study again, and lets it go on.
+  std::optional<nlohmann::json> retry_study(Study study, const std::string& id);
+  /// Deletes a study that has ended, with the sweep of its evaluations. False if there is none.
+  bool delete_study(Study study, const std::string& id);
 
   [[nodiscard]] Load find_load() const;
   /// Who computes jobs here: {"items": [status, ...]}, the one first that takes sweeps which name none. See Executor::status().

@@ -71,7 +71,7 @@ struct JobRow {
   std::optional<RunRow> run;
 };
 
-/// A search, whose evaluations are the jobs of a sweep.
+/// A search or another study whose evaluations are the jobs of a sweep.
 struct SearchRow {
   std::string id, sweep_id, name, request, state;
   std::optional<std::string> error;  ///< why it could not go on
@@ -227,10 +227,12 @@ class Store {
   /// What has ended after that change; 0: everything.
   [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
   /// Stores a search with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep does
-  std::string add_search(const SweepPlan& plan, const std::string& sweep_request, const std::string& request, std::size_t max_queued);
+  /// @param prefix  of its id: what kind of study it is
+  std::string add_search(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
+                         std::size_t max_queued);
   [[nodiscard]] std::optional<SearchRow> find_search(const std::string& id) const;
-  /// Newest first. @param state empty: all  @param before  an id; empty: the newest
-  [[nodiscard]] std::vector<SearchRow> list_searches(const std::string& state, const std::string& before, std::size_t limit) const;
+  /// Those of one kind, newest first. @param state empty: all  @param before  an id; empty: the newest
+  [[nodiscard]] std::vector<SearchRow> list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const;
   /// Gives a search another state. False, and nothing is stored, if it is not in the former one.
   bool set_search_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error = {});
   /// Lets the search of a sweep, if it has one that has ended, go on.

@@ -27,14 +27,15 @@ SearchRow search_row(SQLite::Statement& found) {
 
 }  // namespace
 
-std::string Store::add_search(const SweepPlan& plan, const std::string& sweep_request, const std::string& request, std::size_t max_queued) {
+std::string Store::add_search(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
+                              std::size_t max_queued) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     const std::int64_t sweep = insert_sweep(database, ids_.make(kSweepPrefix, now_ms), plan, sweep_request, now_ms);
     JobInserter inserter(database, ids_, now_ms, ++changes_);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, sweep, plan.reuse);
     check_room(database, max_queued);
-    std::string id = ids_.make(kSearchPrefix, now_ms);
+    std::string id = ids_.make(prefix, now_ms);
     SQLite::Statement add(database, "INSERT INTO searches (sweep, id, request) VALUES (?, ?, ?)");
     add.bind(1, sweep);
     add.bind(2, id);
@@ -53,13 +54,15 @@ std::optional<SearchRow> Store::find_search(const std::string& id) const {
   });
 }
 
-std::vector<SearchRow> Store::list_searches(const std::string& state, const std::string& before, std::size_t limit) const {
+std::vector<SearchRow> Store::list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {
   return readers_.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
-        std::string(kSearchColumns) + " WHERE (?1 = '' OR c.id < ?1) AND (?2 = '' OR c.state = ?2) ORDER BY c.id DESC LIMIT ?3");
+        std::string(kSearchColumns) +
+            " WHERE (?1 = '' OR c.id < ?1) AND (?2 = '' OR c.state = ?2) AND substr(c.id, 1, length(?4)) = ?4 ORDER BY c.id DESC LIMIT ?3");
     list.bind(1, before);
     list.bind(2, state);
     list.bind(3, static_cast<std::int64_t>(limit));
+    list.bind(4, std::string(prefix));
     std::vector<SearchRow> rows;
     while (list.executeStep()) rows.push_back(search_row(list));
     return rows;

@@ -2,11 +2,12 @@
 #   curl -s http://127.0.0.1:8080/v1/parameters | jq -r -f script/parameter_table.jq
 def range:
   if .oneOf then "`rpsup`, or an object that describes another: [jobs/LINKAGES.md](jobs/LINKAGES.md)"
+  elif .type == "array" and .items.type == "array" then "lists of \(.items.minItems) to \(.items.maxItems) depths, a list for each ring"
   elif .enum then (.enum | map("`\(.)`") | join(", "))
   else (if has("exclusiveMinimum") then "> \(.exclusiveMinimum)" elif has("minimum") then "≥ \(.minimum)" else "" end)
     + (if has("exclusiveMaximum") then ", < \(.exclusiveMaximum)" elif has("maximum") then ", ≤ \(.maximum)" else "" end)
   end;
-def row($key): "| `\($key)` | \(.default | tojson | gsub("\""; "")) | \(.["x-unit"] // "") | \(range) | \(.description) | \(.["x-default-source"]) |";
+def row($key): "| `\($key)` | \(if has("default") then .default | tojson | gsub("\""; "") else "–" end) | \(.["x-unit"] // "") | \(range) | \(.description) | \(.["x-default-source"] // "–") |";
 "| parameter | default | unit | allowed | meaning | default from |",
 "|---|---|---|---|---|---|",
 (.properties | to_entries[] | select(.key != "links") | .key as $key | .value | row($key)),

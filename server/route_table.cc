@@ -4,8 +4,8 @@
 #include "server/document_routes.h"
 #include "server/job_routes.h"
 #include "server/page_routes.h"
-#include "server/search_routes.h"
 #include "server/store_route.h"
+#include "server/study_routes.h"
 #include "server/sweep_events.h"
 #include "server/sweep_routes.h"
 
@@ -18,6 +18,8 @@ constexpr std::string_view kCsv = "text/csv";
 constexpr std::string_view kNdjson = "application/x-ndjson";
 constexpr std::string_view kNpz = "application/x-npz";
 constexpr std::string_view kHtml = "text/html";
+
+using jobs::Study;
 
 std::vector<Route> make_sweep_routes() {
   return {
@@ -52,25 +54,52 @@ std::vector<Route> make_sweep_routes() {
 
 std::vector<Route> make_search_routes() {
   return {
-      {.method = "POST", .pattern = "/v1/searches", .handler = post_search, .operation_id = "submitSearch", .tag = "searches",
+      {.method = "POST", .pattern = "/v1/searches", .handler = post_study<Study::kLimit>, .operation_id = "submitSearch", .tag = "searches",
        .summary = "Look for the largest value of a parameter for which a metric stays below a bound, for every combination of the axes",
        .body = "SearchRequest", .success = 201, .answers = {{kJson, "Search"}}, .problems = {409, 422, 429}},
-      {.method = "GET", .pattern = "/v1/searches", .handler = get_searches, .operation_id = "listSearches", .tag = "searches",
+      {.method = "GET", .pattern = "/v1/searches", .handler = get_studies<Study::kLimit>, .operation_id = "listSearches", .tag = "searches",
        .summary = "Searches, the newest first", .query = {"search_state", "limit", "cursor", "fields"}, .answers = {{kJson, "SearchPage"}},
            .problems = {422}},
-      {.method = "GET", .pattern = "/v1/searches/{id}", .handler = get_search, .operation_id = "getSearch", .tag = "searches",
+      {.method = "GET", .pattern = "/v1/searches/{id}", .handler = get_study<Study::kLimit>, .operation_id = "getSearch", .tag = "searches",
        .summary = "State and progress of a search, its limits and the evaluations that they stand on", .headers = {"if_none_match"},
        .answers = {{kJson, "Search"}}, .bodiless = {304}, .problems = {404, 422}},
-      {.method = "DELETE", .pattern = "/v1/searches/{id}", .handler = delete_search, .operation_id = "deleteSearch", .tag = "searches",
-       .summary = "Delete a search that has ended, with the sweep of its evaluations", .success = 204, .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/searches/{id}/results", .handler = get_limits, .operation_id = "getLimits", .tag = "searches",
-       .summary = "Flat rows, one a combination of the axes: the limit and its band", .query = {"row_format"}, .headers = {"if_none_match"},
+      {.method = "DELETE", .pattern = "/v1/searches/{id}", .handler = delete_study<Study::kLimit>, .operation_id = "deleteSearch",
+       .tag = "searches", .summary = "Delete a search that has ended, with the sweep of its evaluations", .success = 204, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/searches/{id}/results", .handler = get_study_results<Study::kLimit>, .operation_id = "getLimits",
+       .tag = "searches", .summary = "Flat rows, one a combination of the axes: the limit and its band", .query = {"row_format"}, .headers = {"if_none_match"},
        .answers = {{kJson, "LimitRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304}, .problems = {404, 422}},
-      {.method = "POST", .pattern = "/v1/searches/{id}/cancel", .handler = cancel_search, .operation_id = "cancelSearch", .tag = "searches",
-       .summary = "End a search; what has been evaluated stays", .answers = {{kJson, "Search"}}, .problems = {404, 409, 422}},
-      {.method = "POST", .pattern = "/v1/searches/{id}/retry", .handler = retry_search, .operation_id = "retrySearch", .tag = "searches",
-       .summary = "Queue the failed and cancelled jobs of a search again, and go on", .answers = {{kJson, "Search"}},
+      {.method = "POST", .pattern = "/v1/searches/{id}/cancel", .handler = cancel_study<Study::kLimit>, .operation_id = "cancelSearch",
+       .tag = "searches", .summary = "End a search; what has been evaluated stays", .answers = {{kJson, "Search"}}, .problems = {404, 409, 422}},
+      {.method = "POST", .pattern = "/v1/searches/{id}/retry", .handler = retry_study<Study::kLimit>, .operation_id = "retrySearch",
+       .tag = "searches", .summary = "Queue the failed and cancelled jobs of a search again, and go on", .answers = {{kJson, "Search"}},
            .problems = {404, 409, 422, 429}},
+  };
+}
+
+std::vector<Route> make_wear_routes() {
+  return {
+      {.method = "POST", .pattern = "/v1/wear-studies", .handler = post_study<Study::kWear>, .operation_id = "submitWearStudy",
+       .tag = "wear-studies", .summary = "Wear the bearing's bore over the hours, step by step, each bore a job whose wear makes the next step",
+       .body = "WearStudyRequest", .success = 201, .answers = {{kJson, "WearStudy"}}, .problems = {409, 422, 429}},
+      {.method = "GET", .pattern = "/v1/wear-studies", .handler = get_studies<Study::kWear>, .operation_id = "listWearStudies",
+       .tag = "wear-studies", .summary = "Wear studies, the newest first", .query = {"search_state", "limit", "cursor", "fields"},
+       .answers = {{kJson, "WearStudyPage"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/v1/wear-studies/{id}", .handler = get_study<Study::kWear>, .operation_id = "getWearStudy",
+       .tag = "wear-studies", .summary = "State and progress of a wear study, and the bore after each step", .headers = {"if_none_match"},
+       .answers = {{kJson, "WearStudy"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "DELETE", .pattern = "/v1/wear-studies/{id}", .handler = delete_study<Study::kWear>, .operation_id = "deleteWearStudy",
+       .tag = "wear-studies", .summary = "Delete a wear study that has ended, with the sweep of its jobs", .success = 204,
+       .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = "/v1/wear-studies/{id}/results", .handler = get_study_results<Study::kWear>, .operation_id = "getWearCycles",
+       .tag = "wear-studies", .summary = "Flat rows, one a cycle: hours, the deepest place, the rate, and every metric of its job",
+       .query = {"row_format"}, .headers = {"if_none_match"}, .answers = {{kJson, "WearCycleRows"}, {kCsv, "Text"}, {kNdjson, "Text"}},
+       .bodiless = {304}, .problems = {404, 422}},
+      {.method = "POST", .pattern = "/v1/wear-studies/{id}/cancel", .handler = cancel_study<Study::kWear>, .operation_id = "cancelWearStudy",
+       .tag = "wear-studies", .summary = "End a wear study; the cycles that were computed stay", .answers = {{kJson, "WearStudy"}},
+       .problems = {404, 409, 422}},
+      {.method = "POST", .pattern = "/v1/wear-studies/{id}/retry", .handler = retry_study<Study::kWear>, .operation_id = "retryWearStudy",
+       .tag = "wear-studies", .summary = "Queue the failed and cancelled jobs of a wear study again, and go on", .answers = {{kJson, "WearStudy"}},
+       .problems = {404, 409, 422, 429}},
   };
 }
 
@@ -164,7 +193,7 @@ std::vector<Route> make_other_routes() {
 
 std::vector<Route> make_table() {
   std::vector<Route> table;
-  for (auto& part : {make_sweep_routes(), make_search_routes(), make_analysis_routes(), make_job_routes(),
+  for (auto& part : {make_sweep_routes(), make_search_routes(), make_wear_routes(), make_analysis_routes(), make_job_routes(),
       make_other_routes()}) table.insert(table.end(), part.begin(), part.end());
   return table;
 }

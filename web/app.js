@@ -9,6 +9,7 @@ const pages = {
   sweeps: () => import("/pages/sweep.js"),
   analyses: () => import("/pages/analyses.js"),
   searches: () => import("/pages/searches.js"),
+  wear: () => import("/pages/wear.js"),
   jobs: () => import("/pages/job.js"),
 };
 
@@ -19,7 +20,7 @@ let shown = 0;
 function markNavigation(kind) {
   for (const link of document.querySelectorAll("header nav a")) {
     const target = link.getAttribute("href").slice(2);
-    if (target === (["new", "searches"].includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
+    if (target === (["new", "searches", "wear"].includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
 }

@@ -38,6 +38,7 @@ set(page_files
   pages/searches.js
   pages/sweep.js
   pages/sweeps.js
+  pages/wear.js
   run/described.js
   run/facts.js
   run/ideal.js
@@ -71,6 +72,8 @@ set(page_files
   study/selection.js
   study/sweep_row.js
   study/table.js
+  study/wear_charts.js
+  study/wear_view.js
   style/base.css
   style/pages.css
   style/parts.css

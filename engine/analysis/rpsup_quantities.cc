@@ -53,7 +53,8 @@ Reading rate(FrameIndex i) {
 }
 
 /// Of one ring of the journal.
-void add_sliding_work(int ring, bool clearance, const SlidingWork& sliding_work, std::vector<Channel>& channels) {
+void add_sliding_work(int ring, const RpsupParameters& parameters, const SlidingWork& sliding_work, std::vector<Channel>& channels) {
+  const bool clearance = parameters.c_r > 0.0;
   const std::string key = "ring_" + std::to_string(ring + 1) + "_sliding_work";
   const auto read = [&](double SlidingWork::Ring::*part) -> Reading {
     if (!clearance) return none;
@@ -65,6 +66,9 @@ void add_sliding_work(int ring, bool clearance, const SlidingWork& sliding_work,
                       .read = read(&SlidingWork::Ring::work)});
   channels.push_back({.info = {.key = key + "_x_j", .help = "the same times the contact normal's x"}, .read = read(&SlidingWork::Ring::work_x)});
   channels.push_back({.info = {.key = key + "_y_j", .help = "the same times the contact normal's y"}, .read = read(&SlidingWork::Ring::work_y)});
+  if (parameters.wear_depth.empty()) return;
+  channels.push_back({.info = {.key = key + "_penetration_j_m", .help = "the same times the penetration; of a worn bore alone"},
+                      .read = read(&SlidingWork::Ring::work_delta)});
 }
 
 }  // namespace
@@ -148,7 +152,7 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
   for (const BentLink& link : layout.bent)
     channels.push_back({.info = {.key = link.name + "_deflection_mm", .help = "of the link's end from where the undeformed link would hold it"},
                         .read = [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); }});
-  for (int ring = 0; ring < parameters.radial_levels; ++ring) add_sliding_work(ring, clearance, sliding_work, channels);
+  for (int ring = 0; ring < parameters.radial_levels; ++ring) add_sliding_work(ring, parameters, sliding_work, channels);
   return channels;
 }
 

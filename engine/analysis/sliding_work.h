@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "engine/dynamics/evaluation.h"
@@ -13,6 +14,8 @@ namespace engine {
 ///
 ///     W = int f_n |v_t| dt,    W_n = int f_n |v_t| n dt,    worn volume = wear coefficient * W
 ///
+/// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the bore presses then follows from it and from the
+/// penetration.
 /// A ring's share of the sum of normal forces is that of its elastic force, delta^1.5. Trapezoids over the steps, which end where a ring meets or
 /// leaves the bore.
 class SlidingWork {
@@ -21,6 +24,7 @@ class SlidingWork {
   struct Ring {
     double work = 0.0;            ///< W, [J]
     double work_x = 0.0, work_y = 0.0;  ///< W_n in the bearing frame: its direction is the mean one, [J]
+    double work_delta = 0.0;            ///< the same with the penetration in the place of n, [J m]
   };
 
   explicit SlidingWork(const RpsupParameters& parameters);
@@ -39,6 +43,7 @@ class SlidingWork {
   void add(const JointState& joint, double time);
 
   const RpsupParameters& parameters_;
+  std::shared_ptr<const WornBore> worn_;  ///< null: the bore is round
   std::vector<Ring> before_, after_;  ///< at the ends of the last step
   double start_ = 0.0, end_ = 0.0;    ///< of it, [s]
   std::vector<double> shares_;        ///< of the rings in the normal force; kept for its room

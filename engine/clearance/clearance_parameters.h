@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 
 #include "engine/clearance/cylinder_contact.h"
 #include "engine/clearance/friction_parameters.h"
+#include "engine/clearance/worn_bore.h"
 
 namespace engine {
 
@@ -29,6 +31,7 @@ struct ClearanceParameters {
   double damping = 0.0;            ///< Kelvin and Voigt's, of the whole bore (kContinuum) and of each face, [N s/m]
   double minimum_onset_rate = 1e-3;///< floor of the latched penetration rate, [m/s]
   std::optional<FrictionParameters> friction;
+  std::shared_ptr<const WornBore> worn;  ///< kContinuum: of as many rings; null: the bore is round
 
   [[nodiscard]] double r_j() const { return r_b - c_r; }  ///< journal radius, [m]
 };

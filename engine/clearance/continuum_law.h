@@ -53,31 +53,100 @@ template <typename P>
   return {chain(delta, whole.force / joint.n_r, whole.slope / joint.n_r), whole.energy / joint.n_r};
 }
 
+/// Where a ring presses on a round bore, or would.
+///
+///     delta = |e| - c_r,  n = e / |e|
+template <typename P>
+struct RoundPlace {
+  RingOffset<P> ring;
+  P delta;
+
+  template <typename V>
+  [[nodiscard]] RPSUP_INLINE V calc_rate(const RelativeMotion<P, V>& journal) const { return calc_ring_rate(journal, ring); }
+  template <typename V>
+  [[nodiscard]] RPSUP_INLINE const NormalLaw<V>& press(const NormalLaw<V>& normal) const { return normal; }
+};
+
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE RoundPlace<P> place_on_round_bore(const ClearanceParameters& joint, const RelativeMotion<P, V>& journal, int ring) {
+  const RingOffset<P> offset = calc_ring_offset(journal, calc_ring_position(joint, ring));
+  return {offset, offset.distance - joint.c_r};
+}
+
+/// Where a ring presses on a worn bore, or would. The direction of its offset, theta, decides how far it gets, R(theta): worn_bore.h.
+///
+///     delta = |e| - R,  grad delta = u - R' / |e| t,  u = e / |e|,  t = e_b x u,  n = grad delta / |grad delta|
+///
+/// The elastic force is the gradient of what it stores, so that nothing is lost or won along a groove: f_e(delta) |grad delta| along n, which is the
+/// bore's normal where the journal touches first. On a steep wall that is stiffer than the round bore, by |grad delta|^2.5.
+template <typename P>
+struct WornPlace {
+  RingOffset<P> ring;  ///< its normal is n
+  P delta;
+  P gradient;          ///< |grad delta|, 1 where R does not vary, [1]
+
+  template <typename V>
+  [[nodiscard]] RPSUP_INLINE V calc_rate(const RelativeMotion<P, V>& journal) const { return gradient * calc_ring_rate(journal, ring); }
+  template <typename V>
+  [[nodiscard]] RPSUP_INLINE NormalLaw<V> press(const NormalLaw<V>& normal) const { return {gradient * normal.total, normal.loss_power}; }
+};
+
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE WornPlace<P> place_on_worn_bore(const ClearanceParameters& joint, const RelativeMotion<P, V>& journal, int ring) {
+  RingOffset<P> offset = calc_ring_offset(journal, calc_ring_position(joint, ring));
+  if (!(value_of(offset.distance) > 1e-12)) return {offset, offset.distance - joint.c_r, P(1.0)};  // no direction
+  const P theta = atan2(offset.n_y, offset.n_x);
+  const PeriodicSpline::Point reach = joint.worn->calc_reach(ring, value_of(theta));
+  const P delta = offset.distance - joint.c_r - chain(theta, reach.value, reach.slope);
+  const P slope = chain(theta, reach.slope, reach.bend) / offset.distance;
+  const P gradient = sqrt(1.0 + slope * slope);
+  const P n_x = (offset.n_x + slope * offset.n_y) / gradient;
+  const P n_y = (offset.n_y - slope * offset.n_x) / gradient;
+  offset.n_x = n_x;
+  offset.n_y = n_y;
+  return {offset, delta, gradient};
+}
+
+/// What one ring does at its place.
+template <typename P, typename V, typename Load, typename Place>
+RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int i, const Place& place, const V* bristles,
+                           V* bristle_rates, Load& load) {
+  const ClearanceParameters& joint = contact.parameters();
+  bristle_rates[2 * i] = bristle_rates[2 * i + 1] = V(0.0);
+  const P& delta = place.delta;
+  if (!(value_of(delta) > 0.0)) return;
+  const RingOffset<P>& ring = place.ring;
+  const V rate = place.calc_rate(journal);
+  const RingForce<P> force = calc_ring_force(joint, delta);
+  const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
+  const NormalLaw<V> normal = place.press(calc_normal_law(force.elastic, rate, onset, joint.chi, joint.damping / joint.n_r));
+  const double r_j = joint.r_j();
+  const Vec3<P> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
+  add_touch(joint, journal, Touch<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i, bristle_rates + 2 * i, load);
+  load.elastic_energy += force.energy;
+  load.max_penetration = std::max(load.max_penetration, value_of(delta));
+  load.out_of_range = load.out_of_range || force.energy != force.energy;
+  load.close_touch(2 * i);
+}
+
+/// Kept out of the code of round bores, which most are.
+template <typename P, typename V, typename Load>
+[[gnu::noinline]] void add_worn_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
+                                          Load& load) {
+  for (int i = 0; i < contact.parameters().n_r; ++i)
+    add_ring(contact, journal, i, place_on_worn_bore(contact.parameters(), journal, i), bristles, bristle_rates, load);
+}
+
 /// Radial contact in closed form: each ring of the journal against the bore, one force a ring.
 ///
-///     e offset of the ring's centre from the bearing axis,  delta = |e| - c_r,  n = e / |e|,  f_e = K / n_r delta^1.5 by Hertz
+///     e offset of the ring's centre from the bearing axis,  f_e = K / n_r delta^1.5 by Hertz, delta and its direction as the place has them
 /// @tparam Load  a JointLoad<V>
 template <typename P, typename V, typename Load>
 RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
                                 Load& load) {
   const ClearanceParameters& joint = contact.parameters();
-  for (int i = 0; i < joint.n_r; ++i) {
-    bristle_rates[2 * i] = bristle_rates[2 * i + 1] = V(0.0);
-    const RingOffset<P> ring = calc_ring_offset(journal, calc_ring_position(joint, i));
-    const P delta = ring.distance - joint.c_r;
-    if (!(value_of(delta) > 0.0)) continue;
-    const V rate = calc_ring_rate(journal, ring);
-    const RingForce<P> force = calc_ring_force(joint, delta);
-    const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
-    const NormalLaw<V> normal = calc_normal_law(force.elastic, rate, onset, joint.chi, joint.damping / joint.n_r);
-    const double r_j = joint.r_j();
-    const Vec3<P> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
-    add_touch(joint, journal, Touch<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i, bristle_rates + 2 * i, load);
-    load.elastic_energy += force.energy;
-    load.max_penetration = std::max(load.max_penetration, value_of(delta));
-    load.out_of_range = load.out_of_range || force.energy != force.energy;
-    load.close_touch(2 * i);
-  }
+  if (joint.worn) return add_worn_continuum(contact, journal, bristles, bristle_rates, load);
+  for (int i = 0; i < joint.n_r; ++i) add_ring(contact, journal, i, place_on_round_bore(joint, journal, i), bristles, bristle_rates, load);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -8,9 +8,14 @@ namespace engine {
 
 namespace {
 
+template <typename Place>
+Penetration penetration_at(const Place& place, const RelativeMotion<double, double>& journal) {
+  return {place.delta, place.calc_rate(journal)};
+}
+
 Penetration calc_penetration(const ClearanceParameters& joint, const RelativeMotion<double, double>& journal, int ring) {
-  const RingOffset<double> offset = calc_ring_offset(journal, calc_ring_position(joint, ring));
-  return {offset.distance - joint.c_r, calc_ring_rate(journal, offset)};
+  if (joint.worn) return penetration_at(place_on_worn_bore(joint, journal, ring), journal);
+  return penetration_at(place_on_round_bore(joint, journal, ring), journal);
 }
 
 }  // namespace

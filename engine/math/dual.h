@@ -124,9 +124,16 @@ struct Dual {
 
 [[nodiscard]] RPSUP_INLINE Dual sin(const Dual& a) { return chain(a, std::sin(a.value), std::cos(a.value)); }
 
+/// Angle of (x, y), not both zero.
+[[nodiscard]] RPSUP_INLINE Dual atan2(const Dual& y, const Dual& x) {
+  const double inverse = 1.0 / (x.value * x.value + y.value * y.value);
+  return {std::atan2(y.value, x.value), combine(inverse * x.value, y.d, -inverse * y.value, x.d)};
+}
+
 [[nodiscard]] RPSUP_INLINE double sqrt(double a) { return std::sqrt(a); }
 [[nodiscard]] RPSUP_INLINE double exp(double a) { return std::exp(a); }
 [[nodiscard]] RPSUP_INLINE double sin(double a) { return std::sin(a); }
+[[nodiscard]] RPSUP_INLINE double atan2(double y, double x) { return std::atan2(y, x); }
 [[nodiscard]] RPSUP_INLINE double chain(double /*a*/, double f, double /*df*/) { return f; }
 
 /// The number alone: for decisions, which have no derivative.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -120,6 +121,7 @@ ClearanceParameters make_clearance(const RpsupParameters& p) {
   if (p.normal_law == NormalForceLaw::kKelvinVoigt) joint.damping = p.contact_damping;
   joint.minimum_onset_rate = p.minimum_impact_velocity;
   if (p.friction != FrictionLaw::kNone) joint.friction = friction_of(p);
+  if (!p.wear_depth.empty()) joint.worn = std::make_shared<const WornBore>(p.c_r, p.wear_depth);
   return joint;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/clearance/cylinder_contact.h"
 #include "engine/clearance/friction_parameters.h"
 #include "engine/clearance/normal_law.h"
+#include "engine/clearance/worn_bore.h"
 #include "engine/model/links.h"
 
 namespace engine {
@@ -94,6 +95,7 @@ struct RpsupParameters {
   double break_away = 0.7;                         ///< elasto-plastic bristles, [0, 1)
   double v_0 = 1e-4;                               ///< of friction without bristles: FrictionParameters, [m/s]
   double v_1 = 1e-3;                               ///< [m/s]
+  WearDepth wear_depth;                            ///< of the bore, one list a ring, [m]; empty: it is round
 };
 
 }  // namespace engine

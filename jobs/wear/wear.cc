@@ -5,7 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/clearance/worn_bore.h"
 #include "jobs/errors.h"
+#include "jobs/wear/pressed_arc.h"
+#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -15,30 +18,35 @@ using nlohmann::json;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// The three channels of a ring: its sliding work, and the same times the normal.
+/// The channels of a ring: its sliding work, the same times the normal and, in a worn bore, times the penetration.
 struct RingChannels {
   const std::vector<double>& work;
   const std::vector<double>& work_x;
   const std::vector<double>& work_y;
+  const std::vector<double>* work_penetration;
 };
 
-RingChannels ring_channels(const engine::Trajectory& run, int ring) {
+RingChannels ring_channels(const engine::Trajectory& run, int ring, bool worn) {
   const std::string key = "ring_" + std::to_string(ring) + "_sliding_work";
   const auto find = [&](const std::string& channel) -> const std::vector<double>& {
     const auto found = std::ranges::find(run.channels, channel, &engine::QuantityInfo::key);
     if (found == run.channels.end()) throw WrongState("the job was computed by a program that did not keep " + channel);
     return run.columns.at(static_cast<std::size_t>(found - run.channels.begin()));
   };
-  return {find(key + "_j"), find(key + "_x_j"), find(key + "_y_j")};
+  return {find(key + "_j"), find(key + "_x_j"), find(key + "_y_j"), worn ? &find(key + "_penetration_j_m") : nullptr};
 }
 
-/// Sliding work in each sector.
-std::vector<double> gather(const RingChannels& ring, std::size_t sectors) {
+/// Sliding work in each sector. @param arc  where a worn bore is pressed; null: in the direction of the contact
+std::vector<double> gather(const RingChannels& ring, std::size_t sectors, PressedArc* arc) {
   std::vector<double> work(sectors, 0.0);
   for (std::size_t k = 1; k < ring.work.size(); ++k) {
     const double more = ring.work[k] - ring.work[k - 1];
     if (!(more > 0.0)) continue;
     const double angle = std::atan2(ring.work_y[k] - ring.work_y[k - 1], ring.work_x[k] - ring.work_x[k - 1]);
+    if (arc) {
+      arc->add(more, angle, ((*ring.work_penetration)[k] - (*ring.work_penetration)[k - 1]) / more, work);
+      continue;
+    }
     const double part = (angle < 0.0 ? angle + kTurn : angle) / kTurn;
     work[std::min(static_cast<std::size_t>(part * static_cast<double>(sectors)), sectors - 1)] += more;
   }
@@ -49,8 +57,11 @@ std::vector<double> gather(const RingChannels& ring, std::size_t sectors) {
 
 std::vector<std::string> wear_channels(const json& parameters) {
   std::vector<std::string> channels;
+  const bool worn = parameters.contains(kWearKey);
   for (int ring = 1; ring <= parameters.at("radial_levels").get<int>(); ++ring) {
-    for (const char* const part : {"_j", "_x_j", "_y_j"}) channels.push_back("ring_" + std::to_string(ring) + "_sliding_work" + part);
+    const std::string key = "ring_" + std::to_string(ring) + "_sliding_work";
+    for (const char* const part : {"_j", "_x_j", "_y_j"}) channels.push_back(key + part);
+    if (worn) channels.push_back(key + "_penetration_j_m");
   }
   return channels;
 }
@@ -67,17 +78,22 @@ ResultTable make_wear_map(const json& parameters, const engine::Trajectory& run,
   const double length_mm = parameters.at("bearing_length_mm");
   const double sector = kTurn / static_cast<double>(query.sectors);
   const double area = 1e-6 * parameters.at("bearing_radius_mm").get<double>() * sector * length_mm / rings;  // [m^2]
+  std::optional<engine::WornBore> bore;
+  if (parameters.contains(kWearKey)) bore.emplace(1e-3 * clearance_mm, to_wear_depth(parameters.at(kWearKey)));
   const double hours = (run.columns[0].back() - run.columns[0].front()) / 3600.0;
   ResultTable table{.columns = {"ring", "position_mm", "angle_rad", "sliding_work_j", "depth_um", "rate_um_h", "life_h"}, .rows = {}, .ended = true};
   for (int ring = 1; ring <= rings; ++ring) {
     const double position_mm = rings == 1 ? 0.0 : length_mm * (static_cast<double>(ring - 1) / (rings - 1) - 0.5);
-    const auto work = gather(ring_channels(run, ring), query.sectors);
+    std::optional<PressedArc> arc;
+    if (bore) arc.emplace(*bore, ring - 1, 1e-3 * clearance_mm, query.sectors);
+    const auto work = gather(ring_channels(run, ring, bore.has_value()), query.sectors, arc ? &*arc : nullptr);
     for (std::size_t s = 0; s < work.size(); ++s) {
       const double depth_um = 1e6 * query.wear_coefficient * work[s] / area;
       const double rate = depth_um / hours;
-      const double life = query.worn_clearance ? 1e3 * (*query.worn_clearance - clearance_mm) / rate : kNever;
-      table.rows.push_back({ring, position_mm, (static_cast<double>(s) + 0.5) * sector, work[s], depth_um, rate,
-                            std::isfinite(life) ? json(life) : json()});
+      const double angle = (static_cast<double>(s) + 0.5) * sector;
+      const double worn_um = bore ? 1e6 * bore->calc_depth(ring - 1, angle) : 0.0;
+      const double life = query.worn_clearance ? std::max(1e3 * (*query.worn_clearance - clearance_mm) - worn_um, 0.0) / rate : kNever;
+      table.rows.push_back({ring, position_mm, angle, work[s], depth_um, rate, std::isfinite(life) ? json(life) : json()});
     }
   }
   return table;

@@ -26,8 +26,8 @@ struct WearQuery {
 [[nodiscard]] std::vector<std::string> wear_channels(const nlohmann::json& parameters);
 
 /// The depth that Archard's law wears off the bore along a run, k W / A in each cell of the bearing: a sector of the circumference, and of the
-/// length the part that
-/// belongs to one ring of the journal. What was worn between two samples is put where the contact was on the mean.
+/// length the part that belongs to one ring of the journal. What was worn between two samples is put where the contact was on the mean; in a job
+/// with a worn bore, on the arc that was pressed there (PressedArc). The depth is what this run adds.
 ///
 /// Rows: ring, position_mm (of the ring along the journal), angle_rad (the sector's middle in the bearing frame), sliding_work_j, depth_um,
 /// rate_um_h (if the run went on as it was), life_h (until the clearance there is worn_clearance; null without it, or where it lasts for ever).

@@ -7,6 +7,7 @@
 #include "jobs/store.h"
 #include "server/openapi/analysis_schemas.h"
 #include "server/openapi/search_schemas.h"
+#include "server/openapi/wear_schemas.h"
 
 namespace server::openapi {
 
@@ -158,6 +159,7 @@ Json make_resource_schemas() {
           {"Text", kText},
           {"Binary", Json::object()}};
   schemas.update(make_search_schemas());
+  schemas.update(make_wear_schemas());
   schemas.update(make_analysis_schemas());
   return schemas;
 }

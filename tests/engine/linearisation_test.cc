@@ -60,6 +60,11 @@ std::vector<Case> all_cases() {
   links_rows.c_r = 0.0;
   RpsupParameters all_rows = rows;
   all_rows.c_r = 0.0;
+  RpsupParameters worn = rigid;  // uneven, and different for the two rings; a spline's bend is continuous and no more, so small steps
+  for (const double ring : {0.0, 1.0}) {
+    worn.wear_depth.emplace_back();
+    for (int s = 0; s < 24; ++s) worn.wear_depth.back().push_back(1e-5 * (1.0 + ring + std::sin(0.5 * s + ring)));
+  }
   Linkage driven_screw = make_screw();
   driven_screw.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
   constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
@@ -74,7 +79,7 @@ std::vector<Case> all_cases() {
   };
   return {of_rpsup("rigid", rigid, kPressed, kFine), of_rpsup("flexible", flexible, kPressed, kFine), of_rpsup("elements", elements, kPressed, kFine),
           of_rpsup("elasto_plastic", plastic, kPressed, kFine), of_rpsup("ambrosio", no_bristles, kPressed, kFine),
-          of_rpsup("coulomb", smooth, kPressed, kFine), of_rpsup("drive_rows", rows, kPressed, kFine), of_rpsup("rigid_drive_rows", rigid_rows, kPressed, kFine),
+          of_rpsup("coulomb", smooth, kPressed, kFine), of_rpsup("worn", worn, kPressed, 0.2 * kFine), of_rpsup("drive_rows", rows, kPressed, kFine), of_rpsup("rigid_drive_rows", rigid_rows, kPressed, kFine),
           of_rpsup("ideal_flexible", ideal, 1e-6, kCoarse), of_rpsup("ideal_drive_rows", all_rows, 1e-6, kCoarse),
           of_rpsup("flexible_links", links, kPressed, kFine), of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
           of_linkage("cut_ball", make_spatial_slider_crank(JointKind::kSpherical), 1e-5, 1.0),

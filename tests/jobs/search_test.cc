@@ -29,7 +29,7 @@ ordered_json request_for(double crank_velocity) {
 
 json wait_for_end(const jobs::Service& service, const std::string& id) {
   for (int tries = 0; tries < 4000; ++tries) {
-    json search = service.find_search(id).value();
+    json search = service.find_study(jobs::Study::kLimit, id).value();
     if (search.at("state") != "running") return search;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -40,12 +40,12 @@ json list(const jobs::Service& service, const std::string& state, const std::str
   jobs::PageQuery query;
   query.state = state;
   query.fields = fields;
-  return service.list_searches(query).at("items");
+  return service.list_studies(jobs::Study::kLimit, query).at("items");
 }
 
 std::set<std::string> faults_of(jobs::Service& service, const ordered_json& request) {
   try {
-    (void)service.submit_search(request);
+    (void)service.submit_study(jobs::Study::kLimit, request);
   } catch (const jobs::InvalidRequest& invalid) {
     std::set<std::string> pointers;
     for (const jobs::Fault& fault : invalid.faults()) pointers.insert(fault.pointer);
@@ -58,7 +58,7 @@ TEST(Search, FindsTheLimitWithTheExpectedNumberOfRuns) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
-  const json begun = service.submit_search(request_for(5.3));
+  const json begun = service.submit_study(jobs::Study::kLimit, request_for(5.3));
   EXPECT_EQ(begun.at("most_evaluations"), 13);
   const json ended = wait_for_end(service, begun.at("id"));
   EXPECT_EQ(ended.at("state"), "succeeded");
@@ -75,7 +75,7 @@ TEST(Search, FindsTheLimitWithTheExpectedNumberOfRuns) {
   // Every evaluation is a job of a sweep like any other, and a result that others use.
   const auto results = service.find_results(ended.at("sweep_id")).value();
   EXPECT_EQ(results.rows.size(), 13U);
-  const json again = wait_for_end(service, service.submit_search(request_for(5.3)).at("id"));
+  const json again = wait_for_end(service, service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id"));
   EXPECT_EQ(again.at("limits").at(0).at("limit"), limit.at("limit"));
   EXPECT_EQ(engine.begun_speeds().size(), 13U) << "nothing is computed twice";
 }
@@ -87,7 +87,7 @@ TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
   ordered_json request = request_for(5.3);
   request["sweep"] = {{"coupler", {"rigid", "flexible"}}, {"restitution", {0.8, 0.9}}};
   request["replicates"] = {{"count", 3}};
-  const json ended = wait_for_end(service, service.submit_search(request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(jobs::Study::kLimit, request).at("id"));
   ASSERT_EQ(ended.at("limits").size(), 4U);
   for (const json& limit : ended.at("limits")) {
     EXPECT_EQ(limit.at("verdict"), "found");
@@ -101,7 +101,7 @@ TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
   EXPECT_EQ(ended.at("limits").at(1).at("coupler"), "rigid");
   EXPECT_EQ(ended.at("limits").at(1).at("restitution"), 0.9);
   EXPECT_EQ(ended.at("counts").at("total"), 4 * 13 * 3);
-  const auto table = service.find_limits(ended.at("id")).value();
+  const auto table = service.find_study_table(jobs::Study::kLimit, ended.at("id")).value();
   EXPECT_EQ(table.columns.at(0), "coupler");
   EXPECT_EQ(table.rows.size(), 4U);
   EXPECT_TRUE(table.ended);
@@ -114,7 +114,7 @@ TEST(Search, GoesOnAfterARestart) {
   {
     jobs::Service service(options_of(store, engine, 1));
     engine.hold();
-    id = service.submit_search(request_for(5.3)).at("id");
+    id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
     engine.await_running(1);
   }
   engine.release();
@@ -127,20 +127,20 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
   engine.hold();
-  const std::string id = service.submit_search(request_for(5.3)).at("id");
+  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
   engine.await_running(1);
-  EXPECT_THROW(service.delete_search(id), jobs::WrongState);
-  EXPECT_EQ(service.cancel_search(id).value().at("state"), "cancelled");
-  EXPECT_EQ(service.cancel_search(id).value().at("counts").at("cancelled"), 5);
+  EXPECT_THROW(service.delete_study(jobs::Study::kLimit, id), jobs::WrongState);
+  EXPECT_EQ(service.cancel_study(jobs::Study::kLimit, id).value().at("state"), "cancelled");
+  EXPECT_EQ(service.cancel_study(jobs::Study::kLimit, id).value().at("counts").at("cancelled"), 5);
   engine.release();
-  EXPECT_EQ(service.retry_search(id).value().at("state"), "running");
+  EXPECT_EQ(service.retry_study(jobs::Study::kLimit, id).value().at("state"), "running");
   EXPECT_EQ(wait_for_end(service, id).at("state"), "succeeded");
-  EXPECT_THROW(service.cancel_search(id), jobs::WrongState);
-  const std::string sweep = service.find_search(id).value().at("sweep_id");
-  EXPECT_TRUE(service.delete_search(id));
-  EXPECT_FALSE(service.find_search(id).has_value());
+  EXPECT_THROW(service.cancel_study(jobs::Study::kLimit, id), jobs::WrongState);
+  const std::string sweep = service.find_study(jobs::Study::kLimit, id).value().at("sweep_id");
+  EXPECT_TRUE(service.delete_study(jobs::Study::kLimit, id));
+  EXPECT_FALSE(service.find_study(jobs::Study::kLimit, id).has_value());
   EXPECT_FALSE(service.find_sweep(sweep).has_value());
-  EXPECT_FALSE(service.delete_search(id));
+  EXPECT_FALSE(service.delete_study(jobs::Study::kLimit, id));
 }
 
 // The fake engine fails at a restitution of 0.5.
@@ -150,7 +150,7 @@ TEST(Search, SaysWhichCombinationIsLostToAFailedJob) {
   jobs::Service service(options_of(store, engine, 2));
   ordered_json request = request_for(5.3);
   request["sweep"] = {{"restitution", {0.5, 0.9}}};
-  const json ended = wait_for_end(service, service.submit_search(request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(jobs::Study::kLimit, request).at("id"));
   EXPECT_EQ(ended.at("state"), "failed");
   EXPECT_EQ(ended.at("limits").at(0).at("verdict"), "lost");
   EXPECT_EQ(ended.at("limits").at(1).at("verdict"), "found");
@@ -187,7 +187,7 @@ TEST(Search, IsListedByItsState) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = service.submit_search(request_for(5.3)).at("id");
+  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
   (void)wait_for_end(service, id);
   EXPECT_EQ(list(service, "succeeded").at(0).at("id"), id);
   EXPECT_TRUE(list(service, "running").empty());

@@ -70,6 +70,32 @@ TEST(WearMap, GathersWhatStaysInItsSectorAndTellsItsLife) {
   EXPECT_EQ(cell(table, 4, 4), 0.0);
 }
 
+// In a worn bore the wear is spread over the arc that is pressed, and what is worn already counts for the life.
+TEST(WearMap, OfAWornBoreIsSpreadOverTheArcThatIsPressed) {
+  json parameters = kParameters;
+  parameters["wear_depth_um"] = json(std::vector<std::vector<double>>(2, std::vector<double>(20, 30.0)));
+  engine::Trajectory run = sliding(0.0);
+  for (const std::string ring : {"1", "2"}) {
+    run.channels.push_back({.key = "ring_" + ring + "_sliding_work_penetration_j_m", .help = ""});
+    run.columns.push_back(run.columns[ring == "1" ? 1 : 4]);
+    for (double& work : run.columns.back()) work *= 2e-6;
+  }
+  EXPECT_EQ(jobs::wear_channels(parameters).size(), 8U);
+  const auto table = jobs::make_wear_map(parameters, run, {.wear_coefficient = kCoefficient, .sectors = 120, .worn_clearance = 0.35});
+  const double half = std::acos(0.28 / 0.282);  // in rad; sectors of 3 degrees
+  double sum = 0.0;
+  int worn = 0;
+  for (std::size_t s = 0; s < 120; ++s) {
+    sum += cell(table, s, 3);
+    worn += cell(table, s, 3) > 0.0 ? 1 : 0;
+  }
+  EXPECT_NEAR(sum, kPower * 10.0, 1e-9 * sum);
+  EXPECT_NEAR(worn, 2.0 * half / (2.0 * pi / 120.0), 1.6);
+  EXPECT_NEAR(cell(table, 19, 6) * cell(table, 19, 5), 70.0, 1e-6) << "0.1 mm less what is worn already";
+  run.channels.pop_back();
+  EXPECT_THROW((void)jobs::make_wear_map(parameters, run, {}), jobs::WrongState);
+}
+
 TEST(WearMap, IsOfAJointThatSlides) {
   json ideal = kParameters;
   ideal["clearance_mm"] = 0.0;

@@ -13,7 +13,7 @@ function encoded(text) {
 export class Client {
   constructor(url) {
     this.url = new URL(url);
-    this.ids = { sweeps: [], searches: [], jobs: [] };
+    this.ids = { sweeps: [], searches: [], "wear-studies": [], jobs: [] };
   }
 
   /** The request as it is sent: {method, target, headers, body}, of a generated one. */

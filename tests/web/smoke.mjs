@@ -213,6 +213,30 @@ test("a search is begun, draws its limits and is deleted", async () => {
   await leave(page, /422/);
 });
 
+test("a wear study is begun, draws the bore and is deleted", async () => {
+  const page = await visit("#/wear");
+  await page.getByText("No wear study has been begun yet").waitFor();
+  const area = page.getByLabel(/^Request, as JSON/);
+  const request = { name: "worn", parameters: short, worn_clearance_mm: 0.254, max_depth_step_um: 2 };
+  await area.fill(JSON.stringify({ ...request, sectors: 3 }));
+  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByRole("alert").getByText("/sectors: must be an integer").waitFor();
+  await expectAccessible(page);
+  await area.fill(JSON.stringify(request));
+  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByText(/^succeeded: 100 %/).waitFor();
+  await page.locator(".chart canvas").nth(1).waitFor();
+  const study = await ask(`/v1/wear-studies/${page.url().split("/").at(-1)}`);
+  assert.equal(await page.getByRole("region", { name: "Cycles" }).getByRole("row").count(), 1 + study.cycles.length);
+  await page.getByRole("combobox", { name: "Ring" }).selectOption("1");
+  await expectAccessible(page);
+  await picture(page, "wear", { fullPage: true });
+  await page.getByRole("button", { name: "Delete" }).click();
+  await page.getByRole("button", { name: "Delete", exact: true }).last().click();
+  await page.getByText("No wear study has been begun yet").waitFor();
+  await leave(page, /422/);
+});
+
 test("a sweep says what its results mean", async () => {
   const over = { clearance_mm: { from: 0.1, to: 0.4 }, restitution: { from: 0.7, to: 0.9 } };
   const designed = await runSweep({ name: "indices", parameters: short, design: { type: "saltelli", count: 4, over } });

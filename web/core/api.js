@@ -35,6 +35,7 @@ function problemOf(text) {
 
 const sweepPath = (id) => `/v1/sweeps/${encodeURIComponent(id)}`;
 const searchPath = (id) => `/v1/searches/${encodeURIComponent(id)}`;
+const wearStudyPath = (id) => `/v1/wear-studies/${encodeURIComponent(id)}`;
 const jobPath = (id) => `/v1/jobs/${encodeURIComponent(id)}`;
 const withQuery = (path, query) => {
   const set = Object.entries(query).filter(([, value]) => value !== undefined && value !== "");
@@ -56,6 +57,13 @@ export const cancelSearch = (id) => ask(`${searchPath(id)}/cancel`, { method: "P
 export const retrySearch = (id) => ask(`${searchPath(id)}/retry`, { method: "POST" });
 export const deleteSearch = (id) => ask(searchPath(id), { method: "DELETE" });
 export const limitsUrl = (id, query = {}) => withQuery(`${searchPath(id)}/results`, query);
+export const listWearStudies = (query, signal) => ask(withQuery("/v1/wear-studies", query), { signal });
+export const findWearStudy = (id, signal) => ask(wearStudyPath(id), { signal });
+export const submitWearStudy = (request) => ask("/v1/wear-studies", { method: "POST", body: request });
+export const cancelWearStudy = (id) => ask(`${wearStudyPath(id)}/cancel`, { method: "POST" });
+export const retryWearStudy = (id) => ask(`${wearStudyPath(id)}/retry`, { method: "POST" });
+export const deleteWearStudy = (id) => ask(wearStudyPath(id), { method: "DELETE" });
+export const wearCyclesUrl = (id, query = {}) => withQuery(`${wearStudyPath(id)}/results`, query);
 export const findResults = (id, query, signal) => ask(resultsUrl(id, query), { signal });
 export const findJob = (id, signal) => ask(jobPath(id), { signal });
 export const submitJob = (parameters) => ask("/v1/jobs", { method: "POST", body: parameters });

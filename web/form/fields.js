@@ -2,8 +2,8 @@
 
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {
-  // The linkage is described in JSON, not in fields.
-  return Object.entries(schema.properties).filter(([key]) => key !== "linkage").flatMap(([key, property]) =>
+  // The linkage is described in JSON, not in fields, and worn bores come from wear studies.
+  return Object.entries(schema.properties).filter(([key]) => key !== "linkage" && key !== "wear_depth_um").flatMap(([key, property]) =>
     (property.type === "object" ? fieldsOf(property, `${prefix}${key}.`) : [fieldOf(prefix + key, property)]));
 }
 

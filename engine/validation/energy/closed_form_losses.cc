@@ -40,7 +40,7 @@ double calc_rebound(double c) {
 Check compare_impact(double k_r) {
   constexpr double kMass = 1.0, kSpeed = 0.3, kGap = 0.25e-3;
   const double chi = 0.75 * (1.0 - k_r * k_r);
-  const Mechanism mass = make_free_mass(kMass, {.c_r = kGap, .K = 4.7e10, .chi = chi, .friction = {}});
+  const Mechanism mass = make_free_mass(kMass, {.c_r = kGap, .K = 4.7e10, .chi = chi, .friction = {}, .worn = {}});
   LastAccount last(kGap);
   run_from(mass, {.duration = 2e-3, .output_rate = 1.0, .integrator = Integrator::kDopri5,
                   .relative_tolerance = 1e-9, .absolute_tolerance = 1e-10}, Eigen::VectorXd::Zero(1),

@@ -20,7 +20,7 @@ class LastBalance : public QuietObserver {
 
 /// 1 kg that meets the bore, or with its face the bearing's shoulder.
 Mechanism make_mass(Axis direction) {
-  Mechanism mass = make_free_mass(1.0, {.c_r = kGap, .K = 4.7e10, .K_a = 1e8, .chi = 0.0, .friction = {}});
+  Mechanism mass = make_free_mass(1.0, {.c_r = kGap, .K = 4.7e10, .K_a = 1e8, .chi = 0.0, .friction = {}, .worn = {}});
   mass.coordinates[0].axis = direction;
   if (direction == Axis::kZ) mass.cut_joints[0].clearance->c_a = kGap;
   return mass;

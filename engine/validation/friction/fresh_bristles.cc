@@ -30,7 +30,7 @@ double duration_of_contact() {
 
 /// A mass that bounces from side to side of the bore, elastically, while it is drawn along the bearing's axis.
 double run_contacts(double sliding) {
-  Mechanism m = make_free_mass(kMass, {.c_r = kGap, .K = kStiffness, .chi = 0.0, .friction = FrictionParameters{}});
+  Mechanism m = make_free_mass(kMass, {.c_r = kGap, .K = kStiffness, .chi = 0.0, .friction = FrictionParameters{}, .worn = {}});
   m.cut_joints[0].clearance->c_a = 10.0;
   m.coordinates.insert(m.coordinates.begin(), {.name = "carriage", .placement = {}, .motion = Motion::kTranslation, .axis = Axis::kZ});
   m.coordinates[1].parent = 0;

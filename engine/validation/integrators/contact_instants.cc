@@ -45,7 +45,7 @@ struct Instants {
 Instants run(RunOptions options) {
   options.duration = kGap / kSpeed + 2.0 * duration_of_contact();
   options.output_rate = 1.0;
-  const Mechanism mass = make_free_mass(kMass, {.c_r = kGap, .K = kStiffness, .chi = 0.0, .friction = {}});
+  const Mechanism mass = make_free_mass(kMass, {.c_r = kGap, .K = kStiffness, .chi = 0.0, .friction = {}, .worn = {}});
   ContactRecord record;
   const RunEnd end = run_from(mass, options, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, kSpeed), record);
   const double onset = kGap / kSpeed;

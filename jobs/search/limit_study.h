@@ -1,0 +1,12 @@
+#pragma once
+
+#include <memory>
+
+#include "jobs/search/study_desk.h"
+
+namespace jobs {
+
+/// Searches: how far a parameter may go until a metric exceeds its bound. See parse_search_request().
+[[nodiscard]] std::unique_ptr<StudyKind> make_limit_study();
+
+}  // namespace jobs

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/service.h"
+#include "jobs/store.h"
+#include "jobs/wear/wear_course.h"
+#include "jobs/wear/wear_request.h"
+
+namespace jobs {
+
+/// The resource as users see it. @param threads  how many jobs are computed at a time
+[[nodiscard]] nlohmann::json wear_study_json(const SearchRow& row, const WearStudyRequest& study, const SweepResults& results,
+                                             const WearCourse& course, int threads);
+
+/// A listing has no cycles, and does not look at the jobs.
+[[nodiscard]] nlohmann::json wear_summary_json(const SearchRow& row);
+[[nodiscard]] const std::vector<std::string>& wear_listing_keys();
+
+/// What a row has of a cycle, before the metrics of its job.
+inline constexpr std::array<std::string_view, 11> kWearColumns{"cycle", "job_id", "hours", "step_hours", "deepest_um", "deepest_position_mm",
+    "deepest_angle_rad", "clearance_mm", "rate_um_h", "rate_change", "worn_volume_mm3"};
+
+/// Flat rows, one a cycle: kWearColumns and every metric.
+[[nodiscard]] ResultTable wear_table(const SearchRow& row, const WearStudyRequest& study, const SweepResults& results, const WearCourse& course);
+
+}  // namespace jobs

@@ -1,0 +1,134 @@
+#include "jobs/wear/wear_request.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "jobs/linkage_json.h"
+#include "jobs/parameter_value.h"
+#include "jobs/parameters.h"
+#include "jobs/service.h"
+#include "jobs/wear/wear_depth.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 4> kKeysOfSweeps{"name", "parameters", "reuse", "priority"};
+
+/// Reads one request; a member function a part of it.
+class Parser {
+ public:
+  Parser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+
+  WearStudyRequest parse() {
+    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
+    for (const auto& [key, value] : request_.items()) {
+      if (std::ranges::find(kWearStudyKeys, key) == kWearStudyKeys.end()) fault(pointer_token(key), describe_unknown_key(key, kWearStudyKeys));
+    }
+    read_rule();
+    read_common();
+    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
+    return std::move(study_);
+  }
+
+ private:
+  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+
+  template <typename T>
+  void take_number(const char* key, const Range& range, std::string_view unit, T& value) {
+    if (!request_.contains(key)) return;
+    const json given = request_.at(key);
+    if (std::string detail = describe_number_fault(range, unit, given); !detail.empty()) return fault(pointer_token(key), std::move(detail));
+    value = given.get<double>();
+  }
+
+  void take_count(const char* key, const Range& range, std::size_t& value) {
+    if (!request_.contains(key)) return;
+    const json given = request_.at(key);
+    if (std::string detail = describe_integer_fault(range, given); !detail.empty()) return fault(pointer_token(key), std::move(detail));
+    value = given.get<std::size_t>();
+  }
+
+  void read_rule() {
+    take_number("wear_coefficient_m2_n", kWearCoefficientRange, "m^2/N", study_.query.wear_coefficient);
+    take_count("sectors", kWearSectorsRange, study_.query.sectors);
+    take_number("hours", kPositiveRange, "h", study_.rule.hours);
+    take_number("worn_clearance_mm", kPositiveRange, "mm", study_.query.worn_clearance);
+    take_number("max_depth_step_um", kDepthStepRange, "um", study_.rule.depth_step_um);
+    take_number("max_rate_change", kPositiveRange, "", study_.rule.rate_change);
+    take_count("max_cycles", kCyclesRange, study_.rule.cycles);
+    if (!request_.contains("hours") && !request_.contains("worn_clearance_mm")) {
+      fault("/hours", "is missing: hours, worn_clearance_mm or both say how far the bearing is worn");
+    }
+  }
+
+  void read_common() {
+    ordered_json common = ordered_json::object();
+    for (const std::string_view key : kKeysOfSweeps) {
+      if (request_.contains(key)) common[std::string(key)] = request_.at(key);
+    }
+    try {
+      study_.common = parse_sweep_request(common, max_jobs_);
+    } catch (const InvalidRequest& invalid) {
+      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
+      return;
+    }
+    const json& given = study_.common.parameters;
+    if (describes_linkage(given)) return fault("/parameters/linkage", "must be \"rpsup\": the bearing that is worn is that linkage's");
+    if (given.contains(kWearKey)) return fault("/parameters" + pointer_token(kWearKey), "must be left out: a study begins with a round bore");
+    try {
+      study_.completed = complete_parameters(study_.common.parameters, "/parameters");
+    } catch (const InvalidRequest& invalid) {
+      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
+      return;
+    }
+    check_joint();
+    check_window();
+  }
+
+  void check_joint() {
+    const double clearance = study_.clearance_mm();
+    if (!(clearance > 0.0)) fault("/parameters/clearance_mm", "must be above 0 mm: the ideal joint does not slide");
+    if (study_.completed.at("contact") != "continuum") {
+      fault("/parameters/contact", "must be \"continuum\": a worn bore is for that form of the contact");
+    }
+    if (!study_.query.worn_clearance) return;
+    const double most = clearance + 0.1 * study_.completed.at("bearing_radius_mm").get<double>();
+    if (const Range range{clearance, most, Bound::kExclusive, Bound::kExclusive}; !range.contains(*study_.query.worn_clearance)) {
+      fault("/worn_clearance_mm", "must be " + range.text() + " mm: more than the clearance, by less than a tenth of the bearing's radius");
+    }
+    study_.rule.deepest_um = 1e3 * (*study_.query.worn_clearance - clearance);
+  }
+
+  /// The rate of wear is taken from the steady motion.
+  void check_window() {
+    const double steady = study_.completed.at("duration_s").get<double>() - study_.completed.at("run_up_s").get<double>();
+    if (!(steady * study_.completed.at("output_rate_hz").get<double>() >= 2.0)) {
+      fault("/parameters/duration_s", "must be above run_up_s, by two samples or more: the rate of wear is that of the steady motion");
+    }
+  }
+
+  const ordered_json& request_;
+  std::size_t max_jobs_;
+  WearStudyRequest study_;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+WearStudyRequest parse_wear_request(const ordered_json& request, std::size_t max_jobs) { return Parser(request, max_jobs).parse(); }
+
+ordered_json case_of(const WearGrid& depth_um) { return {{std::string(kWearKey), depth_um}}; }
+
+ordered_json first_sweep_of(const ordered_json& request, const WearStudyRequest& study) {
+  ordered_json sweep = ordered_json::object();
+  for (const std::string_view key : kKeysOfSweeps) {
+    if (request.contains(key)) sweep[std::string(key)] = request.at(key);
+  }
+  sweep["cases"] = ordered_json::array({case_of(study.round_bore())});
+  return sweep;
+}
+
+}  // namespace jobs

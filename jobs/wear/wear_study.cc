@@ -1,0 +1,148 @@
+#include "jobs/wear/wear_study.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "jobs/errors.h"
+#include "jobs/expand.h"
+#include "jobs/ids.h"
+#include "jobs/trajectory_codec.h"
+#include "jobs/trajectory_query.h"
+#include "jobs/wear/wear_depth.h"
+#include "jobs/wear/wear_picture.h"
+#include "jobs/wear/wear_request.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+WearStudyRequest request_of(const SearchRow& row) {
+  return parse_wear_request(ordered_json::parse(row.request), std::numeric_limits<std::size_t>::max());
+}
+
+/// The rates of wear that jobs have shown; what was read once is kept.
+class WearRates {
+ public:
+  explicit WearRates(const Store& store) : store_(store) {}
+
+  /// Empty if the job has no trajectory that tells them.
+  std::optional<WearGrid> find(const std::string& job_id, const WearGrid& depth_um, const WearStudyRequest& study) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto known = rates_.find(job_id); known != rates_.end()) return known->second;
+    }
+    auto read_now = read(job_id, depth_um, study);
+    const std::lock_guard lock(mutex_);
+    if (rates_.size() >= kMostKept) rates_.clear();
+    if (read_now) rates_.emplace(job_id, *read_now);
+    return read_now;
+  }
+
+ private:
+  static constexpr std::size_t kMostKept = 5000;
+
+  [[nodiscard]] std::optional<WearGrid> read(const std::string& job_id, const WearGrid& depth_um, const WearStudyRequest& study) const {
+    const auto blob = store_.find_trajectory(job_id);
+    if (!blob) return std::nullopt;
+    try {
+      return make_rates(std::as_bytes(std::span(*blob)), depth_um, study);
+    } catch (const WrongState&) {  // it does not have what tells the wear
+    } catch (const DamagedTrajectory&) {
+    }
+    return std::nullopt;
+  }
+
+  static WearGrid make_rates(std::span<const std::byte> trajectory, const WearGrid& depth_um, const WearStudyRequest& study) {
+    json parameters = study.completed;
+    parameters[kWearKey] = depth_um;
+    const TrajectoryQuery steady{.channels = wear_channels(parameters), .from = parameters.at("run_up_s").get<double>(), .to = {}};
+    WearQuery query = study.query;
+    query.worn_clearance.reset();
+    const ResultTable map = make_wear_map(parameters, read_trajectory(trajectory, steady), query);
+    WearGrid rates = study.round_bore();
+    for (std::size_t k = 0; k < map.rows.size(); ++k) rates[k / query.sectors][k % query.sectors] = map.rows[k][kRateColumn].get<double>();
+    return rates;
+  }
+
+  static constexpr std::size_t kRateColumn = 5;  // rate_um_h
+
+  const Store& store_;
+  std::mutex mutex_;  // guards the rest
+  std::map<std::string, WearGrid> rates_;  ///< by job
+};
+
+class WearStudy final : public StudyKind {
+ public:
+  explicit WearStudy(const Store& store) : rates_(store) {}
+
+  [[nodiscard]] std::string_view id_prefix() const override { return kWearStudyPrefix; }
+
+  [[nodiscard]] FirstSweep plan_first(const ordered_json& request, std::size_t max_jobs) const override {
+    ordered_json sweep = first_sweep_of(request, parse_wear_request(request, max_jobs));
+    SweepPlan plan = plan_sweep(sweep, max_jobs);
+    return {std::move(sweep), std::move(plan)};
+  }
+
+  [[nodiscard]] StudyStep find_step(const SearchRow& row, const SweepResults& results) const override {
+    const WearCourse course = follow(request_of(row), results);
+    StudyStep step;
+    if (course.next) step.cases.push_back(case_of(*course.next));
+    if (course.verdict == WearVerdict::kLost) {
+      const bool cancelled = std::ranges::any_of(results.rows, [](const ResultRow& job) { return job.state == "cancelled"; });
+      step.end_state = cancelled ? "cancelled" : "failed";
+      if (!cancelled) step.error = "a job has no result that tells its wear";
+    } else if (course.verdict != WearVerdict::kOpen) {
+      step.end_state = "succeeded";
+    }
+    return step;
+  }
+
+  [[nodiscard]] json make_resource(const SearchRow& row, const SweepResults& results, int threads) const override {
+    const WearStudyRequest study = request_of(row);
+    return wear_study_json(row, study, results, follow(study, results), threads);
+  }
+  [[nodiscard]] json make_summary(const SearchRow& row) const override { return wear_summary_json(row); }
+  [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return wear_listing_keys(); }
+  [[nodiscard]] ResultTable make_table(const SearchRow& row, const SweepResults& results) const override {
+    const WearStudyRequest study = request_of(row);
+    return wear_table(row, study, results, follow(study, results));
+  }
+
+ private:
+  /// The study's course as far as its jobs go: the k-th job is that of the k-th case of its sweep.
+  [[nodiscard]] WearCourse follow(const WearStudyRequest& study, const SweepResults& results) const {
+    std::map<WearGrid, std::size_t> jobs;
+    std::size_t count = 0;
+    const json request = json::parse(results.sweep.request);
+    for (const json& bore : request.at("cases")) jobs.emplace(bore.at(kWearKey).get<WearGrid>(), count++);
+    return follow_wear(study.rule, study.round_bore(), [&](const WearGrid& depth_um) -> std::optional<WearEvaluation> {
+      const auto found = jobs.find(depth_um);
+      if (found == jobs.end()) return std::nullopt;
+      return evaluate(results.rows.at(found->second), found->second, depth_um, study);
+    });
+  }
+
+  [[nodiscard]] WearEvaluation evaluate(const ResultRow& job, std::size_t index, const WearGrid& depth_um, const WearStudyRequest& study) const {
+    using State = WearEvaluation::State;
+    if (job.state == "queued" || job.state == "running") return {.state = State::kPending, .job = index};
+    if (job.state != "succeeded") return {.state = State::kLost, .job = index};
+    auto rates = rates_.find(job.job_id, depth_um, study);
+    if (!rates) return {.state = State::kLost, .job = index};
+    return {.state = State::kDone, .job = index, .rate_um_h = std::move(*rates)};
+  }
+
+  mutable WearRates rates_;  // has a lock of its own
+};
+
+}  // namespace
+
+std::unique_ptr<StudyKind> make_wear_study(const Store& store) { return std::make_unique<WearStudy>(store); }
+
+}  // namespace jobs

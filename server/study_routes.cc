@@ -1,0 +1,106 @@
+#include "server/study_routes.h"
+
+#include <string>
+#include <utility>
+
+#include "server/conditional.h"
+#include "server/json_text.h"
+#include "server/listing.h"
+#include "server/problem.h"
+#include "server/query.h"
+#include "server/tables.h"
+
+namespace server {
+
+namespace {
+
+using jobs::Study;
+
+/// What users call a study of the kind, and where it stands.
+struct Words {
+  const char* name;
+  const char* path;
+};
+
+constexpr Words words_of(Study study) {
+  return study == Study::kLimit ? Words{"search", "/v1/searches/"} : Words{"wear study", "/v1/wear-studies/"};
+}
+
+HttpError no_such(Study study, const std::string& id) { return {404, std::string("there is no ") + words_of(study).name + " " + id}; }
+
+Response make_study(Study study, const Call& call, const std::optional<nlohmann::json>& resource) {
+  if (!resource) throw no_such(study, call.id);
+  return make_json(200, to_text(*resource));
+}
+
+}  // namespace
+
+template <Study kStudy>
+Response post_study(const Call& call) {
+  Query(call.request, {}).check();
+  const auto study = call.service.submit_study(kStudy, parse_json(call.request.body));
+  Response response = make_json(201, to_text(study));
+  response.headers.emplace_back("Location", words_of(kStudy).path + study.at("id").get<std::string>());
+  return response;
+}
+
+template <Study kStudy>
+Response get_studies(const Call& call) {
+  return make_json(200, to_text(list_page(call.request, [&](const jobs::PageQuery& page) { return call.service.list_studies(kStudy, page); })));
+}
+
+template <Study kStudy>
+Response get_study(const Call& call) {
+  Query(call.request, {}).check();
+  const auto study = call.service.find_study(kStudy, call.id);
+  Response response = make_study(kStudy, call, study);
+  return study->at("state") != "running" ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+}
+
+template <Study kStudy>
+Response delete_study(const Call& call) {
+  Query(call.request, {}).check();
+  if (!call.service.delete_study(kStudy, call.id)) throw no_such(kStudy, call.id);
+  return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
+}
+
+template <Study kStudy>
+Response get_study_results(const Call& call) {
+  Query query(call.request, {"format"});
+  const TableFormat format = find_row_format(call.request, query);
+  query.check();
+  const auto table = call.service.find_study_table(kStudy, call.id);
+  if (!table) throw no_such(kStudy, call.id);
+  Response response = make_table(format, to_text(*table, format), (kStudy == Study::kLimit ? "search-" : "wear-study-") + call.id);
+  return table->ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+}
+
+template <Study kStudy>
+Response cancel_study(const Call& call) {
+  Query(call.request, {}).check();
+  return make_study(kStudy, call, call.service.cancel_study(kStudy, call.id));
+}
+
+template <Study kStudy>
+Response retry_study(const Call& call) {
+  Query(call.request, {}).check();
+  return make_study(kStudy, call, call.service.retry_study(kStudy, call.id));
+}
+
+template Response post_study<Study::kLimit>(const Call&);
+template Response get_studies<Study::kLimit>(const Call&);
+template Response get_study<Study::kLimit>(const Call&);
+template Response delete_study<Study::kLimit>(const Call&);
+template Response get_study_results<Study::kLimit>(const Call&);
+template Response cancel_study<Study::kLimit>(const Call&);
+template Response retry_study<Study::kLimit>(const Call&);
+
+template Response post_study<Study::kWear>(const Call&);
+template Response get_studies<Study::kWear>(const Call&);
+template Response get_study<Study::kWear>(const Call&);
+template Response delete_study<Study::kWear>(const Call&);
+template Response get_study_results<Study::kWear>(const Call&);
+template Response cancel_study<Study::kWear>(const Call&);
+template Response retry_study<Study::kWear>(const Call&);
+
+}  // namespace server
