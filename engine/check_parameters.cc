@@ -36,9 +36,12 @@ bool is_inertia_of_a_body(const Eigen::Vector3d& I) {
   return (I.array() > 0.0).all() && (I.sum() - 2.0 * I.maxCoeff() >= -rounding);
 }
 
+/// Along which of its axes a link lies: x, but for the cross link.
+bool is_along_z(std::size_t link) { return link == static_cast<std::size_t>(Link::k22); }
+
 void check_links(const RpsupParameters& p) {
   static constexpr std::array<const char*, kLinkCount> names{"1,1", "1,2", "1,3", "2,1", "2,2"};
-  const std::array<double, kLinkCount> lengths{p.crank_length, p.rod_length, p.coupler_length, 0.0, 0.0};
+  const std::array<double, kLinkCount> lengths{p.crank_length, p.rod_length, p.coupler_length, 0.0, p.cross_length};
   for (std::size_t k = 0; k < kLinkCount; ++k) {
     const std::string name = std::string("links.") + names[k];
     const LinkInertia& link = p.links[k];
@@ -47,9 +50,10 @@ void check_links(const RpsupParameters& p) {
     require(link.inertia.allFinite() && is_inertia_of_a_body(link.inertia), field,
             "three moments above 0, none of them larger than the sum of the other two");
     const double steiner = link.mass * 0.25 * lengths[k] * lengths[k];
-    require(is_inertia_of_a_body(link.inertia - Eigen::Vector3d(0.0, steiner, steiner)), field,
-            "those of a body about its frame's origin: about the centre of mass, at x = " + to_text(0.5 * lengths[k]) +
-                " m, they break I_x <= I_y + I_z or are not above 0");
+    const Eigen::Vector3d along = is_along_z(k) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+    require(is_inertia_of_a_body(link.inertia - steiner * (Eigen::Vector3d::Ones() - along)), field,
+            "those of a body about its frame's origin: about the centre of mass, at " + std::string(is_along_z(k) ? "z" : "x") + " = " +
+                to_text(0.5 * lengths[k]) + " m, they break I_x <= I_y + I_z or are not above 0");
   }
 }
 
@@ -57,6 +61,7 @@ void check_geometry(const RpsupParameters& p) {
   require_positive(p.crank_length, "crank_length");
   require_positive(p.rod_length, "rod_length");
   require_positive(p.coupler_length, "coupler_length");
+  require_not_negative(p.cross_length, "cross_length");
   require_finite(p.guide_offset_y, "guide_offset_y");
   require_finite(p.guide_offset_z, "guide_offset_z");
   require_finite(p.gravity, "gravity");
@@ -71,6 +76,21 @@ void check_coupler(const RpsupParameters& p) {
           "such that Poisson's ratio E / (2 G) - 1 lies in (-1, 0.5]; it is " + to_text(nu));
   require_positive(p.coupler_diameter, "coupler_diameter");
   require_not_negative(p.coupler_damping_ratio, "coupler_damping_ratio");
+}
+
+void check_round_link(const RoundLink& link, const std::string& name) {
+  require_positive(link.diameter, name + ".diameter");
+  require_not_negative(link.inner_diameter, name + ".inner_diameter");
+  require(link.inner_diameter < link.diameter, name + ".inner_diameter", "below the outer diameter of " + to_text(1e3 * link.diameter) + " mm");
+  require(link.elements >= 2, name + ".elements", "at least 2");
+  require_not_negative(link.damping_ratio, name + ".damping_ratio");
+}
+
+void check_other_links(const RpsupParameters& p) {
+  check_round_link(p.crank, "crank");
+  check_round_link(p.rod, "rod");
+  check_round_link(p.cross, "cross");
+  require(p.cross.model == LinkModel::kRigid || p.cross_length > 0.0, "cross_length", "above 0, as the cross link is flexible");
 }
 
 void check_drives(const RpsupParameters& p) {
@@ -144,7 +164,7 @@ bool reaches_always(const RpsupParameters& p) {
   const double least = p.rod_length + std::min(0.0, p.rod_stroke);
   const double most = p.rod_length + std::max(0.0, p.rod_stroke);
   const double dy = std::max(std::abs(least), std::abs(most)) + std::abs(p.guide_offset_y);
-  return p.coupler_length * p.coupler_length - dy * dy - p.guide_offset_z * p.guide_offset_z > 0.0;
+  return calc_reach_squared_at_height(p, dy) > 0.0;
 }
 
 /// The guide must be within the coupler's reach at every instant. Sampled so that neither drive moves far between two looks; a linkage
@@ -175,6 +195,7 @@ void check_parameters(const RpsupParameters& parameters, const RunOptions& optio
   check_geometry(parameters);
   check_links(parameters);
   check_coupler(parameters);
+  check_other_links(parameters);
   check_drives(parameters);
   check_joint(parameters);
   check_options(options);

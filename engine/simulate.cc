@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/dynamics/loop_closure.h"
+#include "engine/integrate/choose_integrator.h"
 #include "engine/integrate/integration.h"
 #include "engine/integrate/kinematic_run.h"
 
@@ -22,7 +23,9 @@ std::string_view status_name(RunStatus status) {
   return "unknown";
 }
 
-RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer) {
+RunEnd simulate(const Mechanism& mechanism, const RunOptions& wanted, Observer& observer) {
+  RunOptions options = wanted;
+  options.integrator = choose_integrator(mechanism, wanted.integrator);
   LoopClosure closure(mechanism);
   Evaluation assembled = MotionSystem(mechanism).make_evaluation();
   if (!closure.assemble(0.0, assembled)) {

@@ -10,6 +10,7 @@
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
+#include "jobs/plan_budget.h"
 #include "jobs/provenance.h"
 #include "jobs/service.h"
 #include "jobs/splitmix64.h"
@@ -29,6 +30,10 @@ struct Position {
   std::size_t design_point = 0;
   std::vector<std::size_t> values;  ///< one index an axis
 
+  [[nodiscard]] bool is_first_of_case() const {
+    return design_point == 0 && std::ranges::all_of(values, [](std::size_t index) { return index == 0; });
+  }
+
   /// Moves on to the next point. False after the last.
   bool advance(const SweepRequest& sweep) {
     for (std::size_t axis = values.size(); axis-- > 0;) {
@@ -40,6 +45,12 @@ struct Position {
     return ++case_index < sweep.cases.size();
   }
 };
+
+std::uint64_t points_of_a_case(const SweepRequest& sweep) {
+  std::uint64_t points = std::max<std::uint64_t>(1, sweep.design.points.size());
+  for (const Axis& axis : sweep.axes) points *= axis.values.size();
+  return points;
+}
 
 json parameters_at(const SweepRequest& sweep, const Position& position) {
   json given = sweep.parameters;
@@ -120,10 +131,13 @@ std::string swept_text(const json& completed, const std::vector<std::string>& sw
   return values.dump();
 }
 
-/// Ideal joints cost a small part of what contact does, and rigid couplers of flexible ones.
+/// Ideal joints cost a small part of what contact does, and rigid links of flexible ones.
 std::string kind_of(const json& completed) {
   if (describes_linkage(completed)) return "described";
-  return completed.at("coupler").get<std::string>() + (completed.at("clearance_mm").get<double>() > 0.0 ? ", clearance" : ", ideal");
+  std::string kind = completed.at("coupler").get<std::string>();
+  for (const char* const link : {"crank", "rod", "cross"})
+    if (completed.at(link) == "flexible") kind += std::string(" + ") + link;
+  return kind + (completed.at("clearance_mm").get<double>() > 0.0 ? ", clearance" : ", ideal");
 }
 
 PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, std::string swept) {
@@ -164,9 +178,11 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
   SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse,
                  .priority = sweep.priority, .executor = sweep.executor, .jobs = {}};
   PointFaults faults(sweep);
+  PlanBudget budget(max_jobs);
   Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
   do {
     const json completed = fill_in_defaults(parameters_at(sweep, position));
+    if (position.is_first_of_case()) budget.take(completed, points_of_a_case(sweep), sweep.replicates.count);
     const auto found = find_combination_faults(completed);
     for (const Fault& fault : found) faults.add(fault, position, completed);
     if (found.empty()) add_jobs(completed, sweep, plan);

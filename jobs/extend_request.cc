@@ -102,10 +102,13 @@ class Union {
 
   void add_cases() {
     const auto& added = addition_.at("cases");
+    if (added.size() > max_jobs_)
+      return fault("/cases", "has " + std::to_string(added.size()) + " cases; at most " + std::to_string(max_jobs_) + " jobs are allowed");
     if (!former_.contains("cases")) return fault("/cases", "this sweep has no cases, and an extension does not change what is swept; " + axes_text());
     std::set<std::string> swept;
     for (const auto& given : former_.at("cases")) {
       for (const std::string& path : paths_of(given)) swept.insert(path);
+      known_cases_.insert(given);
     }
     for (std::size_t i = 0; i < added.size(); ++i) add_case(added[i], i, swept);
   }
@@ -118,10 +121,8 @@ class Union {
     for (const std::string& path : paths_of(given)) {
       if (!swept.contains(path)) fault(pointer + pointer_of_path(path), "no case of this sweep has it, and an extension does not change what is swept");
     }
-    ordered_json& cases = request_["cases"];
-    const bool known = std::ranges::any_of(cases, [&](const ordered_json& other) { return json(other) == json(given); });
-    if (known) return;
-    cases.push_back(given);
+    if (!known_cases_.insert(given).second) return;
+    request_["cases"].push_back(given);
     added_cases_.push_back(index);
   }
 
@@ -129,6 +130,7 @@ class Union {
   const ordered_json& addition_;
   std::size_t max_jobs_;
   ordered_json request_;
+  std::set<json> known_cases_;            ///< of the union
   std::vector<std::size_t> added_cases_;  ///< for each case at the end of the union its index in the addition
   std::vector<Fault> faults_;
 };

@@ -1,6 +1,7 @@
 #include "jobs/link_parameters.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
@@ -11,14 +12,37 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kLinksPointer = "/links";
+constexpr double kMmPerM = 1000.0;
 
 /// The keys on which the default mass and inertia of a link depend; empty: none.
 struct RodKeys {
-  std::string_view length;
-  std::string_view diameter;
+  std::string_view length, diameter, inner_diameter;
 };
-constexpr std::array<RodKeys, engine::kLinkCount> kRodKeys{
-    {{"crank_length_m", ""}, {"rod_length_m", ""}, {"coupler_length_m", "coupler_diameter_mm"}, {"", ""}, {"", ""}}};
+constexpr std::array<RodKeys, engine::kLinkCount> kRodKeys{{{"crank_length_m", "crank_diameter_mm", "crank_inner_diameter_mm"},
+                                                            {"rod_length_m", "rod_diameter_mm", "rod_inner_diameter_mm"},
+                                                            {"coupler_length_m", "coupler_diameter_mm", ""},
+                                                            {"", "", ""},
+                                                            {"cross_length_mm", "cross_diameter_mm", "cross_inner_diameter_mm"}}};
+constexpr std::size_t kCross = 4;                  ///< lies along its z axis, and may have no length
+constexpr double kTableLengthOfCross_m = 0.1;      ///< of the tube with the table's mass and moments
+
+/// Axis along which a link lies.
+std::size_t axis_of(std::size_t link) { return link == kCross ? 2 : 0; }
+
+double length_of(std::size_t link, const json& completed) {
+  const std::string_view key = kRodKeys[link].length;
+  if (key.empty()) return 0.0;
+  return completed.at(key).get<double>() / (link == kCross ? kMmPerM : 1.0);
+}
+
+double table_length_of(std::size_t link) {
+  return link == kCross ? kTableLengthOfCross_m : default_value(*find_parameter(kRodKeys[link].length)).get<double>();
+}
+
+/// What a link's section is to that of the table's link: areas, and squares of the radius of gyration.
+struct SectionRatio {
+  double area = 1.0, radius_squared = 1.0;
+};
 
 std::string link_pointer(std::string_view link, std::string_view part) {
   return std::string(kLinksPointer) + pointer_token(link) + (part.empty() ? "" : pointer_token(part));
@@ -54,38 +78,43 @@ void find_part_faults(std::string_view link, const json& parts, std::vector<Faul
   }
 }
 
-double length_of(std::string_view key, const json& completed) { return completed.at(key).get<double>(); }
+double number_at(const json& completed, std::string_view key) { return completed.at(key).get<double>(); }
+double default_number(std::string_view key) { return default_value(*find_parameter(key)).get<double>(); }
 
-double ratio_to_default(std::string_view key, const json& completed) {
-  return length_of(key, completed) / default_value(*find_parameter(key)).get<double>();
+SectionRatio section_ratio(const RodKeys& keys, const json& completed) {
+  const double outer = number_at(completed, keys.diameter), outer_0 = default_number(keys.diameter);
+  if (keys.inner_diameter.empty()) return {(outer / outer_0) * (outer / outer_0), (outer / outer_0) * (outer / outer_0)};
+  const double inner = number_at(completed, keys.inner_diameter), inner_0 = default_number(keys.inner_diameter);
+  return {(outer * outer - inner * inner) / (outer_0 * outer_0 - inner_0 * inner_0),
+          (outer * outer + inner * inner) / (outer_0 * outer_0 + inner_0 * inner_0)};
 }
 
-/// (d / d_0)^2; 1 for what has no diameter.
-double section_ratio(const RodKeys& keys, const json& completed) {
-  const double ratio = keys.diameter.empty() ? 1.0 : ratio_to_default(keys.diameter, completed);
-  return ratio * ratio;
+/// Mass and moments of the uniform rod or tube that a link is.
+engine::LinkInertia default_rod(std::size_t link, double length, const json& given, const json& completed) {
+  const engine::LinkInertia table = engine::RpsupParameters{}.links[link];
+  const SectionRatio section = section_ratio(kRodKeys[link], completed);
+  const double mass = given.contains(kMassKey) ? number_at(given, kMassKey) : table.mass * (length / table_length_of(link)) * section.area;
+  const double axial = table.inertia[static_cast<Eigen::Index>(axis_of(link))] * (mass / table.mass) * section.radius_squared;
+  engine::LinkInertia rod = engine::rod_inertia(mass, length, axial);
+  if (link == kCross) std::swap(rod.inertia[0], rod.inertia[2]);
+  return rod;
 }
 
-double default_mass(const engine::LinkInertia& table, const RodKeys& keys, const json& completed) {
-  if (keys.length.empty()) return table.mass;
-  return table.mass * ratio_to_default(keys.length, completed) * section_ratio(keys, completed);
-}
-
-Eigen::Vector3d default_inertia(const engine::LinkInertia& table, const RodKeys& keys, double mass, const json& completed) {
-  const double mass_ratio = mass / table.mass;
-  if (keys.length.empty()) return table.inertia * mass_ratio;
-  return engine::rod_inertia(mass, length_of(keys.length, completed), table.inertia.x() * mass_ratio * section_ratio(keys, completed)).inertia;
+engine::LinkInertia default_link(std::size_t link, const json& given, const json& completed) {
+  if (const double length = length_of(link, completed); length > 0.0) return default_rod(link, length, given, completed);
+  engine::LinkInertia table = engine::RpsupParameters{}.links[link];
+  if (!given.contains(kMassKey)) return table;
+  const double mass = number_at(given, kMassKey);
+  return {mass, table.inertia * (mass / table.mass)};
 }
 
 json complete_link(std::size_t link, const json& given, const json& completed) {
-  const engine::LinkInertia table = engine::RpsupParameters{}.links[link];
-  const double mass = given.contains(kMassKey) ? given.at(kMassKey).get<double>() : default_mass(table, kRodKeys[link], completed);
-  const Eigen::Vector3d inertia = default_inertia(table, kRodKeys[link], mass, completed);
-  json moments = json::array({inertia.x(), inertia.y(), inertia.z()});
+  const engine::LinkInertia filled = default_link(link, given, completed);
+  json moments = json::array({filled.inertia.x(), filled.inertia.y(), filled.inertia.z()});
   if (given.contains(kInertiaKey)) {
     for (std::size_t axis = 0; axis < 3; ++axis) moments[axis] = given.at(kInertiaKey)[axis].get<double>();
   }
-  return {{kMassKey, mass}, {kInertiaKey, std::move(moments)}};
+  return {{kMassKey, filled.mass}, {kInertiaKey, std::move(moments)}};
 }
 
 /// Whether three moments are those of some body; equal sums pass in spite of rounding (thin plates have them).
@@ -126,14 +155,15 @@ std::vector<Fault> find_inertia_faults(const json& completed) {
     const std::string pointer = link_pointer(kLinkNames[i], kInertiaKey);
     if (!is_possible(moments)) {
       faults.push_back({pointer, "no body has these moments: each must be at most the sum of the other two"});
-    } else if (!kRodKeys[i].length.empty()) {
-      const double to_centre = 0.5 * completed.at(kRodKeys[i].length).get<double>();
+    } else if (const double to_centre = 0.5 * length_of(i, completed); to_centre > 0.0) {
       const double steiner = link.at(kMassKey).get<double>() * to_centre * to_centre;
-      moments[1] -= steiner;
-      moments[2] -= steiner;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (axis != axis_of(i)) moments[axis] -= steiner;
       if (!is_possible(moments)) {
-        faults.push_back({pointer, "no body has these moments: about the centre of mass, in the middle of the link, I_y and I_z are less by m (l/2)^2 = " +
-                                       readable_number(steiner) + " kg m^2, and each must be positive and at most the sum of the other two"});
+        const std::string across = i == kCross ? "I_x and I_y" : "I_y and I_z";
+        faults.push_back({pointer, "no body has these moments: about the centre of mass, in the middle of the link, " + across +
+                                       " are less by m (l/2)^2 = " + readable_number(steiner) +
+                                       " kg m^2, and each must be positive and at most the sum of the other two"});
       }
     }
   }

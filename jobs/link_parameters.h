@@ -25,10 +25,12 @@ inline constexpr Range kInertiaRange{.minimum = 0.0, .maximum = 1e9, .lower = Bo
 
 /// All parts of all links: the given ones, and for the others the defaults, which follow what else is given:
 ///
-///     m = m_0 (l / l_0) (d / d_0)^2,   I_x = I_x0 (m / m_0) (d / d_0)^2,   I_y = I_z = m l^2 / 3 + I_x / 2 (engine::rod_inertia),
+///     m = m_0 (l / l_0) (d^2 - d_i^2) / (d_0^2 - d_i0^2),   I_x = I_x0 (m / m_0) (d^2 + d_i^2) / (d_0^2 + d_i0^2),
+///     I_y = I_z = m l^2 / 3 + I_x / 2 (engine::rod_inertia),
 ///
-/// where only the coupler has a diameter d. Links (2,1) and (2,2) are no rods: their moments go with their mass. With every
-/// length at its default and no mass given these are the engine's defaults to the last bit.
+/// with outer and inner diameters d and d_i, the coupler's d_i = 0; of link (2,2) with a length, which lies along z, I_z stands for I_x.
+/// Link (2,1), and (2,2) without a length, are no rods: their moments go with their mass. With every length and diameter at its default
+/// and no mass given these are the engine's defaults to the last bit.
 /// @param given      has no faults; an object, empty if there is none
 /// @param completed  the other parameters, all of them
 [[nodiscard]] nlohmann::json complete_links(const nlohmann::json& given, const nlohmann::json& completed);

@@ -13,6 +13,7 @@
 #include "jobs/linkage_beam.h"
 #include "jobs/linkage_drive.h"
 #include "jobs/linkage_fields.h"
+#include "jobs/linkage_size.h"
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/service.h"
@@ -112,6 +113,7 @@ class LinkageReader {
     check_bodies();
     check_joints();
     if (failed()) return std::nullopt;
+    check_size();
     find_order();
     if (failed()) return std::nullopt;
     return make();
@@ -275,6 +277,11 @@ class LinkageReader {
       if (freedom.contains(key)) fault(pointer + pointer_token(key), "is what the drive says");
   }
 
+  void check_size() {
+    std::string detail = describe_size_fault(size_of_linkage(given_, static_cast<std::size_t>(defaults_.rigid_elements)));
+    if (!detail.empty()) fault("/linkage", std::move(detail));
+  }
+
   /// Each joint behind the one that carries its first body; by names where that leaves a choice.
   void find_order() {
     const json& joints = given_.at("joints");
@@ -421,6 +428,8 @@ std::string pointer_of_linkage_field(std::string_view field) {
   }
   return pointer;
 }
+
+std::size_t count_freedoms(std::string_view kind) { return parts_of(kKinds.at(kind)).size(); }
 
 json canonical_linkage(const json& description) { return with_doubles(description); }
 

@@ -17,6 +17,15 @@ auto& field(Spec& spec, T RpsupParameters::*member) { return spec.parameters.*me
 template <typename Spec, typename T>
 auto& field(Spec& spec, T RunOptions::*member) { return spec.options.*member; }
 
+/// A member of one of the round links.
+template <typename T>
+struct OfLink {
+  engine::RoundLink RpsupParameters::*link;
+  T engine::RoundLink::*member;
+};
+template <typename Spec, typename T>
+auto& field(Spec& spec, OfLink<T> member) { return spec.parameters.*member.link.*member.member; }
+
 constexpr Range between(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum}; }
 constexpr Range above(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .lower = Bound::kExclusive}; }
 constexpr Range below(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .upper = Bound::kExclusive}; }
@@ -46,7 +55,8 @@ ParameterInfo number(const About& about, Range range, Member member, double per_
   return info;
 }
 
-ParameterInfo integer(const About& about, Range range, int RpsupParameters::*member) {
+template <typename Member>
+ParameterInfo integer(const About& about, Range range, Member member) {
   ParameterInfo info = row(about, ParameterKind::kInteger);
   info.range = range;
   info.read = [=](const JobSpec& spec) -> nlohmann::json { return field(spec, member); };
@@ -85,10 +95,11 @@ void add_run_rows(Rows& rows) {
                         above(0, 100'000), &O::output_rate));
   rows.push_back(choice<engine::Integrator O::*, engine::Integrator>(
       {"integrator", "integrator", "", kChosen,
-       "Error-controlled and L-stable: radau5, Radau IIA of order 5, and rodas5 and rodas4, Rosenbrock 5(4) and 4(3); error-controlled: dopri5, "
+       "auto: radau5 where no step of it misses anything, else rodas5. Error-controlled and L-stable: radau5, Radau IIA of order 5, and rodas5 and rodas4, Rosenbrock 5(4) and 4(3); error-controlled: dopri5, "
        "Dormand-Prince 5(4); with a fixed step: rk4, classical Runge-Kutta (the paper's)"},
       &O::integrator,
-      {{"radau5", engine::Integrator::kRadau5},
+      {{"auto", engine::Integrator::kAuto},
+       {"radau5", engine::Integrator::kRadau5},
        {"rodas5", engine::Integrator::kRodas5},
        {"rodas4", engine::Integrator::kRodas4},
        {"dopri5", engine::Integrator::kDopri5},
@@ -97,7 +108,7 @@ void add_run_rows(Rows& rows) {
   rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen, "Of the error-controlled integrators"},
                         between(1e-13, 1e-2), &O::relative_tolerance));
   rows.push_back(number({"absolute_tolerance", "absolute_tolerance", "", kChosen,
-                         "Of the error-controlled integrators, in m, rad and their rates; of all but dopri5 in m and m/s, rotations by the radius of gyration of what they carry"},
+                         "Of the error-controlled integrators, in m, rad and their rates; of the L-stable ones in m and m/s, rotations by the radius of gyration of what they carry"},
                         between(1e-13, 1e-2), &O::absolute_tolerance));
 }
 
@@ -212,6 +223,46 @@ void add_body_rows(Rows& rows) {
   rows.push_back(number({"gravity_m_s2", "gravity", "m/s^2", kChosen, "Acceleration of gravity, along -y"}, between(-1000, 1000), &P::gravity));
 }
 
+/// Everything that is said of a round link but its length, in this order: its model, diameters, elements and damping.
+void add_link_rows(engine::RoundLink P::*link, const std::array<About, 5>& about, Rows& rows) {
+  using engine::LinkModel;
+  using engine::RoundLink;
+  rows.push_back(choice<OfLink<LinkModel>, LinkModel>(about[0], {link, &RoundLink::model},
+                                                      {{"rigid", LinkModel::kRigid}, {"flexible", LinkModel::kFlexible}}));
+  rows.push_back(number(about[1], between(0.1, 1000), OfLink<double>{link, &RoundLink::diameter}, kMmPerM));
+  rows.push_back(number(about[2], between(0, 1000), OfLink<double>{link, &RoundLink::inner_diameter}, kMmPerM));
+  rows.push_back(integer(about[3], between(2, 64), OfLink<int>{link, &RoundLink::elements}));
+  rows.push_back(number(about[4], between(0, 10), OfLink<double>{link, &RoundLink::damping_ratio}));
+}
+
+void add_round_link_rows(Rows& rows) {
+  constexpr std::string_view kOuter = "Outer diameter of the link: its stiffness where it is flexible, and its default mass and inertia";
+  constexpr std::string_view kInner = "Inner diameter of it, less than the outer one; 0: a solid rod";
+  constexpr std::string_view kDamping = "Damping ratio of its first bending mode, as the coupler's";
+  add_link_rows(&P::crank,
+                {{{"crank", "crank.model", "", kChosen, "Model of the crank, link (1,1). A flexible one holds the rod at its end"},
+                  {"crank_diameter_mm", "crank.diameter", "mm", kDeduced, kOuter},
+                  {"crank_inner_diameter_mm", "crank.inner_diameter", "mm", kDeduced, kInner},
+                  {"crank_elements", "crank.elements", "", kChosen, "Rigid elements of a flexible crank"},
+                  {"crank_damping_ratio", "crank.damping_ratio", "", kChosen, kDamping}}}, rows);
+  add_link_rows(&P::rod,
+                {{{"rod", "rod.model", "", kChosen, "Model of the sliding rod, link (1,2), held at its origin"},
+                  {"rod_diameter_mm", "rod.diameter", "mm", kDeduced, kOuter},
+                  {"rod_inner_diameter_mm", "rod.inner_diameter", "mm", kDeduced, kInner},
+                  {"rod_elements", "rod.elements", "", kChosen, "Rigid elements of a flexible rod"},
+                  {"rod_damping_ratio", "rod.damping_ratio", "", kChosen, kDamping}}}, rows);
+  add_link_rows(&P::cross,
+                {{{"cross", "cross.model", "", kChosen, "Model of the cross link, link (2,2). A flexible one has a cross_length_mm"},
+                  {"cross_diameter_mm", "cross.diameter", "mm", kDeduced, "As of the crank, of a cross link with a cross_length_mm"},
+                  {"cross_inner_diameter_mm", "cross.inner_diameter", "mm", kDeduced, kInner},
+                  {"cross_elements", "cross.elements", "", kChosen, "Rigid elements of a flexible cross link"},
+                  {"cross_damping_ratio", "cross.damping_ratio", "", kChosen, kDamping}}}, rows);
+  rows.push_back(number({"cross_length_mm", "cross_length", "mm", kChosen,
+                         "Length of link (2,2), along the joint's axis from its guide to the middle of the joint; 0: the joint is at its guide, "
+                         "else at least 1 mm"},
+                        between(0, 10'000), &P::cross_length, kMmPerM));
+}
+
 /// The scope of parameters that are not of joints. What is said of the RPSUP linkage's own bodies and drives is for it alone.
 ParameterScope scope_of(std::string_view key) {
   constexpr std::array<std::string_view, 11> kOfAnyRun{"duration_s", "output_rate_hz", "integrator", "step_s", "relative_tolerance", "absolute_tolerance",
@@ -230,6 +281,7 @@ Rows make_table() {
   add_friction_rows(rows);
   const std::size_t end_joint = rows.size();
   add_body_rows(rows);
+  add_round_link_rows(rows);
   for (std::size_t k = 0; k < rows.size(); ++k)
     rows[k].scope = k >= first_joint && k < end_joint ? ParameterScope::kJoint : scope_of(rows[k].key);
   return rows;

@@ -57,6 +57,22 @@ void add_clearance_faults(const json& completed, std::vector<Fault>& faults) {
   }
 }
 
+constexpr double kLeastArm_mm = 1.0;           // as of the other lengths
+
+/// Sections and lengths without which no default mass makes sense.
+void add_link_faults(const json& completed, std::vector<Fault>& faults) {
+  for (const std::string link : {"crank", "rod", "cross"}) {
+    const double outer = number_at(completed, link + "_diameter_mm");
+    if (number_at(completed, link + "_inner_diameter_mm") >= outer)
+      faults.push_back({"/" + link + "_inner_diameter_mm", "must be less than " + link + "_diameter_mm, which is " + readable_number(outer) + " mm"});
+  }
+  const double length = number_at(completed, "cross_length_mm");
+  if (length > 0.0 && length < kLeastArm_mm)
+    faults.push_back({"/cross_length_mm", "must be 0 (the joint is at the cross link's guide) or at least " + readable_number(kLeastArm_mm) + " mm"});
+  if (length == 0.0 && completed.at("cross") == "flexible")
+    faults.push_back({"/cross_length_mm", "must be at least " + readable_number(kLeastArm_mm) + " mm, as the cross link is flexible"});
+}
+
 void add_material_faults(const json& completed, std::vector<Fault>& faults) {
   const double most = 3.0 * number_at(completed, "shear_modulus_pa");
   // Poisson's ratio E/(2G) - 1 of a stable isotropic material is at most 1/2.
@@ -169,7 +185,8 @@ std::vector<Fault> find_combination_faults(const json& completed) {
   if (describes_linkage(completed)) {
     if (!read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults)) return faults;
   } else {
-    faults = find_inertia_faults(completed);
+    add_link_faults(completed, faults);
+    if (faults.empty()) faults = find_inertia_faults(completed);
   }
   const JobSpec spec = to_job_spec(completed);
   add_clearance_faults(completed, faults);

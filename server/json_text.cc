@@ -15,35 +15,40 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 4> kNonFiniteWords{"NaN", "-Infinity", "Infinity", "-NaN"};
 
-/// Watches the parser and ends it as soon as a bound is passed.
-class Bounds {
+/// Reads a text without keeping it, and ends at the first thing that passes a bound. A part of it that is no JSON is for the next reader to tell.
+class Bounds : public nlohmann::json_sax<Json> {
  public:
-  bool operator()(Json::parse_event_t event, const Json& parsed) {
-    switch (event) {
-      case Json::parse_event_t::object_start:
-      case Json::parse_event_t::array_start:
-        open_.emplace_back();
-        if (open_.size() > kMaxJsonDepth) throw BadJson("nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
-        break;
-      case Json::parse_event_t::object_end:
-      case Json::parse_event_t::array_end:
-        open_.pop_back();
-        break;
-      case Json::parse_event_t::key:
-        check_key(parsed.get_ref<const std::string&>());
-        break;
-      case Json::parse_event_t::value:
-        break;
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return open(); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+  bool key(string_t& key) override {
+    if (!open_.back().insert(key).second) throw BadJson("the key \"" + key + "\" stands twice in one object");
+    if (open_.back().size() > kMaxObjectKeys) {
+      throw BadJson("more than " + std::to_string(kMaxObjectKeys) + " keys in one object");
     }
     return true;
   }
 
  private:
-  void check_key(const std::string& key) {
-    if (!open_.back().insert(key).second) throw BadJson("the key \"" + key + "\" stands twice in one object");
-    if (open_.back().size() > kMaxObjectKeys) {
-      throw BadJson("more than " + std::to_string(kMaxObjectKeys) + " keys in one object");
-    }
+  bool open() {
+    open_.emplace_back();
+    if (open_.size() > kMaxJsonDepth) throw BadJson("nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
   }
 
   std::vector<std::set<std::string>> open_;  ///< the keys met so far, of every object or array that is open
@@ -79,12 +84,11 @@ std::string plain_message(const std::string& what) {
 }
 
 Json parse_strictly(std::string_view text) {
+  // Twice: a callback of the parser could watch it, but then the parser looks, for every object that ends, at all before it in their list.
   Bounds bounds;
-  const Json::parser_callback_t watch = [&bounds](int, Json::parse_event_t event, Json& parsed) {
-    return bounds(event, parsed);
-  };
+  Json::sax_parse(text.begin(), text.end(), &bounds);
   try {
-    return Json::parse(text.begin(), text.end(), watch);
+    return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
     throw BadJson("not JSON at byte " + std::to_string(error.byte) + ": " + plain_message(error.what()));
   } catch (const Json::exception& error) {

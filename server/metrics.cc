@@ -23,7 +23,12 @@ const prometheus::Histogram::BucketBoundaries kRequestSeconds{0.001, 0.003, 0.01
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-const char* kind_of(const jobs::JobSpec& spec) { return spec.parameters.coupler == engine::Coupler::kFlexible ? "flexible" : "rigid"; }
+const char* kind_of(const jobs::JobSpec& spec) {
+  const engine::RpsupParameters& p = spec.parameters;
+  for (const engine::LinkModel link : {p.coupler, p.crank.model, p.rod.model, p.cross.model})
+    if (link == engine::LinkModel::kFlexible) return "flexible";
+  return "rigid";
+}
 
 /// A method that no route knows is a text of the client's: not one more series for each.
 std::string known_method(const std::string& method) {
@@ -96,7 +101,7 @@ class Metrics::Impl {
   prometheus::Family<prometheus::Gauge>& problems_ = add_gauges("rpsup_executor_problems", "What somebody should look at; /v1/executors says what");
   prometheus::Family<prometheus::Histogram>& job_seconds_ = prometheus::BuildHistogram()
                                                                 .Name("rpsup_job_duration_seconds")
-                                                                .Help("Time that jobs took which were computed to their end, by kind of coupler")
+                                                                .Help("Time that jobs took which were computed to their end, by kind of links: rigid, or with a flexible one")
                                                                 .Register(registry_);
   prometheus::Family<prometheus::Counter>& failures_ =
       prometheus::BuildCounter().Name("rpsup_job_failures_total").Help("Runs of jobs that failed since the program began, by reason").Register(registry_);

@@ -16,7 +16,7 @@ class Metrics {
   Metrics(const Metrics&) = delete;
   Metrics& operator=(const Metrics&) = delete;
 
-  /// A runner that also counts what the runs of another one take, by kind of coupler, and why they fail. Runs that were asked to stop
+  /// A runner that also counts what the runs of another one take, by kind of links, and why they fail. Runs that were asked to stop
   /// are no jobs that have ended.
   /// @param runner  computes; this outlives what is returned
   [[nodiscard]] jobs::Runner measured(jobs::Runner runner);

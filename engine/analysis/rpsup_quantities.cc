@@ -30,6 +30,15 @@ double calc_deflection(const RpsupParameters& parameters, const Rpsup& rpsup, co
   return (end.p + end.R * joint.bearing.p - undeformed).norm();
 }
 
+/// Of a link's end from where the undeformed link would hold it, [m]
+double calc_deflection(const BentLink& link, const Evaluation& at) {
+  const auto place = [&at](const BodyFrames::Part& part, double along) -> Eigen::Vector3d {
+    const FrameMotion& frame = at.frames[static_cast<std::size_t>(part.frame)];
+    return frame.p + frame.R * (part.placement.p + along * part.placement.R.col(0));
+  };
+  return (place(link.tip, link.length - link.tip.begin) - place(link.root, link.length)).norm();
+}
+
 Reading journal_mm(int axis) {
   return [axis](const Evaluation& at) { return 1e3 * at.joints[0].journal.p_bj[axis]; };
 }
@@ -81,7 +90,7 @@ std::span<const QuantityInfo> metric_table() {
       {.key = "peak_joint_reaction_n", .help = "largest force between coupler and cross link of the whole run"},
       {.key = "friction_work_j", .help = "energy lost to friction in the joint"},
       {.key = "impact_loss_j", .help = "energy lost in the normal contact law"},
-      {.key = "structural_loss_j", .help = "energy lost in the flexible coupler's dampers"},
+      {.key = "structural_loss_j", .help = "energy lost in the flexible links' dampers"},
       {.key = "sliding_work_j", .help = "contact force times sliding speed over the whole run: worn volume = wear coefficient times it; null without clearance"},
       {.key = "energy_residual", .help = "largest |E - E(0) - work of the drives + losses| over the work turned over"},
       {.key = "steps", .help = "accepted integration steps", .integer = true},
@@ -133,13 +142,16 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
       {.info = {.key = "coupler_deflection_mm", .help = "of the bearing's centre from where the undeformed coupler would hold it"},
        .read = [&parameters, &rpsup](const Evaluation& at) { return 1e3 * calc_deflection(parameters, rpsup, at); }},
       {.info = {.key = "kinetic_energy_j", .help = "of all links"}, .read = [](const Evaluation& at) { return at.energy.kinetic; }},
-      {.info = {.key = "potential_energy_j", .help = "of gravity, the coupler's springs and the elastic part of the contact"},
+      {.info = {.key = "potential_energy_j", .help = "of gravity, the flexible links' springs and the elastic part of the contact"},
        .read = [](const Evaluation& at) { return at.energy.potential; }},
       {.info = {.key = "drive_work_j", .help = "of both drives since t = 0"},
        .read = [](const Evaluation& at) { return at.energy.drive_work.sum(); }},
       {.info = {.key = "energy_residual", .help = "(E - E(0) - work of the drives + losses) over the work turned over in the whole run"},
        .kind = Channel::Kind::kImbalance},
   };
+  for (const BentLink& link : layout.bent)
+    channels.push_back({.info = {.key = link.name + "_deflection_mm", .help = "of the link's end from where the undeformed link would hold it"},
+                        .read = [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); }});
   for (int ring = 0; ring < parameters.radial_levels; ++ring) add_sliding_work(ring, parameters, sliding_work, channels);
   return channels;
 }

@@ -179,6 +179,7 @@ bool LoopClosure::close_position(Evaluation& at) {
 /// Phi_d is linear in the rates: one step. The bias is not, so the rows are computed again, but for rates that were already right.
 void LoopClosure::correct_rates(Evaluation& at) {
   constexpr double kRight = 1e-13;  // of the largest rate
+  if (unknown_.empty()) return;     // every coordinate is driven, and no loop is closed: there is no largest one
   step_.noalias() = J_lu_.solve(constraints_.Phi_d);
   take_step(at.qd);
   if (!(step_.cwiseAbs().maxCoeff() <= kRight * at.qd.cwiseAbs().maxCoeff())) calc_rows(at);

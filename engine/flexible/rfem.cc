@@ -26,7 +26,7 @@ Eigen::Vector3d calc_beam_inertia(const UniformBeam& beam) {
 }
 
 UniformBeam make_beam(const UniformRod& rod) {
-  const double d4 = std::pow(rod.diameter, 4);
+  const double d4 = std::pow(rod.diameter, 4) - std::pow(rod.inner_diameter, 4);
   const double EI = rod.youngs_modulus * std::numbers::pi * d4 / 64.0;
   return {.length = rod.length, .mass = rod.mass, .I_x = rod.I_x, .EI_y = EI, .EI_z = EI,
           .GJ = rod.shear_modulus * std::numbers::pi * d4 / 32.0, .damping_ratio = rod.damping_ratio};

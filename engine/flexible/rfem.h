@@ -11,10 +11,11 @@ struct UniformRod {
   double length = 0.0;          ///< l, [m]
   double mass = 0.0;            ///< [kg]
   double I_x = 0.0;             ///< about its axis, [kg m^2]
-  double diameter = 0.0;        ///< of the solid round section, [m]
+  double diameter = 0.0;        ///< of the round section, [m]
   double youngs_modulus = 0.0;  ///< E, [Pa]
   double shear_modulus = 0.0;   ///< G, [Pa]
   double damping_ratio = 0.0;   ///< zeta of the first pinned-pinned bending mode, [1]
+  double inner_diameter = 0.0;  ///< of a tube, below the other, [m]
 };
 
 /// A straight uniform beam of any section along x, its frame's axes those of the section.

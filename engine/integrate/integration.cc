@@ -14,7 +14,7 @@ namespace {
 constexpr double kFirstStep = 1e-6;       // [s]; the controller finds its own within some steps
 constexpr double kLongestStep = 1e-3;     // [s]; short enough for the cubic that finds a ring's contact inside a step
 constexpr double kLongestFree = 5e-3;     // [s]; of an implicit method without such a joint: short enough for what is read from inside
-constexpr double kImpactWeight = 30.0;  // of radau5's errors where there are impacts: one sets off what the next ones are
+constexpr double kImpactWeight = 50.0;  // of radau5's errors where there are impacts: one sets off what the next ones are
 constexpr double kWidenBelow = 1e-5;      // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;           // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
@@ -178,6 +178,7 @@ Trial Integration::try_method(double dt) {
     case Integrator::kRodas5: return rodas5_.try_step(system_, start_, dt, end_);
     case Integrator::kRodas4: return rodas4_.try_step(system_, start_, dt, end_);
     case Integrator::kDopri5: return dopri5_.try_step(system_, start_, dt, end_);
+    case Integrator::kAuto:
     case Integrator::kRk4: break;
   }
   return rk4_.try_step(system_, start_, dt, end_);

@@ -9,10 +9,20 @@ namespace engine {
 
 namespace {
 
+bool is_none(const Placement& placement) { return is_unturned(placement) && placement.p.isZero(0.0); }
+
 /// Of a frame that is placed in another one which is placed itself.
 Placement combine(const Placement& outer, const Placement& inner) {
-  if (is_unturned(outer) && outer.p.isZero(0.0)) return inner;
+  if (is_none(outer)) return inner;
+  if (is_none(inner)) return outer;
   return {outer.R * inner.R, outer.R * inner.p + outer.p};
+}
+
+/// Where a body's frame is in that of the joint which sits on it as given.
+Placement invert(const Placement& placement) {
+  if (is_none(placement)) return placement;
+  const Eigen::Matrix3d R = placement.R.transpose();
+  return {R, -(R * placement.p)};
 }
 
 CutKind cut_kind_of(JointKind kind) {
@@ -83,7 +93,7 @@ class LinkageBuilder {
       placement = {};
     }
     if (joint.kind == JointKind::kScrew) built_.mechanism.couplings.push_back({made.first, made.first + 1, joint.lead});
-    place_body(index_of(joint.to), frame, placement);
+    place_body(index_of(joint.to), frame, combine(placement, invert(joint.to_placement)));
   }
 
   FrameIndex add_freedom(const LinkageFreedom& freedom, const FreedomKind& kind, FrameIndex parent, const Placement& placement) {
@@ -147,7 +157,7 @@ class LinkageBuilder {
     const auto steiner = [](double m, const Eigen::Vector3d& at) -> Eigen::Matrix3d {
       return m * (at.squaredNorm() * Eigen::Matrix3d::Identity() - at * at.transpose());
     };
-    if (is_unturned(placement) && placement.p.isZero(0.0) && c.mass == 0.0) {
+    if (is_none(placement) && c.mass == 0.0) {
       c.mass = mass;
       c.com = com;
       c.inertia = inertia;

@@ -38,7 +38,7 @@ struct LinkageFreedom {
   std::optional<DriveLaw> drive = {};   ///< empty: free
 };
 
-/// A body, in the frame of the joint that carries it.
+/// A body. Unless the joint that carries it says otherwise, its frame is the joint's.
 struct LinkageBody {
   std::string name;
   double mass = 0.0;                                  ///< [kg]
@@ -49,7 +49,7 @@ struct LinkageBody {
   int elements = 0;                                   ///< n_rfe of the beam
 };
 
-/// A joint between two bodies. One that closes a loop is cut; the others carry their second body, whose frame is the joint's.
+/// A joint between two bodies. One that closes a loop is cut; the others carry their second body.
 struct LinkageJoint {
   std::string name;
   JointKind kind = JointKind::kRevolute;
@@ -59,7 +59,7 @@ struct LinkageJoint {
   double lead = 0.0;                    ///< of a screw, per radian, [m/rad]
   std::vector<LinkageFreedom> freedoms = {};  ///< one for each of freedoms_of(); none of a cut joint
   bool cut = false;
-  Placement to_placement = {};          ///< of a cut joint in the second body's frame
+  Placement to_placement = {};          ///< in the second body's frame
   std::optional<ClearanceParameters> clearance = {};  ///< of a cut revolute joint
 };
 

@@ -1,49 +1,88 @@
 #include "engine/model/rpsup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "engine/flexible/rfem.h"
-#include "engine/model/linkage.h"
 
 namespace engine {
 
 namespace {
 
+const LinkInertia& inertia_of(const RpsupParameters& parameters, Link link) { return parameters.links[static_cast<std::size_t>(link)]; }
+
 /// Links of chain 1 have their centre of mass in the middle, those of chain 2 in the origin of their frame.
 LinkageBody make_body(const RpsupParameters& parameters, Link link, const std::string& name, double length) {
-  const LinkInertia& given = parameters.links[static_cast<std::size_t>(link)];
+  const LinkInertia& given = inertia_of(parameters, link);
   return {.name = name, .mass = given.mass, .com = {0.5 * length, 0.0, 0.0}, .inertia = given.inertia.asDiagonal()};
 }
 
-LinkageBody make_coupler(const RpsupParameters& p) {
-  LinkageBody coupler = make_body(p, Link::k13, "1,3", p.coupler_length);
-  if (p.coupler == Coupler::kRigid) return coupler;
-  coupler.elements = p.rigid_elements;
-  coupler.beam = make_beam({.length = p.coupler_length, .mass = coupler.mass, .I_x = coupler.inertia(0, 0), .diameter = p.coupler_diameter,
-                            .youngs_modulus = p.youngs_modulus, .shear_modulus = p.shear_modulus, .damping_ratio = p.coupler_damping_ratio});
-  return coupler;
+/// Makes a body a beam with its mass. @param I_x  about the link's axis
+void divide(const RpsupParameters& p, const RoundLink& form, double length, double I_x, LinkageBody& body) {
+  if (form.model == LinkModel::kRigid) return;
+  body.elements = form.elements;
+  body.beam = make_beam({.length = length, .mass = body.mass, .I_x = I_x, .diameter = form.diameter, .youngs_modulus = p.youngs_modulus,
+                         .shear_modulus = p.shear_modulus, .damping_ratio = form.damping_ratio, .inner_diameter = form.inner_diameter});
 }
+
+LinkageBody make_rod(const RpsupParameters& p, Link link, const std::string& name, double length, const RoundLink& form) {
+  LinkageBody rod = make_body(p, link, name, length);
+  divide(p, form, length, rod.inertia(0, 0), rod);
+  return rod;
+}
+
+RoundLink form_of_coupler(const RpsupParameters& p) {
+  return {.model = p.coupler, .diameter = p.coupler_diameter, .elements = p.rigid_elements, .damping_ratio = p.coupler_damping_ratio};
+}
+
+/// A tube along its z, the axis of the joint with the coupler: without a length about its middle, else from its origin on.
+LinkageBody make_cross(const RpsupParameters& p) {
+  LinkageBody cross = make_body(p, Link::k22, "2,2", 0.0);
+  cross.com = {0.0, 0.0, 0.5 * p.cross_length};
+  divide(p, p.cross, p.cross_length, cross.inertia(2, 2), cross);
+  return cross;
+}
+
+bool is_flexible(const RoundLink& link) { return link.model == LinkModel::kFlexible; }
+
+/// A beam lies along x: the frame of a flexible cross link is turned so that its x is the tube's axis.
+Placement cross_turn(const RpsupParameters& p) {
+  Placement turn;
+  if (is_flexible(p.cross)) turn.R << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  return turn;
+}
+
+/// The journal in the cross link's frame, its axes those of the rigid link.
+Placement journal_place(const RpsupParameters& p) {
+  const Eigen::Matrix3d back = cross_turn(p).R.transpose();
+  return {back, p.cross_length * back.col(2)};
+}
+
+/// The rod's joint in the rod's frame and in the crank's, along both.
+double guide_place(const RpsupParameters& p) { return is_flexible(p.crank) ? p.crank_length : 0.0; }
 
 LinkageFreedom driven(std::string name, const DriveLaw& law) { return {.name = std::move(name), .drive = law}; }
 
 Linkage describe_rpsup(const RpsupParameters& p) {
   Linkage linkage;
-  linkage.bodies = {make_body(p, Link::k11, "1,1", p.crank_length), make_body(p, Link::k12, "1,2", p.rod_length), make_coupler(p),
-                    make_body(p, Link::k21, "2,1", 0.0), make_body(p, Link::k22, "2,2", 0.0)};
+  linkage.bodies = {make_rod(p, Link::k11, "1,1", p.crank_length, p.crank), make_rod(p, Link::k12, "1,2", p.rod_length, p.rod),
+                    make_rod(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)), make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
+  const double guide = guide_place(p);
   linkage.joints = {
       {.name = "crank", .from = kGroundName, .to = "1,1", .placement = {}, .freedoms = {driven("psi_1_1", RunUp{p.crank_velocity, p.run_up})}},
-      {.name = "rod", .kind = JointKind::kPrismatic, .from = "1,1", .to = "1,2", .placement = {}, .axes = {Axis::kX},
-       .freedoms = {driven("z_1_2", RiseReturnPause{p.rod_stroke, p.rod_stroke_time, p.rod_pause})}},
+      {.name = "rod", .kind = JointKind::kPrismatic, .from = "1,1", .to = "1,2", .placement = {.p = {guide, 0.0, 0.0}}, .axes = {Axis::kX},
+       .freedoms = {driven("z_1_2", RiseReturnPause{p.rod_stroke, p.rod_stroke_time, p.rod_pause})}, .to_placement = {.p = {guide, 0.0, 0.0}}},
       {.name = "ball", .kind = JointKind::kSpherical, .from = "1,2", .to = "1,3", .placement = {.p = {p.rod_length, 0.0, 0.0}},
        .freedoms = {{.name = "psi_1_3_0"}, {.name = "theta_1_3_0"}, {.name = "phi_1_3_0"}}},
       {.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "2,1",
        .placement = {.p = {0.0, p.guide_offset_y, p.guide_offset_z}},
        .axes = {Axis::kX}, .freedoms = {{.name = "z_2_1", .guess = p.rod_length + p.coupler_length}}},
-      {.name = "cross", .from = "2,1", .to = "2,2", .placement = {}, .axes = {Axis::kY}, .freedoms = {{.name = "psi_2_2"}}},
-      {.name = "bearing", .from = "1,3", .to = "2,2", .placement = {.p = {p.coupler_length, 0.0, 0.0}}, .cut = true},
+      {.name = "cross", .from = "2,1", .to = "2,2", .placement = cross_turn(p), .axes = {Axis::kY}, .freedoms = {{.name = "psi_2_2"}}},
+      {.name = "bearing", .from = "1,3", .to = "2,2", .placement = {.p = {p.coupler_length, 0.0, 0.0}}, .cut = true,
+       .to_placement = journal_place(p)},
   };
   if (p.c_r > 0.0) linkage.joints.back().clearance = make_clearance(p);
   linkage.drive_rows = p.drive == DriveEnforcement::kBaumgarte ? DriveRows::kMultipliers : DriveRows::kEliminated;
@@ -89,12 +128,19 @@ ClearanceParameters make_clearance(const RpsupParameters& p) {
 Rpsup build_rpsup(const RpsupParameters& p) {
   BuiltLinkage built = build_linkage(describe_rpsup(p));
   const auto first = [&](std::size_t joint) { return built.joints[joint].first; };
-  const RpsupLayout layout{.crank = first(0), .rod = first(1), .coupler = built.bodies[2].parts[0].frame, .slider = first(3)};
-  return {std::move(built.mechanism), layout};
+  RpsupLayout layout{.crank = first(0), .rod = first(1), .coupler = built.bodies[2].parts[0].frame, .slider = first(3), .bent = {}};
+  const auto add_bent = [&](const char* name, const RoundLink& link, std::size_t body, double length) {
+    const std::vector<BodyFrames::Part>& parts = built.bodies[body].parts;
+    if (is_flexible(link)) layout.bent.push_back({name, parts.front(), parts.back(), length});
+  };
+  add_bent("crank", p.crank, 0, p.crank_length);
+  add_bent("rod", p.rod, 1, p.rod_length);
+  add_bent("cross", p.cross, 4, p.cross_length);
+  return {std::move(built.mechanism), std::move(layout)};
 }
 
 Rpsup build_ideal_rpsup(RpsupParameters p) {
-  p.coupler = Coupler::kRigid;
+  for (LinkModel* link : {&p.coupler, &p.crank.model, &p.rod.model, &p.cross.model}) *link = LinkModel::kRigid;
   p.c_r = 0.0;
   p.drive = DriveEnforcement::kPrescribed;
   return build_rpsup(p);
@@ -103,8 +149,12 @@ Rpsup build_ideal_rpsup(RpsupParameters p) {
 double calc_reach_squared(const RpsupParameters& p, double t) {
   const double psi = calc_driven_motion(RunUp{p.crank_velocity, p.run_up}, t).q;
   const double r = p.rod_length + calc_driven_motion(RiseReturnPause{p.rod_stroke, p.rod_stroke_time, p.rod_pause}, t).q;
-  const double dy = r * std::sin(psi) - p.guide_offset_y;
-  return p.coupler_length * p.coupler_length - dy * dy - p.guide_offset_z * p.guide_offset_z;
+  return calc_reach_squared_at_height(p, r * std::sin(psi) - p.guide_offset_y);
+}
+
+double calc_reach_squared_at_height(const RpsupParameters& p, double height) {
+  const double bridged = std::max(0.0, p.guide_offset_z * p.guide_offset_z - p.cross_length * p.cross_length);
+  return p.coupler_length * p.coupler_length - height * height - bridged;
 }
 
 }  // namespace engine

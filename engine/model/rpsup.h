@@ -1,9 +1,21 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "engine/model/linkage.h"
 #include "engine/model/mechanism.h"
 #include "engine/model/rpsup_parameters.h"
 
 namespace engine {
+
+/// A flexible link as built: where it is held, and where its end is.
+struct BentLink {
+  std::string name;             ///< as in channels
+  BodyFrames::Part root;        ///< its first element
+  BodyFrames::Part tip;         ///< its last element, which ends at `length` along the beam
+  double length = 0.0;          ///< [m]
+};
 
 /// Where the study's quantities are found in the mechanism of an RPSUP linkage.
 struct RpsupLayout {
@@ -11,6 +23,7 @@ struct RpsupLayout {
   FrameIndex rod = 0;       ///< z^(1,2), the second drive
   FrameIndex coupler = 0;   ///< frame of link (1,3), or of its first element
   FrameIndex slider = 0;    ///< z^(2,1)
+  std::vector<BentLink> bent;  ///< crank, rod and cross link, of them those that are flexible
 };
 
 struct Rpsup {
@@ -18,18 +31,21 @@ struct Rpsup {
   RpsupLayout layout;
 };
 
-/// Builds the linkage R P S U P: chain 1 is crank, rod and coupler (rigid or divided), chain 2 slider and cross link,
-/// closed by the revolute joint between coupler and cross link. Source: project paper, section 2 and Table 1.
+/// Builds the linkage R P S U P: chain 1 is crank, rod and coupler, chain 2 slider and cross link, closed by the revolute joint between coupler
+/// and cross link. Every link but the slider is rigid or divided. The rod's guide is the crank's frame; that of a flexible crank is the
+/// end of the crank, which holds the rod's origin by the crank's length behind it. Source: project paper, section 2 and Table 1.
 [[nodiscard]] Rpsup build_rpsup(const RpsupParameters& parameters);
 
 /// The joint of the linkage, with clearance; Hertz's stiffness is that of its material.
 [[nodiscard]] ClearanceParameters make_clearance(const RpsupParameters& parameters);
 
-/// The same linkage and drives with a rigid coupler, prescribed drives and an ideal joint: what the mechanism is meant to do.
+/// The same linkage and drives with rigid links, prescribed drives and an ideal joint: what the mechanism is meant to do.
 [[nodiscard]] Rpsup build_ideal_rpsup(RpsupParameters parameters);
 
-/// By how much the coupler reaches the slider's guide at time t, squared: l^2 less the squared distance of the S joint from the guide.
+/// By how much the coupler reaches at time t, squared: with the S joint's height h above the slider's guide and its distance z from the guide's
+/// upright plane, l^2 - h^2 less what of z^2 the cross link's length a does not bridge, max(0, z^2 - a^2).
 /// Negative or zero: the linkage cannot be assembled there, or locks. [m^2]
 [[nodiscard]] double calc_reach_squared(const RpsupParameters& parameters, double t);
+[[nodiscard]] double calc_reach_squared_at_height(const RpsupParameters& parameters, double height);
 
 }  // namespace engine

@@ -10,9 +10,19 @@
 
 namespace engine {
 
-enum class Coupler { kRigid, kFlexible };
+enum class LinkModel { kRigid, kFlexible };
+using Coupler = LinkModel;  ///< that of link (1,3)
 enum class DriveEnforcement { kPrescribed, kBaumgarte };
 enum class ContactForm { kContinuum, kElements };
+
+/// A link other than the coupler: a straight round rod or tube, rigid or divided as the coupler is.
+struct RoundLink {
+  LinkModel model = LinkModel::kRigid;
+  double diameter = 0.0;                           ///< of what bends, [m]
+  double inner_diameter = 0.0;                     ///< [m]
+  int elements = 4;                                ///< n_rfe, >= 2
+  double damping_ratio = 0.01;                     ///< zeta of the first bending mode, [1]
+};
 
 /// Everything that defines one RPSUP linkage, its drives and its clearance joint, in SI units.
 /// The values below are the defaults of the study; the README says where each comes from.
@@ -41,6 +51,12 @@ struct RpsupParameters {
   double shear_modulus = 0.8e11;                   ///< G, [Pa]
   double coupler_diameter = 0.010;                 ///< d, [m]
   double coupler_damping_ratio = 0.01;             ///< zeta of the first bending mode, [1]
+
+  // The other links that may be flexible; sections by Table 1's masses and moments
+  RoundLink crank{.diameter = 0.028, .inner_diameter = 0.020};  ///< link (1,1)
+  RoundLink rod{.diameter = 0.020};                             ///< link (1,2)
+  RoundLink cross{.diameter = 0.020, .inner_diameter = 0.015};  ///< link (2,2)
+  double cross_length = 0.0;                       ///< of link (2,2), from the slider's joint along its own z to the journal's centre, [m]
 
   // Drives
   double crank_velocity = 10.0;                    ///< omega_0, [rad/s]

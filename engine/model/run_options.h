@@ -4,7 +4,8 @@
 
 namespace engine {
 
-enum class Integrator { kRadau5, kRodas5, kRodas4, kDopri5, kRk4 };
+/// kAuto: choose_integrator() says which.
+enum class Integrator { kAuto, kRadau5, kRodas5, kRodas4, kDopri5, kRk4 };
 
 /// Whether a method solves for what it steps over.
 [[nodiscard]] constexpr bool is_implicit(Integrator integrator) {
@@ -15,10 +16,10 @@ enum class Integrator { kRadau5, kRodas5, kRodas4, kDopri5, kRk4 };
 struct RunOptions {
   double duration = 5.0;                    ///< [s], > 0
   double output_rate = 1000.0;              ///< samples of the trajectory, [Hz]
-  Integrator integrator = Integrator::kRadau5;
+  Integrator integrator = Integrator::kAuto;
   double step = 1e-5;                       ///< of rk4, [s]
-  double relative_tolerance = 1e-5;         ///< of the error-controlled integrators, [1]
-  double absolute_tolerance = 1e-5;         ///< of the error-controlled integrators, in m and m/s; rotations by what they carry: Tolerance
+  double relative_tolerance = 1.5e-5;       ///< of the error-controlled integrators, [1]
+  double absolute_tolerance = 1.5e-5;       ///< of the error-controlled integrators, in m and m/s; rotations by what they carry: Tolerance
   long step_limit = 100'000'000;            ///< steps after which the run ends with kStepLimit
 };
 

@@ -71,10 +71,11 @@ std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std:
   if (!along) return reversals;
   std::map<json, std::map<double, std::size_t>> lines;  // all else equal, in the order of the values along
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (!pairs[g].ratio) continue;
+    const auto place = number_in(groups[g].values[*along]);  // jobs of another linkage may have none
+    if (!pairs[g].ratio || !place) continue;
     json others = groups[g].values;
     others.erase(*along);
-    lines[others][groups[g].values[*along].get<double>()] = g;
+    lines[others][*place] = g;
   }
   for (const auto& [others, line] : lines) {
     for (auto at = line.begin(); at != line.end() && std::next(at) != line.end(); ++at) {

@@ -82,7 +82,11 @@ PolynomialChaos::Fit PolynomialChaos::fit(const Eigen::MatrixXd& inputs, const E
   return made;
 }
 
-PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& response) {
+PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& given) {
+  // Squares of large values would be infinite, and no degree better than none. By a power of two, so that no digit changes.
+  const double largest = given.cwiseAbs().maxCoeff();
+  const double scale = largest > 0.0 ? std::exp2(std::ilogb(largest)) : 1.0;
+  const Eigen::VectorXd response = given / scale;
   Fit best;
   for (int degree = 0; degree <= kLargestDegree; ++degree) {
     const double terms = count_terms(static_cast<std::size_t>(inputs.cols()), degree);
@@ -93,11 +97,11 @@ PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::Vec
     degree_ = degree;
   }
   exponents_ = std::move(best.exponents);
-  coefficients_ = std::move(best.coefficients);
-  left_out_ = std::move(best.left_out);
-  error_ = best.error;
+  coefficients_ = scale * best.coefficients;
+  left_out_ = scale * best.left_out;
+  error_ = scale * best.error;
   const double variance = (response.array() - response.mean()).square().mean();
-  predicted_part_ = variance > 0.0 ? 1.0 - error_ * error_ / variance : 1.0;
+  predicted_part_ = variance > 0.0 ? 1.0 - best.error * best.error / variance : 1.0;
 }
 
 double PolynomialChaos::predict(std::span<const double> input) const { return terms_at(input, exponents_, degree_).dot(coefficients_); }

@@ -38,7 +38,7 @@ struct Input {
   [[nodiscard]] double at(double part) const { return logarithmic ? from * std::pow(to / from, part) : std::lerp(from, to, part); }
 };
 
-/// A range that the request gives is the input's; otherwise its values span it.
+/// A range that the request gives is the input's; otherwise its values span it. Jobs of another linkage may have none.
 Input input_of(const json& request, const ResultTable& results, const std::string& parameter) {
   Input input{.parameter = parameter, .column = find_column(results, parameter, "")};
   const json over = request.value("design", json::object()).value("over", json::object());
@@ -46,7 +46,10 @@ Input input_of(const json& request, const ResultTable& results, const std::strin
   const json given = place.value(parameter, json());
   input.logarithmic = given.is_object() && given.value("scale", "linear") == "log";
   std::vector<double> values;
-  for (const auto& row : results.rows) values.push_back(row[input.column].get<double>());
+  for (const auto& row : results.rows) {
+    if (const auto value = number_in(row[input.column])) values.push_back(*value);
+  }
+  if (values.empty()) return input;
   const auto [least, most] = std::ranges::minmax(values);
   input.from = given.is_object() ? std::min(least, given.at("from").get<double>()) : least;
   input.to = given.is_object() ? std::max(most, given.at("to").get<double>()) : most;
@@ -59,14 +62,24 @@ struct Point {
   double value = 0.0;
 };
 
+/// None if the job has not all inputs.
+std::optional<std::vector<double>> place_of(const std::vector<json>& row, const std::vector<Input>& inputs) {
+  std::vector<double> place;
+  for (const Input& input : inputs) {
+    const auto value = number_in(row[input.column]);
+    if (!value) return std::nullopt;
+    place.push_back(*value);
+  }
+  return place;
+}
+
 std::vector<Point> points_of(const ResultTable& results, const std::vector<std::size_t>& rows, const std::vector<Input>& inputs, std::size_t metric) {
   std::map<std::vector<double>, std::pair<double, int>> sums;
   for (const std::size_t r : rows) {
     const auto value = number_in(results.rows[r][metric]);
-    if (!value) continue;
-    std::vector<double> place;
-    for (const Input& input : inputs) place.push_back(results.rows[r][input.column].get<double>());
-    auto& [sum, count] = sums[place];
+    const auto place = place_of(results.rows[r], inputs);
+    if (!value || !place) continue;
+    auto& [sum, count] = sums[*place];
     sum += *value;
     ++count;
   }

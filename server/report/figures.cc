@@ -88,7 +88,8 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
     for (std::size_t g = 0; g < groups.size() && g < kColours.size(); ++g) {
       Line line;
       for (const std::size_t r : groups[g].rows) {
-        if (const auto value = jobs::number_in(results.rows[r][column])) line[results.rows[r][x].get<double>()].push_back(*value);
+        const auto place = jobs::number_in(results.rows[r][x]);  // jobs of another linkage may have none
+        if (const auto value = jobs::number_in(results.rows[r][column]); value && place) line[*place].push_back(*value);
       }
       std::string label;
       for (std::size_t i = 0; i < others.size(); ++i) {

@@ -52,6 +52,12 @@ std::vector<Case> all_cases() {
   smooth.stiffness_law = StiffnessLaw::kJohnson;
   smooth.friction = FrictionLaw::kCoulomb;
   smooth.v_0 = 1.0;
+  RpsupParameters links = flexible;  // each link but the slider
+  links.crank.model = links.rod.model = links.cross.model = LinkModel::kFlexible;
+  links.cross_length = 0.1;
+  RpsupParameters links_rows = links;
+  links_rows.drive = DriveEnforcement::kBaumgarte;
+  links_rows.c_r = 0.0;
   RpsupParameters all_rows = rows;
   all_rows.c_r = 0.0;
   RpsupParameters worn = rigid;  // uneven, and different for the two rings; a spline's bend is continuous and no more, so small steps
@@ -75,6 +81,7 @@ std::vector<Case> all_cases() {
           of_rpsup("elasto_plastic", plastic, kPressed, kFine), of_rpsup("ambrosio", no_bristles, kPressed, kFine),
           of_rpsup("coulomb", smooth, kPressed, kFine), of_rpsup("worn", worn, kPressed, 0.2 * kFine), of_rpsup("drive_rows", rows, kPressed, kFine), of_rpsup("rigid_drive_rows", rigid_rows, kPressed, kFine),
           of_rpsup("ideal_flexible", ideal, 1e-6, kCoarse), of_rpsup("ideal_drive_rows", all_rows, 1e-6, kCoarse),
+          of_rpsup("flexible_links", links, kPressed, kFine), of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
           of_linkage("cut_ball", make_spatial_slider_crank(JointKind::kSpherical), 1e-5, 1.0),
           of_linkage("cut_cross", make_spatial_slider_crank(JointKind::kUniversal), 1e-5, 1.0),
           of_linkage("cut_slide", make_spatial_slider_crank(JointKind::kPrismatic), 1e-5, 1.0),

@@ -6,8 +6,10 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "engine/integrate/choose_integrator.h"
 #include "engine/integrate/radau.h"
 #include "engine/integrate/radau_coefficients.h"
+#include "engine/model/rpsup.h"
 #include "tests/engine/pendulum.h"
 
 namespace engine {
@@ -130,6 +132,26 @@ TEST(Radau5, StepsOverWhatIsStiffAndAtRest) {
     std::swap(start, end);
   }
   EXPECT_NEAR(start.y[0], 9.81e-10, 1e-14);
+}
+
+TEST(ChooseIntegrator, TakesRadauWhereItsStepsMissNothing) {
+  const auto choose = [](const RpsupParameters& p) { return choose_integrator(build_rpsup(p).mechanism, Integrator::kAuto); };
+  RpsupParameters p;
+  EXPECT_EQ(choose(p), Integrator::kRadau5);
+  p.sigma_0 = 301.0;
+  EXPECT_EQ(choose(p), Integrator::kRodas5);
+  p.sigma_0 = 100.0;
+  p.friction = FrictionLaw::kCoulomb;
+  EXPECT_EQ(choose(p), Integrator::kRodas5);
+  p.friction = FrictionLaw::kLuGre;
+  p.contact = ContactForm::kElements;
+  EXPECT_EQ(choose(p), Integrator::kRodas5);
+  p.contact = ContactForm::kContinuum;
+  p.coupler = Coupler::kFlexible;
+  EXPECT_EQ(choose(p), Integrator::kRodas5);
+  p.c_r = 0.0;
+  EXPECT_EQ(choose(p), Integrator::kRadau5);
+  EXPECT_EQ(choose_integrator(build_rpsup(p).mechanism, Integrator::kRk4), Integrator::kRk4);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The body of POST /v1/sweeps, from its bytes to the jobs that it means.
+// The bodies of POST /v1/sweeps, of its extension and of POST /v1/searches, from their bytes to the jobs that they mean.
 
 #include <cstddef>
 #include <cstdint>
@@ -6,12 +6,25 @@
 
 #include "jobs/errors.h"
 #include "jobs/expand.h"
+#include "jobs/extend_request.h"
+#include "jobs/search/search_request.h"
 #include "server/json_text.h"
 #include "tests/fuzz/expect.h"
 
 namespace {
 
 constexpr std::size_t kMostJobs = 8;
+
+/// Nothing new, if a sweep is extended by what it has.
+void check_extension(const nlohmann::ordered_json& request) {
+  nlohmann::ordered_json own = nlohmann::ordered_json::object();
+  for (const char* const key : {"sweep", "cases"}) {
+    if (request.contains(key)) own[key] = request.at(key);
+  }
+  if (own.empty()) return;
+  const jobs::Extension nothing = jobs::plan_extension(request, own, kMostJobs);
+  fuzz::expect(nothing.jobs.empty() && nothing.request == request, "a sweep has its own axes and cases already");
+}
 
 void check_plan(const nlohmann::ordered_json& request, const jobs::SweepPlan& plan) {
   fuzz::expect(!plan.jobs.empty() && plan.jobs.size() <= kMostJobs, "a sweep has from one job to as many as are allowed");
@@ -24,16 +37,14 @@ void check_plan(const nlohmann::ordered_json& request, const jobs::SweepPlan& pl
   const jobs::PlannedJob alone = jobs::plan_job(nlohmann::json::parse(last.parameters));
   fuzz::expect(alone.content_id == last.content_id, "the parameters of a job, sent alone, are the same job");
   fuzz::expect(alone.parameters == last.parameters, "canonical parameters are canonical");
+  check_extension(request);
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// Does what a request asks for; a refusal names what is wrong.
+template <typename Ask>
+void expect_clear_refusal(const Ask& ask) {
   try {
-    const auto request = server::parse_json(std::string_view(reinterpret_cast<const char*>(data), size));
-    check_plan(request, jobs::plan_sweep(request, kMostJobs));
-  } catch (const server::BadJson&) {
-    return 0;
+    ask();
   } catch (const jobs::InvalidRequest& invalid) {
     fuzz::expect(!invalid.faults().empty(), "a refusal names a fault");
     for (const jobs::Fault& fault : invalid.faults()) {
@@ -41,5 +52,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::expect(!fault.detail.empty(), "a fault has a sentence");
     }
   }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  nlohmann::ordered_json request;
+  try {
+    request = server::parse_json(std::string_view(reinterpret_cast<const char*>(data), size));
+  } catch (const server::BadJson&) {
+    return 0;
+  }
+  expect_clear_refusal([&] { check_plan(request, jobs::plan_sweep(request, kMostJobs)); });
+  expect_clear_refusal([&] {
+    const jobs::SearchRequest search = jobs::parse_search_request(request, kMostJobs);
+    (void)jobs::plan_first_sweep(jobs::first_sweep_of(request, search), search, kMostJobs);
+  });
   return 0;
 }

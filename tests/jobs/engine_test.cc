@@ -1,5 +1,8 @@
 // The layer with the real engine behind it.
 
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "jobs/service.h"
@@ -33,6 +36,20 @@ TEST(RunJob, SimulatesTheIdealLinkage) {
     const double y = r * std::sin(angle[k]);
     EXPECT_NEAR(slider[k], r * std::cos(angle[k]) + std::sqrt(0.25 - 0.04 - y * y), 1e-6);
   }
+}
+
+TEST(RunJob, BendsEveryLinkThatIsFlexible) {
+  const json given = json_of(R"({"clearance_mm": 0, "duration_s": 0.1, "run_up_s": 0.05, "coupler": "flexible", "crank": "flexible",
+                                 "rod": "flexible", "cross": "flexible", "cross_length_mm": 100, "crank_elements": 3, "rod_elements": 5})");
+  const jobs::Outcome outcome = jobs::run_job(given, [](double) { return false; });
+  ASSERT_EQ(outcome.job.at("state"), "succeeded") << outcome.job.at("error");
+  std::set<std::string> channels;
+  for (const auto& channel : outcome.trajectory.channels) channels.insert(channel.key);
+  for (const char* key : {"crank_deflection_mm", "rod_deflection_mm", "cross_deflection_mm", "pose_1_1_2_x_m", "pose_1_2_4_x_m", "pose_2_2_3_qw"})
+    EXPECT_TRUE(channels.contains(key)) << key;
+  EXPECT_FALSE(channels.contains("pose_1_1_3_x_m"));
+  EXPECT_GT(outcome.job.at("metrics").at("structural_loss_j"), 0.0);
+  EXPECT_LT(outcome.job.at("metrics").at("energy_residual"), 1e-6);
 }
 
 TEST(RunJob, StopsWhenAsked) {

@@ -156,6 +156,7 @@ TEST(PlanJob, IsTheJobOfItsParameters) {
   const auto job = jobs::plan_job(json_of(R"({"coupler": "flexible"})"));
   EXPECT_EQ(job.content_id, plan_of(R"({"sweep": {"coupler": ["flexible"]}})").jobs[0].content_id);
   EXPECT_EQ(job.kind, "flexible, clearance");
+  EXPECT_EQ(plan_of(R"({"sweep": {"crank": ["flexible"], "rod": ["flexible"]}})").jobs.front().kind, "rigid + crank + rod, clearance");
   EXPECT_FALSE(job.replicate.has_value());
 }
 

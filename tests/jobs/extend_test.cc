@@ -56,6 +56,24 @@ TEST(PlanExtension, AddsCasesTimesAllAxes) {
   EXPECT_EQ(swept_values(extension), (Strings{"[0.1,0.8]", "[0.2,0.8]"}));
 }
 
+TEST(PlanExtension, RefusesMoreCasesThanASweepMayHaveJobs) {
+  std::string cases = "{}";
+  for (std::size_t k = 0; k < kMaxJobs; ++k) cases += ",{}";
+  const auto faults = faults_of([&] { (void)extension_of(R"({"cases": [{"restitution": 0.9}]})", (R"({"cases": [)" + cases + "]}").c_str()); });
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].pointer, "/cases");
+  EXPECT_EQ(faults[0].detail, "has 101 cases; at most 100 jobs are allowed");
+}
+
+// Were each case to be compared with every other one, this would take hours.
+TEST(PlanExtension, KnowsItsOwnCasesAmongMany) {
+  constexpr std::size_t kCases = 50'000;
+  std::string cases = R"({"restitution": 0.9})";
+  for (std::size_t k = 1; k < kCases; ++k) cases += R"(,{"gravity_m_s2": )" + std::to_string(k) + "e-4}";
+  const auto request = request_of((R"({"cases": [)" + cases + "]}").c_str());
+  EXPECT_TRUE(jobs::plan_extension(request, request, kCases).jobs.empty());
+}
+
 TEST(PlanExtension, KeepsThePointsOfADesign) {
   const char* const former = R"({"design": {"type": "latin_hypercube", "count": 3, "over": {"restitution": {"from": 0.6, "to": 0.9}}}, "sweep": {"coupler": ["rigid"]}})";
   const auto extension = extension_of(former, R"({"sweep": {"coupler": ["flexible"]}})");

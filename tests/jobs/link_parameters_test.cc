@@ -27,6 +27,28 @@ TEST(DefaultLinks, ScaleAsAUniformRod) {
   EXPECT_EQ(link.at("inertia_kg_m2")[1], link.at("inertia_kg_m2")[2]);
 }
 
+// A steel tube: m = rho pi (d^2 - d_i^2) l / 4, I_x = m (d^2 + d_i^2) / 8. The crank's default is one of 28/20 mm.
+TEST(DefaultLinks, ScaleAsAUniformTube) {
+  const double l = 0.25, d = 0.03, d_i = 0.018;
+  const double m = 7800.0 * std::numbers::pi / 4.0 * (d * d - d_i * d_i) * l;
+  const json link = link_of(R"({"crank_length_m": 0.25, "crank_diameter_mm": 30, "crank_inner_diameter_mm": 18})", "1,1");
+  expect_relative(link.at("mass_kg"), m, 2e-3);
+  expect_relative(link.at("inertia_kg_m2")[0], m * (d * d + d_i * d_i) / 8.0, 2e-3);
+  expect_relative(link.at("inertia_kg_m2")[1], m * l * l / 3.0 + m * (d * d + d_i * d_i) / 16.0, 2e-3);
+}
+
+// With a length it is a tube along z from its guide on; without one the table's, whatever its diameters.
+TEST(DefaultLinks, OfTheCrossLinkFollowItsLength) {
+  const double l = 0.06, d = 0.02, d_i = 0.015;
+  const double m = 7800.0 * std::numbers::pi / 4.0 * (d * d - d_i * d_i) * l;
+  const json link = link_of(R"({"cross_length_mm": 60})", "2,2");
+  expect_relative(link.at("mass_kg"), m, 2e-3);
+  expect_relative(link.at("inertia_kg_m2")[2], m * (d * d + d_i * d_i) / 8.0, 3e-3);
+  expect_relative(link.at("inertia_kg_m2")[0], m * l * l / 3.0 + m * (d * d + d_i * d_i) / 16.0, 3e-3);
+  EXPECT_EQ(link.at("inertia_kg_m2")[0], link.at("inertia_kg_m2")[1]);
+  EXPECT_EQ(link_of(R"({"cross_diameter_mm": 40})", "2,2"), link_of("{}", "2,2"));
+}
+
 // Very short rods are discs: I_y comes near I_x / 2, and no scaling of I_y with l^2 alone would be that of a body.
 TEST(DefaultLinks, AreBodiesAtAnyLength) {
   for (const double length : {0.001, 0.01, 0.1, 1.0}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -64,6 +65,28 @@ TEST(LinkageExamples, HaveTheirJointsAndFreedoms) {
   json bricard = example("bricard");
   bricard["duration_s"] = 0.01;
   EXPECT_EQ(jobs::run_job(bricard, [](double) { return false; }).job.at("metrics").at("redundant_constraints"), 1);
+}
+
+// Nothing is left to solve for: the force of the drive is m (a - g), which for a harmonic motion along y is known.
+TEST(LinkageWithoutUnknowns, FollowsItsDrives) {
+  const json driven = json_of(R"({"duration_s": 0.2, "output_rate_hz": 100, "gravity_m_s2": 10, "linkage": {"bodies": {"b": {"mass_kg": 2}},
+    "joints": {"j": {"kind": "prismatic", "axis": "y", "from": "ground", "to": "b", "drive": {"law": "harmonic", "amplitude_m": 0.1,
+    "frequency_hz": 5}}}}})");
+  const engine::RunResult result = run(driven);
+  ASSERT_EQ(result.status, engine::RunStatus::kSucceeded) << result.detail;
+  const auto& t = column(result.trajectory, "t_s");
+  ASSERT_EQ(t.size(), 21U);
+  const double omega = 10.0 * std::numbers::pi;
+  for (std::size_t k = 0; k < t.size(); ++k)
+    EXPECT_NEAR(column(result.trajectory, "j_drive_n")[k], 2.0 * (10.0 - 0.1 * omega * omega * std::sin(omega * t[k])), 1e-9) << t[k];
+}
+
+TEST(LinkageWithoutUnknowns, StandsStillIfItIsWelded) {
+  const json welded = json_of(R"({"duration_s": 0.1, "linkage": {"bodies": {"b": {"mass_kg": 2}},
+    "joints": {"j": {"kind": "weld", "from": "ground", "to": "b"}}}})");
+  const engine::RunResult result = run(welded);
+  ASSERT_EQ(result.status, engine::RunStatus::kSucceeded) << result.detail;
+  EXPECT_EQ(column(result.trajectory, "kinetic_energy_j").back(), 0.0);
 }
 
 /// RPSUP by data and the built-in one, channel for channel.

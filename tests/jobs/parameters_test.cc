@@ -63,6 +63,15 @@ constexpr FaultCase kFaultCases[] = {
     {"restitution_zero", R"({"restitution": 0})", "/restitution", "(0, 1]"},
     {"restitution_above_one", R"({"restitution": 1.01})", "/restitution", "(0, 1]"},
     {"impossible_poisson_ratio", R"({"youngs_modulus_pa": 2.41e11})", "/youngs_modulus_pa", "3 times shear_modulus_pa"},
+    {"solid_beyond_its_tube", R"({"crank_inner_diameter_mm": 28})", "/crank_inner_diameter_mm", "less than crank_diameter_mm, which is 28 mm"},
+    {"rod_thinner_than_its_bore", R"({"rod_diameter_mm": 5, "rod_inner_diameter_mm": 6})", "/rod_inner_diameter_mm", "less than rod_diameter_mm"},
+    {"one_element_of_the_crank", R"({"crank": "flexible", "crank_elements": 1})", "/crank_elements", "[2, 64]"},
+    {"elastic_rod", R"({"rod": "elastic"})", "/rod", R"(must be "rigid" or "flexible")"},
+    {"flexible_cross_without_length", R"({"cross": "flexible"})", "/cross_length_mm", "at least 1 mm, as the cross link is flexible"},
+    {"hair_of_a_cross", R"({"cross_length_mm": 0.5})", "/cross_length_mm", "must be 0"},
+    {"cross_triangle_broken_about_the_centre", R"({"cross_length_mm": 100, "links": {"2,2": {"inertia_kg_m2": [1e-4, 1e-4, 1e-5]}}})",
+     "/links/2,2/inertia_kg_m2", "I_x and I_y"},
+    {"too_many_values_of_links", R"({"duration_s": 20, "output_rate_hz": 100000, "crank": "flexible", "crank_elements": 64})", "/output_rate_hz", "values"},
     {"guide_out_of_reach", R"({"guide_offset_z_m": 0.6})", "/guide_offset_z_m", ""},
     {"links_no_object", R"({"links": []})", "/links", "object"},
     {"unknown_link", R"({"links": {"3,1": {}}})", "/links/3,1", "unknown link"},
@@ -112,9 +121,12 @@ TEST(CompleteParameters, FillsInTheDefaults) {
     "minimum_impact_velocity_m_s": 0.001, "friction": "lugre", "friction_static": 0.1, "friction_kinetic": 0.2, "bristle_stiffness_1_m": 100,
     "bristle_damping_s_m": 5, "bristle_viscous_s_m": 0, "stribeck_velocity_m_s": 0.001, "break_away_ratio": 0.7,
     "friction_velocity_0_m_s": 1e-4, "friction_velocity_1_m_s": 1e-3, "rigid_elements": 4, "youngs_modulus_pa": 2.1e11,
-    "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.01, "integrator": "radau5", "step_s": 1e-5,
-    "relative_tolerance": 1e-5, "absolute_tolerance": 1e-5, "crank_length_m": 0.2, "rod_length_m": 0.2, "coupler_length_m": 0.5,
-    "guide_offset_y_m": 0, "guide_offset_z_m": 0.2, "gravity_m_s2": 9.81, "linkage": "rpsup"})");
+    "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.01, "integrator": "auto", "step_s": 1e-5,
+    "relative_tolerance": 1.5e-5, "absolute_tolerance": 1.5e-5, "crank_length_m": 0.2, "rod_length_m": 0.2, "coupler_length_m": 0.5,
+    "guide_offset_y_m": 0, "guide_offset_z_m": 0.2, "gravity_m_s2": 9.81, "linkage": "rpsup",
+    "crank": "rigid", "crank_diameter_mm": 28, "crank_inner_diameter_mm": 20, "crank_elements": 4, "crank_damping_ratio": 0.01,
+    "rod": "rigid", "rod_diameter_mm": 20, "rod_inner_diameter_mm": 0, "rod_elements": 4, "rod_damping_ratio": 0.01,
+    "cross": "rigid", "cross_diameter_mm": 20, "cross_inner_diameter_mm": 15, "cross_elements": 4, "cross_damping_ratio": 0.01, "cross_length_mm": 0})");
   json completed = jobs::complete_parameters(json::object(), "");
   completed.erase("links");
   EXPECT_EQ(completed, expected);
@@ -157,7 +169,8 @@ TEST(ToJobSpec, GivesTheEnginesDefaultsToTheLastBit) {
 TEST(ToJobSpec, ConvertsMillimetresAndWords) {
   const json given = json_of(R"({"clearance_mm": 0.5, "axial_clearance_mm": 0.1, "bearing_radius_mm": 8, "bearing_length_mm": 30, "rod_stroke_mm": 20,
     "coupler_diameter_mm": 12, "coupler": "flexible", "drive": "baumgarte", "contact": "elements", "friction": "none", "integrator": "rk4",
-    "radial_elements": 36.0, "crank_velocity_rad_s": 12, "duration_s": 4})");
+    "radial_elements": 36.0, "crank_velocity_rad_s": 12, "duration_s": 4, "crank": "flexible", "rod_inner_diameter_mm": 8, "cross_length_mm": 60,
+    "cross_elements": 6})");
   const jobs::JobSpec spec = jobs::to_job_spec(jobs::complete_parameters(given, ""));
   EXPECT_EQ(spec.parameters.c_r, 0.0005);
   EXPECT_EQ(spec.parameters.c_a, 0.0001);
@@ -171,6 +184,11 @@ TEST(ToJobSpec, ConvertsMillimetresAndWords) {
   EXPECT_EQ(spec.parameters.friction, engine::FrictionLaw::kNone);
   EXPECT_EQ(spec.options.integrator, engine::Integrator::kRk4);
   EXPECT_EQ(spec.parameters.radial_elements, 36);
+  EXPECT_EQ(spec.parameters.crank.model, engine::LinkModel::kFlexible);
+  EXPECT_EQ(spec.parameters.rod.model, engine::LinkModel::kRigid);
+  EXPECT_EQ(spec.parameters.rod.inner_diameter, 0.008);
+  EXPECT_EQ(spec.parameters.cross_length, 0.06);
+  EXPECT_EQ(spec.parameters.cross.elements, 6);
   EXPECT_EQ(spec.parameters.crank_velocity, 12.0);
   EXPECT_EQ(spec.options.duration, 4.0);
 }

@@ -36,6 +36,15 @@ TEST(PolynomialChaos, IsExactForAPolynomial) {
   EXPECT_NEAR(surrogate.predict(place), cubic(0.3, -0.7), 1e-12);
 }
 
+TEST(PolynomialChaos, TakesResponsesWhoseSquaresNoDoubleHolds) {
+  const Eigen::MatrixXd inputs = points(40);
+  const auto response = values(inputs, [](double x, double y) { return std::sin(3.0 * x) + y; });
+  const jobs::PolynomialChaos small(inputs, response), large(inputs, std::ldexp(1.0, 800) * response);
+  ASSERT_EQ(large.degree(), small.degree());
+  EXPECT_EQ(large.left_out_predictions(), std::ldexp(1.0, 800) * small.left_out_predictions()) << "to the bit, by a power of two";
+  EXPECT_EQ(large.predicted_part(), small.predicted_part());
+}
+
 // The closed form of leaving one out is what fitting without the point predicts there.
 TEST(PolynomialChaos, PredictsAPointFromTheOthers) {
   const auto wave = [](double x, double y) { return std::sin(3.0 * x) + 0.3 * std::exp(y); };

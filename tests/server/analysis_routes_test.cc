@@ -150,6 +150,21 @@ TEST(Report, KeepsTheOrderOfAxesAndQuotesForTheShell) {
             R"(curl -s -d '{"name":"it'\''s","sweep":{"restitution":[2],"clearance_mm":[1]}}' "${RPSUP_URL:-http://127.0.0.1:8080}/v1/sweeps")");
 }
 
+// A job of another linkage has no value of a parameter that belongs to this one.
+TEST(Analyses, LeaveJobsOfAnotherLinkageApart) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(R"({"cases": [{"rod_length_m": 0.19}, {"rod_length_m": 0.2},
+    {"linkage": {"bodies": {"bob": {"mass_kg": 1}}, "joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob", "at_m": [0.1, 0, 0],
+     "drive": {"law": "run_up", "velocity_rad_s": 1}}}}}]})");
+  const json surrogate = rows_of(bench, path + "/surrogate", {{"metric", "impact_count"}});
+  ASSERT_EQ(surrogate.at("inputs").size(), 1U);
+  EXPECT_EQ(surrogate.at("inputs").at(0).at("parameter"), "rod_length_m");
+  ASSERT_EQ(surrogate.at("surfaces").size(), 2U);
+  EXPECT_EQ(surrogate.at("surfaces").at(0).at("points"), 2);
+  EXPECT_EQ(surrogate.at("surfaces").at(1).at("points"), 0);
+  for (const char* const analysis : {"/report", "/results"}) EXPECT_EQ(bench.call("GET", path + analysis).status, 200) << analysis;
+}
+
 TEST(Analyses, AreOfWhatIsThere) {
   Bench bench;
   for (const std::string analysis : {"sensitivity", "surrogate", "flexibility", "bifurcation", "lyapunov", "report"}) {

@@ -54,6 +54,14 @@ TEST(ParseJson, RefusesAnObjectOfTooManyKeys) {
   EXPECT_EQ(message_of(text.substr(0, text.size() - 1) + "}"), "accepted");
 }
 
+// Were each object to look at those before it, this would take hours.
+TEST(ParseJson, ReadsALongListOfObjects) {
+  constexpr std::size_t kObjects = 1'000'000;
+  std::string text = "[{}";
+  for (std::size_t i = 1; i < kObjects; ++i) text += ",{}";
+  EXPECT_EQ(parse_json(text + "]").size(), kObjects);
+}
+
 TEST(ParseJson, RefusesANumberThatNoDoubleHolds) { EXPECT_NE(message_of("[1e999]"), "accepted"); }
 
 TEST(ParseJson, ReadsWordsForWhatIsNoNumberAsNull) {

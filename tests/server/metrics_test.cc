@@ -29,6 +29,9 @@ TEST(Metrics, CountRunsByKindAndFailuresByReason) {
   jobs::JobSpec flexible;
   flexible.parameters.coupler = engine::Coupler::kFlexible;
   static_cast<void>(runner(flexible, never));
+  jobs::JobSpec bent;
+  bent.parameters.rod.model = engine::LinkModel::kFlexible;
+  static_cast<void>(runner(bent, never));
   static_cast<void>(runner({}, never));
   what = What::kFails;
   EXPECT_EQ(runner({}, never).status, engine::RunStatus::kNonFinite);
@@ -37,7 +40,7 @@ TEST(Metrics, CountRunsByKindAndFailuresByReason) {
   what = What::kThrows;
   EXPECT_THROW(static_cast<void>(runner({}, never)), std::runtime_error);
   const std::string text = metrics.text({});
-  EXPECT_TRUE(has_line(text, "rpsup_job_duration_seconds_count{kind=\"flexible\"} 1")) << text;
+  EXPECT_TRUE(has_line(text, "rpsup_job_duration_seconds_count{kind=\"flexible\"} 2")) << text;
   EXPECT_TRUE(has_line(text, "rpsup_job_duration_seconds_count{kind=\"rigid\"} 2")) << text;
   EXPECT_TRUE(has_line(text, "rpsup_job_failures_total{reason=\"non_finite\"} 1")) << text;
   EXPECT_TRUE(has_line(text, "rpsup_job_failures_total{reason=\"internal\"} 1")) << text;

@@ -45,6 +45,22 @@ TEST(PostSweep, NamesEveryFault) {
   EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
 }
 
+TEST(PostSweep, SweepsTheLinksThatBend) {
+  Bench bench;
+  const char* const request = R"({"parameters": {"cross_length_mm": 50}, "sweep": {"crank": ["rigid", "flexible"], "cross": ["rigid", "flexible"]}})";
+  const std::string path = "/v1/sweeps/" + bench.run(request);
+  const json rows = json::parse(bench.call("GET", path + "/results").body);
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[2].at("crank"), "flexible");
+  EXPECT_EQ(rows[2].at("cross"), "rigid");
+  const auto refused = bench.call("POST", "/v1/sweeps", R"({"sweep": {"cross": ["rigid", "flexible"], "rod_elements": [1]}})");
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(json::parse(refused.body).at("errors").at(0).at("pointer"), "/sweep/rod_elements/0");
+  const auto without_length = bench.call("POST", "/v1/jobs", R"({"cross": "flexible"})");
+  EXPECT_EQ(without_length.status, 422);
+  EXPECT_EQ(json::parse(without_length.body).at("errors").at(0).at("pointer"), "/cross_length_mm");
+}
+
 // JSON has no such number, but the json module of Python writes it.
 TEST(PostSweep, NamesThePlaceOfANotANumber) {
   Bench bench;

@@ -78,6 +78,17 @@ step {"parameters": {"integrator": "rk4", "duration_s": 3600, "output_rate_hz": 
 samples {"parameters": {"duration_s": 3600, "output_rate_hz": 100000}}
 elements {"parameters": {"coupler": "flexible", "rigid_elements": 1000000}}
 EOB
+# Bodies too large for a command line: as many cases as fit, and 200 bodies, each a beam.
+jq --null-input --compact-output '{cases: [range(300000) | {}]}' >cases.json
+jq --null-input '{linkage: {bodies: ([range(200) | {key: "b\(.)", value: {mass_kg: 1, beam: {length_m: 1, diameter_mm: 9, elements: 64}}}] | from_entries),
+  joints: ([range(200) | {key: "j\(.)", value: {kind: "free", from: (if . == 0 then "ground" else "b\(. - 1)" end), to: "b\(.)"}}] | from_entries)}}' >beams.json
+jq '{parameters: .}' beams.json >beams_sweep.json
+for body in cases beams_sweep; do
+  seconds=$(curl --silent --max-time 20 --data @$body.json --output answer --write-out '%{http_code} %{time_total}' "$url/v1/sweeps")
+  expect_equal "${seconds% *}" 422 "$body"
+  echo "$body: refused in $(awk '{ printf "%.1f ms", 1000 * $2 }' <<<"$seconds"): $(jq -r '.errors[0].detail' answer)"
+done
+
 # A body that is small until it is decoded: 256 MiB of blanks.
 head -c 268435456 /dev/zero | tr '\0' ' ' | gzip -1 >bomb.gz
 seconds=$(curl --silent --max-time 20 --header 'Content-Encoding: gzip' --data-binary @bomb.gz --output answer --write-out '%{http_code} %{time_total}' "$url/v1/sweeps")

@@ -41,7 +41,8 @@ class JobPage {
   head() {
     const { job } = this;
     const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity, linkage } = job.parameters;
-    const title = isDescribed(job) ? titleOfLinkage(linkage) : `${coupler} coupler, clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
+    const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible").map((link) => `flexible ${link}, `).join("");
+    const title = isDescribed(job) ? titleOfLinkage(linkage) : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "its sweep") : "no sweep";
     this.state = h("span", { class: job.state }, job.state);
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;

@@ -1,11 +1,12 @@
-// The run of the ideal linkage that a job is compared with: same drives, rigid coupler, no clearance.
+// The run of the ideal linkage that a job is compared with: same drives, rigid links, no clearance.
 import { findJob, submitJob } from "/core/api.js";
 
 const pollMs = 300;
+const rigid = { coupler: "rigid", crank: "rigid", rod: "rigid", cross: "rigid" };
 
 /// Has it computed, or takes it from the store if it was computed before. Resolves to the job, when it has succeeded.
 export async function idealOf(job, signal) {
-  let ideal = await submitJob({ ...job.parameters, clearance_mm: 0, axial_clearance_mm: 0, coupler: "rigid", drive: "prescribed" });
+  let ideal = await submitJob({ ...job.parameters, clearance_mm: 0, axial_clearance_mm: 0, ...rigid, drive: "prescribed" });
   while (ideal.state === "queued" || ideal.state === "running") {
     await new Promise((resolve) => { setTimeout(resolve, pollMs); });
     ideal = await findJob(ideal.id, signal);
@@ -15,5 +16,5 @@ export async function idealOf(job, signal) {
 }
 
 export function isIdeal({ parameters }) {
-  return parameters.clearance_mm === 0 && parameters.coupler === "rigid";
+  return parameters.clearance_mm === 0 && Object.entries(rigid).every(([link, model]) => parameters[link] === model);
 }

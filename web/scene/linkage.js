@@ -3,7 +3,7 @@ import { bushAlongZ, glassBox, measuresOf, rodAlongX, rodAlongZ } from "/scene/s
 
 export const linkColours = [["crank (1,1)", "#0072b2"], ["sliding rod (1,2)", "#56b4e9"], ["coupler (1,3) with bearing", "#e69f00"], ["slider (2,1)", "#009e73"],
   ["cross link (2,2) with journal", "#d55e00"]];
-const couplerPoints = 40;
+const tubePoints = 40;
 const bushWall = 0.6;  // of the bearing's radius
 
 export class Linkage {
@@ -11,20 +11,28 @@ export class Linkage {
   constructor(THREE, parameters, links) {
     this.THREE = THREE;
     this.measures = measuresOf(parameters);
-    this.elements = links.filter((link) => link.startsWith("1_3"));
     this.group = new THREE.Group();
     const [crank, rod, coupler, slider, cross] = linkColours.map(([, colour]) => new THREE.MeshStandardMaterial({ color: colour, roughness: 0.55, metalness: 0.1 }));
     Object.assign(slider, { transparent: true, opacity: 0.25, depthWrite: false });
     const { measures } = this;
-    this.bodies = { "1_1": rodAlongX(THREE, measures.crank, crank), "1_2": rodAlongX(THREE, measures.rod, rod), "2_1": glassBox(THREE, measures.slider, slider), "2_2": rodAlongZ(THREE, measures.cross, cross) };
+    this.bodies = { "2_1": glassBox(THREE, measures.slider, slider) };
+    this.tubes = {};
+    const add = (link, measure, material, rigid) => {
+      const elements = elementsOf(link, links);
+      if (elements.length > 1) this.tubes[link] = { elements, ...measure, mesh: new THREE.Mesh(new THREE.BufferGeometry(), material) };
+      else this.bodies[link] = rigid();
+    };
+    add("1_1", measures.crank, crank, () => rodAlongX(THREE, measures.crank, crank));
+    add("1_2", measures.rod, rod, () => rodAlongX(THREE, measures.rod, rod));
+    add("2_2", measures.cross, cross, () => rodAlongZ(THREE, measures.cross, cross, measures.arm / 2));
     this.couplerMaterial = coupler;
-    this.coupler = new THREE.Mesh(new THREE.BufferGeometry(), coupler);
+    this.coupler = { elements: elementsOf("1_3", links), ...measures.coupler, mesh: new THREE.Mesh(new THREE.BufferGeometry(), coupler) };
     this.ball = new THREE.Mesh(new THREE.SphereGeometry(1.6 * measures.coupler.radius, 32, 16), coupler);
     this.bush = new THREE.Group();
     const pivot = rodAlongZ(THREE, { length: 5 * measures.crank.radius, radius: 0.8 * measures.crank.radius }, new THREE.MeshStandardMaterial({ color: "#7a8590" }));
     const guide = rodAlongX(THREE, { length: 2 * (measures.crank.length + measures.coupler.length), radius: 0.002 }, pivot.material);
     guide.position.set(-(measures.crank.length + measures.coupler.length), measures.guide.y, measures.guide.z);
-    this.group.add(...Object.values(this.bodies), this.coupler, this.ball, this.bush, pivot, guide);
+    this.group.add(...Object.values(this.bodies), ...Object.values(this.tubes).map(({ mesh }) => mesh), this.coupler.mesh, this.ball, this.bush, pivot, guide);
     this.drawBush(1);
   }
 
@@ -41,35 +49,52 @@ export class Linkage {
   }
 
   /// @param frames  {link: [x, y, z, qx, qy, qz, qw]}
-  /// @param clearance, bend  how many times larger the gap in the joint and the coupler's bend are drawn
+  /// @param clearance, bend  how many times larger the gap in the joint and the links' bend are drawn
   place(frames, { clearance, bend }) {
     for (const [link, body] of Object.entries(this.bodies)) setFrame(body, frames[link]);
-    const { THREE } = this;
-    const points = this.#couplerPoints(frames);
-    const end = points.at(-1);
-    const journal = new THREE.Vector3(...frames["2_2"]);
-    const shift = end.clone().sub(journal).multiplyScalar(clearance - 1);
+    for (const tube of Object.values(this.tubes)) this.#drawTube(tube, exaggerate(this.#axisOf(tube, frames), bend));
+    const points = this.#axisOf(this.coupler, frames);
+    const shift = points.at(-1).clone().sub(this.#journal(frames)).multiplyScalar(clearance - 1);
     if (clearance !== this.bushFactor) this.drawBush(clearance);
     const drawn = exaggerate(points, bend, shift);
-    setFrame(this.bush, frames[this.elements.at(-1)]);
+    setFrame(this.bush, frames[this.coupler.elements.at(-1)]);
     this.bush.position.copy(drawn.at(-1));
     endBefore(drawn, this.bushReach);
-    const curve = drawn.length > 2 ? new THREE.CatmullRomCurve3(drawn) : new THREE.LineCurve3(...drawn);
-    this.coupler.geometry.dispose();
-    this.coupler.geometry = new THREE.TubeGeometry(curve, drawn.length > 2 ? couplerPoints : 1, this.measures.coupler.radius, 16);
+    this.#drawTube(this.coupler, drawn);
     this.ball.position.copy(points[0]);
   }
 
-  /// The coupler's axis: the origins of its elements, and its end. The first and the last element have half the others' length.
-  #couplerPoints(frames) {
-    const { THREE, elements, measures: { coupler } } = this;
+  #drawTube({ mesh, radius }, points) {
+    const { THREE } = this;
+    const curve = points.length > 2 ? new THREE.CatmullRomCurve3(points) : new THREE.LineCurve3(...points);
+    mesh.geometry.dispose();
+    mesh.geometry = new THREE.TubeGeometry(curve, points.length > 2 ? tubePoints : 1, radius, 16);
+  }
+
+  /// The journal's centre: where the cross link's arm ends.
+  #journal(frames) {
+    const { THREE, tubes: { "2_2": tube }, measures: { arm } } = this;
+    if (tube) return this.#axisOf(tube, frames).at(-1);
+    const [x, y, z, ...turn] = frames["2_2"];
+    return new THREE.Vector3(0, 0, arm).applyQuaternion(new THREE.Quaternion(...turn)).add(new THREE.Vector3(x, y, z));
+  }
+
+  /// A link's axis: the origins of its elements, and its end. The first and the last element have half the others' length.
+  #axisOf({ elements, length }, frames) {
+    const { THREE } = this;
     const origins = elements.map((link) => new THREE.Vector3(...frames[link]));
-    const lastLength = elements.length > 1 ? coupler.length / (elements.length - 1) / 2 : coupler.length;
+    const lastLength = elements.length > 1 ? length / (elements.length - 1) / 2 : length;
     const turn = new THREE.Quaternion(...frames[elements.at(-1)].slice(3));
     return [...origins, origins.at(-1).clone().add(new THREE.Vector3(lastLength, 0, 0).applyQuaternion(turn))];
   }
 
   get joint() { return this.bush.position; }
+}
+
+/// The frames of a link: its own, or those of its elements in their order.
+function elementsOf(link, links) {
+  const place = (name) => Number(name.slice(link.length + 1));
+  return links.filter((name) => name === link || name.startsWith(`${link}_`)).sort((a, b) => place(a) - place(b));
 }
 
 function setFrame(body, [x, y, z, qx, qy, qz, qw]) {
@@ -78,7 +103,7 @@ function setFrame(body, [x, y, z, qx, qy, qz, qw]) {
 }
 
 /// Points of a line, their distance from its chord made larger, and its end moved.
-function exaggerate(points, factor, shift) {
+function exaggerate(points, factor, shift = new points[0].constructor()) {
   const [start, end] = [points[0], points.at(-1)];
   const chord = end.clone().sub(start);
   return points.map((point) => {

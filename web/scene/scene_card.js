@@ -19,7 +19,7 @@ const impactPoints = 4000;
 export function sceneCard(job, links, times, signal) {
   const described = isDescribed(job) ? job.parameters.linkage : null;
   const hasClearance = !described && job.parameters.clearance_mm > 0;
-  const isFlexible = job.parameters.coupler === "flexible";
+  const isFlexible = ["coupler", "crank", "rod", "cross"].some((link) => job.parameters[link] === "flexible");
   const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1 };
   const canvas = h("canvas", { class: "scene", role: "img", tabindex: 0, "aria-label": "The linkage in three dimensions. Drag to turn it, wheel to come closer, arrow keys to move." });
   const status = h("p", { class: "quiet small" });

@@ -9,7 +9,8 @@ export function measuresOf(parameters) {
     rod: { length: parameters.rod_length_m, radius: rodRadius(links["1,2"]) },
     coupler: { length: parameters.coupler_length_m, radius: parameters.coupler_diameter_mm / 2000 },
     slider: boxOf(links["2,1"]),
-    cross: { length: lengthOf(links["2,2"]), radius: (parameters.bearing_radius_mm - parameters.clearance_mm) / 1000 },
+    cross: { length: parameters.cross_length_mm / 1000 || lengthOf(links["2,2"]), radius: (parameters.bearing_radius_mm - parameters.clearance_mm) / 1000 },
+    arm: parameters.cross_length_mm / 1000,
     bearing: { length: parameters.bearing_length_mm / 1000 },
     clearance: parameters.clearance_mm / 1000,
     guide: { y: parameters.guide_offset_y_m, z: parameters.guide_offset_z_m },
@@ -33,9 +34,9 @@ export function rodAlongX(THREE, { length, radius }, material) {
   return new THREE.Mesh(geometry, material);
 }
 
-/// A round rod along z about the middle.
-export function rodAlongZ(THREE, { length, radius }, material) {
-  return new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, length, 48).rotateX(Math.PI / 2), material);
+/// A round rod along z. @param middle  where it has its middle
+export function rodAlongZ(THREE, { length, radius }, material, middle = 0) {
+  return new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, length, 48).rotateX(Math.PI / 2).translate(0, 0, middle), material);
 }
 
 /// A bush along z about the middle.

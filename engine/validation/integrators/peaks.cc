@@ -21,7 +21,7 @@ struct PeakCase {
 Findings compare_peaks(const std::vector<PeakCase>& cases) {
   Findings findings;
   Table table{.caption = "Largest slider acceleration in [2 s, 3 s] by three methods that share neither formula nor step.",
-              .head = {"case", "dopri5, 1e-6 [m/s²]", "at [s]", "rk4, 5 us [m/s²]", "at [s]", "radau5, default [m/s²]", "at [s]"},
+              .head = {"case", "dopri5, 1e-6 [m/s²]", "at [s]", "rk4, 5 us [m/s²]", "at [s]", "default [m/s²]", "at [s]"},
               .reproducible_to = 1e-3};
   for (const PeakCase& c : cases) {
     RpsupParameters parameters;
@@ -31,7 +31,7 @@ Findings compare_peaks(const std::vector<PeakCase>& cases) {
     const RunResult dopri5 = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kDopri5,
                                                      .relative_tolerance = 1e-6, .absolute_tolerance = 1e-7});
     const RunResult rk4 = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kRk4, .step = kStep});
-    const RunResult radau5 = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0});
+    const RunResult automatic = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0});
     const double peak = metric(dopri5, "peak_slider_acceleration_m_s2");
     const double other = metric(rk4, "peak_slider_acceleration_m_s2");
     const double time = metric(dopri5, "peak_slider_acceleration_time_s");
@@ -46,11 +46,11 @@ Findings compare_peaks(const std::vector<PeakCase>& cases) {
                                       "rk4 in steps of 5 us", time, other_time, rounded ? kRounded : kStep, "s",
                                       rounded ? "a rounded peak of the motion, not an impact: it stays within 1e-6 of its top for 1.4e-4 s; a tenth of that"
                                               : "one step: rk4 sees the acceleration where its steps end"));
-    const double by_default = metric(radau5, "peak_slider_acceleration_m_s2");
-    findings.checks.push_back(compare(name + ", 3 s: peak acceleration of the slider by radau5 at its default tolerance", "rk4 in steps of 5 us",
+    const double by_default = metric(automatic, "peak_slider_acceleration_m_s2");
+    findings.checks.push_back(compare(name + ", 3 s: peak acceleration of the slider by the default integrator", "rk4 in steps of 5 us",
                                       by_default, other, 1e-3 * other, "m/s²", "a thousandth: what the default tolerance is chosen for"));
     table.rows.push_back({name, number(peak, 7), number(time, 8), number(other, 7), number(other_time, 8), number(by_default, 7),
-                          number(metric(radau5, "peak_slider_acceleration_time_s"), 8)});
+                          number(metric(automatic, "peak_slider_acceleration_time_s"), 8)});
   }
   findings.tables.push_back(std::move(table));
   return findings;

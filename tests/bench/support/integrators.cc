@@ -10,7 +10,7 @@ std::vector<NamedIntegrator> all_integrators() {
   for (const std::string_view word : parameter.choices) {
     jobs::JobSpec spec;
     parameter.write(spec, std::string(word));
-    all.push_back({std::string(word), spec.options.integrator});
+    if (spec.options.integrator != engine::Integrator::kAuto) all.push_back({std::string(word), spec.options.integrator});
   }
   return all;
 }
