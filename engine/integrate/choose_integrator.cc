@@ -12,7 +12,7 @@ constexpr double kSlowBristles = 300.0;  // stiffness, [1/m]
 bool is_elastic(const Coordinate& coordinate) { return coordinate.stiffness > 0.0; }
 
 bool has_slow_friction(const ClearanceParameters& joint) {
-  return joint.form == RadialForm::kContinuum && joint.friction && joint.friction->law == FrictionLaw::kLuGre &&
+  return joint.form == RadialForm::kContinuum && !joint.worn && joint.friction && joint.friction->law == FrictionLaw::kLuGre &&
          joint.friction->sigma_0 <= kSlowBristles;
 }
 
