@@ -3,7 +3,6 @@
 #include <string>
 
 #include "engine/dynamics/loop_closure.h"
-#include "engine/integrate/choose_integrator.h"
 #include "engine/integrate/integration.h"
 #include "engine/integrate/kinematic_run.h"
 
@@ -23,9 +22,7 @@ std::string_view status_name(RunStatus status) {
   return "unknown";
 }
 
-RunEnd simulate(const Mechanism& mechanism, const RunOptions& wanted, Observer& observer) {
-  RunOptions options = wanted;
-  options.integrator = choose_integrator(mechanism, wanted.integrator);
+RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer) {
   LoopClosure closure(mechanism);
   Evaluation assembled = MotionSystem(mechanism).make_evaluation();
   if (!closure.assemble(0.0, assembled)) {

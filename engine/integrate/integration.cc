@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/integrate/choose_integrator.h"
 #include "engine/integrate/contact_events.h"
 #include "engine/integrate/interpolation.h"
 
@@ -27,6 +28,11 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
   return is_implicit(integrator) && !has_clearance(mechanism) ? kLongestFree : kLongestStep;
 }
 
+RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
+  options.integrator = choose_integrator(mechanism, options.integrator);
+  return options;
+}
+
 /// With which power of the step the error estimate of a step falls.
 double order_of_error(Integrator integrator) {
   return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas4 ? 4.0 : 5.0;
@@ -39,7 +45,7 @@ double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
 
 Integration::Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer)
     : mechanism_(mechanism),
-      options_(options),
+      options_(with_integrator(mechanism, options)),
       observer_(observer),
       system_(mechanism),
       tolerance_(options.relative_tolerance, options.absolute_tolerance),
@@ -48,9 +54,9 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       rodas4_(tolerance_),
       rodas5_(tolerance_),
       radau5_(tolerance_, has_clearance(mechanism) ? kImpactWeight : 1.0),
-      control_(order_of_error(options.integrator)),
+      control_(order_of_error(options_.integrator)),
       samples_(options.output_rate, options.duration),
-      longest_step_(choose_longest_step(mechanism, options.integrator)) {}
+      longest_step_(choose_longest_step(mechanism, options_.integrator)) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
   if (!start(assembled)) return run_end_;

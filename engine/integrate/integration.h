@@ -40,7 +40,7 @@ class Integration {
   void fail(RunStatus status, std::string detail);
 
   const Mechanism& mechanism_;
-  const RunOptions& options_;
+  const RunOptions options_;  ///< with an integrator chosen
   Observer& observer_;
   MotionSystem system_;
   Rk4 rk4_;

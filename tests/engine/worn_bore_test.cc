@@ -175,7 +175,8 @@ RpsupParameters worn_rpsup(const WearDepth& depth) {
 }
 
 RunResult run(const RpsupParameters& parameters, double tolerance = 1e-7) {
-  return validation::run_rpsup(parameters, {.duration = 0.3, .relative_tolerance = tolerance, .absolute_tolerance = tolerance});
+  return validation::run_rpsup(parameters, {.duration = 0.3, .integrator = Integrator::kRodas5, .relative_tolerance = tolerance,
+                                            .absolute_tolerance = tolerance});
 }
 
 TEST(WornRun, WithoutDepthIsTheRunOfARoundBore) {

@@ -154,12 +154,12 @@ TEST(Slurm, PassesTheSitesOptionsToSbatch) {
 TEST(Slurm, ReadsTheLimitsOfTheCluster) {
   FakeSlurm fake;
   std::string problem;
-  const auto limits = Slurm(fake.site()).find_study_table(jobs::Study::kLimit, problem);
+  const auto limits = Slurm(fake.site()).find_limits(problem);
   ASSERT_TRUE(limits) << problem;
   EXPECT_EQ(limits->max_array_size, 1001);
   EXPECT_EQ(limits->version, "22.05.8");
   fake.answer("scontrol", "exit 1");
-  EXPECT_FALSE(Slurm(fake.site()).find_study_table(jobs::Study::kLimit, problem));
+  EXPECT_FALSE(Slurm(fake.site()).find_limits(problem));
 }
 
 TEST(Slurm, QuotesForARemoteShell) {
