@@ -112,7 +112,7 @@ Json make_page(std::string_view item) {
 
 Json make_result_row() {
   Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", count()}};
-  for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
+  for (const std::string& path : jobs::known_paths()) properties[path] = or_null(parameter_ref(path));  // null: of jobs of another linkage
   properties.update(make_metrics());
   properties["replicates_count"] = described(count(), "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"}) properties[key] = or_null(kNumber);
