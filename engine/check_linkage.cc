@@ -7,6 +7,7 @@
 #include "engine/dynamics/energies.h"
 #include "engine/dynamics/loop_closure.h"
 #include "engine/dynamics/motion_system.h"
+#include "engine/dynamics/spring_motion.h"
 #include "engine/errors.h"
 #include "engine/simulate_linkage.h"
 
@@ -37,6 +38,20 @@ void check_body(const LinkageBody& body) {
   require(body.mass > 0.0 || body.inertia.isZero(0.0), name + ".inertia", "left out, as the body has no mass");
   require(is_inertia_of_a_body(body), name + ".inertia",
           "that of a body: about the centre of mass no principal moment is below 0 or larger than the sum of the other two");
+}
+
+/// Gives the springs of no given free length the one with which they are unloaded. What pulls along the line between its ends must have one.
+void settle_springs(const Linkage& linkage, BuiltLinkage& built, const Evaluation& assembled) {
+  constexpr double kMeeting = 1e-9;  // [m]
+  for (std::size_t k = 0; k < linkage.springs.size(); ++k) {
+    PointSpring& spring = built.mechanism.springs[k];
+    const double length = calc_spring_motion(spring, assembled.frames).length;
+    if (!linkage.springs[k].free_length) spring.free_length = length < kMeeting ? 0.0 : length;
+    if (length < kMeeting && (spring.free_length > 0.0 || spring.damping > 0.0))
+      throw InvalidInput("springs." + linkage.springs[k].name,
+                         "has its ends in one place at t = 0, where neither a free length nor a damper has a direction to push in: "
+                         "move one of them, or leave it a spring of free length 0 without damping");
+  }
 }
 
 /// The joint that a coordinate is part of, or the body inside which it is.
@@ -92,9 +107,9 @@ std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const 
 
 }  // namespace
 
-void check_linkage(const Linkage& linkage) {
+BuiltLinkage check_linkage(const Linkage& linkage) {
   for (const LinkageBody& body : linkage.bodies) check_body(body);
-  const BuiltLinkage built = build_linkage(linkage);
+  BuiltLinkage built = build_linkage(linkage);
   const MotionSystem system(built.mechanism);
   LoopClosure closure(built.mechanism);
   Evaluation assembled = system.make_evaluation();
@@ -106,6 +121,8 @@ void check_linkage(const Linkage& linkage) {
                                   "position, may help");
   }
   check_masses(linkage, built, assembled, system.free_coordinates());
+  settle_springs(linkage, built, assembled);
+  return built;
 }
 
 }  // namespace engine

@@ -14,9 +14,11 @@ struct LinkageTables {
 [[nodiscard]] LinkageTables linkage_tables(const Linkage& linkage);
 
 /// Refuses a linkage that cannot be simulated: a beam, spring or clearance out of bounds, an inertia no body can have, a freedom that moves
-/// nothing that weighs, loops that do not close at t = 0. Bodies and joints must fit together as build_linkage() asks.
-/// @throws InvalidInput for the first fault; its field is "bodies.NAME.mass" and the like, "joints.NAME" for a loop or a freedom.
-void check_linkage(const Linkage& linkage);
+/// nothing that weighs, loops that do not close at t = 0, a spring without a direction then. Bodies and joints must fit together as
+/// build_linkage() asks.
+/// @returns it built, the springs of no given free length unloaded in the assembled position
+/// @throws InvalidInput for the first fault; its field is "bodies.NAME.mass" and the like, "joints.NAME" for a loop or a freedom, "springs.NAME".
+BuiltLinkage check_linkage(const Linkage& linkage);
 
 /// Simulates a described linkage from its assembled position.
 /// The same linkage gives the same bytes, whatever else the process does.

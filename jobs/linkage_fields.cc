@@ -98,6 +98,7 @@ const LinkageFields& linkage_fields() {
       {.key = "name", .kind = FieldKind::kText, .help = "What the linkage is called"},
       {.key = "bodies", .kind = FieldKind::kObject, .help = "The bodies by their names", .required = true},
       {.key = "joints", .kind = FieldKind::kObject, .help = "The joints by their names", .required = true},
+      {.key = "springs", .kind = FieldKind::kObject, .help = "Springs and dampers between points of two bodies, by their names"},
       {.key = "gravity_m_s2", .kind = FieldKind::kPoint, .range = between(-1000, 1000), .unit = "m/s^2",
        .help = "Acceleration of gravity; without it (0, -gravity_m_s2, 0)"},
   };
@@ -157,6 +158,22 @@ const LinkageFields& joint_fields() {
       {.key = "freedoms", .kind = FieldKind::kObject,
        .help = "Of a joint of several freedoms: slide and turn of a cylindrical or screw joint, first and second of a universal one, z, y and x of a "
                "spherical one, x, y and turn of a planar one, x, y, z, turn_z, turn_y and turn_x of a free one"},
+  };
+  return fields;
+}
+
+const LinkageFields& spring_fields() {
+  constexpr Range kNotNegative = between(0, 1e12);
+  static const LinkageFields fields{
+      {.key = "from", .kind = FieldKind::kBody, .help = "First body; \"ground\" is the fixed frame", .required = true},
+      {.key = "to", .kind = FieldKind::kBody, .help = "Second body, another one", .required = true},
+      {.key = "at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m", .help = "Its end on the first body, in the body's frame; without it 0"},
+      {.key = "to_at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m",
+       .help = "Its end on the second body, in the body's frame; without it 0"},
+      {.key = "stiffness_n_m", .range = kNotNegative, .unit = "N/m", .help = "Of the spring; without it 0"},
+      {.key = "damping_n_s_m", .range = kNotNegative, .unit = "N s/m", .help = "Of the damper, along the spring; without it 0"},
+      {.key = "free_length_m", .range = between(0, 1000), .unit = "m",
+       .help = "At which the spring is unloaded; without it the distance of its ends at t = 0"},
   };
   return fields;
 }

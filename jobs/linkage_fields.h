@@ -43,6 +43,7 @@ using LinkageFields = std::vector<LinkageField>;
 [[nodiscard]] const LinkageFields& body_fields();
 [[nodiscard]] const LinkageFields& beam_fields();
 [[nodiscard]] const LinkageFields& joint_fields();
+[[nodiscard]] const LinkageFields& spring_fields();
 [[nodiscard]] LinkageFields freedom_fields(bool slides);                   ///< of a coordinate that slides or turns
 [[nodiscard]] LinkageFields drive_fields(bool slides, std::string_view law);
 [[nodiscard]] const LinkageFields& clearance_fields();                     ///< the parameters of a job that a clearance joint may have of its own

@@ -26,6 +26,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMostBodies = 200;
 constexpr std::size_t kMostJoints = 400;
+constexpr std::size_t kMostSprings = 400;
 constexpr std::size_t kLongestName = 32;
 
 const std::map<std::string_view, JointKind> kKinds{{"revolute", JointKind::kRevolute}, {"prismatic", JointKind::kPrismatic},
@@ -112,6 +113,7 @@ class LinkageReader {
     if (failed()) return std::nullopt;
     check_bodies();
     check_joints();
+    if (given_.contains("springs")) check_springs();
     if (failed()) return std::nullopt;
     check_size();
     find_order();
@@ -166,6 +168,28 @@ class LinkageReader {
                                                     "has a coordinate " + coordinate + ", and so has another joint");
   }
 
+  void check_springs() {
+    if (!check_names("springs", kMostSprings)) return;
+    for (const auto& [name, spring] : given_.at("springs").items()) check_spring(name, spring, "/linkage/springs" + pointer_token(name));
+  }
+
+  void check_spring(const std::string& name, const json& spring, const std::string& pointer) {
+    check_fields(spring, spring_fields(), pointer, faults_);
+    for (const char* const end : {"from", "to"})
+      if (is_unknown_body(spring, end)) fault(pointer + pointer_token(end), "there is no body " + spring.at(end).get<std::string>());
+    if (spring.contains("to") && spring.value("from", json()) == spring.at("to")) fault(pointer + "/to", "must be another body than from");
+    if (!spring.contains("stiffness_n_m") && !spring.contains("damping_n_s_m"))
+      fault(pointer, "must have a stiffness_n_m, a damping_n_s_m or both");
+    for (const auto& [other, joint] : given_.at("joints").items())
+      if (other == name || other == name + "_length") fault(pointer, "needs a name whose channels are no joint's: there is a joint " + other);
+  }
+
+  [[nodiscard]] bool is_unknown_body(const json& object, const char* key) const {
+    if (!object.contains(key) || !object.at(key).is_string()) return false;
+    const std::string& name = object.at(key).get_ref<const std::string&>();
+    return name != engine::kGroundName && !given_.at("bodies").contains(name);
+  }
+
   [[nodiscard]] static std::vector<std::string> coordinate_names(const std::string& name, const json& joint) {
     std::vector<std::string> names;
     const auto kind = joint.contains("kind") && joint.at("kind").is_string() ?
@@ -201,7 +225,7 @@ class LinkageReader {
     const std::string& name = joint.at(key).get_ref<const std::string&>();
     if (name == engine::kGroundName) {
       if (std::string_view(key) == "to" && !closes_loop(joint)) fault(pointer + "/to", "must be a body: nothing carries the ground");
-    } else if (!given_.at("bodies").contains(name)) {
+    } else if (is_unknown_body(joint, key)) {
       fault(pointer + pointer_token(key), "there is no body " + name);
     }
   }
@@ -317,6 +341,8 @@ class LinkageReader {
     engine::Linkage linkage;
     for (const auto& [name, body] : given_.at("bodies").items()) linkage.bodies.push_back(make_body(name, body));
     for (const std::string& name : order_) linkage.joints.push_back(make_joint(name, given_.at("joints").at(name)));
+    if (given_.contains("springs"))
+      for (const auto& [name, spring] : given_.at("springs").items()) linkage.springs.push_back(make_spring(name, spring));
     linkage.gravity_W = given_.contains("gravity_m_s2") ? point_of(given_, "gravity_m_s2") : Eigen::Vector3d(0.0, -defaults_.gravity, 0.0);
     linkage.drive_rows = defaults_.drive == engine::DriveEnforcement::kBaumgarte ? engine::DriveRows::kMultipliers : engine::DriveRows::kEliminated;
     linkage.baumgarte_alpha = defaults_.baumgarte_alpha;
@@ -362,6 +388,12 @@ class LinkageReader {
       joint.freedoms.push_back(make_freedom(part.empty() ? name : name + "_" + std::string(part), own, slides));
     }
     return joint;
+  }
+
+  [[nodiscard]] static engine::LinkageSpring make_spring(const std::string& name, const json& given) {
+    return {.name = name, .from = given.at("from").get<std::string>(), .to = given.at("to").get<std::string>(), .at = point_of(given, "at_m"),
+            .to_at = point_of(given, "to_at_m"), .stiffness = given.value("stiffness_n_m", 0.0), .damping = given.value("damping_n_s_m", 0.0),
+            .free_length = given.contains("free_length_m") ? std::optional(given.at("free_length_m").get<double>()) : std::nullopt};
   }
 
   /// The engine's cut joints have their axis along z, the second one of a universal joint along the journal's x.

@@ -65,6 +65,7 @@ json linkage_schema() {
   json described = schema_of_fields(linkage_fields());
   described["properties"]["bodies"] = named(schema_of_body(), "The bodies by their names");
   described["properties"]["joints"] = named(schema_of_joint(), "The joints by their names");
+  described["properties"]["springs"] = named(schema_of_fields(spring_fields()), "Springs and dampers between points of two bodies, by their names");
   return {{"description", "The linkage: \"rpsup\", or a description of any other"}, {"default", kRpsupName}, {"x-default-source", "chosen"},
           {"oneOf", {{{"const", kRpsupName}}, std::move(described)}}};
 }

@@ -123,7 +123,10 @@ std::string pointer_of_reach(const json& completed) {
 
 void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
   try {
-    if (spec.linkage) return engine::check_linkage(*spec.linkage);
+    if (spec.linkage) {
+      (void)engine::check_linkage(*spec.linkage);
+      return;
+    }
     engine::check_parameters(spec.parameters, spec.options);
   } catch (const engine::InvalidInput& fault) {
     std::string pointer = spec.linkage               ? pointer_of_linkage_field(fault.field())

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "engine/dynamics/spring_motion.h"
+
 namespace engine {
 
 JointReactions::JointReactions(const Mechanism& mechanism)
@@ -10,7 +12,19 @@ JointReactions::JointReactions(const Mechanism& mechanism)
 void JointReactions::calc(const Evaluation& at) {
   calc_frame_motions(mechanism_, at.q, at.qd, at.qdd, frames_);  // those of `at` may lack the free coordinates' accelerations
   for (std::size_t k = 0; k < at.joints.size(); ++k) add_cut_joint(mechanism_.cut_joints[k], at.joints[k]);
+  for (const PointSpring& spring : mechanism_.springs) add_spring(spring);
   (void)inverse_dynamics_.calc(frames_);
+}
+
+void JointReactions::add_spring(const PointSpring& spring) {
+  const SpringMotion motion = calc_spring_motion(spring, frames_);
+  const auto add = [&](FrameIndex index, const Eigen::Vector3d& point, const Eigen::Vector3d& force) {
+    if (index == kGround) return;
+    const Eigen::Vector3d arm = point - frames_[static_cast<std::size_t>(index)].p;
+    inverse_dynamics_.add_load(index, {force, arm.cross(force)});
+  };
+  add(spring.to_frame, motion.to, motion.force);
+  add(spring.from_frame, motion.from, -motion.force);
 }
 
 /// Force and moment act where the journal's centre is, the opposite ones on the bearing there.

@@ -20,6 +20,7 @@ class JointReactions {
 
  private:
   void add_cut_joint(const CutJoint& joint, const JointState& state);
+  void add_spring(const PointSpring& spring);
 
   const Mechanism& mechanism_;
   InverseDynamics inverse_dynamics_;

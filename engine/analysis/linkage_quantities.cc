@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/dynamics/spring_motion.h"
+
 namespace engine {
 
 namespace {
@@ -25,6 +27,7 @@ LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage&
     for (int i = 0; i < built.joints[k].count; ++i)
       add_coordinate(linkage.joints[k].freedoms[static_cast<std::size_t>(i)], built.joints[k].first + i);
   for (std::size_t k = 0; k < linkage.joints.size(); ++k) add_joint(linkage.joints[k], built.joints[k]);
+  for (std::size_t k = 0; k < linkage.springs.size(); ++k) add_spring(linkage.springs[k], k);
   add_energies();
 }
 
@@ -118,6 +121,14 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
   measured_.contacts.push_back(cut);
   add_metric({.key = joint.name + "_contact_time_ratio", .help = "part of the whole run in which the bore is touched"},
              [=](const RunMetrics& metrics, const RunEnd& end) { return metrics.contact_time(contact) / end.t; });
+}
+
+void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t index) {
+  const auto motion = [this, index](const Evaluation& at) { return calc_spring_motion(built_.mechanism.springs[index], at.frames); };
+  const Reading tension = [motion](const Evaluation& at) { return motion(at).tension; };
+  add_channel(spring.name + "_length_m", "distance of the spring's ends", [motion](const Evaluation& at) { return motion(at).length; });
+  add_channel(spring.name + "_tension_n", "how it pulls its ends together, its damper with it", tension);
+  add_load("peak_" + spring.name + "_tension_n", "largest magnitude of it in the whole run", 1.0, tension);
 }
 
 void LinkageQuantities::add_energies() {

@@ -35,6 +35,7 @@ class LinkageQuantities {
   void add_joint(const LinkageJoint& joint, const BuiltJoint& built);
   void add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench);
   void add_clearance(const LinkageJoint& joint, std::size_t cut);
+  void add_spring(const LinkageSpring& spring, std::size_t index);
   void add_energies();
   void add_channel(std::string key, std::string help, Reading read);
   void add_load(std::string key, std::string help, double scale, Reading read);

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/dynamics/spring_motion.h"
+
 namespace engine {
 
 double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames) {
@@ -26,6 +28,10 @@ double calc_potential_energy(const Mechanism& mechanism, const std::vector<Frame
     const double qi = q[static_cast<Eigen::Index>(i)];
     energy += 0.5 * c.stiffness * qi * qi;
     if (c.mass > 0.0) energy -= c.mass * mechanism.gravity_W.dot(frames[i].p + frames[i].R * c.com);
+  }
+  for (const PointSpring& spring : mechanism.springs) {
+    const double stretch = calc_spring_motion(spring, frames).length - spring.free_length;
+    energy += 0.5 * spring.stiffness * stretch * stretch;
   }
   return energy;
 }

@@ -8,6 +8,7 @@
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/multiplier_matrix.h"
+#include "engine/dynamics/spring_pull.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -33,6 +34,7 @@ class EquationsOfMotion {
         frames(model.joints.size()),
         axes(model.joints.size()),
         cuts(model.cut_joints.size()),
+        pulls(model.springs.size()),
         bodies(model),
         rows(model),
         lambda(static_cast<std::size_t>(model.rows)),
@@ -92,6 +94,7 @@ class EquationsOfMotion {
   Buffer<Frame<double, double>> frames;         ///< of each joint's body, with the accelerations that free coordinates do not add to
   Buffer<JointAxes> axes;
   Buffer<CutJointMotion<double, double>> cuts;
+  Buffer<SpringPull<double>> pulls;             ///< of each spring between two points
   LossPowers<double> losses;
   ArticulatedBodies<Shapes> bodies;
   ConstraintRows rows;
@@ -135,7 +138,7 @@ class EquationsOfMotion {
     return joint < 0 ? ground_ : frames[static_cast<std::size_t>(joint)];
   }
 
-  /// What moves each joint's body as its frame moves, less the contacts' loads on it.
+  /// What moves each joint's body as its frame moves, less the contacts' and springs' loads on it.
   RPSUP_INLINE void calc_needed_forces() {
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       needed_[i] = joint.moves ? calc_body_force(joint, frames[i]) : given_[i];
@@ -157,6 +160,24 @@ class EquationsOfMotion {
         needed.moment += cut.moment + cross(cut.j.p - frames[static_cast<std::size_t>(joint.bearing_joint)].p, cut.reaction);
       }
     }
+    if constexpr (Shapes::have_springs) apply_springs();
+  }
+
+  RPSUP_INLINE void apply_springs() {
+    for (std::size_t k = 0; k < pulls.size(); ++k) {
+      const TreeSpring& spring = model_.springs[k];
+      pulls[k] = calc_spring_pull(spring, frame_of(spring.from_joint), frame_of(spring.to_joint));
+      apply(spring.to_joint, pulls[k].to, pulls[k].force);
+      apply(spring.from_joint, pulls[k].from, -pulls[k].force);
+    }
+  }
+
+  /// A force at p on a joint's body.
+  RPSUP_INLINE void apply(int joint, const Vec3<double>& p, const Vec3<double>& force) {
+    if (joint < 0) return;
+    SpatialForce<double>& needed = needed_[static_cast<std::size_t>(joint)];
+    needed.force -= force;
+    needed.moment -= cross(p - frames[static_cast<std::size_t>(joint)].p, force);
   }
 
   RPSUP_INLINE void calc_free_accelerations() {
@@ -254,6 +275,8 @@ class EquationsOfMotion {
       losses.impact += cut.load.impact_power;
       losses.friction += cut.load.friction_power;
     }
+    if constexpr (Shapes::have_springs)
+      for (const SpringPull<double>& pull : pulls) losses.structural += pull.loss;
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.sprung) return;
       for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {

@@ -60,8 +60,8 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
 
 bool LoopClosure::is_determined() const {
   const auto at_rest = [](const Coordinate& c) { return c.stiffness == 0.0 && c.damping == 0.0; };
-  return std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
-      constraints_.count() == static_cast<Eigen::Index>(unknown_.size()) &&
+  return ideal_.springs.empty() && std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
+         constraints_.count() == static_cast<Eigen::Index>(unknown_.size()) &&
          unknown_.size() + ideal_.drives.size() == ideal_.coordinates.size();
 }
 

@@ -17,7 +17,7 @@ class LoopClosure {
  public:
   explicit LoopClosure(const Mechanism& mechanism);
 
-  /// True if the drives alone decide the motion: as many constraint rows as unknown coordinates, and no spring among the coordinates.
+  /// True if the drives alone decide the motion: as many constraint rows as unknown coordinates, and no spring.
   [[nodiscard]] bool is_determined() const;
 
   /// The coordinates that the loops decide.

@@ -46,6 +46,7 @@ struct KnownJoint {
 
 /// The joints of any tree: visit(index, joint) from the root to the tips and back.
 struct AnyShapes {
+  static constexpr bool have_springs = true;  ///< there may be some between two points
   [[nodiscard]] static bool fit(const TreeModel&) { return true; }
 
   template <typename Visit>
@@ -63,8 +64,9 @@ struct AnyShapes {
 template <const auto& shapes>
 struct KnownShapes {
   static constexpr std::size_t n = shapes.size();
+  static constexpr bool have_springs = false;
   [[nodiscard]] static bool fit(const TreeModel& model) {
-    if (model.joints.size() != n) return false;
+    if (model.joints.size() != n || !model.springs.empty()) return false;
     for (std::size_t i = 0; i < n; ++i)
       if (!(static_cast<const JointShape&>(model.joints[i]) == shapes[i])) return false;
     return true;

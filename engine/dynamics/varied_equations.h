@@ -110,6 +110,15 @@ class VariedEquations {
       hold_load(joint.journal_joint, cut.j.p, cut.reaction, cut.moment);
       hold_load(joint.bearing_joint, cut.j.p, -cut.reaction, -cut.moment);
     }
+    if constexpr (Shapes::have_springs) hold_springs();
+  }
+
+  RPSUP_INLINE void hold_springs() {
+    for (std::size_t k = 0; k < model_.springs.size(); ++k) {
+      const SpringPull<double>& pull = solved_.pulls[k];
+      hold_load(model_.springs[k].to_joint, pull.to, pull.force, {});
+      hold_load(model_.springs[k].from_joint, pull.from, -pull.force, {});
+    }
   }
 
   /// A force at p, with a moment about it, on a joint's body.
@@ -165,6 +174,16 @@ class VariedEquations {
       vary_contact(joint, solved_.cuts[k], first_bristle);
       first_bristle += joints_[static_cast<std::size_t>(joint.clearance)].bristle_count();
     }
+    if constexpr (Shapes::have_springs)
+      for (const TreeSpring& spring : model_.springs) vary_spring(spring);
+  }
+
+  RPSUP_INLINE void vary_spring(const TreeSpring& spring) {
+    if (is_still(spring.from_joint) && is_still(spring.to_joint)) return;
+    const SpringPull<Dual> pull = calc_spring_pull(spring, see_at_rest(spring.from_joint), see_at_rest(spring.to_joint));
+    vary_load(spring.to_joint, pull.to, pull.force, {});
+    vary_load(spring.from_joint, pull.from, -pull.force, {});
+    losses.structural += pull.loss.d;
   }
 
   /// All in W as an observer sees it who turns with the bearing, until the journal's own is needed.
@@ -335,7 +354,6 @@ class VariedEquations {
   }
 
   RPSUP_INLINE void vary_losses() {
-    losses.structural = {};
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.sprung) return;
       const auto first = static_cast<std::size_t>(joint.first);

@@ -159,6 +159,7 @@ double Radau5::correct_stages(MotionSystem& system, double dt) {
   for (std::size_t i = 0; i < K::kStages; ++i)
     Z_[i] = K::T[i][0] * W_ + K::T[i][1] * W_complex_.real() + K::T[i][2] * W_complex_.imag();
   const Eigen::Index controlled = weights_.size();
+  if (controlled == 0) return 0.0;  // the drives decide the motion, and work and losses are integrals over it
   const double squares = change_.head(controlled).cwiseProduct(weights_).squaredNorm() +
                          complex_change_.head(controlled).cwiseAbs2().dot(weights_.cwiseAbs2());
   return std::sqrt(squares / static_cast<double>(K::kStages * controlled));

@@ -43,6 +43,7 @@ void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameInd
 }
 
 double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const {
+  if (controlled == 0) return 0.0;
   double sum = 0.0;
   const auto add = [&](Eigen::Index i, double radius) {
     const double ratio = radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));

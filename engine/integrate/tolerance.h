@@ -19,7 +19,7 @@ class Tolerance {
   /// Sets the radii of gyration, from the mechanism in one position. Until then each is 1.
   void set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free, const std::vector<FrameMotion>& frames);
 
-  /// Root mean square over the first `controlled` entries of an error of the state, each in units of its tolerance.
+  /// Root mean square over the first `controlled` entries of an error of the state, each in units of its tolerance; of none 0.
   [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const;
 
   /// What each of the first entries of an error is to be multiplied by to be in units of its tolerance; as many as `weights` has.

@@ -97,6 +97,8 @@ class JointFinder {
     if (coordinate(i).mass != 0.0) return false;
     for (const CutJoint& joint : mechanism_.cut_joints)
       if (joint.bearing_frame == i || joint.journal_frame == i) return false;
+    for (const PointSpring& spring : mechanism_.springs)
+      if (spring.from_frame == i || spring.to_frame == i) return false;
     return std::count_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), [i](const Coordinate& c) { return c.parent == i; }) == 1;
   }
 
@@ -148,6 +150,10 @@ TreeModel::TreeModel(const Mechanism& mechanism)
     }
     cut_joints.push_back(cut);
   }
+  for (const PointSpring& spring : mechanism.springs)
+    springs.push_back({.from_joint = finder.joint_of(spring.from_frame), .to_joint = finder.joint_of(spring.to_frame),
+                       .from = make_placement({.p = spring.from}), .to = make_placement({.p = spring.to}), .stiffness = spring.stiffness,
+                       .damping = spring.damping, .free_length = spring.free_length});
   first_coupling_row = rows;
   rows += static_cast<int>(couplings.size());
   first_drive_row = rows;

@@ -48,6 +48,13 @@ struct TreeCutJoint {
   CutRows rows;
 };
 
+/// A spring between points on the bodies of two joints, -1: on the ground.
+struct TreeSpring {
+  int from_joint = -1, to_joint = -1;
+  TreePlacement from, to;
+  double stiffness = 0.0, damping = 0.0, free_length = 0.0;
+};
+
 /// A mechanism made ready for evaluation.
 struct TreeModel {
   explicit TreeModel(const Mechanism& mechanism);
@@ -58,6 +65,7 @@ struct TreeModel {
   std::vector<TreeJoint> joints;      ///< each behind the one that carries it
   std::vector<TreeCutJoint> cut_joints;
   std::vector<Coupling> couplings;
+  std::vector<TreeSpring> springs;
   std::vector<int> free;              ///< free coordinates
   std::vector<int> drives;            ///< coordinate of each drive
   std::vector<int> drive_joints;      ///< joint of each drive

@@ -52,6 +52,7 @@ class LinkageBuilder {
       if (!linkage_.joints[k].cut) add_carrying(linkage_.joints[k], built_.joints[k]);
     for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
       if (linkage_.joints[k].cut) add_cut(linkage_.joints[k], built_.joints[k]);
+    for (const LinkageSpring& spring : linkage_.springs) add_spring(spring);
     Mechanism& m = built_.mechanism;
     m.gravity_W = linkage_.gravity_W;
     m.drive_rows = linkage_.drive_rows;
@@ -177,6 +178,13 @@ class LinkageBuilder {
     made.cut = static_cast<int>(built_.mechanism.cut_joints.size());
     built_.mechanism.cut_joints.push_back({.kind = cut_kind_of(joint.kind), .bearing_frame = bearing_frame, .journal_frame = journal_frame,
                                            .bearing = bearing, .journal = journal, .clearance = joint.clearance});
+  }
+
+  void add_spring(const LinkageSpring& spring) {
+    const auto [from_frame, from] = locate(spring.from, {.p = spring.at});
+    const auto [to_frame, to] = locate(spring.to, {.p = spring.to_at});
+    built_.mechanism.springs.push_back({.from_frame = from_frame, .to_frame = to_frame, .from = from.p, .to = to.p, .stiffness = spring.stiffness,
+                                        .damping = spring.damping, .free_length = spring.free_length.value_or(0.0)});
   }
 
   const Linkage& linkage_;

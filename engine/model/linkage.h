@@ -63,12 +63,24 @@ struct LinkageJoint {
   std::optional<ClearanceParameters> clearance = {};  ///< of a cut revolute joint
 };
 
+/// A spring with a damper between points of two bodies: see PointSpring.
+struct LinkageSpring {
+  std::string name;
+  std::string from, to;                 ///< names of bodies; one of them may be kGroundName
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();     ///< in the first body's frame, [m]
+  Eigen::Vector3d to_at = Eigen::Vector3d::Zero();  ///< in the second body's, [m]
+  double stiffness = 0.0;               ///< [N/m]
+  double damping = 0.0;                 ///< [N s/m]
+  std::optional<double> free_length = {};  ///< [m]; empty: the distance of the ends in the assembled position, see check_linkage()
+};
+
 inline constexpr const char* kGroundName = "ground";
 
 /// A linkage as data: any number of bodies in chains or trees from the ground, closed by any number of cut joints.
 struct Linkage {
   std::vector<LinkageBody> bodies;
   std::vector<LinkageJoint> joints;     ///< in the order in which bodies are placed, each behind the one that carries its first body
+  std::vector<LinkageSpring> springs = {};
   Eigen::Vector3d gravity_W = Eigen::Vector3d::Zero();
   DriveRows drive_rows = DriveRows::kEliminated;
   double baumgarte_alpha = 100.0;       ///< [1/s]
@@ -100,7 +112,7 @@ struct BuiltJoint {
 };
 
 struct BuiltLinkage {
-  Mechanism mechanism;
+  Mechanism mechanism;                  ///< its springs in the order of Linkage::springs
   std::vector<BodyFrames> bodies;       ///< in the order of Linkage::bodies
   std::vector<BuiltJoint> joints;       ///< in the order of Linkage::joints
 };

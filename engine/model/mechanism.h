@@ -74,6 +74,17 @@ struct CutJoint {
   std::optional<ClearanceParameters> clearance;           ///< empty: the ideal joint; of revolute joints only
 };
 
+/// A spring with a damper between points of two bodies: at a distance L it pulls them together with k (L - L_0) + d L'.
+struct PointSpring {
+  FrameIndex from_frame = kGround;
+  FrameIndex to_frame = kGround;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< in from_frame, [m]
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< in to_frame, [m]
+  double stiffness = 0.0;                          ///< k, [N/m]
+  double damping = 0.0;                            ///< d, [N s/m]
+  double free_length = 0.0;                        ///< L_0, [m]
+};
+
 /// Two coordinates that move together: q_coordinate = ratio q_follows, a screw or a pair of gears.
 struct Coupling {
   FrameIndex coordinate = 0;
@@ -104,6 +115,7 @@ struct Mechanism {
   std::vector<Coordinate> coordinates;
   std::vector<CutJoint> cut_joints;
   std::vector<Coupling> couplings;
+  std::vector<PointSpring> springs;
   /// The constraints depend on each other, here or somewhere on the way: of the multipliers that do, the least ones are taken.
   bool least_multipliers = false;
   std::vector<Drive> drives;

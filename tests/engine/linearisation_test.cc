@@ -65,6 +65,15 @@ std::vector<Case> all_cases() {
     worn.wear_depth.emplace_back();
     for (int s = 0; s < 24; ++s) worn.wear_depth.back().push_back(1e-5 * (1.0 + ring + std::sin(0.5 * s + ring)));
   }
+  Linkage sprung = make_spatial_slider_crank(JointKind::kSpherical);  // from a body that turns to the ground, and to one that slides
+  sprung.springs = {{.name = "to_ground", .from = kGroundName, .to = "rod", .at = {0.1, -0.2, 0.3}, .to_at = {-0.1, 0.02, 0.01}, .stiffness = 300.0,
+                     .damping = 20.0, .free_length = 0.1},
+                    {.name = "across", .from = "crank", .to = "slider", .at = {0.0, 0.0, 0.06}, .to_at = {0.05, 0.0, 0.0}, .stiffness = 200.0,
+                     .damping = 5.0}};
+  Linkage sprung_on_drive = make_screw();  // to a coordinate that moves with time alone
+  sprung_on_drive.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
+  sprung_on_drive.springs = {{.name = "pull", .from = kGroundName, .to = "nut", .at = {0.2, 0.1, -0.1}, .to_at = {0.05, 0.0, 0.02},
+                              .stiffness = 100.0, .damping = 3.0, .free_length = 0.05}};
   Linkage driven_screw = make_screw();
   driven_screw.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
   constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
@@ -85,7 +94,8 @@ std::vector<Case> all_cases() {
           of_linkage("cut_ball", make_spatial_slider_crank(JointKind::kSpherical), 1e-5, 1.0),
           of_linkage("cut_cross", make_spatial_slider_crank(JointKind::kUniversal), 1e-5, 1.0),
           of_linkage("cut_slide", make_spatial_slider_crank(JointKind::kPrismatic), 1e-5, 1.0),
-          of_linkage("screw", make_screw(), 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0),
+          of_linkage("screw", make_screw(), 1e-5, 1.0), of_linkage("sprung", sprung, 1e-5, 1.0),
+          of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0),
           of_linkage("dependent_cylinder", make_four_bar(JointKind::kCylindrical), 0.0, 0.0),
           of_linkage("dependent_weld", make_four_bar(JointKind::kWeld), 0.0, 0.0)};
 }

@@ -173,6 +173,21 @@ constexpr Refusal kRefusals[] = {
     {"massless_and_free", R"([{"op": "add", "path": "/linkage/bodies/pointer", "value": {"mass_kg": 0}},
        {"op": "add", "path": "/linkage/joints/loose", "value": {"kind": "revolute", "from": "crank",
                                                                 "to": "pointer"}}])", "/linkage/joints/loose", "has mass"},
+    {"spring_of_no_body", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "roker", "stiffness_n_m": 1}}}])",
+     "/linkage/springs/stay/to", "no body roker"},
+    {"spring_on_one_body", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "rocker", "to": "rocker", "stiffness_n_m": 1}}}])",
+     "/linkage/springs/stay/to", "another body"},
+    {"spring_that_pushes", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "rocker", "stiffness_n_m": -1}}}])",
+     "/linkage/springs/stay/stiffness_n_m", "[0, "},
+    {"spring_by_the_name_of_a_joint", R"([{"op": "add", "path": "/linkage/springs", "value": {"rocker": {"from": "ground", "to": "rocker",
+                                                                                         "stiffness_n_m": 1}}}])",
+     "/linkage/springs/rocker", "a joint rocker"},
+    {"spring_that_is_none", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "rocker"}}}])",
+     "/linkage/springs/stay", "a damping_n_s_m or both"},
+    {"spring_without_a_way", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "crank", "stiffness_n_m": 1,
+                                                                                  "free_length_m": 1}}}])",
+     "/linkage/springs/stay", "in one place"},
+    {"no_springs", R"([{"op": "add", "path": "/linkage/springs", "value": {}}])", "/linkage/springs", "one entry or more"},
     {"rpsup_alone", R"([{"op": "add", "path": "/coupler_length_m", "value": 0.4}])", "/coupler_length_m", "belongs to the linkage"},
 };
 
@@ -185,6 +200,20 @@ TEST(LinkageRefusals, ComeAllAtOnce) {
   given["linkage"]["joints"]["crank"]["from"] = "nowhere";
   EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
             (std::vector<std::string>{"/linkage/bodies/crank/mass_kg", "/linkage/joints/crank/from", "/linkage/joints/rocker/axis"}));
+}
+
+TEST(LinkageSprings, AreSweptAndLeaveChannelsAndPeaks) {
+  json given = example("four_bar");
+  given["duration_s"] = 0.05;
+  given["linkage"]["springs"]["stay"] = {{"from", "ground"}, {"at_m", {0, 1, 0}}, {"to", "rocker"}, {"to_at_m", {0.1, 0, 0}},
+                                         {"stiffness_n_m", 100}, {"damping_n_s_m", 1}, {"free_length_m", 0.2}};
+  const jobs::Outcome outcome = jobs::run_job(given, [](double) { return false; });
+  ASSERT_EQ(outcome.job.at("state"), "succeeded") << outcome.job.at("error");
+  const std::vector<double> length = column(outcome.trajectory, "stay_length_m"), tension = column(outcome.trajectory, "stay_tension_n");
+  EXPECT_NEAR(tension.front(), 100.0 * (length.front() - 0.2), 2e-5);  // at rest; kept in single precision
+  EXPECT_GE(outcome.job.at("metrics").at("peak_stay_tension_n"), std::abs(tension.back()));
+  const nlohmann::ordered_json request{{"parameters", given}, {"sweep", {{"linkage.springs.stay.stiffness_n_m", {50, 100, 200}}}}};
+  EXPECT_EQ(jobs::plan_sweep(request, 100).jobs.size(), 3U);
 }
 
 TEST(LinkageSweep, GoesOverNumbersInsideADescription) {

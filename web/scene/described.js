@@ -2,12 +2,17 @@
 const colours = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
 const kindsWithAxis = new Set(["revolute", "cylindrical", "screw"]);
 const degree = Math.PI / 180;
+const springColour = "#7a8590";
+const zigzags = 16;
 
-/// The bodies with their colours, for the legend.
-export const bodyColours = ({ bodies }) => Object.keys(bodies).map((name, index) => [name.replaceAll("_", " "), colours[index % colours.length]]);
+/// The bodies with their colours, for the legend, and the springs' between them.
+export function bodyColours({ bodies, springs }) {
+  const named = Object.keys(bodies).map((name, index) => [name.replaceAll("_", " "), colours[index % colours.length]]);
+  return springs ? [...named, ["springs", springColour]] : named;
+}
 
 /// The places on each body's frame that something sits at, its origin first. "ground" is a body, too.
-function placesOn({ bodies, joints }) {
+function placesOn({ bodies, joints, springs = {} }) {
   const places = Object.fromEntries(["ground", ...Object.keys(bodies)].map((name) => [name, name === "ground" ? [] : [[0, 0, 0]]]));
   for (const joint of Object.values(joints)) {
     places[joint.from].push(joint.at_m ?? [0, 0, 0]);
@@ -16,6 +21,10 @@ function placesOn({ bodies, joints }) {
   for (const [name, body] of Object.entries(bodies)) {
     if (body.beam) places[name].push([body.beam.length_m, 0, 0]);
     else if (places[name].length === 1) places[name].push(body.centre_of_mass_m ?? [0, 0, 0]);
+  }
+  for (const { from, at_m: at = [0, 0, 0], to, to_at_m: toAt = [0, 0, 0] } of Object.values(springs)) {
+    places[from].push(at);
+    places[to].push(toAt);
   }
   return places;
 }
@@ -43,6 +52,7 @@ export class DescribedLinkage {
       else this.addBody(name, places[name], material);
     });
     for (const joint of Object.values(linkage.joints)) this.addJoint(joint, linkage, grey);
+    this.springs = Object.values(linkage.springs ?? {}).map((spring) => this.#makeSpring(spring, linkage));
   }
 
   addBody(name, points, material) {
@@ -86,6 +96,41 @@ export class DescribedLinkage {
     else if (!bodies[from].beam) this.bodies.get(from).add(mark);
   }
 
+  #makeSpring({ from, to, at_m: at = [0, 0, 0], to_at_m: toAt = [0, 0, 0] }, { bodies }) {
+    const { THREE } = this;
+    const line = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: springColour }));
+    line.frustumCulled = false;
+    this.group.add(line);
+    return { line, ends: [[from, at], [to, toAt]].map(([name, point]) => ({ name, point, length: bodies[name]?.beam?.length_m })) };
+  }
+
+  /// A zigzag from end to end.
+  #placeSpring({ line, ends }, frames) {
+    const { THREE, radius } = this;
+    const [from, to] = ends.map((end) => this.#placeOn(end, frames));
+    const way = to.clone().sub(from);
+    const aside = new THREE.Vector3(0, 0, 1).cross(way);
+    if (aside.lengthSq() < 1e-12 * way.lengthSq()) aside.set(1, 0, 0);
+    aside.setLength(2 * radius);
+    const points = Array.from({ length: zigzags + 1 }, (_, k) => {
+      const side = k < 2 || k > zigzags - 2 ? 0 : k % 2 ? 1 : -1;
+      return from.clone().addScaledVector(way, k / zigzags).addScaledVector(aside, side);
+    });
+    line.geometry.setFromPoints(points);
+  }
+
+  /// A point of a body; of a beam on the element that it is nearest to along the beam.
+  #placeOn({ name, point: [x, y, z], length }, frames) {
+    const { THREE } = this;
+    if (name === "ground") return new THREE.Vector3(x, y, z);
+    const beam = this.beams.get(name);
+    const segment = beam ? length / (beam.elements.length - 1) : 0;
+    const index = beam ? Math.min(Math.max(Math.floor(x / segment + 0.5), 0), beam.elements.length - 1) : 0;
+    const [px, py, pz, ...turn] = frames[beam ? beam.elements[index] : name];
+    const own = new THREE.Vector3(index > 0 ? x - (index - 0.5) * segment : x, y, z);
+    return own.applyQuaternion(new THREE.Quaternion(...turn)).add(new THREE.Vector3(px, py, pz));
+  }
+
   /// @param frames  {link: [x, y, z, qx, qy, qz, qw]}
   place(frames) {
     for (const [name, body] of this.bodies) {
@@ -94,6 +139,7 @@ export class DescribedLinkage {
       body.quaternion.set(qx, qy, qz, qw);
     }
     for (const beam of this.beams.values()) this.#placeBeam(beam, frames);
+    for (const spring of this.springs) this.#placeSpring(spring, frames);
   }
 
   /// Through the origins of its elements, to its end: the last element has half the others' length.
