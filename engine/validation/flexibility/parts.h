@@ -16,5 +16,15 @@ namespace engine::validation {
 [[nodiscard]] Findings compute_sag_and_decay();
 /// A long beam spun up lags by the values of an independent computation.
 [[nodiscard]] Findings compute_spin_up();
+/// Crank, rod and cross link, clamped, have the first frequency of a beam in the limit.
+[[nodiscard]] Findings compute_link_frequencies();
+/// In the linkage at rest crank and rod sag as beams do.
+[[nodiscard]] Findings compute_link_sags();
+/// Made stiff, crank, rod and cross link move the linkage as rigid ones.
+[[nodiscard]] Findings compute_stiff_links();
+/// A block between a spring and a damper has its closed form, by all methods.
+[[nodiscard]] Findings compute_block_on_a_spring();
+/// A pendulum tied by a spring moves as the equation of its angle says.
+[[nodiscard]] Findings compute_tied_pendulum();
 
 }  // namespace engine::validation
