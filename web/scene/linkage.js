@@ -51,17 +51,38 @@ export class Linkage {
   /// @param frames  {link: [x, y, z, qx, qy, qz, qw]}
   /// @param clearance, bend  how many times larger the gap in the joint and the links' bend are drawn
   place(frames, { clearance, bend }) {
-    for (const [link, body] of Object.entries(this.bodies)) setFrame(body, frames[link]);
-    for (const tube of Object.values(this.tubes)) this.#drawTube(tube, exaggerate(this.#axisOf(tube, frames), bend));
+    setFrame(this.bodies["2_1"], frames["2_1"]);
+    const crankOff = this.#placeArm("1_1", frames, bend);
+    const ballOff = this.#placeArm("1_2", frames, bend, crankOff);
+    const journalOff = this.#placeArm("2_2", frames, bend);
     const points = this.#axisOf(this.coupler, frames);
-    const shift = points.at(-1).clone().sub(this.#journal(frames)).multiplyScalar(clearance - 1);
+    const gap = points.at(-1).clone().sub(this.#journal(frames)).multiplyScalar(clearance - 1);
     if (clearance !== this.bushFactor) this.drawBush(clearance);
-    const drawn = exaggerate(points, bend, shift);
+    const chord = points.at(-1).clone().sub(points[0]);
+    const endOff = gap.add(journalOff);
+    const drawn = exaggerate(points, chord, bend);
+    drawn.forEach((point, k) => point.add(ballOff.clone().lerp(endOff, points[k].clone().sub(points[0]).dot(chord) / chord.lengthSq())));
     setFrame(this.bush, frames[this.coupler.elements.at(-1)]);
     this.bush.position.copy(drawn.at(-1));
     endBefore(drawn, this.bushReach);
     this.#drawTube(this.coupler, drawn);
-    this.ball.position.copy(points[0]);
+    this.ball.position.copy(drawn[0]);
+  }
+
+  /// Draws a link that is held at its root, bent from the line on which it would lie unbent. @param off  where its root is drawn, from where it is
+  /// @returns the same of its end
+  #placeArm(link, frames, bend, off = new this.THREE.Vector3()) {
+    const { THREE, tubes: { [link]: tube }, bodies: { [link]: body } } = this;
+    if (body) {
+      setFrame(body, frames[link]);
+      body.position.add(off);
+      return off;
+    }
+    const points = this.#axisOf(tube, frames);
+    const unbent = new THREE.Vector3(1, 0, 0).applyQuaternion(new THREE.Quaternion(...frames[tube.elements[0]].slice(3)));
+    const drawn = exaggerate(points, unbent, bend).map((point) => point.add(off));
+    this.#drawTube(tube, drawn);
+    return drawn.at(-1).clone().sub(points.at(-1));
   }
 
   #drawTube({ mesh, radius }, points) {
@@ -102,14 +123,13 @@ function setFrame(body, [x, y, z, qx, qy, qz, qw]) {
   body.quaternion.set(qx, qy, qz, qw);
 }
 
-/// Points of a line, their distance from its chord made larger, and its end moved.
-function exaggerate(points, factor, shift = new points[0].constructor()) {
-  const [start, end] = [points[0], points.at(-1)];
-  const chord = end.clone().sub(start);
+/// Points with their distance made larger from the straight line that leaves the first one in a direction.
+function exaggerate(points, direction, factor) {
+  const [start] = points;
   return points.map((point) => {
-    const part = point.clone().sub(start).dot(chord) / chord.lengthSq();
-    const foot = start.clone().addScaledVector(chord, part);
-    return foot.add(point.clone().sub(foot).multiplyScalar(factor)).addScaledVector(shift, part);
+    const part = point.clone().sub(start).dot(direction) / direction.lengthSq();
+    const foot = start.clone().addScaledVector(direction, part);
+    return foot.add(point.clone().sub(foot).multiplyScalar(factor));
   });
 }
 

@@ -13,6 +13,7 @@ import { loadThree } from "/scene/three.js";
 
 const speeds = [1, 0.5, 0.1, 0.01, 0.001];
 const factors = [1, 2, 5, 10, 20, 50, 100];
+const bendFactors = [...factors, 200, 500, 1000];  // of steel tubes a bend is some micrometres
 const impactPoints = 4000;
 
 /// @param links  names of the links as in the channels of their poses
@@ -55,7 +56,7 @@ export function sceneCard(job, links, times, signal) {
   }
 
   const views = choice("Look at", [["all", "the whole linkage"], ["joint", "the joint"]], "all", () => {});
-  const enlarge = (label, key) => choice(label, factors.map((factor) => [String(factor), `× ${factor}`]), String(drawn[key]), (value) => { drawn[key] = Number(value); draw(); });
+  const enlarge = (label, key, to = factors) => choice(label, to.map((factor) => [String(factor), `× ${factor}`]), String(drawn[key]), (value) => { drawn[key] = Number(value); draw(); });
   const slow = h("input", { type: "checkbox", onchange: () => { player.slow = slow.checked; } });
   slow.checked = player.slow;
   player.addEventListener("change", () => { play.textContent = player.playing ? "Pause" : "Play"; });
@@ -70,7 +71,7 @@ export function sceneCard(job, links, times, signal) {
     canvas,
     h("p", { class: "actions" }, play, scrub, instant),
     h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]), String(player.speed), (value) => { player.speed = Number(value); draw(); }), described ? null : views,
-      hasClearance ? enlarge("Clearance drawn", "clearance") : null, isFlexible ? enlarge("Bend drawn", "bend") : null,
+      hasClearance ? enlarge("Clearance drawn", "clearance") : null, isFlexible ? enlarge("Bend drawn", "bend", bendFactors) : null,
       hasClearance ? h("label", { class: "small" }, slow, " slow through hard impacts") : null),
     h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours).map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
 }
