@@ -14,8 +14,8 @@ namespace engine {
 ///
 ///     W = int f_n |v_t| dt,    W_n = int f_n |v_t| n dt,    worn volume = wear coefficient * W
 ///
-/// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the bore presses then follows from it and from the
-/// penetration.
+/// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the bore presses then follows from it and
+/// from the penetration.
 /// A ring's share of the sum of normal forces is that of its elastic force, delta^1.5. Trapezoids over the steps, which end where a ring meets or
 /// leaves the bore.
 class SlidingWork {
