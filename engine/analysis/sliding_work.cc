@@ -7,14 +7,7 @@ namespace engine {
 
 namespace {
 
-/// Where a ring of the journal touches, or would.
-struct RingTouch {
-  double delta = 0.0;         ///< [m]
-  double n_x = 0.0, n_y = 0.0;
-  double speed = 0.0;         ///< of sliding, [m/s]
-};
-
-RingTouch calc_touch(const RpsupParameters& parameters, const WornBore* worn, const JournalMotion& journal, int ring) {
+SlidingWork::Touch calc_touch(const RpsupParameters& parameters, const WornBore* worn, const JournalMotion& journal, int ring) {
   const int rings = parameters.radial_levels;
   const double position = rings == 1 ? 0.0 : parameters.bearing_length * (static_cast<double>(ring) / (rings - 1) - 0.5);
   const Eigen::Vector3d axial = position * journal.R_bj.col(2);
@@ -25,7 +18,7 @@ RingTouch calc_touch(const RpsupParameters& parameters, const WornBore* worn, co
   if (delta <= 0.0) return {};
   const Eigen::Vector3d normal(offset[0] / distance, offset[1] / distance, 0.0);
   const Eigen::Vector3d velocity = journal.calc_velocity(axial + (parameters.bearing_radius - parameters.c_r) * normal);
-  return {delta, normal[0], normal[1], (velocity - velocity.dot(normal) * normal).norm()};
+  return {delta, delta * std::sqrt(delta), normal[0], normal[1], (velocity - velocity.dot(normal) * normal).norm()};
 }
 
 }  // namespace
@@ -33,18 +26,21 @@ RingTouch calc_touch(const RpsupParameters& parameters, const WornBore* worn, co
 SlidingWork::SlidingWork(const RpsupParameters& parameters)
     : parameters_(parameters),
       worn_(parameters.wear_depth.empty() ? nullptr : std::make_shared<const WornBore>(parameters.c_r, parameters.wear_depth)),
-      before_(static_cast<std::size_t>(parameters.radial_levels)), after_(before_), shares_(before_.size()) {}
+      before_(static_cast<std::size_t>(parameters.radial_levels)), after_(before_), touches_(before_.size()) {}
+
+void SlidingWork::find_touches(const JointState& joint) {
+  const bool touches = joint.load.radial_normal_sum > 0.0;
+  for (std::size_t i = 0; i < touches_.size(); ++i)
+    touches_[i] = touches ? calc_touch(parameters_, worn_.get(), joint.journal, static_cast<int>(i)) : Touch{};
+}
 
 void SlidingWork::add(const JointState& joint, double time) {
-  if (!(joint.load.radial_normal_sum > 0.0)) return;
   double sum = 0.0;
-  for (std::size_t i = 0; i < shares_.size(); ++i)
-    sum += shares_[i] = std::pow(calc_touch(parameters_, worn_.get(), joint.journal, static_cast<int>(i)).delta, 1.5);
-  if (!(sum > 0.0)) return;  // the faces alone touch
-  for (std::size_t i = 0; i < shares_.size(); ++i) {
-    if (shares_[i] == 0.0) continue;
-    const RingTouch touch = calc_touch(parameters_, worn_.get(), joint.journal, static_cast<int>(i));
-    const double work = joint.load.radial_normal_sum * (shares_[i] / sum) * touch.speed * time;
+  for (const Touch& touch : touches_) sum += touch.share;
+  if (!(sum > 0.0)) return;  // nothing, or the faces alone
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& touch = touches_[i];
+    const double work = joint.load.radial_normal_sum * (touch.share / sum) * touch.speed * time;
     after_[i].work += work;
     after_[i].work_x += work * touch.n_x;
     after_[i].work_y += work * touch.n_y;
@@ -54,9 +50,13 @@ void SlidingWork::add(const JointState& joint, double time) {
 
 void SlidingWork::take_step(const Evaluation& start, const Evaluation& end) {
   before_ = after_;
+  const double half = 0.5 * (end.t - start.t);
+  if (start.t != end_) find_touches(start.joints[0]);  // else the journal is where the step before left it
+  add(start.joints[0], half);
+  find_touches(end.joints[0]);
+  add(end.joints[0], half);
   start_ = start.t;
   end_ = end.t;
-  for (const Evaluation* at : {&start, &end}) add(at->joints[0], 0.5 * (end.t - start.t));
 }
 
 SlidingWork::Ring SlidingWork::at(std::size_t ring, double part) const {

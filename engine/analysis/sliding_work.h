@@ -14,8 +14,8 @@ namespace engine {
 ///
 ///     W = int f_n |v_t| dt,    W_n = int f_n |v_t| n dt,    worn volume = wear coefficient * W
 ///
-/// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the bore presses then follows from it and from the
-/// penetration.
+/// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the bore presses then follows from it and
+/// from the penetration.
 /// A ring's share of the sum of normal forces is that of its elastic force, delta^1.5. Trapezoids over the steps, which end where a ring meets or
 /// leaves the bore.
 class SlidingWork {
@@ -25,6 +25,14 @@ class SlidingWork {
     double work = 0.0;            ///< W, [J]
     double work_x = 0.0, work_y = 0.0;  ///< W_n in the bearing frame: its direction is the mean one, [J]
     double work_delta = 0.0;            ///< the same with the penetration in the place of n, [J m]
+  };
+
+  /// Where a ring touches, or would.
+  struct Touch {
+    double delta = 0.0;            ///< [m]
+    double share = 0.0;            ///< delta^1.5, as that in the normal force, [m^1.5]
+    double n_x = 0.0, n_y = 0.0;
+    double speed = 0.0;            ///< of sliding, [m/s]
   };
 
   explicit SlidingWork(const RpsupParameters& parameters);
@@ -39,14 +47,15 @@ class SlidingWork {
   [[nodiscard]] double total() const;
 
  private:
-  /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring.
+  void find_touches(const JointState& joint);
+  /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring. @param joint  as find_touches() had it
   void add(const JointState& joint, double time);
 
   const RpsupParameters& parameters_;
   std::shared_ptr<const WornBore> worn_;  ///< null: the bore is round
   std::vector<Ring> before_, after_;  ///< at the ends of the last step
-  double start_ = 0.0, end_ = 0.0;    ///< of it, [s]
-  std::vector<double> shares_;        ///< of the rings in the normal force; kept for its room
+  double start_ = 0.0, end_ = -1.0;   ///< of it, [s]; the other way round if there is none
+  std::vector<Touch> touches_;        ///< of each ring at the end of the last step
 };
 
 }  // namespace engine

@@ -8,6 +8,7 @@
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/multiplier_matrix.h"
+#include "engine/math/sine_cosine.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -24,7 +25,7 @@ template <typename Shapes>
 class EquationsOfMotion {
  public:
   EquationsOfMotion(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristle_room)
-      : q(static_cast<std::size_t>(model.coordinates)),
+      : q(static_cast<std::size_t>(model.coordinates), in_sine_blocks(static_cast<std::size_t>(model.coordinates))),
         qd(q.size()),
         qdd(q.size()),
         bristles(bristle_room),
@@ -41,7 +42,8 @@ class EquationsOfMotion {
         ground_(make_ground(model)),
         scratch_(model),
         tau_(q.size()),
-        turns_(q.size()),
+        sines_(in_sine_blocks(q.size())),
+        cosines_(in_sine_blocks(q.size())),
         given_(model.joints.size()),
         needed_(model.joints.size()),
         response_(static_cast<std::size_t>(model.rows) * q.size()),
@@ -100,15 +102,12 @@ class EquationsOfMotion {
  private:
   /// All frames, root to tip. The joints that stand on driven ones alone move with time only.
   RPSUP_INLINE void calc_frames() {
-    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
-      if (!joint.rotates() || (!joint.moves && !drives_moved)) return;
-      for (int k = 0; k < joint.count(); ++k) turns_[static_cast<std::size_t>(joint.first + k)] = calc_turn(q[static_cast<std::size_t>(joint.first + k)]);
-    });
+    calc_sines_and_cosines(q.data(), q.size(), sines_.data(), cosines_.data());  // of slides too: asking costs more
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.moves && !drives_moved) return;
       const auto first = static_cast<std::size_t>(joint.first);
       Frame<double, double> f = joint.parent < 0 ? ground_ : frames[static_cast<std::size_t>(joint.parent)];
-      calc_joint_frame(joint, &q[first], &turns_[first], &qd[first], &qdd[first], f, axes[i]);
+      calc_joint_frame(joint, &q[first], &sines_[first], &cosines_[first], &qd[first], &qdd[first], f, axes[i]);
       frames[i] = f;
       if (!joint.moves) given_[i] = calc_body_force(joint, f);
     });
@@ -281,7 +280,7 @@ class EquationsOfMotion {
   const Frame<double, double> ground_;
   typename ArticulatedBodies<Shapes>::template Scratch<double> scratch_;
   Buffer<double> tau_;
-  Buffer<Turn> turns_;                          ///< one a coordinate
+  Buffer<double> sines_, cosines_;              ///< one a coordinate
   Buffer<SpatialForce<double>> given_;          ///< needed by the bodies that move with time only
   Buffer<SpatialForce<double>> needed_;
   Buffer<double> response_;                     ///< M^-1 Phi_q^T, row after row of Phi

@@ -1,5 +1,6 @@
 #include "engine/kinematics/frame_motion.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include "engine/kinematics/plain_frame.h"
@@ -31,7 +32,7 @@ void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, co
       slide_frame(along, true, q[k], qd[k], f, r);
       f.vd += qdd[k] * along;
     } else {
-      turn_frame(axis, true, calc_turn(q[k]), qd[k], f, along);
+      turn_frame(axis, true, {std::sin(q[k]), std::cos(q[k])}, qd[k], f, along);
       f.wd += qdd[k] * along;
     }
     set_motion(f, frames[i]);

@@ -105,10 +105,10 @@ RPSUP_INLINE void slide_frame(const Vec3<double>& s, bool turns, double q, doubl
 
 /// From the frame of a joint's parent to its own, Eq. (2) and its derivatives by time; accelerations without those of free coordinates.
 /// @param f  in: the parent's frame
-/// @param q, turns, qd, qdd  of the joint's first coordinate on; turns of rotations only, qdd of a driven one only
+/// @param q, sines, cosines, qd, qdd  of the joint's first coordinate on; sines and cosines of rotations only, qdd of a driven one only
 template <typename Joint>
-RPSUP_INLINE void calc_joint_frame(const Joint& joint, const double* q, const Turn* turns, const double* qd, const double* qdd,
-                                   Frame<double, double>& f, JointAxes& axes) {
+RPSUP_INLINE void calc_joint_frame(const Joint& joint, const double* q, const double* sines, const double* cosines, const double* qd,
+                                   const double* qdd, Frame<double, double>& f, JointAxes& axes) {
   if (joint.shifted) {
     axes.r = rotate_constant(f.R, joint.numbers().placement.p, joint.shifted_along_x);
     shift_frame(axes.r, joint.parent_turns, f);
@@ -121,19 +121,17 @@ RPSUP_INLINE void calc_joint_frame(const Joint& joint, const double* q, const Tu
     slide_frame(axes.axis[0], joint.parent_turns, q[0], qd[0], f, axes.r);
     if (joint.driven) f.vd += qdd[0] * axes.axis[0];
   } else if (joint.kind == JointShape::Kind::kRotation) {
-    turn_frame(joint.axis, joint.parent_turns, turns[0], qd[0], f, axes.axis[0]);
+    turn_frame(joint.axis, joint.parent_turns, {sines[0], cosines[0]}, qd[0], f, axes.axis[0]);
     if (joint.driven) f.wd += qdd[0] * axes.axis[0];
   } else {
-    turn_frame(2, joint.parent_turns, turns[0], qd[0], f, axes.axis[0]);
+    turn_frame(2, joint.parent_turns, {sines[0], cosines[0]}, qd[0], f, axes.axis[0]);
     const Vec3<double> x = f.R.x;
-    turn_frame(1, true, turns[1], qd[1], f, axes.axis[1]);
+    turn_frame(1, true, {sines[1], cosines[1]}, qd[1], f, axes.axis[1]);
     const double inverse = 1.0 / dot(axes.axis[0], f.R.z);  // 1 / cos theta
     axes.dual = {inverse * f.R.z, axes.axis[1], inverse * x};
-    turn_frame(0, true, turns[2], qd[2], f, axes.axis[2]);
+    turn_frame(0, true, {sines[2], cosines[2]}, qd[2], f, axes.axis[2]);
   }
 }
-
-[[nodiscard]] RPSUP_INLINE Turn calc_turn(double q) { return {std::sin(q), std::cos(q)}; }
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

@@ -11,7 +11,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 template <typename T>
 class Buffer {
  public:
-  explicit Buffer(std::size_t size) : data_(new T[size]()), size_(size) {}
+  /// @param room  for more than size, which code that takes several at once may touch
+  explicit Buffer(std::size_t size, std::size_t room = 0) : data_(new T[size < room ? room : size]()), size_(size) {}
   ~Buffer() { delete[] data_; }
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;

@@ -115,7 +115,7 @@ void follow(pid_t child, Pipe& out, Pipe& err, Clock::time_point until, const st
     if (Clock::now() < until && !stop.stop_requested()) continue;
     ::kill(-child, SIGKILL);
     ::waitpid(child, &status, 0);
-    outcome.end = ProcessOutcome::End::kTimedOut;
+    outcome.end = stop.stop_requested() ? ProcessOutcome::End::kStopped : ProcessOutcome::End::kTimedOut;
     return;
   }
   outcome.end = ProcessOutcome::End::kExited;
@@ -133,6 +133,7 @@ std::string last_line(std::string text) {
 std::string ProcessOutcome::text() const {
   if (end == End::kNotStarted) return err;
   if (end == End::kTimedOut) return "it did not answer in time";
+  if (end == End::kStopped) return "it was ended, as this program ends";
   const std::string words = last_line(err.empty() ? out : err);
   return words.empty() ? "it ended with exit code " + std::to_string(code) : words;
 }

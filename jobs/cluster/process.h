@@ -9,7 +9,7 @@ namespace jobs::cluster {
 
 /// What became of another program.
 struct ProcessOutcome {
-  enum class End { kExited, kNotStarted, kTimedOut };
+  enum class End { kExited, kNotStarted, kTimedOut, kStopped };
 
   End end = End::kNotStarted;
   int code = 0;          ///< of one that exited; 128 and the signal's number of one that a signal ended

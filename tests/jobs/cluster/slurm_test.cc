@@ -59,6 +59,16 @@ INSTANTIATE_TEST_SUITE_P(Answers, BadSubmission,
                                          BadAnswer{"Hang", "sleep 100", "did not answer in time"}, BadAnswer{"Killed", "kill -9 $$", "137"}),
                          [](const auto& each) { return each.param.name; });
 
+TEST(Slurm, IsNotBlamedForACommandThatWasEndedWithTheProgram) {
+  FakeSlurm fake;
+  fake.answer("squeue", "sleep 100");
+  std::stop_source stopping;
+  stopping.request_stop();
+  std::string problem;
+  EXPECT_FALSE(Slurm(fake.site(), stopping.get_token()).observe({"rpsup-bat_1-g0"}, problem));
+  EXPECT_THAT(problem, HasSubstr("as this program ends"));
+}
+
 TEST(Slurm, TellsThatACommandIsMissing) {
   jobs::cluster::Site site;
   site.prefix = {"/nowhere/at/all"};
