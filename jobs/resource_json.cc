@@ -21,12 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-json stored_json(const std::string& text) {
-  json value = json::parse(text, nullptr, false);
-  if (value.is_discarded()) throw StorageError("the store holds a text that is no JSON; it is damaged", 0, false);
-  return value;
-}
-
 json time_or_null(const std::optional<std::int64_t>& unix_ms) { return unix_ms ? json(time_text(*unix_ms)) : json(); }
 
 template <typename T>
@@ -153,6 +147,14 @@ ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
 }
 
 }  // namespace
+
+std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+json stored_json(const std::string& text) {
+  json value = json::parse(text, nullptr, false);
+  if (value.is_discarded()) throw StorageError("the store holds a text that is no JSON; it is damaged", 0, false);
+  return value;
+}
 
 json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& wanted) {
   json job = json::object();

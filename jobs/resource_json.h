@@ -31,6 +31,12 @@ enum class Detail { kFull, kListing };
 [[nodiscard]] const std::vector<std::string>& sweep_listing_keys();
 [[nodiscard]] const std::vector<std::string>& job_listing_keys();
 
+/// JSON that any reader takes, whatever bytes a name has.
+[[nodiscard]] std::string text_of(const nlohmann::json& value);
+
+/// A text of the store as JSON. @throws StorageError if it is none
+[[nodiscard]] nlohmann::json stored_json(const std::string& text);
+
 /// The parameters that a sweep varies.
 [[nodiscard]] std::vector<std::string> swept_of(const SweepRow& sweep);
 

@@ -41,6 +41,8 @@ struct TextColumn {
 TextColumn text_column(const std::string& column) {
   if (column == "job_id") return {.is_text = true, .words = {}};
   if (column == "state") return {.is_text = true, .words = {kJobStates.begin(), kJobStates.end()}};
+  if (column == "verdict" || column == "parameter" || column == "metric") return {.is_text = true, .words = {}};  // of a search
+  if (column == "monotonic") return {.is_text = true, .words = {"true", "false"}};
   const ParameterInfo* const info = find_parameter(column);
   if (info == nullptr || info->kind != ParameterKind::kChoice) return {};
   return {.is_text = true, .words = info->choices};
@@ -60,7 +62,7 @@ struct Condition {
   std::string text;
 
   [[nodiscard]] bool holds(const json& cell) const {
-    if (!number) return cell.is_string() && cell.get_ref<const std::string&>() == text;
+    if (!number) return cell.is_boolean() ? cell.dump() == text : cell.is_string() && cell.get_ref<const std::string&>() == text;
     if (!cell.is_number()) return false;  // null: the job has no such value
     const double x = cell.get<double>();
     switch (comparison) {

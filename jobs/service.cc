@@ -39,9 +39,6 @@ ServiceOptions with_defaults(ServiceOptions options) {
   return options;
 }
 
-/// JSON that any reader takes, whatever bytes a name has.
-std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
-
 json ended_job_json(const EndedJob& job) {
   return {{"job_id", job.id}, {"state", job.state}, {"error_reason", job.error_reason ? json(*job.error_reason) : json()},
           {"ended_at", time_text(job.ended_ms)}, {"reused", job.reused}};
@@ -103,7 +100,11 @@ class Service::Impl {
       const auto sweep = store_.find_sweep(id);
       if (!sweep) return std::nullopt;
       const Extension extension = plan_extension(nlohmann::ordered_json::parse(sweep->request), addition, options_.max_sweep_jobs);
-      done = extension.jobs.empty() || store_.extend_sweep(id, sweep->request, extension.request.dump(), extension.jobs, options_.max_queued_jobs);
+      done = extension.jobs.empty();
+      if (done) break;
+      change_sweep(id, [&] {
+        done = store_.extend_sweep(id, sweep->request, extension.request.dump(), extension.jobs, options_.max_queued_jobs);
+      });
     }
     wake();
     tell_change();
@@ -112,8 +113,12 @@ class Service::Impl {
 
   std::optional<json> retry_sweep(const std::string& id) {
     check_open();
-    if (!store_.retry_sweep(id, options_.max_queued_jobs)) return std::nullopt;
-    store_.reopen_search_of(id);
+    bool found = false;
+    change_sweep(id, [&] {
+      found = store_.retry_sweep(id, options_.max_queued_jobs);
+      if (found) store_.reopen_search_of(id);
+    });
+    if (!found) return std::nullopt;
     wake();
     tell_change();
     return find_sweep(id);
@@ -179,12 +184,34 @@ class Service::Impl {
     return news;
   }
 
-  json submit_study(Study study, const nlohmann::ordered_json& request) {
+  json submit_study(Study study, const nlohmann::ordered_json& request, const std::string& key) {
     check_open();
-    json begun = desk(study).submit(request);
-    wake();
-    tell_change();  // its first results may be known already
-    return begun;
+    const char* const route = study == Study::kLimit ? "POST /v1/searches " : "POST /v1/wear-studies ";
+    return once(key, route + sha256_hex(request.dump()), [&](const std::string& name, std::string& answer) {
+      json begun = desk(study).submit(request, {.key = key, .request = name, .answer = &answer});
+      wake();
+      tell_change();  // its first results may be known already
+      return begun;
+    });
+  }
+
+  [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id, std::int64_t after) const {
+    const auto row = desk(study).find_row(id);
+    if (!row) return std::nullopt;
+    auto news = find_news(row->sweep_id, after);
+    if (!news) return std::nullopt;
+    const bool runs = row->state == "running";
+    news->progress = {{"id", id}, {"sweep_id", row->sweep_id}, {"state", row->state}, {"counts", news->progress.at("counts")},
+                      {"progress", runs ? desk(study).find_progress(id) : 1.0}};
+    news->ended = news->ended && !runs;
+    return news;
+  }
+
+  bool wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const {
+    return wait_for_end(at_most, [&]() -> std::optional<bool> {
+      const auto row = desk(study).find_row(id);
+      return row ? std::optional(row->state != "running") : std::nullopt;
+    });
   }
 
   [[nodiscard]] const StudyDesk& desk(Study study) const { return study == Study::kLimit ? searches_ : wear_studies_; }
@@ -239,18 +266,7 @@ class Service::Impl {
   }
 
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const {
-    // The largest waits would overflow the clock.
-    const auto until = std::chrono::steady_clock::now() + std::min<std::chrono::milliseconds>(at_most, std::chrono::years(10));
-    for (;;) {
-      std::unique_lock lock(change_mutex_);
-      const std::uint64_t seen = changes_;
-      lock.unlock();
-      const auto ended = store_.has_sweep_ended(id);
-      if (!ended) return false;
-      if (*ended) return true;
-      lock.lock();
-      if (!changed_.wait_until(lock, until, [&] { return changes_ != seen || stopped_; }) || stopped_) return false;
-    }
+    return wait_for_end(at_most, [&] { return store_.has_sweep_ended(id); });
   }
 
   void stop() {
@@ -274,6 +290,28 @@ class Service::Impl {
     }
     submit(name, answer);
     return json::parse(answer);  // as it is kept, so that both answers are the same
+  }
+
+  /// Blocks until has_ended() says true, or for that long, or until stop(). What it has said, or false if there is nothing to wait for.
+  template <typename HasEnded>
+  bool wait_for_end(std::chrono::milliseconds at_most, const HasEnded& has_ended) const {
+    // The largest waits would overflow the clock.
+    const auto until = std::chrono::steady_clock::now() + std::min<std::chrono::milliseconds>(at_most, std::chrono::years(10));
+    for (;;) {
+      std::unique_lock lock(change_mutex_);
+      const std::uint64_t seen = changes_;
+      lock.unlock();
+      const std::optional<bool> ended = has_ended();
+      if (!ended) return false;
+      if (*ended) return true;
+      lock.lock();
+      if (!changed_.wait_until(lock, until, [&] { return changes_ != seen || stopped_; }) || stopped_) return false;
+    }
+  }
+
+  /// Changes the jobs of a sweep, which studies must not look at meanwhile.
+  void change_sweep(const std::string& id, const std::function<void()>& change) {
+    searches_.change_sweep(id, [&] { wear_studies_.change_sweep(id, change); });
   }
 
   std::optional<ClaimedJob> claim() {
@@ -358,11 +396,10 @@ class Service::Impl {
         seen = changes_;
       }
       try {
-        const bool searched = searches_.advance();
-        if (wear_studies_.advance() || searched) {
-          wake();
-          tell_change();
-        }
+        const StudyMoves limits = searches_.advance();
+        const StudyMoves wear = wear_studies_.advance();
+        if (limits.added || wear.added) wake();
+        if (limits.any || wear.any) tell_change();
       } catch (const std::exception& error) {  // the store's errors, or no memory
         options_.log(std::string("the studies could not go on yet: ") + error.what());
         failed = true;
@@ -413,10 +450,22 @@ const std::filesystem::path& Service::store_file() const { return impl_->store_f
 std::optional<engine::Trajectory> Service::find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const {
   return impl_->find_trajectory(job_id, query);
 }
-json Service::submit_study(Study study, const nlohmann::ordered_json& request) { return impl_->submit_study(study, request); }
+json Service::submit_study(Study study, const nlohmann::ordered_json& request, const std::string& key) {
+  return impl_->submit_study(study, request, key);
+}
+std::optional<SweepNews> Service::find_study_news(Study study, const std::string& id, std::int64_t after) const {
+  return impl_->find_study_news(study, id, after);
+}
+bool Service::wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const {
+  return impl_->wait_for_study(study, id, at_most);
+}
 std::optional<json> Service::find_study(Study study, const std::string& id) const { return impl_->desk(study).find(id); }
 json Service::list_studies(Study study, const PageQuery& query) const { return impl_->desk(study).list(query); }
-std::optional<ResultTable> Service::find_study_table(Study study, const std::string& id) const { return impl_->desk(study).find_table(id); }
+std::optional<ResultTable> Service::find_study_table(Study study, const std::string& id, const ResultQuery& query) const {
+  auto table = impl_->desk(study).find_table(id);
+  if (table) jobs::apply(query, *table);
+  return table;
+}
 std::optional<json> Service::cancel_study(Study study, const std::string& id) { return impl_->cancel_study(study, id); }
 std::optional<json> Service::retry_study(Study study, const std::string& id) { return impl_->retry_study(study, id); }
 bool Service::delete_study(Study study, const std::string& id) { return impl_->delete_study(study, id); }

@@ -91,7 +91,8 @@ struct TrajectoryQuery {
 
 /// What has happened to a sweep since a change.
 struct SweepNews {
-  nlohmann::json progress;               ///< {"sweep_id", "state", "counts", "progress", "eta_s", "eta_low_s", "eta_high_s"}
+  /// {"sweep_id", "state", "counts", "progress", "eta_s", "eta_low_s", "eta_high_s"}; of a study {"id", "sweep_id", "state", "counts", "progress"}
+  nlohmann::json progress;
   bool ended = false;
   /// A job that has ended: {"job_id", "state", "error_reason", "ended_at", "reused"}.
   struct EndedJob {
@@ -154,12 +155,12 @@ class Service {
   [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const;
 
   /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves. See parse_search_request() and
-  /// parse_wear_request().
-  nlohmann::json submit_study(Study study, const nlohmann::ordered_json& request);
+  /// parse_wear_request(). @param key  as of submit_sweep()
+  nlohmann::json submit_study(Study study, const nlohmann::ordered_json& request, const std::string& key = {});
   [[nodiscard]] std::optional<nlohmann::json> find_study(Study study, const std::string& id) const;
   [[nodiscard]] nlohmann::json list_studies(Study study, const PageQuery& query) const;
-  /// Flat rows: the limits of a search, the cycles of a bearing that is worn.
-  [[nodiscard]] std::optional<ResultTable> find_study_table(Study study, const std::string& id) const;
+  /// Flat rows: the limits of a search, the cycles of a bearing that is worn. @param query  of the columns that they have
+  [[nodiscard]] std::optional<ResultTable> find_study_table(Study study, const std::string& id, const ResultQuery& query = {}) const;
   std::optional<nlohmann::json> cancel_study(Study study, const std::string& id);
   /// Queues failed and cancelled jobs of a study again, and lets it go on.
   std::optional<nlohmann::json> retry_study(Study study, const std::string& id);
@@ -180,6 +181,8 @@ class Service {
 
   /// What has ended since that change; 0: since the beginning.
   [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const;
+  /// What has ended of a study's jobs since that change. It has ended when nothing is to be computed for it any more.
+  [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id, std::int64_t after) const;
   /// A number that grows whenever a job begins or ends, or is changed otherwise.
   [[nodiscard]] std::uint64_t activity() const;
 
@@ -190,6 +193,7 @@ class Service {
 
   /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once if there is none.
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const;
+  bool wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const;  ///< the same of a study
 
   /// Ends the pool: running jobs are stopped and go back to the queue. Nothing can be submitted afterwards.
   void stop();

@@ -1,6 +1,7 @@
 #include "jobs/store.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "jobs/store_batches.h"
 #include "jobs/store_insert.h"
@@ -13,7 +14,24 @@ namespace {
 
 constexpr std::int64_t kAnswersAreKept_ms = 7LL * 24 * 3600 * 1000;
 
-/// Keeps the answer for those who send the same request again, and forgets old ones.
+/// Adds cases to the request of a sweep. The database appends to the text, so that the cases that it has already are not read here, and
+/// numbers stay as they were written.
+void append_cases(SQLite::Database& database, const std::string& id, const nlohmann::ordered_json& cases) {
+  constexpr std::size_t kMostAtOnce = 20;  // calls inside one another, of which SQLite's parser bears no more than some
+  for (std::size_t first = 0; first < cases.size(); first += kMostAtOnce) {
+    const std::size_t end = std::min(cases.size(), first + kMostAtOnce);
+    std::string request = "request";
+    for (std::size_t k = first; k < end; ++k) request = "json_insert(" + request + ", '$.cases[#]', json(?))";
+    SQLite::Statement append(database, "UPDATE sweeps SET request = " + request + " WHERE id = ?");
+    int place = 1;
+    for (std::size_t k = first; k < end; ++k) append.bind(place++, cases[k].dump());
+    append.bind(place, id);
+    append.exec();
+  }
+}
+
+}  // namespace
+
 void keep_answer(SQLite::Database& database, const std::string& key, const std::string& request, const std::string& answer) {
   const std::int64_t now_ms = now_unix_ms();
   SQLite::Statement forget(database, "DELETE FROM answers WHERE created_ms < ?");
@@ -26,8 +44,6 @@ void keep_answer(SQLite::Database& database, const std::string& key, const std::
   add.bind(4, now_ms);
   add.exec();
 }
-
-}  // namespace
 
 Store::Store(const std::filesystem::path& file, const StoreRoom& room) : file_(file), room_(room), lock_(file), writer_(file), readers_(file) {
   writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
@@ -65,21 +81,31 @@ std::string Store::add_job(const PlannedJob& job, std::size_t max_queued, const 
 bool Store::extend_sweep(const std::string& id, const std::string& former, const std::string& request, const std::vector<PlannedJob>& jobs,
                          std::size_t max_queued) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    SQLite::Statement change(database, "UPDATE sweeps SET request = ? WHERE id = ? AND request = ? RETURNING seq, created_ms, (SELECT reuse FROM jobs WHERE sweep = seq LIMIT 1)");
+    SQLite::Statement change(database, "UPDATE sweeps SET request = ? WHERE id = ? AND request = ?");
     change.bind(1, request);
     change.bind(2, id);
     change.bind(3, former);
-    if (!change.executeStep()) return false;
-    const std::int64_t sweep = change.getColumn(0).getInt64();
-    const std::int64_t now_ms = std::max(now_unix_ms(), change.getColumn(1).getInt64());
-    const bool reuse = change.getColumn(2).getInt() != 0;
-    change.executeStep();
-    JobInserter inserter(database, ids_, now_ms, ++changes_);
-    for (const PlannedJob& job : jobs) inserter.insert(job, sweep, reuse);
-    check_room(database, max_queued);
-    check_quota_of(database);
-    return true;
+    return change.exec() > 0 && add_jobs(database, id, jobs, max_queued);
   });
+}
+
+bool Store::add_cases(const std::string& id, const nlohmann::ordered_json& cases, const std::vector<PlannedJob>& jobs) {
+  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    append_cases(database, id, cases);
+    return add_jobs(database, id, jobs, std::numeric_limits<std::size_t>::max());
+  });
+}
+
+bool Store::add_jobs(SQLite::Database& database, const std::string& id, const std::vector<PlannedJob>& jobs, std::size_t max_queued) {
+  SQLite::Statement find(database, "SELECT seq, created_ms, (SELECT reuse FROM jobs WHERE sweep = s.seq LIMIT 1) FROM sweeps s WHERE id = ?");
+  find.bind(1, id);
+  if (!find.executeStep()) return false;
+  const std::int64_t now_ms = std::max(now_unix_ms(), find.getColumn(1).getInt64());
+  JobInserter inserter(database, ids_, now_ms, ++changes_);
+  for (const PlannedJob& job : jobs) inserter.insert(job, find.getColumn(0).getInt64(), find.getColumn(2).getInt() != 0);
+  check_room(database, max_queued);
+  check_quota_of(database);
+  return true;
 }
 
 void Store::check_quota_of(SQLite::Database& database) const {

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "jobs/executor.h"
 #include "jobs/expand.h"
 #include "jobs/ids.h"
@@ -87,12 +89,19 @@ struct ResultRow {
   std::optional<std::int64_t> replicate;
   std::optional<std::string> metrics;
   std::string parameters{};  ///< only if they were asked for
+  std::int64_t change = 0;   ///< EndedJob::change; 0: it has not ended
 };
 
 /// All jobs of a sweep as one picture of the store has them.
 struct SweepResults {
   SweepRow sweep;
   std::vector<ResultRow> rows;  ///< in the order in which the sweep was expanded, what was added to it later last
+};
+
+/// A study with its jobs, as one picture of the store has them.
+struct StudyRow {
+  SearchRow search;
+  SweepResults results;
 };
 
 /// A job that has ended.
@@ -177,6 +186,8 @@ class Store {
   /// Adds jobs to a sweep and replaces its request. False, and nothing is stored, if the request is not `former` any more.
   bool extend_sweep(const std::string& id, const std::string& former, const std::string& request, const std::vector<PlannedJob>& jobs,
                     std::size_t max_queued);
+  /// Adds cases to the request of a sweep that has some, and their jobs. False, and nothing is stored, if there is no such sweep.
+  bool add_cases(const std::string& id, const nlohmann::ordered_json& cases, const std::vector<PlannedJob>& jobs);
   /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at once. False if there is none.
   bool retry_sweep(const std::string& id, std::size_t max_queued);
 
@@ -224,12 +235,14 @@ class Store {
   [[nodiscard]] std::vector<JobRow> list_jobs(const std::string& state, const std::string& before, std::size_t limit) const;
   /// @param parameters  whether rows carry all parameters
   [[nodiscard]] std::optional<SweepResults> find_results(const std::string& sweep_id, bool parameters) const;
+  /// The jobs of a sweep that have ended after that change, by change.
+  [[nodiscard]] std::vector<ResultRow> find_ended(const std::string& sweep_id, std::int64_t after) const;
   /// What has ended after that change; 0: everything.
   [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
   /// Stores a search with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep does
   /// @param prefix  of its id: what kind of study it is
   std::string add_search(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
-                         std::size_t max_queued);
+                         std::size_t max_queued, const KeptAnswer<StudyRow>& kept = {});
   [[nodiscard]] std::optional<SearchRow> find_search(const std::string& id) const;
   /// Those of one kind, newest first. @param state empty: all  @param before  an id; empty: the newest
   [[nodiscard]] std::vector<SearchRow> list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const;
@@ -244,6 +257,8 @@ class Store {
 
  private:
   void check_quota_of(SQLite::Database& database) const;
+  /// Adds jobs to a sweep. False if there is none.
+  bool add_jobs(SQLite::Database& database, const std::string& id, const std::vector<PlannedJob>& jobs, std::size_t max_queued);
 
   const std::filesystem::path file_;
   const StoreRoom room_;

@@ -93,6 +93,20 @@ JobRow job_row(SQLite::Statement& found) {
   return row;
 }
 
+/// @param parameters  SQL of what stands in their column
+std::string result_columns(const std::string& parameters) {
+  return "SELECT j.id, j.state, j.swept, j.replicate, r.metrics, " + parameters +
+         ", coalesce(j.change, 0) FROM jobs j LEFT JOIN results r ON r.seq = j.result";
+}
+
+constexpr const char* kOfSweep = " WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?)";
+
+ResultRow result_row(SQLite::Statement& found) {
+  return {.job_id = found.getColumn(0).getString(), .state = found.getColumn(1).getString(), .swept = found.getColumn(2).getString(),
+          .replicate = optional_int(found.getColumn(3)), .metrics = optional_text(found.getColumn(4)),
+          .parameters = found.getColumn(5).getString(), .change = found.getColumn(6).getInt64()};
+}
+
 }  // namespace
 
 std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) {
@@ -151,22 +165,29 @@ std::vector<JobRow> Store::list_jobs(const std::string& state, const std::string
   });
 }
 
+std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id, bool parameters) {
+  auto sweep = read_sweep(database, sweep_id);
+  if (!sweep) return std::nullopt;
+  SweepResults results{.sweep = std::move(*sweep), .rows = {}};
+  const std::string contents = parameters ? " JOIN contents c ON c.seq = j.content" : "";
+  SQLite::Statement list(database, result_columns(parameters ? "c.parameters" : "''") + contents + kOfSweep + " ORDER BY j.seq");
+  list.bind(1, sweep_id);
+  while (list.executeStep()) results.rows.push_back(result_row(list));
+  return results;
+}
+
 std::optional<SweepResults> Store::find_results(const std::string& sweep_id, bool parameters) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<SweepResults> {
-    auto sweep = read_sweep(database, sweep_id);
-    if (!sweep) return std::nullopt;
-    SweepResults results{.sweep = std::move(*sweep), .rows = {}};
-    const std::string columns = std::string("SELECT j.id, j.state, j.swept, j.replicate, r.metrics, ") + (parameters ? "c.parameters" : "''");
-    const std::string contents = parameters ? " JOIN contents c ON c.seq = j.content" : "";
-    SQLite::Statement list(database, columns + " FROM jobs j LEFT JOIN results r ON r.seq = j.result" + contents +
-                                         " WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) ORDER BY j.seq");
+  return readers_.read([&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
+}
+
+std::vector<ResultRow> Store::find_ended(const std::string& sweep_id, std::int64_t after) const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database, result_columns("''") + kOfSweep + " AND j.change > ? ORDER BY j.change, j.seq");
     list.bind(1, sweep_id);
-    while (list.executeStep()) {
-      results.rows.push_back({.job_id = list.getColumn(0).getString(), .state = list.getColumn(1).getString(), .swept = list.getColumn(2).getString(),
-                              .replicate = optional_int(list.getColumn(3)), .metrics = optional_text(list.getColumn(4)),
-                              .parameters = list.getColumn(5).getString()});
-    }
-    return results;
+    list.bind(2, after);
+    std::vector<ResultRow> rows;
+    while (list.executeStep()) rows.push_back(result_row(list));
+    return rows;
   });
 }
 

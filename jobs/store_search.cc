@@ -4,6 +4,7 @@
 
 #include "jobs/store.h"
 #include "jobs/store_insert.h"
+#include "jobs/store_rows.h"
 #include "jobs/time_text.h"
 
 namespace jobs {
@@ -28,10 +29,11 @@ SearchRow search_row(SQLite::Statement& found) {
 }  // namespace
 
 std::string Store::add_search(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
-                              std::size_t max_queued) {
+                              std::size_t max_queued, const KeptAnswer<StudyRow>& kept) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
-    const std::int64_t sweep = insert_sweep(database, ids_.make(kSweepPrefix, now_ms), plan, sweep_request, now_ms);
+    const std::string sweep_id = ids_.make(kSweepPrefix, now_ms);
+    const std::int64_t sweep = insert_sweep(database, sweep_id, plan, sweep_request, now_ms);
     JobInserter inserter(database, ids_, now_ms, ++changes_);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, sweep, plan.reuse);
     check_room(database, max_queued);
@@ -41,17 +43,23 @@ std::string Store::add_search(std::string_view prefix, const SweepPlan& plan, co
     add.bind(2, id);
     add.bind(3, request);
     add.exec();
+    if (!kept.key.empty()) {
+      keep_answer(database, kept.key, kept.request,
+                  kept.make_text({.search = read_search(database, id).value(), .results = read_results(database, sweep_id, false).value()}));
+    }
     check_quota_of(database);
     return id;
   });
 }
 
+std::optional<SearchRow> read_search(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, std::string(kSearchColumns) + " WHERE c.id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(search_row(find)) : std::nullopt;
+}
+
 std::optional<SearchRow> Store::find_search(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<SearchRow> {
-    SQLite::Statement find(database, std::string(kSearchColumns) + " WHERE c.id = ?");
-    find.bind(1, id);
-    return find.executeStep() ? std::optional(search_row(find)) : std::nullopt;
-  });
+  return readers_.read([&](const SQLite::Database& database) { return read_search(database, id); });
 }
 
 std::vector<SearchRow> Store::list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {

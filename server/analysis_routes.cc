@@ -12,6 +12,7 @@
 #include "jobs/motion/poincare.h"
 #include "jobs/motion/spectrum.h"
 #include "jobs/npz.h"
+#include "jobs/sensitivity/row_groups.h"
 #include "jobs/sensitivity/sensitivity.h"
 #include "jobs/surrogate/surrogate.h"
 #include "jobs/wear/wear.h"
@@ -72,7 +73,8 @@ Response make_rows(const Call& call, TableFormat format, const jobs::ResultTable
   return with_etag_if(table.ended, call, make_table(format, to_text(table, format), name + "-" + call.id));
 }
 
-std::string metric_of(const Query& query) { return query.text("metric").value_or(std::string(jobs::kReplicateMetric)); }
+/// The metric that a query asks for, of those that the study's linkages have.
+std::string metric_of(const Query& query, const Study& study) { return jobs::choose_metric(study.results, query.text("metric").value_or("")); }
 
 jobs::FindTrajectory finder(const Call& call) {
   return [&service = call.service](const std::string& job, const jobs::TrajectoryQuery& query) { return service.find_trajectory(job, query); };
@@ -143,15 +145,15 @@ Response get_sensitivity(const Call& call) {
   Query query(call.request, {"metric", "format"});
   const TableFormat format = find_row_format(call.request, query);
   const auto table = work_out(call, query, find_whole_study,
-                              [&](const Study& study) { return jobs::calc_sensitivity(study.sweep, study.results, metric_of(query)); });
+                              [&](const Study& study) { return jobs::calc_sensitivity(study.sweep, study.results, metric_of(query, study)); });
   return make_rows(call, format, table, "sensitivity");
 }
 
 Response get_surrogate(const Call& call) {
   Query query(call.request, {"metric", "x", "y"});
-  const jobs::SurrogateQuery wanted{.metric = metric_of(query), .x = query.text("x").value_or(""), .y = query.text("y").value_or("")};
   bool ended = false;
   const auto surrogate = work_out(call, query, find_whole_study, [&](const Study& study) {
+    const jobs::SurrogateQuery wanted{.metric = metric_of(query, study), .x = query.text("x").value_or(""), .y = query.text("y").value_or("")};
     ended = study.results.ended;
     return make_surrogate(study.sweep, study.results, wanted);
   });
@@ -162,7 +164,7 @@ Response get_flexibility(const Call& call) {
   Query query(call.request, {"metric", "format"});
   const TableFormat format = find_row_format(call.request, query);
   const auto table = work_out(call, query, find_whole_study,
-                              [&](const Study& study) { return jobs::compare_couplers(study.sweep, study.results, metric_of(query)); });
+                              [&](const Study& study) { return jobs::compare_couplers(study.sweep, study.results, metric_of(query, study)); });
   return make_rows(call, format, table, "flexibility");
 }
 

@@ -1,7 +1,5 @@
 #include "server/listing.h"
 
-#include "server/query.h"
-
 namespace server {
 
 nlohmann::json list_page(const Request& request, const std::function<nlohmann::json(const jobs::PageQuery&)>& list) {
@@ -12,6 +10,15 @@ nlohmann::json list_page(const Request& request, const std::function<nlohmann::j
   page.cursor = query.text("cursor").value_or("");
   page.fields = query.names("fields");
   return query.check_and([&] { return list(page); });
+}
+
+jobs::ResultQuery read_result_query(Query& query) {
+  jobs::ResultQuery wanted;
+  wanted.fields = query.names("fields");
+  wanted.order_by = query.names("order_by");
+  wanted.limit = query.count("limit");
+  for (const auto& [key, value] : query.others()) wanted.filters.push_back({key, value});
+  return wanted;
 }
 
 }  // namespace server

@@ -6,6 +6,7 @@
 
 #include "jobs/service.h"
 #include "server/message.h"
+#include "server/query.h"
 
 namespace server {
 
@@ -13,5 +14,9 @@ namespace server {
 /// @param list  the service's listing
 /// @throws jobs::InvalidRequest with every fault of the query
 [[nodiscard]] nlohmann::json list_page(const Request& request, const std::function<nlohmann::json(const jobs::PageQuery&)>& list);
+
+/// The rows and columns of a table of results that `?fields=&order_by=&limit=` and filters ask for.
+/// @param query  which keeps its others
+[[nodiscard]] jobs::ResultQuery read_result_query(Query& query);
 
 }  // namespace server

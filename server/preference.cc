@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <string>
 
 namespace server {
 
@@ -39,12 +40,13 @@ std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
   return std::nullopt;
 }
 
-bool WaitingRoom::wait(const jobs::Service& service, const std::string& sweep_id, const Request& request) {
+bool WaitingRoom::wait(const Request& request, Response& response, const std::function<void(std::chrono::seconds)>& wait_for) {
   const auto time = find_wait(request.prefer);
   if (!time) return false;
   const bool room = ++waiting_ <= kPlaces;
-  if (room) service.wait_for_sweep(sweep_id, *time);
+  if (room) wait_for(*time);
   --waiting_;
+  if (room) response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(time->count()));
   return room;
 }
 

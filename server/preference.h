@@ -2,11 +2,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <optional>
-#include <string>
 #include <string_view>
 
-#include "jobs/service.h"
 #include "server/message.h"
 
 namespace server {
@@ -15,11 +14,12 @@ namespace server {
 /// understood is not followed.
 [[nodiscard]] std::optional<std::chrono::seconds> find_wait(std::string_view prefer);
 
-/// How many clients may wait for a sweep at a time. Each of them holds a thread of the server.
+/// How many clients may wait for the end of something at a time. Each of them holds a thread of the server.
 class WaitingRoom {
  public:
-  /// Waits for the end of a sweep as the request prefers. False, at once, if it does not or if there is no room.
-  bool wait(const jobs::Service& service, const std::string& sweep_id, const Request& request);
+  /// Calls wait_for() with the time for which the request prefers to wait, and says in the response that it did.
+  /// @returns false, at once, if the request does not or if there is no room
+  bool wait(const Request& request, Response& response, const std::function<void(std::chrono::seconds)>& wait_for);
 
  private:
   static constexpr int kPlaces = 8;

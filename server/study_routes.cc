@@ -1,9 +1,12 @@
 #include "server/study_routes.h"
 
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "server/conditional.h"
+#include "server/events.h"
 #include "server/json_text.h"
 #include "server/listing.h"
 #include "server/problem.h"
@@ -28,6 +31,11 @@ constexpr Words words_of(Study study) {
 
 HttpError no_such(Study study, const std::string& id) { return {404, std::string("there is no ") + words_of(study).name + " " + id}; }
 
+/// Waits for the end of a study, if that is preferred.
+bool wait_as_preferred(Study study, const Call& call, const std::string& id, Response& response) {
+  return call.waiting_room.wait(call.request, response, [&](std::chrono::seconds time) { call.service.wait_for_study(study, id, time); });
+}
+
 Response make_study(Study study, const Call& call, const std::optional<nlohmann::json>& resource) {
   if (!resource) throw no_such(study, call.id);
   return make_json(200, to_text(*resource));
@@ -38,9 +46,12 @@ Response make_study(Study study, const Call& call, const std::optional<nlohmann:
 template <Study kStudy>
 Response post_study(const Call& call) {
   Query(call.request, {}).check();
-  const auto study = call.service.submit_study(kStudy, parse_json(call.request.body));
-  Response response = make_json(201, to_text(study));
-  response.headers.emplace_back("Location", words_of(kStudy).path + study.at("id").get<std::string>());
+  auto study = call.service.submit_study(kStudy, parse_json(call.request.body), find_key(call.request));
+  const std::string id = study.at("id");
+  Response response = make_json(201, "");
+  if (wait_as_preferred(kStudy, call, id, response)) study = call.service.find_study(kStudy, id).value_or(study);
+  response.body = to_text(study) + "\n";
+  response.headers.emplace_back("Location", words_of(kStudy).path + id);
   return response;
 }
 
@@ -52,8 +63,11 @@ Response get_studies(const Call& call) {
 template <Study kStudy>
 Response get_study(const Call& call) {
   Query(call.request, {}).check();
+  Response response = make_json(200, "");
+  wait_as_preferred(kStudy, call, call.id, response);
   const auto study = call.service.find_study(kStudy, call.id);
-  Response response = make_study(kStudy, call, study);
+  if (!study) throw no_such(kStudy, call.id);
+  response.body = to_text(*study) + "\n";
   return study->at("state") != "running" ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
 }
 
@@ -66,13 +80,19 @@ Response delete_study(const Call& call) {
 
 template <Study kStudy>
 Response get_study_results(const Call& call) {
-  Query query(call.request, {"format"});
+  Query query(call.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
   const TableFormat format = find_row_format(call.request, query);
-  query.check();
-  const auto table = call.service.find_study_table(kStudy, call.id);
+  const jobs::ResultQuery wanted = read_result_query(query);
+  const auto table = query.check_and([&] { return call.service.find_study_table(kStudy, call.id, wanted); });
   if (!table) throw no_such(kStudy, call.id);
   Response response = make_table(format, to_text(*table, format), (kStudy == Study::kLimit ? "search-" : "wear-study-") + call.id);
   return table->ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+}
+
+template <Study kStudy>
+Response get_study_events(const Call& call) {
+  const auto find_news = [&service = call.service, id = call.id](std::int64_t after) { return service.find_study_news(kStudy, id, after); };
+  return answer_events(call, find_news, no_such(kStudy, call.id));
 }
 
 template <Study kStudy>
@@ -92,6 +112,7 @@ template Response get_studies<Study::kLimit>(const Call&);
 template Response get_study<Study::kLimit>(const Call&);
 template Response delete_study<Study::kLimit>(const Call&);
 template Response get_study_results<Study::kLimit>(const Call&);
+template Response get_study_events<Study::kLimit>(const Call&);
 template Response cancel_study<Study::kLimit>(const Call&);
 template Response retry_study<Study::kLimit>(const Call&);
 
@@ -100,6 +121,7 @@ template Response get_studies<Study::kWear>(const Call&);
 template Response get_study<Study::kWear>(const Call&);
 template Response delete_study<Study::kWear>(const Call&);
 template Response get_study_results<Study::kWear>(const Call&);
+template Response get_study_events<Study::kWear>(const Call&);
 template Response cancel_study<Study::kWear>(const Call&);
 template Response retry_study<Study::kWear>(const Call&);
 

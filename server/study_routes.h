@@ -18,6 +18,8 @@ template <jobs::Study kStudy>
 template <jobs::Study kStudy>
 [[nodiscard]] Response get_study_results(const Call& call);
 template <jobs::Study kStudy>
+[[nodiscard]] Response get_study_events(const Call& call);
+template <jobs::Study kStudy>
 [[nodiscard]] Response cancel_study(const Call& call);
 template <jobs::Study kStudy>
 [[nodiscard]] Response retry_study(const Call& call);

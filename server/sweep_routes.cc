@@ -1,9 +1,12 @@
 #include "server/sweep_routes.h"
 
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "server/conditional.h"
+#include "server/events.h"
 #include "server/json_text.h"
 #include "server/listing.h"
 #include "server/problem.h"
@@ -21,11 +24,9 @@ bool has_ended(const nlohmann::json& sweep) {
   return counts.at("queued") == 0 && counts.at("running") == 0;
 }
 
-/// Waits for the end of a sweep, if that is preferred, and says so.
+/// Waits for the end of a sweep, if that is preferred.
 bool wait_as_preferred(const Call& call, const std::string& id, Response& response) {
-  if (!call.waiting_room.wait(call.service, id, call.request)) return false;
-  response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(find_wait(call.request.prefer)->count()));
-  return true;
+  return call.waiting_room.wait(call.request, response, [&](std::chrono::seconds time) { call.service.wait_for_sweep(id, time); });
 }
 
 }  // namespace
@@ -64,15 +65,16 @@ Response delete_sweep(const Call& call) {
 Response get_results(const Call& call) {
   Query query(call.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
   const TableFormat format = find_row_format(call.request, query);
-  jobs::ResultQuery wanted;
-  wanted.fields = query.names("fields");
-  wanted.order_by = query.names("order_by");
-  wanted.limit = query.count("limit");
-  for (const auto& [key, value] : query.others()) wanted.filters.push_back({key, value});
+  const jobs::ResultQuery wanted = read_result_query(query);
   const auto table = query.check_and([&] { return call.service.find_results(call.id, wanted); });
   if (!table) throw no_such_sweep(call.id);
   Response response = make_table(format, to_text(*table, format), "sweep-" + call.id);
   return table->ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+}
+
+Response get_events(const Call& call) {
+  const auto find_news = [&service = call.service, id = call.id](std::int64_t after) { return service.find_news(id, after); };
+  return answer_events(call, find_news, no_such_sweep(call.id));
 }
 
 Response cancel_sweep(const Call& call) {

@@ -10,6 +10,7 @@ Response get_sweeps(const Call& call);
 Response get_sweep(const Call& call);
 Response delete_sweep(const Call& call);
 Response get_results(const Call& call);
+Response get_events(const Call& call);
 Response cancel_sweep(const Call& call);
 Response retry_sweep(const Call& call);
 Response extend_sweep(const Call& call);

@@ -27,6 +27,10 @@ set(page_files
   form/field.js
   form/fields.js
   form/request.js
+  form/request_form.js
+  form/search_form.js
+  form/study_form.js
+  form/wear_form.js
   linkages/bricard.json
   linkages/four_bar.json
   linkages/rpsup.json
@@ -70,6 +74,8 @@ set(page_files
   study/lines.js
   study/parallel.js
   study/selection.js
+  study/study_list.js
+  study/study_view.js
   study/sweep_row.js
   study/table.js
   study/wear_charts.js

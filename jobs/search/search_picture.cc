@@ -19,34 +19,6 @@ constexpr double kConfidence = 0.9;  ///< of the interval of part_within
 template <typename T>
 json value_or_null(const std::optional<T>& value) { return value ? json(*value) : json(); }
 
-std::size_t column_of(const ResultTable& table, const std::string& name) {
-  return static_cast<std::size_t>(std::ranges::find(table.columns, name) - table.columns.begin());
-}
-
-/// The evaluation of a combination at a value of the parameter; it is made if there is none yet.
-std::size_t place_of(double x, CombinationPicture& combination) {
-  auto& known = combination.evaluations;
-  const auto found = std::ranges::find(known, x, &Evaluation::x);
-  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
-  known.push_back({.x = x, .values = {}});
-  combination.job_ids.emplace_back();
-  return known.size() - 1;
-}
-
-void take_job(const std::string& id, const std::string& state, double x, const json& value, CombinationPicture& combination) {
-  const std::size_t place = place_of(x, combination);
-  Evaluation& evaluation = combination.evaluations[place];
-  combination.job_ids[place].push_back(id);
-  combination.cancelled |= state == "cancelled";
-  if (state == "queued" || state == "running") {
-    ++evaluation.pending;
-  } else if (value.is_number()) {
-    evaluation.values.push_back(value.get<double>());
-  } else {
-    ++evaluation.lost;
-  }
-}
-
 /// Which part of all replicates there could be stays within the bound: the interval of Clopper and Pearson.
 json part_within_json(std::size_t within, std::size_t count) {
   using Binomial = boost::math::binomial_distribution<double>;
@@ -96,16 +68,6 @@ json full_limit_json(const CombinationPicture& combination, const SearchRequest&
   return made;
 }
 
-double calc_progress(const SearchPicture& picture, const SearchRequest& search) {
-  double sum = 0.0;
-  const auto most = static_cast<double>(most_evaluations(search.path));
-  for (const CombinationPicture& combination : picture.combinations) {
-    const auto done = std::ranges::count(combination.evaluations, std::size_t{0}, &Evaluation::pending);
-    sum += combination.limit.verdict == Verdict::kOpen ? std::min(1.0, static_cast<double>(done) / most) : 1.0;
-  }
-  return sum / static_cast<double>(picture.combinations.size());
-}
-
 std::vector<std::string> paths_of_axes(const SearchRequest& search) {
   std::vector<std::string> paths;
   for (const Axis& axis : search.common.axes) paths.push_back(axis.path);
@@ -114,39 +76,13 @@ std::vector<std::string> paths_of_axes(const SearchRequest& search) {
 
 }  // namespace
 
-bool SearchPicture::has_ended() const {
-  return std::ranges::all_of(combinations, [](const CombinationPicture& one) { return one.limit.verdict != Verdict::kOpen; });
-}
-
-std::string SearchPicture::end_state() const {
-  if (std::ranges::any_of(combinations, &CombinationPicture::cancelled)) return "cancelled";
-  const bool lost = std::ranges::any_of(combinations, [](const CombinationPicture& one) { return one.limit.verdict == Verdict::kLost; });
-  return lost ? "failed" : "succeeded";
-}
-
 SearchPicture make_picture(const SearchRequest& search, const SweepResults& results) {
-  const ResultTable table = result_table(results, {});
-  SearchPicture picture;
-  std::map<std::string, std::size_t> places;
-  for (auto& values : combinations_of(search)) {
-    std::string name;
-    for (std::size_t i = 0; i < values.size(); ++i) name += value_identity(search.common.axes[i].path, values[i]) + ' ';
-    places.emplace(name, picture.combinations.size());
-    picture.combinations.push_back({.values = std::move(values), .evaluations = {}, .job_ids = {}, .limit = {}});
+  SearchTally tally(search, results.sweep);
+  for (const ResultRow& job : results.rows) tally.add(job);
+  for (CombinationPicture& combination : tally.picture.combinations) {
+    combination.limit = find_limit(search.path, search.rule, combination.evaluations);
   }
-  const std::size_t parameter = column_of(table, search.parameter);
-  const std::size_t metric = column_of(table, search.metric);
-  std::vector<std::size_t> axes;
-  for (const Axis& axis : search.common.axes) axes.push_back(column_of(table, axis.path));
-  for (const auto& row : table.rows) {
-    std::string name;
-    for (std::size_t i = 0; i < axes.size(); ++i) name += value_identity(search.common.axes[i].path, row[axes[i]]) + ' ';
-    const auto found = places.find(name);
-    if (found == places.end()) continue;  // added to the sweep by hand
-    take_job(row[0].get<std::string>(), row[1].get<std::string>(), row[parameter].get<double>(), row[metric], picture.combinations[found->second]);
-  }
-  for (CombinationPicture& combination : picture.combinations) combination.limit = find_limit(search.path, search.rule, combination.evaluations);
-  return picture;
+  return std::move(tally.picture);
 }
 
 json search_summary_json(const SearchRow& row) {
@@ -160,7 +96,7 @@ json search_summary_json(const SearchRow& row) {
           {"quantile", request.value("quantile", LimitRule{}.quantile)}, {"axes", std::move(axes)}, {"created_at", time_text(row.created_ms)},
           {"ended_at", row.ended_ms ? json(time_text(*row.ended_ms)) : json()},
           {"links", {{"self", self}, {"results", self + "/results"}, {"cancel", self + "/cancel"}, {"retry", self + "/retry"},
-          {"sweep", "/v1/sweeps/" + row.sweep_id}}}};
+          {"events", self + "/events"}, {"sweep", "/v1/sweeps/" + row.sweep_id}}}};
 }
 
 const std::vector<std::string>& search_listing_keys() {

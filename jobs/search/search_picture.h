@@ -6,30 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/search/limit.h"
 #include "jobs/search/search_request.h"
+#include "jobs/search/search_tally.h"
 #include "jobs/service.h"
 #include "jobs/store.h"
 
 namespace jobs {
 
-/// What a search has found for one combination of its axes.
-struct CombinationPicture {
-  std::vector<nlohmann::json> values;  ///< one an axis
-  std::vector<Evaluation> evaluations;
-  std::vector<std::vector<std::string>> job_ids;  ///< of each evaluation
-  bool cancelled = false;              ///< whether any of its jobs was
-  Limit limit;
-};
-
-/// How far a search is, as its jobs say: a search keeps nothing else, and so goes on after a crash where it was.
-struct SearchPicture {
-  std::vector<CombinationPicture> combinations;
-
-  [[nodiscard]] bool has_ended() const;
-  [[nodiscard]] std::string end_state() const;  ///< once it has ended
-};
-
+/// What all jobs of a search say, with the limits that follow from them.
 [[nodiscard]] SearchPicture make_picture(const SearchRequest& search, const SweepResults& results);
 
 /// The resource as users see it. @param threads  how many jobs are computed at a time

@@ -1,11 +1,12 @@
 #include "jobs/search/study_desk.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "jobs/extend_request.h"
 #include "jobs/ids.h"
 #include "jobs/page.h"
+#include "jobs/resource_json.h"
 
 namespace jobs {
 namespace {
@@ -21,9 +22,14 @@ std::optional<SearchRow> StudyDesk::find_row(const std::string& id) const {
   return is_id(id, kind_->id_prefix()) ? store_.find_search(id) : std::nullopt;
 }
 
-json StudyDesk::submit(const ordered_json& request) {
+json StudyDesk::submit(const ordered_json& request, const KeptText& kept) {
   const FirstSweep first = kind_->plan_first(request, options_.max_sweep_jobs);
-  return find(store_.add_search(kind_->id_prefix(), first.plan, first.request.dump(), request.dump(), options_.max_queued_jobs)).value();
+  const KeptAnswer<StudyRow> answer{.key = kept.key, .request = kept.request, .make_text = [&](StudyRow begun) {
+                                      // As it begins: what jobs show that were computed before has not been looked at.
+                                      for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
+                                      return *kept.answer = text_of(kind_->make_resource(begun.search, begun.results, options_.threads));
+                                    }};
+  return find(store_.add_search(kind_->id_prefix(), first.plan, first.request.dump(), request.dump(), options_.max_queued_jobs, answer)).value();
 }
 
 std::optional<json> StudyDesk::find(const std::string& id) const {
@@ -52,6 +58,7 @@ bool StudyDesk::cancel(const std::string& id, const std::function<void(const std
   if (!row) return false;
   if (row->state != "running" && row->state != "cancelled") throw WrongState("the study has ended");
   store_.set_search_state(id, "running", "cancelled");
+  under_way_.erase(id);
   cancel_sweep(row->sweep_id);
   return true;
 }
@@ -61,6 +68,7 @@ bool StudyDesk::retry(const std::string& id, const std::function<void(const std:
   const auto row = find_row(id);
   if (!row) return false;
   if (row->state == "running") return true;
+  under_way_.erase(id);
   retry_sweep(row->sweep_id);
   store_.reopen_search_of(row->sweep_id);
   return true;
@@ -73,34 +81,87 @@ std::optional<std::string> StudyDesk::find_ended_sweep(const std::string& id) co
   return row->sweep_id;
 }
 
-bool StudyDesk::advance() {
+void StudyDesk::change_sweep(const std::string& sweep_id, const std::function<void()>& change) {
   const std::lock_guard lock(moving_);
-  bool any = false;
-  for (const SearchRow& study : store_.list_searches(kind_->id_prefix(), "running", "", kNoLimit >> 1U)) {
-    // What is added may be known already, and ask for more at once.
-    while (advance(study)) any = true;
-  }
-  return any;
+  std::erase_if(under_way_, [&](const auto& study) { return study.second.sweep_id == sweep_id; });
+  change();
 }
 
-bool StudyDesk::advance(const SearchRow& row) {
-  const auto results = store_.find_results(row.sweep_id, false);
-  if (!results) return false;  // it has been deleted
-  try {
-    const StudyStep step = kind_->find_step(row, *results);
-    if (step.end_state) {
-      store_.set_search_state(row.id, "running", *step.end_state, step.error);
-      return false;
+StudyMoves StudyDesk::advance() {
+  const std::lock_guard lock(moving_);
+  const auto running = store_.list_searches(kind_->id_prefix(), "running", "", kNoLimit >> 1U);
+  forget_ended(running);
+  StudyMoves moves;
+  for (const SearchRow& study : running) {
+    for (bool goes_on = true; goes_on;) {  // what is added may be known already, and ask for more at once
+      const StudyMoves one = advance(study);
+      moves.any |= one.any;
+      moves.added |= one.added;
+      goes_on = one.added;
     }
-    if (step.cases.empty()) return false;
-    const auto former = ordered_json::parse(results->sweep.request);
-    const Extension extension = plan_extension(former, {{"cases", step.cases}}, kNoLimit);
-    if (extension.jobs.empty()) throw InvalidRequest(std::vector<Fault>{{"", "its sweep has what is needed next, but not as its own jobs"}});
-    return store_.extend_sweep(row.sweep_id, results->sweep.request, extension.request.dump(), extension.jobs, kNoLimit);
-  } catch (const InvalidRequest& invalid) {  // what lies between two values may be no linkage, though both are
-    store_.set_search_state(row.id, "running", "failed", invalid.what());
-    return false;
   }
+  return moves;
+}
+
+void StudyDesk::forget_ended(const std::vector<SearchRow>& running) {
+  const auto has_ended = [&](const auto& study) { return std::ranges::find(running, study.first, &SearchRow::id) == running.end(); };
+  std::erase_if(under_way_, has_ended);
+  const std::lock_guard lock(progress_mutex_);
+  std::erase_if(progress_, has_ended);
+}
+
+StudyMoves StudyDesk::advance(const SearchRow& study) {
+  try {
+    return look_at(study) ? take_step(study) : StudyMoves{};
+  } catch (const InvalidRequest& invalid) {  // what lies between two values may be no linkage, though both are
+    store_.set_search_state(study.id, "running", "failed", invalid.what());
+    under_way_.erase(study.id);
+    return {.any = true};
+  } catch (...) {  // it is looked at from its beginning the next time
+    under_way_.erase(study.id);
+    throw;
+  }
+}
+
+bool StudyDesk::look_at(const SearchRow& study) {
+  const auto known = under_way_.find(study.id);
+  const auto ended = known == under_way_.end() ? std::vector<ResultRow>{} : store_.find_ended(study.sweep_id, known->second.change);
+  if (known == under_way_.end()) {
+    const auto results = store_.find_results(study.sweep_id, false);
+    if (!results) return false;  // it has been deleted
+    UnderWay begun{.sweep_id = study.sweep_id, .common = ordered_json::parse(results->sweep.request), .course = kind_->make_course(study, *results)};
+    begun.common.erase("cases");
+    for (const ResultRow& job : results->rows) begun.change = std::max(begun.change, job.change);
+    under_way_.emplace(study.id, std::move(begun));
+    return true;
+  }
+  for (const ResultRow& job : ended) known->second.course->take(job);
+  if (!ended.empty()) known->second.change = ended.back().change;
+  return !ended.empty();
+}
+
+StudyMoves StudyDesk::take_step(const SearchRow& study) {
+  UnderWay& known = under_way_.at(study.id);
+  const StudyStep step = known.course->find_step();
+  {
+    const std::lock_guard lock(progress_mutex_);
+    progress_[study.id] = known.course->progress();
+  }
+  if (step.end_state) {
+    store_.set_search_state(study.id, "running", *step.end_state, step.error);
+    return {.any = true};
+  }
+  if (step.cases.empty()) return {.any = true};
+  ordered_json request = known.common;
+  request["cases"] = step.cases;
+  const bool added = store_.add_cases(study.sweep_id, step.cases, plan_sweep(request, kNoLimit).jobs);
+  return {.any = true, .added = added};
+}
+
+double StudyDesk::find_progress(const std::string& id) const {
+  const std::lock_guard lock(progress_mutex_);
+  const auto known = progress_.find(id);
+  return known == progress_.end() ? 0.0 : known->second;
 }
 
 }  // namespace jobs

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,6 +26,30 @@ struct StudyStep {
   std::optional<std::string> error;      ///< why it could not go on
 };
 
+/// What the jobs of a study under way have shown so far. Taking what is new costs the same however many there were before.
+class StudyCourse {
+ public:
+  virtual ~StudyCourse() = default;
+
+  /// Takes a job that has ended since the course was made, or since it was asked for by find_step().
+  virtual void take(const ResultRow& ended) = 0;
+  /// What is wanted now; the cases of a step are then added to the sweep.
+  [[nodiscard]] virtual StudyStep find_step() = 0;
+  [[nodiscard]] virtual double progress() const = 0;  ///< 0 .. 1
+};
+
+/// What has come of looking at studies.
+struct StudyMoves {
+  bool any = false;    ///< something is known that was not before
+  bool added = false;  ///< jobs were added
+};
+
+/// Under which key the answer to a request is kept, and what it was.
+struct KeptText {
+  std::string key, request;  ///< as in KeptAnswer
+  std::string* answer = nullptr;
+};
+
 /// A sweep with which a study begins.
 struct FirstSweep {
   nlohmann::ordered_json request;
@@ -39,8 +65,7 @@ class StudyKind {
   [[nodiscard]] virtual std::string_view id_prefix() const = 0;
   /// @throws InvalidRequest with every fault
   [[nodiscard]] virtual FirstSweep plan_first(const nlohmann::ordered_json& request, std::size_t max_jobs) const = 0;
-  /// Of a study under way.
-  [[nodiscard]] virtual StudyStep find_step(const SearchRow& study, const SweepResults& results) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<StudyCourse> make_course(const SearchRow& study, const SweepResults& results) const = 0;
 
   /// The resource as users see it. @param threads  how many jobs are computed at a time
   [[nodiscard]] virtual nlohmann::json make_resource(const SearchRow& study, const SweepResults& results, int threads) const = 0;
@@ -58,9 +83,11 @@ class StudyDesk {
   StudyDesk(Store& store, const ServiceOptions& options, std::unique_ptr<StudyKind> kind)
       : store_(store), options_(options), kind_(std::move(kind)) {}
 
+  /// @param kept  how the answer is kept; without a key it is not
   /// @throws InvalidRequest, QueueFull
-  nlohmann::json submit(const nlohmann::ordered_json& request);
+  nlohmann::json submit(const nlohmann::ordered_json& request, const KeptText& kept);
   [[nodiscard]] std::optional<nlohmann::json> find(const std::string& id) const;
+  [[nodiscard]] std::optional<SearchRow> find_row(const std::string& id) const;
   [[nodiscard]] nlohmann::json list(const PageQuery& query) const;
   [[nodiscard]] std::optional<ResultTable> find_table(const std::string& id) const;
 
@@ -72,17 +99,37 @@ class StudyDesk {
   /// The sweep of a study that has ended. @throws WrongState if it has not
   [[nodiscard]] std::optional<std::string> find_ended_sweep(const std::string& id) const;
 
-  /// Does what the results of all studies under way ask for. @returns whether jobs were added
-  bool advance();
+  /// Changes the jobs of a sweep otherwise than by computing them; a study of it sees them anew then.
+  void change_sweep(const std::string& sweep_id, const std::function<void()>& change);
+
+  /// Does what the results of all studies under way ask for.
+  StudyMoves advance();
+  /// How far a study under way is, 0 .. 1, as it was last seen.
+  [[nodiscard]] double find_progress(const std::string& id) const;
 
  private:
-  [[nodiscard]] std::optional<SearchRow> find_row(const std::string& id) const;
-  bool advance(const SearchRow& study);
+  /// A study under way, as far as its jobs have been looked at.
+  struct UnderWay {
+    std::string sweep_id;
+    nlohmann::ordered_json common;  ///< the sweep's request without its cases
+    std::int64_t change = 0;        ///< the last end of a job that was taken
+    std::unique_ptr<StudyCourse> course;
+  };
+
+  /// What is known of studies that have ended is forgotten.
+  void forget_ended(const std::vector<SearchRow>& running);
+  StudyMoves advance(const SearchRow& study);
+  /// Takes the jobs that have ended since. False if there are none.
+  bool look_at(const SearchRow& study);
+  StudyMoves take_step(const SearchRow& study);
 
   Store& store_;
   const ServiceOptions& options_;
   std::unique_ptr<StudyKind> kind_;
   std::mutex moving_;  ///< held by who changes a study, so that nothing is added to one that is being cancelled
+  std::map<std::string, UnderWay> under_way_;  ///< by id; guarded by moving_
+  mutable std::mutex progress_mutex_;
+  std::map<std::string, double> progress_;     ///< by id; guarded by progress_mutex_
 };
 
 }  // namespace jobs

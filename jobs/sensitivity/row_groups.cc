@@ -1,13 +1,31 @@
 #include "jobs/sensitivity/row_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string_view>
 
 #include "jobs/errors.h"
+#include "jobs/linkage_json.h"
+#include "jobs/parameter_path.h"
 #include "jobs/parameter_value.h"
 
 namespace jobs {
+namespace {
+
+/// The columns that are results: neither what tells jobs apart nor what was given.
+std::vector<std::string_view> metrics_of(const ResultTable& table) {
+  constexpr std::array<std::string_view, 3> kOfJobs{"job_id", "state", "replicate"};
+  const auto& parameters = known_paths();
+  std::vector<std::string_view> metrics;
+  for (const std::string& column : table.columns) {
+    const bool given = column == kLinkageKey || is_linkage_path(column) || std::ranges::find(parameters, column) != parameters.end();
+    if (!given && std::ranges::find(kOfJobs, column) == kOfJobs.end()) metrics.emplace_back(column);
+  }
+  return metrics;
+}
+
+}  // namespace
 
 std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer) {
   const auto found = std::ranges::find(table.columns, name);
@@ -29,12 +47,18 @@ std::vector<RowGroup> group_rows(const ResultTable& table, const std::vector<std
   return groups;
 }
 
-std::size_t find_metric(const ResultTable& table, const std::string& metric) {
-  std::vector<std::string_view> known;
-  for (const engine::QuantityInfo& info : engine::metric_table()) known.push_back(info.key);
-  if (std::ranges::find(known, metric) != known.end()) return find_column(table, metric, "/metric");
-  throw InvalidRequest(std::vector<Fault>{{"/metric", "\"" + metric + "\": " + describe_unknown_key(metric, known)}});
+std::string choose_metric(const ResultTable& table, const std::string& wanted) {
+  const auto metrics = metrics_of(table);
+  const std::string usual(kReplicateMetric);
+  const bool has_usual = std::ranges::find(metrics, usual) != metrics.end();
+  if (wanted.empty() && !metrics.empty()) return has_usual ? usual : std::string(metrics.front());
+  if (std::ranges::find(metrics, wanted) != metrics.end()) return wanted;
+  std::string known;
+  for (const std::string_view metric : metrics) known += (known.empty() ? "" : ", ") + std::string(metric);
+  throw InvalidRequest(std::vector<Fault>{{"/metric", "\"" + wanted + "\": " + describe_unknown_key(wanted, metrics) + "; this sweep has " + known}});
 }
+
+std::size_t find_metric(const ResultTable& table, const std::string& metric) { return find_column(table, choose_metric(table, metric), "/metric"); }
 
 std::optional<double> number_in(const nlohmann::json& cell) { return cell.is_number() ? std::optional(cell.get<double>()) : std::nullopt; }
 

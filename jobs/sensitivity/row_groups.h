@@ -22,6 +22,10 @@ struct RowGroup {
 /// In the order of their first rows.
 [[nodiscard]] std::vector<RowGroup> group_rows(const ResultTable& table, const std::vector<std::size_t>& columns);
 
+/// A metric of the table's linkages. @param wanted  its name; empty: the peak of the slider's acceleration, or the first one if there is none
+/// @throws InvalidRequest with the pointer "/metric", and the names that there are, if there is no such metric
+[[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
+
 /// The metric's column. @throws InvalidRequest with the pointer "/metric" if there is no such metric
 [[nodiscard]] std::size_t find_metric(const ResultTable& table, const std::string& metric);
 

@@ -59,41 +59,51 @@ double largest_of(const WearGrid& grid) {
   return largest;
 }
 
-WearCourse follow_wear(const WearRule& rule, WearGrid depth_um, const FindWear& find) {
-  WearCourse course;
-  double hours = 0.0;
-  double part = 1.0;  // of a whole step
-  for (;;) {
-    const auto evaluation = find(depth_um);
-    if (!evaluation) course.next = std::move(depth_um);
-    if (!evaluation || evaluation->state == WearEvaluation::State::kPending) return course;
+void WearFollower::go_on(const FindWear& find) {
+  course_.next.reset();
+  while (course_.verdict == WearVerdict::kOpen) {
+    auto evaluation = find(depth_um_);
+    if (!evaluation) course_.next = depth_um_;
+    if (!evaluation || evaluation->state == WearEvaluation::State::kPending) return;
     if (evaluation->state == WearEvaluation::State::kLost) {
-      course.verdict = WearVerdict::kLost;
-      return course;
+      course_.verdict = WearVerdict::kLost;
+    } else {
+      take(std::move(*evaluation));
     }
-    std::optional<double> change;
-    if (!course.cycles.empty()) {
-      change = calc_rate_change(course.cycles.back(), evaluation->rate_um_h);
-      if (*change > rule.rate_change && part > kLeastPart) {
-        WearCycle& from = course.cycles.back();
-        ++course.rejected;
-        part *= 0.5;
-        from.step_hours *= 0.5;
-        hours = from.hours + from.step_hours;
-        depth_um = wear_on(from, from.step_hours);
-        continue;
-      }
-      part = std::min(1.0, 2.0 * part);
-    }
-    course.cycles.push_back({.job = evaluation->job, .hours = hours, .rate_change = change, .depth_um = std::move(depth_um),
-                             .rate_um_h = evaluation->rate_um_h});
-    course.verdict = judge(rule, course);
-    if (course.verdict != WearVerdict::kOpen) return course;
-    WearCycle& from = course.cycles.back();
-    from.step_hours = std::min(part * rule.depth_step_um / largest_of(from.rate_um_h), calc_hours_left(rule, from));
-    hours = from.hours + from.step_hours;
-    depth_um = wear_on(from, from.step_hours);
   }
+}
+
+void WearFollower::take(WearEvaluation evaluation) {
+  std::optional<double> change;
+  if (!course_.cycles.empty()) {
+    WearCycle& from = course_.cycles.back();
+    change = calc_rate_change(from, evaluation.rate_um_h);
+    if (*change > rule_.rate_change && part_ > kLeastPart) {
+      ++course_.rejected;
+      part_ *= 0.5;
+      step_from(from, 0.5 * from.step_hours);
+      return;
+    }
+    part_ = std::min(1.0, 2.0 * part_);
+  }
+  course_.cycles.push_back({.job = evaluation.job, .hours = hours_, .rate_change = change, .depth_um = std::move(depth_um_),
+                            .rate_um_h = std::move(evaluation.rate_um_h)});
+  course_.verdict = judge(rule_, course_);
+  if (course_.verdict != WearVerdict::kOpen) return;
+  WearCycle& from = course_.cycles.back();
+  step_from(from, std::min(part_ * rule_.depth_step_um / largest_of(from.rate_um_h), calc_hours_left(rule_, from)));
+}
+
+void WearFollower::step_from(WearCycle& from, double hours) {
+  from.step_hours = hours;
+  hours_ = from.hours + hours;
+  depth_um_ = wear_on(from, hours);
+}
+
+WearCourse follow_wear(const WearRule& rule, WearGrid depth_um, const FindWear& find) {
+  WearFollower follower(rule, std::move(depth_um));
+  follower.go_on(find);
+  return follower.course();
 }
 
 }  // namespace jobs

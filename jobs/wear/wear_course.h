@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace jobs {
@@ -63,6 +64,27 @@ using FindWear = std::function<std::optional<WearEvaluation>(const WearGrid& dep
 
 /// Follows a bore from an initial depth on, as far as evaluations go: in each step it wears as the cycle before it does (Euler's method, of
 /// order 1 in the step). The bore after a step is evaluated before the step counts.
+class WearFollower {
+ public:
+  WearFollower(const WearRule& rule, WearGrid depth_um) : rule_(rule), depth_um_(std::move(depth_um)) {}
+
+  /// Goes on from where the evaluations ended before, which are not asked for again.
+  void go_on(const FindWear& find);
+  [[nodiscard]] const WearCourse& course() const { return course_; }
+
+ private:
+  /// Takes the evaluation of the bore that was reached: as a cycle, or as a reason to step less far from the last one.
+  void take(WearEvaluation evaluation);
+  void step_from(WearCycle& from, double hours);
+
+  WearRule rule_;
+  WearGrid depth_um_;   ///< the bore to evaluate next
+  double hours_ = 0.0;  ///< when it is like that
+  double part_ = 1.0;   ///< of a whole step
+  WearCourse course_;
+};
+
+/// All of a course at once.
 [[nodiscard]] WearCourse follow_wear(const WearRule& rule, WearGrid depth_um, const FindWear& find);
 
 }  // namespace jobs

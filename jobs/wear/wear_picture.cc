@@ -50,6 +50,8 @@ std::vector<json> cells_of(const WearCycle& cycle, std::size_t number, const std
           calc_volume_mm3(cycle.depth_um, study.completed)};
 }
 
+}  // namespace
+
 double calc_progress(const WearStudyRequest& study, const WearCourse& course) {
   if (course.cycles.empty()) return 0.0;
   const WearCycle& last = course.cycles.back();
@@ -58,6 +60,8 @@ double calc_progress(const WearStudyRequest& study, const WearCourse& course) {
   if (study.rule.deepest_um) progress = std::max(progress, largest_of(last.depth_um) / *study.rule.deepest_um);
   return std::min(progress, 1.0);
 }
+
+namespace {
 
 json cycles_json(const ResultTable& table, const WearCourse& course) {
   json cycles = json::array();
@@ -80,7 +84,7 @@ json wear_summary_json(const SearchRow& row) {
           {"worn_clearance_mm", json(request.value("worn_clearance_mm", nlohmann::ordered_json()))}, {"created_at", time_text(row.created_ms)},
           {"ended_at", row.ended_ms ? json(time_text(*row.ended_ms)) : json()},
           {"links", {{"self", self}, {"results", self + "/results"}, {"cancel", self + "/cancel"}, {"retry", self + "/retry"},
-                     {"sweep", "/v1/sweeps/" + row.sweep_id}}}};
+                     {"events", self + "/events"}, {"sweep", "/v1/sweeps/" + row.sweep_id}}}};
 }
 
 const std::vector<std::string>& wear_listing_keys() {

@@ -13,6 +13,9 @@
 
 namespace jobs {
 
+/// How far a course is on the way to its end, 0 .. 1.
+[[nodiscard]] double calc_progress(const WearStudyRequest& study, const WearCourse& course);
+
 /// The resource as users see it. @param threads  how many jobs are computed at a time
 [[nodiscard]] nlohmann::json wear_study_json(const SearchRow& row, const WearStudyRequest& study, const SweepResults& results,
                                              const WearCourse& course, int threads);

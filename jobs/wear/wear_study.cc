@@ -7,6 +7,7 @@
 #include <mutex>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "jobs/errors.h"
 #include "jobs/expand.h"
@@ -78,6 +79,74 @@ class WearRates {
   std::map<std::string, WearGrid> rates_;  ///< by job
 };
 
+/// What a wear study's jobs have shown. The k-th job is that of the k-th case of its sweep.
+class WearStudyCourse final : public StudyCourse {
+ public:
+  WearStudyCourse(WearStudyRequest study, const SweepResults& results, WearRates& rates)
+      : study_(std::move(study)), rates_(rates), follower_(study_.rule, study_.round_bore()) {
+    const json request = json::parse(results.sweep.request);
+    for (const json& bore : request.at("cases")) bores_.emplace(bore.at(kWearKey).get<WearGrid>(), bores_.size());
+    for (const ResultRow& job : results.rows) jobs_.push_back({.id = job.job_id, .state = job.state});
+    go_on();
+  }
+
+  void take(const ResultRow& ended) override {
+    // A job without an id is that of the bore that was asked for last: there is one at a time.
+    const auto job = std::find_if(jobs_.rbegin(), jobs_.rend(), [&](const Job& one) { return one.id.empty() || one.id == ended.job_id; });
+    *job = {.id = ended.job_id, .state = ended.state};
+  }
+
+  [[nodiscard]] StudyStep find_step() override {
+    go_on();
+    StudyStep step;
+    if (course().next && bores_.emplace(*course().next, jobs_.size()).second) {
+      step.cases.push_back(case_of(*course().next));
+      jobs_.push_back({.id = "", .state = "queued"});
+    }
+    if (course().verdict == WearVerdict::kLost) {
+      const bool cancelled = std::ranges::find(jobs_, "cancelled", &Job::state) != jobs_.end();
+      step.end_state = cancelled ? "cancelled" : "failed";
+      if (!cancelled) step.error = "a job has no result that tells its wear";
+    } else if (course().verdict != WearVerdict::kOpen) {
+      step.end_state = "succeeded";
+    }
+    return step;
+  }
+
+  [[nodiscard]] double progress() const override { return calc_progress(study_, course()); }
+
+  [[nodiscard]] const WearStudyRequest& study() const { return study_; }
+  [[nodiscard]] const WearCourse& course() const { return follower_.course(); }
+
+ private:
+  struct Job {
+    std::string id, state;
+  };
+
+  void go_on() {
+    follower_.go_on([this](const WearGrid& depth_um) -> std::optional<WearEvaluation> {
+      const auto found = bores_.find(depth_um);
+      return found == bores_.end() ? std::nullopt : std::optional(evaluate(found->second, depth_um));
+    });
+  }
+
+  [[nodiscard]] WearEvaluation evaluate(std::size_t index, const WearGrid& depth_um) const {
+    using State = WearEvaluation::State;
+    const Job& job = jobs_.at(index);
+    if (job.state == "queued" || job.state == "running") return {.state = State::kPending, .job = index};
+    if (job.state != "succeeded") return {.state = State::kLost, .job = index};
+    auto rates = rates_.find(job.id, depth_um, study_);
+    if (!rates) return {.state = State::kLost, .job = index};
+    return {.state = State::kDone, .job = index, .rate_um_h = std::move(*rates)};
+  }
+
+  WearStudyRequest study_;
+  WearRates& rates_;
+  std::map<WearGrid, std::size_t> bores_;  ///< the job of each
+  std::vector<Job> jobs_;
+  WearFollower follower_;
+};
+
 class WearStudy final : public StudyKind {
  public:
   explicit WearStudy(const Store& store) : rates_(store) {}
@@ -90,54 +159,22 @@ class WearStudy final : public StudyKind {
     return {std::move(sweep), std::move(plan)};
   }
 
-  [[nodiscard]] StudyStep find_step(const SearchRow& row, const SweepResults& results) const override {
-    const WearCourse course = follow(request_of(row), results);
-    StudyStep step;
-    if (course.next) step.cases.push_back(case_of(*course.next));
-    if (course.verdict == WearVerdict::kLost) {
-      const bool cancelled = std::ranges::any_of(results.rows, [](const ResultRow& job) { return job.state == "cancelled"; });
-      step.end_state = cancelled ? "cancelled" : "failed";
-      if (!cancelled) step.error = "a job has no result that tells its wear";
-    } else if (course.verdict != WearVerdict::kOpen) {
-      step.end_state = "succeeded";
-    }
-    return step;
+  [[nodiscard]] std::unique_ptr<StudyCourse> make_course(const SearchRow& row, const SweepResults& results) const override {
+    return std::make_unique<WearStudyCourse>(request_of(row), results, rates_);
   }
 
   [[nodiscard]] json make_resource(const SearchRow& row, const SweepResults& results, int threads) const override {
-    const WearStudyRequest study = request_of(row);
-    return wear_study_json(row, study, results, follow(study, results), threads);
+    const WearStudyCourse so_far(request_of(row), results, rates_);
+    return wear_study_json(row, so_far.study(), results, so_far.course(), threads);
   }
   [[nodiscard]] json make_summary(const SearchRow& row) const override { return wear_summary_json(row); }
   [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return wear_listing_keys(); }
   [[nodiscard]] ResultTable make_table(const SearchRow& row, const SweepResults& results) const override {
-    const WearStudyRequest study = request_of(row);
-    return wear_table(row, study, results, follow(study, results));
+    const WearStudyCourse so_far(request_of(row), results, rates_);
+    return wear_table(row, so_far.study(), results, so_far.course());
   }
 
  private:
-  /// The study's course as far as its jobs go: the k-th job is that of the k-th case of its sweep.
-  [[nodiscard]] WearCourse follow(const WearStudyRequest& study, const SweepResults& results) const {
-    std::map<WearGrid, std::size_t> jobs;
-    std::size_t count = 0;
-    const json request = json::parse(results.sweep.request);
-    for (const json& bore : request.at("cases")) jobs.emplace(bore.at(kWearKey).get<WearGrid>(), count++);
-    return follow_wear(study.rule, study.round_bore(), [&](const WearGrid& depth_um) -> std::optional<WearEvaluation> {
-      const auto found = jobs.find(depth_um);
-      if (found == jobs.end()) return std::nullopt;
-      return evaluate(results.rows.at(found->second), found->second, depth_um, study);
-    });
-  }
-
-  [[nodiscard]] WearEvaluation evaluate(const ResultRow& job, std::size_t index, const WearGrid& depth_um, const WearStudyRequest& study) const {
-    using State = WearEvaluation::State;
-    if (job.state == "queued" || job.state == "running") return {.state = State::kPending, .job = index};
-    if (job.state != "succeeded") return {.state = State::kLost, .job = index};
-    auto rates = rates_.find(job.job_id, depth_um, study);
-    if (!rates) return {.state = State::kLost, .job = index};
-    return {.state = State::kDone, .job = index, .rate_um_h = std::move(*rates)};
-  }
-
   mutable WearRates rates_;  // has a lock of its own
 };
 

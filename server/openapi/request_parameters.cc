@@ -19,7 +19,8 @@ Json words(std::initializer_list<const char*> allowed) { return {{"type", "strin
 Json make_metric() {
   Json names = Json::array();
   for (const engine::QuantityInfo& metric : engine::metric_table()) names.push_back(metric.key);
-  return {{"type", "string"}, {"enum", std::move(names)}, {"default", jobs::kReplicateMetric}};
+  return {{"anyOf", Json::array({Json{{"type", "string"}, {"enum", std::move(names)}},
+                                 Json{{"type", "string"}, {"description", "of a described linkage, by the names of its joints"}}})}};
 }
 
 std::vector<RequestParameter> make_query_parameters() {
@@ -35,9 +36,11 @@ std::vector<RequestParameter> make_query_parameters() {
       {"filters", "query", "filters",
        "Any column or parameter as a key: key=value, key_gt=, key_lt=, key_ge=, key_le=. A row stays if all of them hold",
        {{"type", "object"}, {"additionalProperties", kText}}},
+      {"columns", "query", "filters", "Any column as a key: key=value, key_gt=, key_lt=, key_ge=, key_le=. A row stays if all of them hold",
+       {{"type", "object"}, {"additionalProperties", kText}}},
       {"row_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "ndjson"})},
       {"column_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "npz"})},
-      {"metric", "query", "metric", "The metric; the peak of the slider's acceleration if left out", make_metric()},
+      {"metric", "query", "metric", "The metric; if left out the peak of the slider's acceleration, or the first one of a described linkage", make_metric()},
       {"surrogate_x", "query", "x", "The number along x; the first that the sweep varies if left out", kText},
       {"surrogate_y", "query", "y", "The number along y; the next that the sweep varies if left out", kText},
       {"channel", "query", "channel", "The channel; journal_x_mm of sections and slider_acceleration_m_s2 of spectra if left out", kText},
@@ -66,7 +69,7 @@ std::vector<RequestParameter> make_header_parameters() {
        {{"type", "string"}, {"minLength", 1}, {"maxLength", 255}, {"pattern", "^[!-~]+$"}}},
       {"if_none_match", "header", "If-None-Match", "An ETag: 304 if nothing has changed", kText},
       {"last_event_id", "header", "Last-Event-ID", "The id of the last event that was received", kText},
-      {"prefer", "header", "Prefer", "wait=N: the answer waits for the end of the sweep, N s at most", kText},
+      {"prefer", "header", "Prefer", "wait=N: the answer waits for the end of the sweep or study, N s at most", kText},
   };
 }
 

@@ -62,7 +62,7 @@ Json make_full_limit() {
 Json make_row() {
   Json properties{{"parameter", kText}, {"metric", kText}, {"bound", kNumber}, {"quantile", kNumber}};
   properties.update(make_limit());
-  return described(with_axes(std::move(properties)), "Every key stands in every row, and those of the axes");
+  return described(with_axes(std::move(properties)), "Every key stands in every row, and those of the axes, unless fields leaves it out");
 }
 
 Json make_summary() {
@@ -70,7 +70,7 @@ Json make_summary() {
       {"sweep_id", ref("Id")},
           {"parameter", kText}, {"metric", kText}, {"bound", kNumber}, {"quantile", kNumber}, {"axes", list_of(kText)}, {"created_at", kText},
           {"ended_at", or_null(kText)},
-          {"links", object_of({{"self", kText}, {"results", kText}, {"cancel", kText}, {"retry", kText}, {"sweep", kText}})}};
+          {"links", object_of({{"self", kText}, {"results", kText}, {"cancel", kText}, {"retry", kText}, {"events", kText}, {"sweep", kText}})}};
 }
 
 Json make_search() {

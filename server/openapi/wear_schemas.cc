@@ -57,7 +57,7 @@ Json make_summary() {
   return {{"id", ref("Id")}, {"name", kText}, {"state", ref("SearchState")}, {"error", described(or_null(kText), "why it could not go on")},
           {"sweep_id", ref("Id")}, {"hours", or_null(kNumber)}, {"worn_clearance_mm", or_null(kNumber)}, {"created_at", kText},
           {"ended_at", or_null(kText)},
-          {"links", object_of({{"self", kText}, {"results", kText}, {"cancel", kText}, {"retry", kText}, {"sweep", kText}})}};
+          {"links", object_of({{"self", kText}, {"results", kText}, {"cancel", kText}, {"retry", kText}, {"events", kText}, {"sweep", kText}})}};
 }
 
 /// jobs::kWearColumns.
@@ -81,9 +81,8 @@ Json make_full_cycle() {
 }
 
 Json make_row() {
-  return described(Json{{"type", "object"}, {"properties", make_cycle()}, {"required", Json(jobs::kWearColumns)},
-                        {"additionalProperties", or_null(kNumber)}},
-                   "Every key stands in every row, and so does every metric");
+  return described(Json{{"type", "object"}, {"properties", make_cycle()}, {"additionalProperties", or_null(kNumber)}},
+                   "Every key stands in every row, and so does every metric, unless fields leaves it out");
 }
 
 Json make_study() {

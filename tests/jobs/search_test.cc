@@ -143,6 +143,53 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.delete_study(jobs::Study::kLimit, id));
 }
 
+TEST(Search, TakesWhatIsAddedToItsSweepByHand) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  engine.hold();
+  const json begun = service.submit_study(jobs::Study::kLimit, request_for(5.3));
+  engine.await_running(1);
+  EXPECT_EQ(service.extend_sweep(begun.at("sweep_id"), ordered_json::parse(R"({"cases": [{"crank_velocity_rad_s": 5.2}]})")).value().at("counts").at("total"), 6);
+  engine.release();
+  const json limit = wait_for_end(service, begun.at("id")).at("limits").at(0);
+  EXPECT_EQ(limit.at("verdict"), "found");
+  EXPECT_NEAR(limit.at("limit").get<double>(), 5.3, 0.01);
+  EXPECT_EQ(limit.at("points").at(2).at("value"), 5.0);
+  EXPECT_EQ(limit.at("points").at(3).at("value"), 5.2) << "from there on there was less to halve";
+}
+
+TEST(Search, IsStoredOnceUnderOneKey) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  const json first = service.submit_study(jobs::Study::kLimit, request_for(5.3), "key-1");
+  EXPECT_EQ(first.at("state"), "running");
+  (void)wait_for_end(service, first.at("id"));
+  EXPECT_EQ(service.submit_study(jobs::Study::kLimit, request_for(5.3), "key-1"), first);
+  EXPECT_THROW((void)service.submit_study(jobs::Study::kLimit, request_for(5.4), "key-1"), jobs::InvalidRequest);
+  EXPECT_EQ(list(service, "").size(), 1U);
+  // What has been computed is known when the next one begins, but its answer is kept as it begins.
+  const json second = service.submit_study(jobs::Study::kLimit, request_for(5.3), "key-2");
+  EXPECT_EQ(second.at("state"), "running");
+  EXPECT_EQ(second.at("counts").at("succeeded"), 5);
+  EXPECT_EQ(second.at("limits").at(0).at("points").at(0).at("pending"), 1);
+}
+
+TEST(Search, IsWaitedFor) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  engine.hold();
+  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
+  EXPECT_FALSE(service.wait_for_study(jobs::Study::kLimit, id, std::chrono::milliseconds(20)));
+  EXPECT_FALSE(service.wait_for_study(jobs::Study::kLimit, "sch_none", std::chrono::hours(1)));
+  EXPECT_FALSE(service.wait_for_study(jobs::Study::kWear, id, std::chrono::hours(1)));
+  engine.release();
+  EXPECT_TRUE(service.wait_for_study(jobs::Study::kLimit, id, std::chrono::seconds(20)));
+  EXPECT_EQ(service.find_study(jobs::Study::kLimit, id).value().at("state"), "succeeded");
+}
+
 // The fake engine fails at a restitution of 0.5.
 TEST(Search, SaysWhichCombinationIsLostToAFailedJob) {
   const TemporaryStore store;

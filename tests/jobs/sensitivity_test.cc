@@ -8,6 +8,7 @@
 
 #include "jobs/errors.h"
 #include "jobs/sampled_designs.h"
+#include "jobs/sensitivity/row_groups.h"
 #include "tests/jobs/service_support.h"
 
 namespace jobs_tests {
@@ -119,6 +120,26 @@ TEST(Sensitivity, HasDesignsThatRefuseWhatTheyDoNotKnow) {
   EXPECT_EQ(faults_of({{"type", "saltelli"}, {"seed", -1}, {"levels", 4}, {"over", over}}),
       (std::set<std::string>{"/design/count", "/design/seed", "/design/levels"}));
   EXPECT_EQ(faults_of({{"type", "saltelli"}, {"count", 5000}, {"over", over}}), (std::set<std::string>{"/design"})) << "15,000 jobs";
+}
+
+// A described linkage names its metrics by its joints; what was swept, and what tells jobs apart, is none.
+TEST(Metrics, AreThoseOfTheStudysLinkages) {
+  const jobs::ResultTable described{.columns = {"job_id", "state", "replicate", "clearance_mm", "linkage.bodies.rod.mass_kg", "peak_pin_force_n", "steps"},
+                                    .rows = {}};
+  EXPECT_EQ(jobs::choose_metric(described, ""), "peak_pin_force_n");
+  EXPECT_EQ(jobs::choose_metric(described, "steps"), "steps");
+  EXPECT_EQ(jobs::find_metric(described, "steps"), 6U);
+  const jobs::ResultTable rpsup{.columns = {"job_id", "state", "amplification", peak()}, .rows = {}};
+  EXPECT_EQ(jobs::choose_metric(rpsup, ""), peak());
+  for (const std::string& none : {std::string("state"), std::string("clearance_mm"), std::string("linkage.bodies.rod.mass_kg"), peak()}) {
+    try {
+      (void)jobs::choose_metric(described, none);
+      ADD_FAILURE() << none;
+    } catch (const jobs::InvalidRequest& invalid) {
+      EXPECT_EQ(invalid.faults().at(0).pointer, "/metric");
+      EXPECT_NE(invalid.faults().at(0).detail.find("this sweep has peak_pin_force_n, steps"), std::string::npos);
+    }
+  }
 }
 
 }  // namespace

@@ -383,6 +383,46 @@ TEST(Store, KnowsWhetherASweepHasEnded) {
   EXPECT_EQ(store.has_sweep_ended(sweep), true);
 }
 
+TEST(Store, TellsWhichResultsAreNew) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string sweep = add_sweep(store, kThreeJobs);
+  EXPECT_TRUE(store.find_ended(sweep, 0).empty());
+  store.record(store.claim().value(), success(1.0));
+  const auto first = store.find_ended(sweep, 0);
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(first[0].swept, "[5.0]");
+  EXPECT_EQ(first[0].metrics, R"({"peak":1.0})");
+  store.record(store.claim().value(), failure());
+  const auto second = store.find_ended(sweep, first[0].change);
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(second[0].state, "failed");
+  EXPECT_TRUE(store.find_ended(sweep, second[0].change).empty());
+  // The whole table says the same of each job.
+  const auto rows = store.find_results(sweep, false).value().rows;
+  EXPECT_EQ(rows[1].change, second[0].change);
+  EXPECT_EQ(rows[2].change, 0);
+}
+
+// More cases than calls may stand inside one another, with numbers that only all their digits tell apart.
+TEST(Store, AddsCasesToARequestAsTheyAreWritten) {
+  constexpr int kCases = 250;
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const char* const request = R"({"name":"é","cases":[{"clearance_mm":0.1}]})";
+  const std::string sweep = add_sweep(store, request);
+  auto expected = nlohmann::ordered_json::parse(request);
+  auto cases = nlohmann::ordered_json::array();
+  for (int k = 1; k <= kCases; ++k) cases.push_back({{"clearance_mm", 0.1 + k / 3000.0}});
+  auto added = expected;
+  added["cases"] = cases;
+  EXPECT_TRUE(store.add_cases(sweep, cases, jobs::plan_sweep(added, 10'000).jobs));
+  for (const auto& one : cases) expected["cases"].push_back(one);
+  EXPECT_EQ(store.find_sweep(sweep)->request, expected.dump());
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 1 + kCases);
+  EXPECT_FALSE(store.add_cases("swp_none", cases, {}));
+}
+
 TEST(SweepState, FollowsFromItsJobs) {
   // queued, running, succeeded, failed, cancelled
   EXPECT_EQ(jobs::sweep_state({3, 0, 0, 0, 0}), "queued");

@@ -2,6 +2,7 @@
 
 #include "jobs/wear/wear_course.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -147,6 +148,26 @@ TEST(WearCourse, WaitsForWhatIsUnderWayAndEndsWhereItCannotGoOn) {
   const auto slow = jobs::follow_wear(rule, even(0.0), [](const WearGrid&) { return done(even(0.1)); });
   EXPECT_EQ(slow.verdict, WearVerdict::kCycleLimit);
   EXPECT_EQ(slow.cycles.size(), 3U);
+}
+
+// As a study does: each time one more bore has been computed. Each is asked for when it is new and when it has been computed, and no more.
+TEST(WearCourse, GoesOnWhereItWas) {
+  const jobs::WearRule rule{.depth_step_um = 0.8, .hours = {}, .deepest_um = 10.0};
+  std::vector<WearGrid> computed;
+  int asked = 0;
+  jobs::WearFollower follower(rule, even(0.0));
+  const auto find = [&](const WearGrid& depth) -> std::optional<WearEvaluation> {
+    ++asked;
+    return std::ranges::find(computed, depth) == computed.end() ? std::nullopt : std::optional(press(depth));
+  };
+  for (follower.go_on(find); follower.course().next; follower.go_on(find)) computed.push_back(*follower.course().next);
+  const auto at_once = jobs::follow_wear(rule, even(0.0), press);
+  EXPECT_EQ(follower.course().verdict, WearVerdict::kClearanceReached);
+  ASSERT_EQ(follower.course().cycles.size(), at_once.cycles.size());
+  EXPECT_EQ(follower.course().cycles.back().depth_um, at_once.cycles.back().depth_um);
+  EXPECT_EQ(follower.course().cycles.back().hours, at_once.cycles.back().hours);
+  EXPECT_GT(computed.size(), 10U);
+  EXPECT_EQ(static_cast<std::size_t>(asked), 2 * computed.size());
 }
 
 }  // namespace

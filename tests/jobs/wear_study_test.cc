@@ -160,6 +160,19 @@ TEST(WearStudy, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.find_study(Study::kWear, id));
 }
 
+TEST(WearStudy, IsStoredOnceUnderOneKey) {
+  const TemporaryStore store;
+  SlidingEngine engine;
+  jobs::Service service(options_for(store, engine));
+  (void)wait_for_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
+  // The first job's result is known at once; the kept answer is of a study that begins all the same.
+  const json first = service.submit_study(Study::kWear, kRequest, "key");
+  EXPECT_EQ(first.at("verdict"), "open");
+  EXPECT_EQ(wait_for_end(service, first.at("id")).at("verdict"), "hours_reached");
+  EXPECT_EQ(service.submit_study(Study::kWear, kRequest, "key"), first);
+  EXPECT_EQ(service.list_studies(Study::kWear, {}).at("items").size(), 2U);
+}
+
 TEST(WearStudy, SaysThatAJobIsInItsWay) {
   const TemporaryStore store;
   SlidingEngine engine;

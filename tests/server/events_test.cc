@@ -1,4 +1,4 @@
-#include "server/sweep_events.h"
+#include "server/events.h"
 
 #include <chrono>
 #include <list>
@@ -40,10 +40,14 @@ std::vector<std::string> lines_of(const std::string& text, const std::string& na
   return values;
 }
 
-server::Response follow(Bench& bench, const std::string& id, const std::string& last_event_id = "") {
-  server::Request request{.method = "GET", .path = "/v1/sweeps/" + id + "/events", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+server::Response follow_path(Bench& bench, const std::string& path, const std::string& last_event_id) {
+  server::Request request{.method = "GET", .path = path + "/events", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.last_event_id = last_event_id;
   return bench.call(request);
+}
+
+server::Response follow(Bench& bench, const std::string& id, const std::string& last_event_id = "") {
+  return follow_path(bench, "/v1/sweeps/" + id, last_event_id);
 }
 
 TEST(SweepEvents, TellOfEveryJobThenOfTheEnd) {
@@ -94,6 +98,71 @@ TEST(SweepEvents, RefuseWhatTheyDoNotKnow) {
   for (const char* place : {"x", "-1", "1x", "-done", "99999999999999999999"}) EXPECT_EQ(follow(bench, id, place).status, 400) << place;
   EXPECT_EQ(follow(bench, "swp_none").status, 404);
 }
+
+struct StudyCase {
+  const char* path;
+  const char* request;
+};
+
+class StudyEvents : public testing::TestWithParam<StudyCase> {
+ protected:
+  /// Submits the study, and gives its path.
+  static std::string submit(Bench& bench, const std::string& prefer = "") {
+    server::Request request{.method = "POST", .path = GetParam().path, .query = {}, .accept = {}, .body = GetParam().request, .id = "test-1"};
+    request.prefer = prefer;
+    const auto created = bench.call(request);
+    EXPECT_EQ(created.status, 201) << created.body;
+    if (!prefer.empty()) {
+      EXPECT_EQ(json::parse(created.body).at("state"), "succeeded") << "it was waited for";
+      EXPECT_EQ(server_tests::header(created, "Preference-Applied"), prefer);
+    }
+    return server_tests::header(created, "Location");
+  }
+};
+
+TEST_P(StudyEvents, TellOfEveryJobThenOfTheEndAndAreResumed) {
+  Bench bench;
+  const std::string path = submit(bench, "wait=20");
+  const json study = json::parse(bench.call("GET", path).body);
+  EXPECT_EQ(study.at("links").at("events"), path + "/events");
+  const auto jobs = study.at("counts").at("succeeded").get<std::size_t>();
+  const std::string all = follow_path(bench, path, "").events->next();
+  const auto events = lines_of(all, "event");
+  ASSERT_EQ(events.size(), jobs + 2);
+  EXPECT_EQ(events[jobs], "progress");
+  EXPECT_EQ(events.back(), "done");
+  const json last = json::parse(lines_of(all, "data").back());
+  EXPECT_EQ(last, (json{{"id", study.at("id")}, {"sweep_id", study.at("sweep_id")}, {"state", "succeeded"}, {"counts", study.at("counts")}, {"progress", 1.0}}));
+  const auto ids = lines_of(all, "id");
+  EXPECT_LT(lines_of(follow_path(bench, path, ids[0]).events->next(), "event").size(), events.size());
+  EXPECT_EQ(follow_path(bench, path, ids.back()).status, 204);
+  EXPECT_EQ(follow_path(bench, path, "x").status, 400);
+  EXPECT_EQ(follow_path(bench, path + "x", "").status, 404);
+}
+
+TEST_P(StudyEvents, EndOnlyWithTheStudy) {
+  Bench bench(endless_run);
+  const std::string path = submit(bench);
+  const auto response = follow_path(bench, path, "");
+  const std::string first = response.events->next();
+  EXPECT_EQ(lines_of(first, "event"), (std::vector<std::string>{"progress"}));
+  EXPECT_EQ(json::parse(lines_of(first, "data").back()).at("state"), "running");
+  EXPECT_FALSE(response.events->has_ended());
+  bench.call("POST", path + "/cancel");
+  std::string rest;
+  for (int tries = 0; tries < 1000 && !response.events->has_ended(); ++tries) {
+    rest += response.events->next();
+    std::this_thread::sleep_for(5ms);
+  }
+  EXPECT_EQ(lines_of(rest, "event").back(), "done");
+  EXPECT_EQ(json::parse(lines_of(rest, "data").back()).at("state"), "cancelled");
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, StudyEvents,
+    testing::Values(StudyCase{"/v1/searches", R"({"over": {"clearance_mm": {"from": 0.1, "to": 0.9, "tolerance": 0.02}},
+                                                  "metric": "peak_slider_acceleration_m_s2", "bound": 0.53})"},
+                    StudyCase{"/v1/wear-studies", R"({"parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})"}),
+    [](const auto& study) { return std::string(study.index == 0 ? "Search" : "WearStudy"); });
 
 class EventsOverHttp : public testing::Test {
  protected:

@@ -52,6 +52,12 @@ TEST(Searches, FindLimitsAndHandThemOutAsRows) {
       "coupler,parameter,metric,bound,quantile,verdict,limit,limit_beyond,band_from,band_to,evaluations,monotonic");
   EXPECT_EQ(bench.call("GET", path + "/results", "", {{"format", "ndjson"}}).content_type, "application/x-ndjson");
   EXPECT_EQ(bench.call("GET", path + "/results", "", {{"format", "npz"}}).status, 422);
+  const auto chosen = bench.call("GET", path + "/results", "", {{"fields", "coupler,limit"}, {"order_by", "-coupler"}, {"verdict", "found"}, {"limit_gt", "0"}});
+  const json expected = json::array({{{"coupler", "rigid"}, {"limit", rows.at(0).at("limit")}}, {{"coupler", "flexible"}, {"limit", rows.at(1).at("limit")}}});
+  EXPECT_EQ(json::parse(chosen.body), expected);
+  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "false"}}).body), json::array());
+  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "true"}, {"limit", "1"}}).body).size(), 1U);
+  EXPECT_EQ(bench.call("GET", path + "/results", "", {{"limits", "1"}, {"fields", "state"}, {"monotonic_gt", "1"}}).status, 422);
   EXPECT_FALSE(header(bench.call("GET", path), "ETag").empty());
   EXPECT_EQ(json::parse(bench.call("GET", "/v1/searches").body).at("items").at(0).at("id"), search.at("id"));
   // The evaluations are a sweep, which goes with the search.

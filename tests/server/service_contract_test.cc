@@ -117,11 +117,15 @@ TEST(Prefer, LeavesThreadsToOthers) {
   server::WaitingRoom room;
   server::Request request{};
   request.prefer = "wait=60";
+  const auto wait = [&] {
+    server::Response response{};
+    return room.wait(request, response, [&](std::chrono::seconds time) { bench.service().wait_for_sweep(id, time); });
+  };
   std::vector<std::jthread> waiting;
-  for (int k = 0; k < 8; ++k) waiting.emplace_back([&] { EXPECT_TRUE(room.wait(bench.service(), id, request)); });
+  for (int k = 0; k < 8; ++k) waiting.emplace_back([&] { EXPECT_TRUE(wait()); });
   std::this_thread::sleep_for(200ms);
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_FALSE(room.wait(bench.service(), id, request));
+  EXPECT_FALSE(wait());
   EXPECT_LT(std::chrono::steady_clock::now() - start, 5s);
   bench.service().stop();  // ends all waiting
 }

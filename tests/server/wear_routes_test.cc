@@ -50,6 +50,9 @@ TEST(WearStudies, WearTheBoreAndHandOutItsCyclesAsRows) {
   const std::string columns = "cycle,job_id,hours,step_hours,deepest_um,deepest_position_mm,deepest_angle_rad,clearance_mm,rate_um_h,rate_change,"
                               "worn_volume_mm3,peak_slider_acceleration_m_s2,";
   EXPECT_EQ(csv.body.substr(0, columns.size()), columns);
+  const json deep = json::parse(bench.call("GET", path + "/results", "", {{"fields", "cycle,deepest_um"}, {"deepest_um_ge", "2"}, {"order_by", "-cycle"}}).body);
+  ASSERT_EQ(deep.size(), rows.size() - 2);
+  EXPECT_EQ(deep.at(0), (json{{"cycle", rows.size()}, {"deepest_um", rows.back().at("deepest_um")}}));
   EXPECT_FALSE(header(bench.call("GET", path), "ETag").empty());
   EXPECT_EQ(json::parse(bench.call("GET", "/v1/wear-studies").body).at("items").at(0).at("id"), study.at("id"));
   // Its jobs are those of a sweep, which shows each bore by its largest depth, and goes with the study.

@@ -187,25 +187,62 @@ test("a sweep is cancelled and retried in the list", async () => {
   await leave(page);
 });
 
-test("a search is begun, draws its limits and is deleted", async () => {
+test("a search is begun in its form, draws its limits and is deleted", async () => {
   const page = await visit("#/searches");
   await page.getByText("No search has been begun yet").waitFor();
-  const area = page.getByLabel(/^Request, as JSON/);
-  const request = { name: "how far", parameters: short, over: { clearance_mm: { from: 0.05, to: 0.5, tolerance: 0.1, first: 3 } }, metric: "max_penetration_um", bound: 4,
-    sweep: { crank_velocity_rad_s: [8, 10] }, replicates: { count: 2 } };
-  await area.fill(JSON.stringify({ ...request, bound: "low" }));
-  await page.getByRole("button", { name: "Begin" }).click();
-  await page.getByRole("alert").getByText("/bound: must be a number").waitFor();
+  await page.getByRole("link", { name: "New search" }).click();
+  await page.getByText("3 limits to find").waitFor();
+  await picture(page, "search_form", { fullPage: true });
   await expectAccessible(page);
-  await area.fill(JSON.stringify(request));
-  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByRole("link", { name: "Start empty" }).click();
+  await page.getByText("1 limit to find").waitFor();
+  const shown = async () => JSON.parse(await page.locator("aside pre").first().textContent());
+  assert.deepEqual(await shown(), { over: { clearance_mm: {} }, metric: "peak_slider_acceleration_m_s2" });
+  // By the keyboard alone, as far as that goes.
+  await page.getByLabel("Name", { exact: true }).focus();
+  await page.keyboard.type("how far");
+  for (const [label, text] of [["From", "0.05"], ["To", "0.5"], ["Tolerance", "0.1"], ["Values at first", "3"], ["Bound", "low"]]) {
+    await page.getByLabel(label, { exact: true }).focus();
+    await page.keyboard.type(text);
+  }
+  await page.getByLabel("Metric", { exact: true }).selectOption("max_penetration_um");
+  const bound = page.locator(".field", { has: page.getByLabel("Bound", { exact: true }) });
+  await bound.getByText("must be a number", { exact: true }).waitFor();
+  assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
+  await page.getByLabel("Bound", { exact: true }).fill("4");
+  await page.getByLabel("Quantile", { exact: true }).fill("2");
+  for (const [key, value] of Object.entries(short)) await page.locator(`[data-path="${key}"] input[type="text"]`).fill(String(value));
+  await page.getByLabel("Crank velocity: how it is given").selectOption("list");
+  await page.getByLabel("Crank velocity", { exact: true }).fill("8, 10");
+  await page.getByText("Replicates and order").click();
+  await page.getByLabel("Runs of each set").fill("2");
+  await page.getByText("2 limits to find").waitFor();
+  await page.getByRole("button", { name: "Submit" }).focus();
+  await page.keyboard.press("Enter");
+  // What only the service refuses stands at its field, and in the list of faults.
+  await page.getByRole("alert").getByText("/quantile: must be").waitFor();
+  const quantile = page.getByLabel("Quantile", { exact: true });
+  assert.equal(await quantile.getAttribute("aria-invalid"), "true");
+  await picture(page, "search_form_refused", { fullPage: true });
+  await expectAccessible(page);
+  await quantile.fill("0.9");
+  const curl = await page.locator("aside pre").last().textContent();
+  assert.match(curl, /^curl -d '\{"name":"how far".*' http.*\/v1\/searches$/);
+  await page.getByRole("button", { name: "Submit" }).click();
   await page.getByText(/^succeeded: 100 %/).waitFor();
   await page.locator(".chart canvas").nth(1).waitFor();
   const search = await ask(`/v1/searches/${page.url().split("/").at(-1)}`);
+  const request = { name: "how far", parameters: short, over: { clearance_mm: { from: 0.05, to: 0.5, tolerance: 0.1, first: 3 } }, metric: "max_penetration_um", bound: 4, quantile: 0.9,
+    sweep: { crank_velocity_rad_s: [8, 10] }, replicates: { count: 2, perturbation: 1e-6, seed: 1 } };
+  assert.deepEqual(search.request, request);
   assert.equal(await page.getByRole("region", { name: "Limits" }).getByRole("row").count(), 1 + search.limits.length);
   await page.getByRole("combobox", { name: "At" }).selectOption("1");
   await expectAccessible(page);
   await picture(page, "limits", { fullPage: true });
+  const form = await visit(`#/searches/new?from=${search.id}`);
+  await form.getByText("2 limits to find").waitFor();
+  assert.deepEqual(JSON.parse(await form.locator("aside pre").first().textContent()), request);
+  await leave(form);
   await page.getByRole("button", { name: "Delete" }).click();
   await page.getByRole("button", { name: "Delete", exact: true }).last().click();
   await page.getByText("No search has been begun yet").waitFor();
@@ -213,20 +250,33 @@ test("a search is begun, draws its limits and is deleted", async () => {
   await leave(page, /422/);
 });
 
-test("a wear study is begun, draws the bore and is deleted", async () => {
+test("a wear study is begun in its form, draws the bore and is deleted", async () => {
   const page = await visit("#/wear");
   await page.getByText("No wear study has been begun yet").waitFor();
-  const area = page.getByLabel(/^Request, as JSON/);
-  const request = { name: "worn", parameters: short, worn_clearance_mm: 0.254, max_depth_step_um: 2 };
-  await area.fill(JSON.stringify({ ...request, sectors: 3 }));
-  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByRole("link", { name: "New wear study" }).click();
+  await page.getByText("Until 0.26 mm").waitFor();
+  await picture(page, "wear_form", { fullPage: true });
+  await page.getByRole("link", { name: "Start empty" }).click();
+  await page.getByText("It has no end yet").waitFor();
+  await page.getByLabel("Name", { exact: true }).fill("worn");
+  await page.getByLabel("Worn clearance [mm]", { exact: true }).fill("0.254");
+  await page.getByLabel("Max depth step [µm]", { exact: true }).fill("2");
+  await page.getByLabel("Sectors", { exact: true }).fill("3");
+  for (const [key, value] of Object.entries(short)) await page.locator(`[data-path="${key}"] input[type="text"]`).fill(String(value));
+  await page.getByLabel("Restitution: how it is given").selectOption("list");
+  await page.getByLabel("Restitution", { exact: true }).fill("0.8, 0.9");
+  await page.locator("[data-path='restitution']").getByText("has one value in a wear study").waitFor();
+  await page.getByLabel("Restitution", { exact: true }).fill("");
+  await page.getByRole("button", { name: "Submit" }).click();
   await page.getByRole("alert").getByText("/sectors: must be an integer").waitFor();
+  assert.equal(await page.getByLabel("Sectors", { exact: true }).getAttribute("aria-invalid"), "true");
   await expectAccessible(page);
-  await area.fill(JSON.stringify(request));
-  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByLabel("Sectors", { exact: true }).fill("");
+  await page.getByRole("button", { name: "Submit" }).click();
   await page.getByText(/^succeeded: 100 %/).waitFor();
   await page.locator(".chart canvas").nth(1).waitFor();
   const study = await ask(`/v1/wear-studies/${page.url().split("/").at(-1)}`);
+  assert.deepEqual(study.request, { name: "worn", parameters: short, worn_clearance_mm: 0.254, max_depth_step_um: 2 });
   assert.equal(await page.getByRole("region", { name: "Cycles" }).getByRole("row").count(), 1 + study.cycles.length);
   await page.getByRole("combobox", { name: "Ring" }).selectOption("1");
   await expectAccessible(page);

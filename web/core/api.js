@@ -34,8 +34,6 @@ function problemOf(text) {
 }
 
 const sweepPath = (id) => `/v1/sweeps/${encodeURIComponent(id)}`;
-const searchPath = (id) => `/v1/searches/${encodeURIComponent(id)}`;
-const wearStudyPath = (id) => `/v1/wear-studies/${encodeURIComponent(id)}`;
 const jobPath = (id) => `/v1/jobs/${encodeURIComponent(id)}`;
 const withQuery = (path, query) => {
   const set = Object.entries(query).filter(([, value]) => value !== undefined && value !== "");
@@ -50,24 +48,29 @@ export const submitSweep = (request) => ask("/v1/sweeps", { method: "POST", body
 export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
 export const retrySweep = (id) => ask(`${sweepPath(id)}/retry`, { method: "POST" });
 export const deleteSweep = (id) => ask(sweepPath(id), { method: "DELETE" });
-export const listSearches = (query, signal) => ask(withQuery("/v1/searches", query), { signal });
-export const findSearch = (id, signal) => ask(searchPath(id), { signal });
-export const submitSearch = (request) => ask("/v1/searches", { method: "POST", body: request });
-export const cancelSearch = (id) => ask(`${searchPath(id)}/cancel`, { method: "POST" });
-export const retrySearch = (id) => ask(`${searchPath(id)}/retry`, { method: "POST" });
-export const deleteSearch = (id) => ask(searchPath(id), { method: "DELETE" });
-export const limitsUrl = (id, query = {}) => withQuery(`${searchPath(id)}/results`, query);
-export const listWearStudies = (query, signal) => ask(withQuery("/v1/wear-studies", query), { signal });
-export const findWearStudy = (id, signal) => ask(wearStudyPath(id), { signal });
-export const submitWearStudy = (request) => ask("/v1/wear-studies", { method: "POST", body: request });
-export const cancelWearStudy = (id) => ask(`${wearStudyPath(id)}/cancel`, { method: "POST" });
-export const retryWearStudy = (id) => ask(`${wearStudyPath(id)}/retry`, { method: "POST" });
-export const deleteWearStudy = (id) => ask(wearStudyPath(id), { method: "DELETE" });
-export const wearCyclesUrl = (id, query = {}) => withQuery(`${wearStudyPath(id)}/results`, query);
 export const findResults = (id, query, signal) => ask(resultsUrl(id, query), { signal });
 export const findJob = (id, signal) => ask(jobPath(id), { signal });
 export const submitJob = (parameters) => ask("/v1/jobs", { method: "POST", body: parameters });
 export const cancelJob = (id) => ask(`${jobPath(id)}/cancel`, { method: "POST" });
+/// What the service does with studies of one kind.
+function studies(path) {
+  const of = (id) => `${path}/${encodeURIComponent(id)}`;
+  return {
+    path,
+    list: (query, signal) => ask(withQuery(path, query), { signal }),
+    find: (id, signal) => ask(of(id), { signal }),
+    submit: (request) => ask(path, { method: "POST", body: request }),
+    cancel: (id) => ask(`${of(id)}/cancel`, { method: "POST" }),
+    retry: (id) => ask(`${of(id)}/retry`, { method: "POST" }),
+    remove: (id) => ask(of(id), { method: "DELETE" }),
+    resultsUrl: (id, query = {}) => withQuery(`${of(id)}/results`, query),
+    eventsUrl: (id) => `${of(id)}/events`,
+  };
+}
+
+export const searches = studies("/v1/searches");
+export const wearStudies = studies("/v1/wear-studies");
+
 export const eventsUrl = (id) => `${sweepPath(id)}/events`;
 
 /// What is worked out of a sweep: sensitivity, surrogate, flexibility, bifurcation, lyapunov.
@@ -92,12 +95,15 @@ export async function findTrajectory(id, { channels, ...query }, signal) {
   return answer.columns;
 }
 
-let schema = null;
-
-/// The JSON Schema of the parameters, asked for once.
 /// One of the linkages that the program brings along, as a set of parameters.
 export const exampleLinkage = (name, signal) => ask(`/linkages/${name}.json`, { signal });
 
+/// The JSON Schemas of all requests, by their names in the interface's description.
+export const requestSchemas = (signal) => ask("/v1/openapi.json", { signal }).then(({ components }) => components.schemas);
+
+let schema = null;
+
+/// The JSON Schema of the parameters, asked for once.
 export function parameterSchema() {
   schema ??= ask("/v1/parameters").catch((error) => {
     schema = null;

@@ -1,4 +1,4 @@
-// Follows sweeps as they run: by server-sent events, and by asking again where those are not to be had.
+// Follows sweeps and studies as they run: by server-sent events, and by asking again where those are not to be had.
 import { eventsUrl, findSweep } from "/core/api.js";
 
 const pollMs = 2000;
@@ -10,7 +10,16 @@ export const isUnderWay = (sweep) => sweep.counts.queued + sweep.counts.running 
 /// @param told.job       gets a job that has ended
 /// @param told.done      the sweep has ended
 export function follow(id, told, signal) {
-  const events = new EventSource(eventsUrl(id));
+  followEvents({ events: eventsUrl(id), find: () => findSweep(id, signal), isUnderWay }, told, signal);
+}
+
+/// The same of a study. @param api  of its kind
+export function followStudy(api, id, told, signal) {
+  followEvents({ events: api.eventsUrl(id), find: () => api.find(id, signal), isUnderWay: ({ state }) => state === "running" }, told, signal);
+}
+
+function followEvents(source, told, signal) {
+  const events = new EventSource(source.events);
   const stop = () => events.close();
   signal.addEventListener("abort", stop, { once: true });
   events.addEventListener("progress", (event) => told.progress?.(JSON.parse(event.data)));
@@ -21,16 +30,16 @@ export function follow(id, told, signal) {
   });
   events.addEventListener("error", () => {
     // A connection that broke is taken up again by the browser; one that was refused is not.
-    if (events.readyState === EventSource.CLOSED && !signal.aborted) poll(id, told, signal);
+    if (events.readyState === EventSource.CLOSED && !signal.aborted) poll(source, told, signal);
   });
 }
 
-async function poll(id, told, signal) {
+async function poll(source, told, signal) {
   while (!signal.aborted) {
     try {
-      const sweep = await findSweep(id, signal);
-      told.progress?.(sweep);
-      if (!isUnderWay(sweep)) return told.done?.();
+      const now = await source.find();
+      told.progress?.(now);
+      if (!source.isUnderWay(now)) return told.done?.();
     } catch (error) {
       if (error.name === "AbortError" || error.status === 404) return undefined;
     }

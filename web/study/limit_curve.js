@@ -4,7 +4,7 @@ import { nameOf, number, pointOf, titleOf } from "/core/format.js";
 import { lineColour } from "/core/theme.js";
 
 export function limitCurve(element, view, signal) {
-  return makeChart(element, () => optionOf(view.search), "The limit over an axis, with its band; the table below has the same numbers", signal);
+  return makeChart(element, () => optionOf(view.study), "The limit over an axis, with its band; the table below has the same numbers", signal);
 }
 
 function optionOf(search) {

@@ -4,7 +4,7 @@ import { nameOf, number, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 
 export function limitPoints(element, view, signal) {
-  return makeChart(element, () => optionOf(view.search, view.search.limits[view.shown]), "The metric at each value that was tried, with its bound", signal);
+  return makeChart(element, () => optionOf(view.study, view.study.limits[view.shown]), "The metric at each value that was tried, with its bound", signal);
 }
 
 function optionOf(search, limit) {

@@ -1,4 +1,4 @@
-#include "server/sweep_events.h"
+#include "server/events.h"
 
 #include <charconv>
 #include <cstdint>
@@ -30,7 +30,7 @@ Place read_place(std::string_view last_event_id) {
   if (place.done) last_event_id.remove_suffix(kDoneSuffix.size());
   const char* const end = last_event_id.data() + last_event_id.size();
   const auto [stop, error] = std::from_chars(last_event_id.data(), end, place.change);
-  if (error != std::errc{} || stop != end || place.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this sweep");
+  if (error != std::errc{} || stop != end || place.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this one");
   return place;
 }
 
@@ -38,15 +38,15 @@ std::string event_text(const char* name, const nlohmann::json& data, const std::
   return (id.empty() ? "" : "id: " + id + "\n") + "event: " + name + "\ndata: " + to_text(data) + "\n\n";
 }
 
-class SweepEvents final : public EventSource {
+class Events final : public EventSource {
  public:
-  SweepEvents(const jobs::Service& service, std::string id, std::int64_t after) : service_(service), id_(std::move(id)), after_(after) {}
+  Events(const jobs::Service& service, FindNews find_news, std::int64_t after) : service_(service), find_news_(std::move(find_news)), after_(after) {}
 
   std::string next() override {
     const std::uint64_t activity = service_.activity();
     if (seen_ && *seen_ == activity) return "";
     seen_ = activity;
-    const auto news = service_.find_news(id_, after_);
+    const auto news = find_news_(after_);
     if (!news) {  // it has been deleted
       ended_ = true;
       return "";
@@ -68,7 +68,7 @@ class SweepEvents final : public EventSource {
 
  private:
   const jobs::Service& service_;
-  const std::string id_;
+  const FindNews find_news_;
   std::int64_t after_;
   std::optional<std::uint64_t> seen_;  ///< the service's activity at the last look
   nlohmann::json progress_;            ///< as it was last told
@@ -77,14 +77,14 @@ class SweepEvents final : public EventSource {
 
 }  // namespace
 
-Response get_events(const Call& call) {
+Response answer_events(const Call& call, FindNews find_news, const HttpError& missing) {
   Query(call.request, {}).check();
   const Place place = read_place(call.request.last_event_id);
-  const auto news = call.service.find_news(call.id, place.change);
-  if (!news) throw HttpError(404, "there is no sweep " + call.id);
+  const auto news = find_news(place.change);
+  if (!news) throw missing;
   if (place.done && news->ended && news->jobs.empty()) return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
   Response response{.status = 200, .content_type = "text/event-stream", .body = {}, .headers = {{"Cache-Control", "no-store"}}};
-  response.events = std::make_shared<SweepEvents>(call.service, call.id, place.change);
+  response.events = std::make_shared<Events>(call.service, std::move(find_news), place.change);
   return response;
 }
 

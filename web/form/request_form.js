@@ -1,0 +1,144 @@
+// What the forms of sweeps, searches and wear studies have in common: the parameters' fields, the request that they make, and the service's refusals.
+import { Refusal } from "/core/api.js";
+import { choice, freshId, h, notify } from "/core/dom.js";
+import { routeTo } from "/core/route.js";
+import { fieldRow } from "/form/field.js";
+import { pathOfPointer } from "/form/fields.js";
+import { emptyEntry } from "/form/request.js";
+
+// What most studies are about; the others are one click away.
+const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", "run_up_s", "restitution", "integrator"];
+
+/// Its kinds say what is asked (path, ask, route), make the request (build) and the text above it (drawCount).
+export class RequestForm {
+  /// @param fields  of the parameters
+  /// @param state   what stands in the form: {name, priority, reuse, linkage, replicates, entries: {path: entry}, ...}
+  constructor(fields, state) {
+    Object.assign(this, { fields, state, rows: new Map() });
+  }
+
+  /// The fields that are shown first, and all others behind a heading.
+  parameterFields() {
+    const isFirst = (field) => first.includes(field.path);
+    const inOrder = first.map((path) => this.fields.find((field) => field.path === path)).filter(Boolean);
+    const filter = h("input", { type: "search", oninput: () => this.filter(filter.value) });
+    const open = this.fields.some((field) => !isFirst(field) && this.state.entries[field.path]);
+    this.rest = h("div", {}, this.fields.filter((field) => !isFirst(field)).map((field) => this.row(field)));
+    return [inOrder.map((field) => this.row(field)),
+      h("details", { open }, h("summary", {}, "All other parameters"), h("label", { class: "choice" }, h("span", {}, "Filter"), filter), this.rest)];
+  }
+
+  /// The form beside its summary.
+  columns(...parts) {
+    return h("div", { class: "columns" },
+      h("form", { class: "card", novalidate: true, onsubmit: (event) => { event.preventDefault(); this.submit(); } }, ...parts),
+      h("aside", { class: "card sticky", "aria-label": "Summary" }, ...this.summary()));
+  }
+
+  row(field) {
+    this.state.entries[field.path] ??= emptyEntry();
+    const row = fieldRow(field, this.state.entries[field.path], () => this.update());
+    this.rows.set(field.path, row);
+    return row.element;
+  }
+
+  text(label, object, key, attributes = {}) {
+    const input = h("input", { type: "text", value: object[key], ...attributes, oninput: () => { object[key] = input.value; this.update(); } });
+    return h("label", { class: "choice" }, h("span", {}, label), input);
+  }
+
+  /// A value with help below it, and a place for what is wrong. @param name  by which its faults are told  @param options  to choose among; null: any text
+  told(name, label, object, key, help, options = null) {
+    const id = freshId("told");
+    const listen = { oninput: () => { object[key] = input.value; this.update(); } };
+    const attributes = { id, "aria-describedby": `${id}-help ${id}-fault`, ...listen };
+    const input = options ? h("select", attributes, options.map(([value, text]) => h("option", { value }, text))) : h("input", { type: "text", ...attributes });
+    input.value = object[key];
+    const fault = h("p", { class: "trouble small", id: `${id}-fault`, hidden: true });
+    this.rows.set(name, { complain: (text) => {
+      fault.textContent = text;
+      fault.hidden = text === "";
+      input.setAttribute("aria-invalid", text === "" ? "false" : "true");
+    } });
+    return h("div", { class: "field" }, h("label", { for: id }, label), h("span"), h("div", { class: "values" }, input), h("p", { class: "quiet small", id: `${id}-help` }, help), fault);
+  }
+
+  linkage() {
+    return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Another linkage than RPSUP"),
+      h("p", { class: "quiet small" }, "A described linkage has its own bodies, joints and drives; the parameters of the coupler, the crank, the rod and the guide above belong to RPSUP alone."),
+      ...this.json("linkage", "Linkage: its bodies and joints, as a JSON object"),
+      ...this.json("inside", "Axes over numbers inside it, as a JSON object of lists and ranges"));
+  }
+
+  /// A part of the request that is written as JSON.
+  json(key, label) {
+    const fault = h("p", { class: "trouble small", hidden: true });
+    const area = h("textarea", { rows: 3, class: "wide", value: this.state[key], oninput: () => { this.state[key] = area.value; this.update(); } });
+    this.rows.set(key, { complain: (text) => { fault.textContent = text; fault.hidden = text === ""; } });
+    return [h("label", { class: "choice" }, h("span", {}, label), area), fault];
+  }
+
+  replicateFields() {
+    const { replicates } = this.state;
+    return [this.text("Runs of each set", replicates, "count", { type: "number", min: 1 }), this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
+      this.text("Seed", replicates, "seed", { type: "number" })];
+  }
+
+  orderFields() {
+    return [this.text("Priority", this.state, "priority", { type: "number", min: -100, max: 100 }),
+      choice("Results computed before", [["yes", "are used"], ["no", "are computed again"]], this.state.reuse ? "yes" : "no", (value) => { this.state.reuse = value === "yes"; this.update(); })];
+  }
+
+  summary() {
+    this.count = h("p", { class: "big", role: "status" });
+    this.cost = h("p", { class: "quiet small" });
+    this.faults = h("div", { class: "trouble", role: "alert" });
+    this.send = h("button", { class: "main", onclick: () => this.submit() }, "Submit");
+    this.shown = h("code");
+    this.curl = h("code");
+    const copy = (label, code) => h("button", { onclick: () => navigator.clipboard.writeText(code.textContent).then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
+    return [this.count, this.cost, this.faults, h("p", {}, this.send),
+      h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown), h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
+      h("details", {}, h("summary", {}, "As a curl command"), h("pre", { tabindex: 0 }, this.curl))];
+  }
+
+  filter(text) {
+    const words = text.toLowerCase().split(/\s+/);
+    for (const row of this.rest.children) row.hidden = !words.every((word) => row.textContent.toLowerCase().includes(word));
+  }
+
+  update() {
+    const { request, problems } = this.build();
+    this.request = request;
+    this.problems = problems;
+    for (const row of this.rows.values()) row.complain("");
+    for (const { path, detail } of problems) this.rows.get(path).complain(detail);
+    this.drawCount(request);
+    this.send.disabled = problems.length > 0;
+    this.faults.replaceChildren();
+    this.shown.textContent = JSON.stringify(request, null, 1);
+    this.curl.textContent = `curl -d '${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}${this.path}`;
+  }
+
+  async submit() {
+    if (this.problems.length > 0) return;
+    this.send.disabled = true;
+    try {
+      location.hash = routeTo(this.route, (await this.ask(this.request)).id);
+    } catch (error) {
+      this.send.disabled = false;
+      this.refuse(error);
+    }
+  }
+
+  /// The name of the row that a pointer into the request means.
+  rowOf(pointer) {
+    return pathOfPointer(pointer, this.fields);
+  }
+
+  refuse(error) {
+    const faults = error instanceof Refusal && error.faults.length > 0 ? error.faults : [{ pointer: "", detail: error.message }];
+    for (const { pointer, detail } of faults) this.rows.get(this.rowOf(pointer))?.complain(detail);
+    this.faults.replaceChildren(h("ul", {}, faults.map(({ pointer, detail }) => h("li", {}, `${pointer ? `${pointer}: ` : ""}${detail}`))));
+  }
+}

@@ -1,0 +1,64 @@
+// A new search: which parameter, along which way, and which metric may not exceed what.
+import { searches } from "/core/api.js";
+import { h } from "/core/dom.js";
+import { nameOf, plural, titleOf, unitOf } from "/core/format.js";
+import { countJobs } from "/form/request.js";
+import { addNumber, helpOf, StudyForm } from "/form/study_form.js";
+
+export class SearchForm extends StudyForm {
+  static api = searches;
+  static route = "searches";
+  static title = "New search";
+  static schema = "SearchRequest";
+
+  constructor(fields, schemas, request) {
+    super(fields, schemas, request);
+    this.way = schemas.SearchPath.properties;
+    const [[parameter, way] = ["clearance_mm", {}]] = Object.entries(request.over ?? {});
+    const texts = Object.fromEntries(["from", "to", "tolerance", "first"].map((key) => [key, way[key] === undefined ? "" : String(way[key])]));
+    this.state.over = { parameter, scale: way.scale ?? "linear", ...texts };
+    this.state.values.metric ||= "peak_slider_acceleration_m_s2";
+  }
+
+  parts() {
+    const { over, values } = this.state;
+    const numbers = this.fields.filter(({ kind }) => kind === "number" || kind === "integer").map(({ path }) => path);
+    const metrics = this.schema.metric.enum.map((metric) => [metric, titleOf(metric)]);
+    const help = (key) => helpOf(this.way[key]);
+    return [this.text("Name", this.state, "name"),
+      h("h2", {}, "What is looked for"),
+      this.told("over.parameter", "Parameter", over, "parameter", "The one whose largest value is looked for", numbers.map((path) => [path, titleOf(path)])),
+      this.told("over.from", "From", over, "from", "Where the metric is within its bound"),
+      this.told("over.to", "To", over, "to", "Where the search ends; it may be less than where it begins"),
+      this.told("over.scale", "Spacing", over, "scale", "Whether differences are halved, or ratios", [["linear", "linear"], ["log", "logarithmic"]]),
+      this.told("over.tolerance", "Tolerance", over, "tolerance", help("tolerance")), this.told("over.first", "Values at first", over, "first", help("first")),
+      this.told("metric", "Metric", values, "metric", "What may not exceed the bound", metrics),
+      this.number("bound"), this.number("quantile"),
+      h("h2", {}, "Linkage and axes"), h("p", { class: "quiet small" }, "A limit is looked for at each value of what has a list or a range."), ...this.parameterFields(), this.linkage(),
+      h("details", { open: Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates and order"), h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()))];
+  }
+
+  build() {
+    const { request: { name, parameters, sweep, replicates, priority, reuse }, problems } = this.buildCommon();
+    const { over, values } = this.state;
+    const way = {};
+    for (const key of ["from", "to", "tolerance", "first"]) addNumber(over[key], key, `over.${key}`, way, problems);
+    if (over.scale !== "linear") way.scale = over.scale;
+    const request = { name, parameters, over: { [over.parameter]: way }, metric: values.metric };
+    this.addNumbers(["bound", "quantile"], request, problems);
+    return { request: JSON.parse(JSON.stringify({ ...request, sweep, replicates, priority, reuse })), problems };
+  }
+
+  drawCount(request) {
+    const limits = countJobs({ sweep: request.sweep });
+    const unit = unitOf(request.metric);
+    this.count.textContent = `${plural(limits, "limit")} to find`;
+    this.cost.textContent = `${plural(request.replicates?.count ?? 1, "run")} at each value that is tried; ${nameOf(request.metric).toLowerCase()}${unit ? ` in ${unit}` : ""}.`;
+  }
+
+  rowOf(pointer) {
+    const [, key, , of] = pointer.split("/");
+    if (key === "over") return of ? `over.${of}` : "over.parameter";
+    return this.schema[key] && this.rows.has(key) ? key : super.rowOf(pointer);
+  }
+}

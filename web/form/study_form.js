@@ -1,0 +1,62 @@
+// What the forms of searches and wear studies have in common: values that the service's description of the request explains.
+import { parameterSchema, requestSchemas } from "/core/api.js";
+import { h } from "/core/dom.js";
+import { nameOf, unitOf } from "/core/format.js";
+import { routeTo } from "/core/route.js";
+import { allowed, fieldsOf } from "/form/fields.js";
+import { buildRequest, readRequest } from "/form/request.js";
+import { RequestForm } from "/form/request_form.js";
+
+/// Shows the form of a kind of studies. @param example  a request that stands in it at first
+export async function showStudyForm(main, Form, example, query, signal) {
+  document.title = `RPSUP: ${Form.title.toLowerCase()}`;
+  const from = query.get("from");
+  const [parameters, schemas, request] = await Promise.all([parameterSchema(), requestSchemas(signal),
+    from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {} : example]);
+  const form = new Form(fieldsOf(parameters), schemas, request);
+  main.replaceChildren(h("h1", {}, Form.title),
+    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Take the example"), h("a", { class: "button", href: routeTo(Form.route, "new", { empty: "1" }) }, "Start empty")),
+    form.columns(...form.parts()));
+  form.update();
+}
+
+/// Its kinds have `static api`, `route`, `title`, `schema` (its request's name in the interface's description).
+export class StudyForm extends RequestForm {
+  constructor(fields, schemas, request) {
+    super(fields, { ...readRequest(fields, request), values: {} });
+    Object.assign(this, { schema: schemas[this.constructor.schema].properties, path: this.constructor.api.path, route: this.constructor.route, ask: this.constructor.api.submit });
+    for (const [key, value] of Object.entries(request)) this.state.values[key] = typeof value === "number" || typeof value === "string" ? String(value) : "";
+  }
+
+  /// A number of the request. @param unit, name  where its key does not say them
+  number(key, unit = unitOf(key), name = nameOf(key)) {
+    this.state.values[key] ??= "";
+    return this.told(key, `${name}${unit ? ` [${unit}]` : ""}`, this.state.values, key, helpOf(this.schema[key], unit));
+  }
+
+  /// The part of the request that studies have in common with sweeps.
+  buildCommon() {
+    return buildRequest(this.fields, this.state);
+  }
+
+  /// Puts the numbers that have been given into a request.
+  addNumbers(keys, request, problems) {
+    for (const key of keys) addNumber(this.state.values[key], key, key, request, problems);
+  }
+}
+
+/// Puts a number into an object, unless its text is empty. @param path  by which a fault of it is told
+export function addNumber(text, key, path, object, problems) {
+  if (!text?.trim()) return;
+  const value = Number(text);
+  if (Number.isFinite(value)) object[key] = value;
+  else problems.push({ path, detail: "must be a number" });
+}
+
+/// A number in words: what it is, what is allowed, and what it is if it is left out.
+export function helpOf(schema, unit = "") {
+  const limits = allowed({ schema, kind: schema.type, unit });
+  const fallback = schema.default === undefined ? "" : `; default ${schema.default}${unit ? ` ${unit}` : ""}`;
+  const text = schema.description ?? "";
+  return [text.charAt(0).toUpperCase() + text.slice(1), `${limits}${fallback}`].filter(Boolean).join(". ");
+}

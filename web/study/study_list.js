@@ -1,0 +1,32 @@
+// The list of studies of one kind, up to date by itself.
+import { h } from "/core/dom.js";
+import { moment } from "/core/format.js";
+import { routeTo } from "/core/route.js";
+
+const pollMs = 4000;
+
+/// @param kind  {api, route, title, question, listName, aim: {heading, textOf(study)}, none, begin}
+export async function showStudies(main, kind, signal) {
+  document.title = `RPSUP: ${kind.title.toLowerCase()}`;
+  const body = h("tbody");
+  const headings = ["Name", "State", kind.aim.heading, "Created"];
+  const status = h("p", { class: "quiet", role: "status" });
+  const table = h("div", { class: "scroll card", tabindex: 0, role: "region", "aria-label": kind.listName },
+    h("table", {}, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), body));
+  main.replaceChildren(h("h1", {}, kind.title), h("p", {}, kind.question), h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo(kind.route, "new") }, kind.begin)), status, table);
+  const row = (study) => h("tr", {}, h("td", { class: "name" }, h("a", { href: routeTo(kind.route, study.id) }, study.name || study.id)),
+    h("td", { class: study.state }, study.state), h("td", {}, kind.aim.textOf(study)), h("td", { class: "fixed" }, moment(study.created_at)));
+  const refresh = async () => {
+    try {
+      const { items } = await kind.api.list({ limit: 100 }, signal);
+      body.replaceChildren(...items.map(row));
+      table.hidden = items.length === 0;
+      status.textContent = items.length === 0 ? kind.none : "";
+    } catch (error) {
+      if (error.name !== "AbortError") status.textContent = `${error.message} Trying again …`;
+    }
+  };
+  await refresh();
+  const timer = setInterval(refresh, pollMs);
+  signal.addEventListener("abort", () => clearInterval(timer));
+}

@@ -1,0 +1,113 @@
+// What the pages of one search and of one wear study have in common: charts beside each other, a table, and actions; up to date by themselves.
+import { loadCharts, saveButtons } from "/core/charts.js";
+import { confirmed } from "/core/dialog.js";
+import { h, notify } from "/core/dom.js";
+import { followStudy, seldom } from "/core/live.js";
+import { routeTo } from "/core/route.js";
+
+const reloadMs = 1000;
+
+/// Shows a study. @param View  a StudyView of its kind
+export async function showStudy(main, View, id, signal) {
+  loadCharts().catch(() => {});  // told where a chart would be
+  const view = new View(await View.api.find(id, signal), signal);
+  main.replaceChildren(...view.parts());
+  await view.start();
+}
+
+/// Its kinds have `static api` and `static route`, and say what is drawn: charts, tableName, columns, statusText, row.
+export class StudyView {
+  constructor(study, signal) {
+    Object.assign(this, { study, signal, drawn: [] });
+  }
+
+  get name() {
+    return this.study.name || this.study.id;
+  }
+
+  /// [title, function that makes it, what stands above it], of each chart.
+  charts() { return []; }
+  /// What stands above the charts.
+  intro() { return []; }
+  /// Rows of the table, each an element.
+  rows() { return []; }
+  /// Choices that depend on the study are made here, each time it is drawn.
+  drawChoices() {}
+
+  parts() {
+    document.title = `RPSUP: ${this.name}`;
+    this.status = h("p", { role: "status" });
+    this.buttons = h("p", { class: "actions" });
+    this.body = h("tbody");
+    this.places = this.charts().map(([title, make, above], index) => ({ make, element: h("div", { class: "chart tall" }), title, above, index }));
+    const card = ({ title, element, above, index }) => h("section", { class: "card" },
+      h("div", { class: "head" }, h("h2", {}, title), saveButtons(() => this.drawn[index], () => `${this.name} ${title.toLowerCase()}`)), above, element);
+    return [
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.name), this.status), this.buttons), ...this.intro(),
+      h("div", { class: "columns even" }, this.places.map(card)),
+      h("section", { class: "card" }, h("h2", {}, this.tableName), h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": this.tableName },
+        h("table", {}, h("thead", {}, h("tr", {}, this.columns().map((text) => h("th", { scope: "col" }, text)))), this.body)))];
+  }
+
+  async start() {
+    this.draw();
+    for (const { make, element } of this.places) {
+      try {
+        this.drawn.push(await make(element, this, this.signal));
+      } catch (error) {
+        this.drawn.push(null);
+        element.replaceChildren(h("p", { class: "trouble" }, error.message));
+      }
+    }
+    this.follow();
+  }
+
+  follow() {
+    if (this.study.state !== "running") return;
+    const reload = seldom(() => this.reload(), reloadMs);
+    followStudy(this.constructor.api, this.study.id, {
+      progress: ({ state, counts, progress }) => { Object.assign(this.study, { state, counts, progress }); this.drawHead(); reload(); },
+      done: () => this.reload(),
+    }, this.signal);
+  }
+
+  async reload() {
+    try {
+      this.study = await this.constructor.api.find(this.study.id, this.signal);
+      this.draw();
+      for (const chart of this.drawn) chart?.draw();
+    } catch (error) {
+      if (error.name !== "AbortError") notify(error.message, "trouble");
+    }
+  }
+
+  draw() {
+    this.drawHead();
+    this.drawChoices();
+    this.body.replaceChildren(...this.rows());
+  }
+
+  drawHead() {
+    const { study } = this;
+    const { api } = this.constructor;
+    this.status.textContent = this.statusText();
+    const act = (text, run) => h("button", { onclick: () => run(study.id).then(() => this.reload()).then(() => this.follow()).catch((error) => notify(error.message, "trouble")) }, text);
+    this.buttons.replaceChildren(...[
+      h("a", { class: "button", href: api.resultsUrl(study.id, { format: "csv" }), download: `${this.name}.csv` }, "CSV"),
+      h("a", { class: "button", href: routeTo("sweeps", study.sweep_id) }, "Its jobs"),
+      h("a", { class: "button", href: routeTo(this.constructor.route, "new", { from: study.id }) }, "Use again"),
+      study.state === "running" ? act("Cancel", api.cancel) : null,
+      ["failed", "cancelled"].includes(study.state) ? act("Retry", api.retry) : null,
+      study.state === "running" ? null : h("button", { class: "danger", onclick: () => this.remove() }, "Delete")].filter(Boolean));
+  }
+
+  async remove() {
+    if (!(await confirmed(`Delete “${this.name}”? Its jobs go with it; results that other sweeps share stay.`, "Delete"))) return;
+    try {
+      await this.constructor.api.remove(this.study.id);
+      location.hash = routeTo(this.constructor.route);
+    } catch (error) {
+      notify(error.message, "trouble");
+    }
+  }
+}
