@@ -68,6 +68,8 @@ std::vector<Case> all_cases() {
   Linkage sprung = make_spatial_slider_crank(JointKind::kSpherical);  // from a body that turns to the ground, and to one that slides
   sprung.springs = {{.name = "to_ground", .from = kGroundName, .to = "rod", .at = {0.1, -0.2, 0.3}, .to_at = {-0.1, 0.02, 0.01}, .stiffness = 300.0,
                      .damping = 20.0, .free_length = 0.1},
+                    {.name = "back", .from = "rod", .to = "crank", .at = {-0.2, 0.05, 0.01}, .to_at = {0.03, 0.01, 0.02}, .stiffness = 150.0,
+                     .damping = 4.0, .free_length = 0.1},
                     {.name = "across", .from = "crank", .to = "slider", .at = {0.0, 0.0, 0.06}, .to_at = {0.05, 0.0, 0.0}, .stiffness = 200.0,
                      .damping = 5.0}};
   Linkage sprung_on_drive = make_screw();  // to a coordinate that moves with time alone
