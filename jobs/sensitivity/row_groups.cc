@@ -58,6 +58,17 @@ std::string choose_metric(const ResultTable& table, const std::string& wanted) {
   throw InvalidRequest(std::vector<Fault>{{"/metric", "\"" + wanted + "\": " + describe_unknown_key(wanted, metrics) + "; this sweep has " + known}});
 }
 
+std::vector<std::string> choose_metrics(const ResultTable& table, std::span<const std::string_view> wanted) {
+  const auto metrics = metrics_of(table);
+  const auto has = [&](std::string_view metric) { return std::ranges::find(metrics, metric) != metrics.end(); };
+  if (!has(wanted.front())) return {metrics.begin(), metrics.begin() + static_cast<std::ptrdiff_t>(std::min(metrics.size(), wanted.size()))};
+  std::vector<std::string> chosen;
+  for (const std::string_view metric : wanted) {
+    if (has(metric)) chosen.emplace_back(metric);
+  }
+  return chosen;
+}
+
 std::size_t find_metric(const ResultTable& table, const std::string& metric) { return find_column(table, choose_metric(table, metric), "/metric"); }
 
 std::optional<double> number_in(const nlohmann::json& cell) { return cell.is_number() ? std::optional(cell.get<double>()) : std::nullopt; }

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jobs/service.h"
@@ -25,6 +27,9 @@ struct RowGroup {
 /// A metric of the table's linkages. @param wanted  its name; empty: the peak of the slider's acceleration, or the first one if there is none
 /// @throws InvalidRequest with the pointer "/metric", and the names that there are, if there is no such metric
 [[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
+
+/// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own first ones, as many at most.
+[[nodiscard]] std::vector<std::string> choose_metrics(const ResultTable& table, std::span<const std::string_view> wanted);
 
 /// The metric's column. @throws InvalidRequest with the pointer "/metric" if there is no such metric
 [[nodiscard]] std::size_t find_metric(const ResultTable& table, const std::string& metric);

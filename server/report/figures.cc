@@ -82,9 +82,9 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
   }
   const auto groups = jobs::group_rows(results, others);
   std::vector<Chart> charts;
-  for (const std::string_view metric : kMetrics) {
-    const std::size_t column = jobs::find_column(results, std::string(metric), "");
-    Chart chart{.title = std::string(metric), .x_label = *along, .y_label = ""};
+  for (const std::string& metric : jobs::choose_metrics(results, kMetrics)) {
+    const std::size_t column = jobs::find_column(results, metric, "");
+    Chart chart{.title = metric, .x_label = *along, .y_label = ""};
     for (std::size_t g = 0; g < groups.size() && g < kColours.size(); ++g) {
       Line line;
       for (const std::size_t r : groups[g].rows) {

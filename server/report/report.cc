@@ -1,7 +1,9 @@
 #include "server/report/report.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "jobs/errors.h"
@@ -33,15 +35,18 @@ std::string make_summary(const json& sweep) {
   return make_table({"", ""}, rows);
 }
 
-/// A row for each set of parameters: the peak over its replicates, and means of other metrics.
+/// A row for each set of parameters: the peak over its replicates, and means of other metrics. Of a described linkage: its first metrics.
 std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
-  constexpr const char* kMeans[] = {"amplification", "peak_contact_force_n", "max_penetration_um", "impact_count", "peak_crank_torque_n_m"};
+  constexpr std::array<std::string_view, 5> kMeans{"amplification", "peak_contact_force_n", "max_penetration_um", "impact_count",
+                                                   "peak_crank_torque_n_m"};
   std::vector<std::string> headings = sweep.at("axes").get<std::vector<std::string>>();
   std::vector<std::size_t> swept;
   for (const std::string& path : headings) swept.push_back(jobs::find_column(results, path, ""));
-  const std::string metric(jobs::kReplicateMetric);
+  const std::string metric = jobs::choose_metric(results, "");
+  std::vector<std::string> means = jobs::choose_metrics(results, kMeans);
+  std::erase(means, metric);
   headings.insert(headings.end(), {"runs", metric + ", mean", "spread", "least", "largest"});
-  for (const char* const mean : kMeans) headings.push_back(std::string(mean) + ", mean");
+  for (const std::string& mean : means) headings.push_back(mean + ", mean");
   const auto groups = jobs::group_rows(results, swept);
   const auto statistics_of = [&](const jobs::RowGroup& group, const std::string& column) {
     std::vector<double> values;
@@ -56,7 +61,7 @@ std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
     std::vector<json> cells = groups[g].values;
     const auto peak = statistics_of(groups[g], metric);
     cells.insert(cells.end(), {peak.count, value_or_null(peak.mean), value_or_null(peak.spread), value_or_null(peak.min), value_or_null(peak.max)});
-    for (const char* const mean : kMeans) cells.push_back(value_or_null(statistics_of(groups[g], mean).mean));
+    for (const std::string& mean : means) cells.push_back(value_or_null(statistics_of(groups[g], mean).mean));
     rows.push_back(std::move(cells));
   }
   const std::string more = groups.size() > kMostSets ? "<p class=\"quiet\">The first " + std::to_string(kMostSets) + " of " +
@@ -65,7 +70,7 @@ std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
 }
 
 std::string make_analyses(const json& sweep, const jobs::ResultTable& results) {
-  const std::string metric(jobs::kReplicateMetric);
+  const std::string metric = jobs::choose_metric(results, "");
   std::string html;
   const auto add = [&](const std::string& title, const auto& calc) {
     try {

@@ -143,6 +143,17 @@ TEST(Report, StandsByItself) {
   EXPECT_NE(page.find(hash), std::string::npos);
 }
 
+TEST(Report, ShowsTheMetricsOfADescribedLinkage) {
+  Bench bench;
+  const std::string id = bench.run(R"({"parameters": {"linkage": {"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}},
+    "joints": {"pivot": {"kind": "revolute", "axis": "y", "from": "ground", "to": "bob", "damping_n_m_s_rad": 0.1}}}, "duration_s": 0.1},
+    "sweep": {"linkage.joints.pivot.damping_n_m_s_rad": [0.1, 0.2]}})");
+  const auto response = bench.call("GET", "/v1/sweeps/" + id + "/report");
+  ASSERT_EQ(response.status, 200) << response.body;
+  EXPECT_NE(response.body.find("peak_pivot_acceleration_rad_s2, mean"), std::string::npos) << response.body;
+  EXPECT_EQ(response.body.find("slider"), std::string::npos);
+}
+
 TEST(Report, KeepsTheOrderOfAxesAndQuotesForTheShell) {
   const json sweep = json::parse(R"({"axes": ["restitution", "clearance_mm"],
     "request": {"name": "it's", "sweep": {"clearance_mm": [1], "restitution": [2]}}})");
