@@ -9,22 +9,24 @@
 
 namespace engine {
 
-/// A contact point of a journal's face, in {j}.
-struct FacePoint {
-  double x, y, z;  ///< [m]
-  double side;     ///< +1: of the face at +z; -1
-};
-
-/// Contact of the journal's two faces with the bearing's shoulders: what each point remembers. The law: faces_law.h.
+/// Contact of the journal's two faces, 0 at +z and 1 at -z, with the bearing's shoulders: what each point remembers. The law: faces_law.h.
 class AxialFaces {
  public:
   explicit AxialFaces(const ClearanceParameters& joint);
 
   [[nodiscard]] const ClearanceParameters& parameters() const { return joint_; }
-  [[nodiscard]] const FacePoint* points() const { return points_.data(); }
-  [[nodiscard]] const OnsetLatch* latches() const { return latches_.data(); }  ///< one a point
-  [[nodiscard]] int face_points() const { return static_cast<int>(points_.size()) / 2; }  ///< of each face
+  [[nodiscard]] static double side(int face) { return face == 0 ? 1.0 : -1.0; }
+  [[nodiscard]] double z(int face) const { return side(face) * 0.5 * joint_.L_b; }  ///< of its points, in {j}, [m]
+  [[nodiscard]] int face_points() const { return face_points_; }                    ///< of each face
+  /// One a point of a face. They and the following may be read eight at a time, the last ones beyond the points.
+  [[nodiscard]] const OnsetLatch* latches(int face) const { return latches_.data() + face * face_points_; }
+  /// The points of either face: places across the journal's axis, in {j}, and what they stand back, 0. Those beyond them stand back so far that
+  /// they never touch. [m]
+  [[nodiscard]] const double* x() const { return x_.data(); }
+  [[nodiscard]] const double* y() const { return y_.data(); }
+  [[nodiscard]] const double* setback() const { return setback_.data(); }
   [[nodiscard]] double point_stiffness() const { return point_stiffness_; }    ///< [N/m]
+  [[nodiscard]] double point_damping() const { return point_damping_; }        ///< [N s/m]
   [[nodiscard]] double limit() const { return 0.5 * joint_.L_b + joint_.c_a; } ///< how far from the bearing's middle a point touches, [m]
 
   /// How far the points of a face may at most be beyond the bearing's middle. p_z is the journal centre's; x_z,
@@ -38,10 +40,11 @@ class AxialFaces {
 
  private:
   ClearanceParameters joint_;
-  double point_stiffness_;
-  std::vector<FacePoint> points_;  ///< of the face at +z, then of the one at -z
-  std::vector<OnsetLatch> latches_;
-  int touching_[2] = {0, 0};       ///< latched points of each face
+  int face_points_;
+  double point_stiffness_, point_damping_;
+  std::vector<double> x_, y_, setback_;
+  std::vector<OnsetLatch> latches_;  ///< face after face
+  int touching_[2] = {0, 0};         ///< latched points of each face
 };
 
 }  // namespace engine

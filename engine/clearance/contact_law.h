@@ -67,6 +67,18 @@ template <typename P, typename V>
   return {total, (total - elastic) * rate};
 }
 
+/// The same laws for places side by side.
+[[nodiscard]] RPSUP_INLINE Lanes choose_onset_rate(const Lanes& latched, const Lanes& rate, double minimum) {
+  const Lanes least = Lanes::all(minimum);
+  return choose_greater(latched, Lanes{}, latched, choose_greater(rate, least, rate, least));
+}
+[[nodiscard]] RPSUP_INLINE NormalLaw<Lanes> calc_normal_law(const Lanes& elastic, const Lanes& rate, const Lanes& onset_rate, double chi,
+                                                            double damping) {
+  const Lanes total = elastic * (Lanes::all(1.0) + chi * rate / onset_rate) + damping * rate;
+  const Lanes cut = choose_greater(Lanes{}, total, Lanes{}, total);
+  return {cut, (cut - elastic) * rate};
+}
+
 /// One place where journal and bore touch: r from the journal centre, (n_x, n_y, 0) the outward normal of the bore, both in {b}.
 template <typename P, typename V>
 struct Touch {

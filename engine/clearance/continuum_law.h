@@ -4,6 +4,7 @@
 
 #include "engine/clearance/contact_law.h"
 #include "engine/clearance/radial_continuum.h"
+#include "engine/math/finite.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -44,9 +45,10 @@ struct RingForce {
 
 /// The elastic force of one of the rings.
 template <typename P>
-[[nodiscard]] RPSUP_INLINE RingForce<P> calc_ring_force(const ClearanceParameters& joint, const P& delta) {
+[[nodiscard]] RPSUP_INLINE RingForce<P> calc_ring_force(const RadialContinuum& contact, const P& delta) {
+  const ClearanceParameters& joint = contact.parameters();
   if (joint.cylinders.law == StiffnessLaw::kHertz) {
-    const P elastic = (joint.K / joint.n_r) * (delta * sqrt(delta));
+    const P elastic = contact.ring_stiffness() * (delta * sqrt(delta));
     return {elastic, 0.4 * value_of(elastic) * value_of(delta)};
   }
   const ElasticForce whole = joint.cylinders.calc(value_of(delta));
@@ -68,9 +70,9 @@ struct RoundPlace {
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE RoundPlace<P> place_on_round_bore(const ClearanceParameters& joint, const RelativeMotion<P, V>& journal, int ring) {
-  const RingOffset<P> offset = calc_ring_offset(journal, calc_ring_position(joint, ring));
-  return {offset, offset.distance - joint.c_r};
+[[nodiscard]] RPSUP_INLINE RoundPlace<P> place_on_round_bore(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int ring) {
+  const RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
+  return {offset, offset.distance - contact.parameters().c_r};
 }
 
 /// Where a ring presses on a worn bore, or would. The direction of its offset, theta, decides how far it gets, R(theta): worn_bore.h.
@@ -92,8 +94,9 @@ struct WornPlace {
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE WornPlace<P> place_on_worn_bore(const ClearanceParameters& joint, const RelativeMotion<P, V>& journal, int ring) {
-  RingOffset<P> offset = calc_ring_offset(journal, calc_ring_position(joint, ring));
+[[nodiscard]] RPSUP_INLINE WornPlace<P> place_on_worn_bore(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int ring) {
+  const ClearanceParameters& joint = contact.parameters();
+  RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
   if (!(value_of(offset.distance) > 1e-12)) return {offset, offset.distance - joint.c_r, P(1.0)};  // no direction
   const P theta = atan2(offset.n_y, offset.n_x);
   const PeriodicSpline::Point reach = joint.worn->calc_reach(ring, value_of(theta));
@@ -117,15 +120,15 @@ RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<
   if (!(value_of(delta) > 0.0)) return;
   const RingOffset<P>& ring = place.ring;
   const V rate = place.calc_rate(journal);
-  const RingForce<P> force = calc_ring_force(joint, delta);
+  const RingForce<P> force = calc_ring_force(contact, delta);
   const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
-  const NormalLaw<V> normal = place.press(calc_normal_law(force.elastic, rate, onset, joint.chi, joint.damping / joint.n_r));
+  const NormalLaw<V> normal = place.press(calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping()));
   const double r_j = joint.r_j();
   const Vec3<P> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
   add_touch(joint, journal, Touch<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i, bristle_rates + 2 * i, load);
   load.elastic_energy += force.energy;
   load.max_penetration = std::max(load.max_penetration, value_of(delta));
-  load.out_of_range = load.out_of_range || force.energy != force.energy;
+  load.out_of_range = load.out_of_range || !is_number(force.energy);
   load.close_touch(2 * i);
 }
 
@@ -134,7 +137,7 @@ template <typename P, typename V, typename Load>
 [[gnu::noinline]] void add_worn_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
                                           Load& load) {
   for (int i = 0; i < contact.parameters().n_r; ++i)
-    add_ring(contact, journal, i, place_on_worn_bore(contact.parameters(), journal, i), bristles, bristle_rates, load);
+    add_ring(contact, journal, i, place_on_worn_bore(contact, journal, i), bristles, bristle_rates, load);
 }
 
 /// Radial contact in closed form: each ring of the journal against the bore, one force a ring.
@@ -145,8 +148,14 @@ template <typename P, typename V, typename Load>
 RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
                                 Load& load) {
   const ClearanceParameters& joint = contact.parameters();
-  if (joint.worn) return add_worn_continuum(contact, journal, bristles, bristle_rates, load);
-  for (int i = 0; i < joint.n_r; ++i) add_ring(contact, journal, i, place_on_round_bore(joint, journal, i), bristles, bristle_rates, load);
+  if (joint.worn) {
+    const RelativeMotion<P, V> own_journal = journal;  // of which addresses are known: the others may stay in registers
+    Load own_load = load;
+    add_worn_continuum(contact, own_journal, bristles, bristle_rates, own_load);
+    load = own_load;
+    return;
+  }
+  for (int i = 0; i < joint.n_r; ++i) add_ring(contact, journal, i, place_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

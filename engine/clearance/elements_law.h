@@ -80,8 +80,8 @@ template <typename P, typename V>
 /// Only elements on the arc that can touch are looked at. @returns false if one touched that has no bristle in the state
 /// @tparam Load  a JointLoad<V>
 template <typename P, typename V, typename Load>
-[[nodiscard]] RPSUP_INLINE bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
-                                             Load& load) {
+[[nodiscard, gnu::noinline]] bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles,
+                                               V* bristle_rates, Load& load) {
   const ClearanceParameters& joint = elements.parameters();
   const double stiffness = elements.element_stiffness();
   const int count = elements.bristle_count();

@@ -6,19 +6,75 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
+/// How far the points (x, y) of a face are beyond the shoulder, and how fast: delta = delta_0 + x delta_x + y delta_y, the rate likewise.
 template <typename P, typename V>
-struct FacePenetration {
-  Vec3<P> r;        ///< from the journal centre
-  P delta;          ///< side z - (L_b / 2 + c_a), z its place along the bearing's axis, [m]
-  V rate;           ///< [m/s]
+struct FaceMotion {
+  P delta_0, delta_x, delta_y;  ///< [m], [1]
+  V rate_0, rate_x, rate_y;     ///< [m/s], [1/s]
+
+  [[nodiscard]] RPSUP_INLINE P calc_delta(double x, double y) const { return delta_0 + (x * delta_x + y * delta_y); }
+  [[nodiscard]] RPSUP_INLINE V calc_rate(double x, double y) const { return rate_0 + (x * rate_x + y * rate_y); }
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE FacePenetration<P, V> calc_face_penetration(const RelativeMotion<P, V>& journal, const FacePoint& point, double limit) {
+[[nodiscard]] RPSUP_INLINE FaceMotion<P, V> calc_face_motion(const AxialFaces& faces, int face, const RelativeMotion<P, V>& journal) {
+  const double side = AxialFaces::side(face), z = faces.z(face);
   const Mat3<P>& R = journal.R;
-  const Vec3<P> r = point.x * R.x + point.y * R.y + point.z * R.z;
-  return {r, point.side * (journal.p.z + r.z) - limit,
-          point.side * (journal.v.z + (journal.w.x * r.y - journal.w.y * r.x))};
+  const auto turning = [&](const Vec3<P>& axis) RPSUP_INLINE_LAMBDA { return journal.w.x * axis.y - journal.w.y * axis.x; };
+  return {side * (journal.p.z + z * R.z.z) - faces.limit(), side * R.x.z, side * R.y.z,
+          side * (journal.v.z + z * turning(R.z)), side * turning(R.x), side * turning(R.y)};
+}
+
+/// What the shoulder does to a face.
+template <typename V>
+struct FaceLoad {
+  V force{}, x_force{}, y_force{};  ///< sums over the points of f, x f, y f
+  V impact_power{};
+  double elastic_energy = 0.0;
+};
+
+/// The points one by one.
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE FaceLoad<V> press_face(const AxialFaces& faces, int face, const FaceMotion<P, V>& motion) {
+  const ClearanceParameters& joint = faces.parameters();
+  FaceLoad<V> load;
+  for (int k = 0; k < faces.face_points(); ++k) {
+    const double x = faces.x()[k], y = faces.y()[k];
+    const P delta = motion.calc_delta(x, y);
+    if (!(value_of(delta) > 0.0)) continue;
+    const V rate = motion.calc_rate(x, y);
+    const P elastic = faces.point_stiffness() * delta;
+    const V onset = choose_onset_rate(faces.latches(face)[k].rate(), rate, joint.minimum_onset_rate);
+    const NormalLaw<V> normal = calc_normal_law(elastic, rate, onset, joint.chi, faces.point_damping());
+    load.force += normal.total;
+    load.x_force += x * normal.total;
+    load.y_force += y * normal.total;
+    load.impact_power += normal.loss_power;
+    load.elastic_energy += 0.5 * value_of(elastic) * value_of(delta);
+  }
+  return load;
+}
+
+/// The points side by side.
+[[nodiscard]] RPSUP_INLINE FaceLoad<double> press_face(const AxialFaces& faces, int face, const FaceMotion<double, double>& motion) {
+  const ClearanceParameters& joint = faces.parameters();
+  FaceLoad<double> load;
+  for (int k = 0; k < faces.face_points(); k += Lanes::kCount) {
+    const Lanes x = Lanes::load(faces.x() + k), y = Lanes::load(faces.y() + k);
+    const Lanes beyond = Lanes::all(motion.delta_0) + (motion.delta_x * x + motion.delta_y * y) - Lanes::load(faces.setback() + k);
+    const Lanes delta = choose_greater(beyond, Lanes{}, beyond, Lanes{});
+    const Lanes rate = Lanes::all(motion.rate_0) + (motion.rate_x * x + motion.rate_y * y);
+    const Lanes elastic = faces.point_stiffness() * delta;
+    const Lanes onset = choose_onset_rate(Lanes::load(faces.latches(face) + k), rate, joint.minimum_onset_rate);
+    const NormalLaw<Lanes> normal = calc_normal_law(elastic, rate, onset, joint.chi, faces.point_damping());
+    const Lanes force = choose_greater(beyond, Lanes{}, normal.total, Lanes{});
+    load.force += sum(force);
+    load.x_force += sum(x * force);
+    load.y_force += sum(y * force);
+    load.impact_power += sum(choose_greater(beyond, Lanes{}, normal.loss_power, Lanes{}));
+    load.elastic_energy += sum(0.5 * elastic * delta);
+  }
+  return load;
 }
 
 /// Contact of the journal's two faces with the bearing's shoulders: points on circles, no friction.
@@ -26,30 +82,18 @@ template <typename P, typename V>
 ///     delta = +-z_b - (L_b / 2 + c_a),  f = K_a / (points of a face) delta (1 + chi rate / rate_onset), or as the normal law says
 template <typename P, typename V>
 RPSUP_INLINE void add_faces(const AxialFaces& faces, const RelativeMotion<P, V>& journal, JointLoad<V>& load) {
-  const double limit = faces.limit();
-  const double x_z = value_of(journal.R.x.z), y_z = value_of(journal.R.y.z), z_z = value_of(journal.R.z.z);
-  const double p_z = value_of(journal.p.z);
-  const FacePoint* points = faces.points();
-  const int count = faces.face_points();
-  for (int k = 0; k < 2 * count; ++k) {
-    if (k % count == 0 && !(faces.calc_reach(points[k].side, p_z, x_z, y_z, z_z) > limit)) {
-      k += count - 1;  // none of this face's points touches
-      continue;
-    }
-    const double z = p_z + (points[k].x * x_z + points[k].y * y_z + points[k].z * z_z);
-    if (!(points[k].side * z > limit)) continue;
-    const FacePenetration<P, V> touch = calc_face_penetration(journal, points[k], limit);
-    if (!(value_of(touch.delta) > 0.0)) continue;
-    const P elastic = faces.point_stiffness() * touch.delta;
-    const ClearanceParameters& joint = faces.parameters();
-    const V onset = choose_onset_rate(faces.latches()[k].rate(), touch.rate, joint.minimum_onset_rate);
-    const NormalLaw<V> normal = calc_normal_law(elastic, touch.rate, onset, joint.chi, joint.damping / count);
-    const V force = -points[k].side * normal.total;
-    load.force.z += force;
-    load.moment.x += touch.r.y * force;
-    load.moment.y -= touch.r.x * force;
-    load.impact_power += normal.loss_power;
-    load.elastic_energy += 0.5 * value_of(elastic) * value_of(touch.delta);
+  const Mat3<P>& R = journal.R;
+  for (const int face : {0, 1}) {
+    const double z = faces.z(face), side = AxialFaces::side(face);
+    const double reach = faces.calc_reach(side, value_of(journal.p.z), value_of(R.x.z), value_of(R.y.z), value_of(R.z.z));
+    if (!(reach > faces.limit())) continue;
+    const FaceLoad<V> pressed = press_face(faces, face, calc_face_motion(faces, face, journal));
+    // The moment of the points' forces -side f along z, each at x R_x + y R_y + z R_z.
+    load.force.z -= side * pressed.force;
+    load.moment.x -= side * (pressed.x_force * R.x.y + pressed.y_force * R.y.y + z * (pressed.force * R.z.y));
+    load.moment.y += side * (pressed.x_force * R.x.x + pressed.y_force * R.y.x + z * (pressed.force * R.z.x));
+    load.impact_power += pressed.impact_power;
+    load.elastic_energy += pressed.elastic_energy;
   }
 }
 

@@ -13,7 +13,13 @@ template <typename P, typename V, typename Load>
 [[nodiscard]] RPSUP_INLINE bool add_contacts(const ClearanceJoint& joint, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
                                              Load& load) {
   add_faces(joint.faces(), journal, load);
-  if (const RadialElements* elements = joint.elements()) return add_elements(*elements, journal, bristles, bristle_rates, load);
+  if (const RadialElements* elements = joint.elements()) {
+    const RelativeMotion<P, V> own_journal = journal;  // of which addresses are known: the others may stay in registers
+    Load own_load = load;
+    const bool complete = add_elements(*elements, own_journal, bristles, bristle_rates, own_load);
+    load = own_load;
+    return complete;
+  }
   add_continuum(*joint.continuum(), journal, bristles, bristle_rates, load);
   return true;
 }

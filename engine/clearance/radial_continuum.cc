@@ -13,18 +13,21 @@ Penetration penetration_at(const Place& place, const RelativeMotion<double, doub
   return {place.delta, place.calc_rate(journal)};
 }
 
-Penetration calc_penetration(const ClearanceParameters& joint, const RelativeMotion<double, double>& journal, int ring) {
-  if (joint.worn) return penetration_at(place_on_worn_bore(joint, journal, ring), journal);
-  return penetration_at(place_on_round_bore(joint, journal, ring), journal);
-}
-
 }  // namespace
 
-RadialContinuum::RadialContinuum(const ClearanceParameters& joint) : joint_(joint), latches_(static_cast<std::size_t>(joint.n_r)) {}
+RadialContinuum::RadialContinuum(const ClearanceParameters& joint)
+    : joint_(joint), ring_stiffness_(joint.K / joint.n_r), ring_damping_(joint.damping / joint.n_r), latches_(static_cast<std::size_t>(joint.n_r)) {
+  for (int i = 0; i < joint.n_r; ++i) positions_.push_back(calc_ring_position(joint, i));
+}
+
+Penetration RadialContinuum::calc_penetration(const RelativeMotion<double, double>& journal, int ring) const {
+  if (joint_.worn) return penetration_at(place_on_worn_bore(*this, journal, ring), journal);
+  return penetration_at(place_on_round_bore(*this, journal, ring), journal);
+}
 
 void RadialContinuum::add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const {
   const RelativeMotion<double, double> motion = to_relative_motion(journal);
-  for (int i = 0; i < joint_.n_r; ++i) rings.push_back(calc_penetration(joint_, motion, i));
+  for (int i = 0; i < joint_.n_r; ++i) rings.push_back(calc_penetration(motion, i));
 }
 
 ContactChange RadialContinuum::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
@@ -32,9 +35,9 @@ ContactChange RadialContinuum::advance(const JournalMotion& start, const Journal
   ContactChange change;
   for (int i = 0; i < joint_.n_r; ++i) {
     OnsetLatch& latch = latches_[static_cast<std::size_t>(i)];
-    const Penetration at_end = calc_penetration(joint_, motion_end, i);
+    const Penetration at_end = calc_penetration(motion_end, i);
     if ((at_end.delta > 0.0) != latch.in_contact()) {
-      change.any |= latch.advance(calc_penetration(joint_, to_relative_motion(start), i), at_end, dt, joint_.minimum_onset_rate);
+      change.any |= latch.advance(calc_penetration(to_relative_motion(start), i), at_end, dt, joint_.minimum_onset_rate);
       change.ring_onsets += latch.in_contact() ? 1 : 0;
     }
     if (!latch.in_contact()) bristles[2 * i] = bristles[2 * i + 1] = 0.0;

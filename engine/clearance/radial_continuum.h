@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "engine/clearance/clearance_parameters.h"
@@ -16,6 +17,9 @@ class RadialContinuum {
   [[nodiscard]] const ClearanceParameters& parameters() const { return joint_; }
   /// One a ring.
   [[nodiscard]] const OnsetLatch* latches() const { return latches_.data(); }
+  [[nodiscard]] double ring_position(int ring) const { return positions_[static_cast<std::size_t>(ring)]; }  ///< along the journal's axis, [m]
+  [[nodiscard]] double ring_stiffness() const { return ring_stiffness_; }  ///< by Hertz's law, of each, [N/m^1.5]
+  [[nodiscard]] double ring_damping() const { return ring_damping_; }      ///< Kelvin and Voigt's, of each, [N s/m]
   /// Bristle components in the state: two a ring.
   [[nodiscard]] int bristle_count() const { return 2 * joint_.n_r; }
 
@@ -26,7 +30,11 @@ class RadialContinuum {
   ContactChange advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles);
 
  private:
+  [[nodiscard]] Penetration calc_penetration(const RelativeMotion<double, double>& journal, int ring) const;
+
   ClearanceParameters joint_;
+  double ring_stiffness_, ring_damping_;
+  std::vector<double> positions_;
   std::vector<OnsetLatch> latches_;
 };
 

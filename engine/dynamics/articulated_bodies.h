@@ -29,6 +29,9 @@ struct SpatialAcceleration {
 /// Shapes: the tree's joints, AnyShapes or known ones.
 template <typename Shapes>
 class ArticulatedBodies {
+  template <typename T>
+  using JointRoom = typename Shapes::template JointRoom<T>;
+
  public:
   explicit ArticulatedBodies(const TreeModel& model) : model_(model), answers_(model.joints.size()), eliminated_(model.joints.size()) {}
 
@@ -49,9 +52,9 @@ class ArticulatedBodies {
   template <typename T>
   struct Scratch {
     explicit Scratch(const TreeModel& model) : forces(model.joints.size()), own(model.joints.size()), accelerations(model.joints.size()) {}
-    Buffer<SpatialForce<T>> forces;                ///< in: needed to move each joint's body as it is, less loads; out: what each joint transmits
-    Buffer<Vec3<T>> own;                           ///< a joint's answer to what is known before its parent moves
-    Buffer<SpatialAcceleration<T>> accelerations;  ///< of each joint's body
+    JointRoom<SpatialForce<T>> forces;                ///< in: needed to move each joint's body as it is, less loads; out: what each joint transmits
+    JointRoom<Vec3<T>> own;                           ///< its answer before its parent moves, a rod's in its own frame
+    JointRoom<SpatialAcceleration<T>> accelerations;  ///< of each joint's body
   };
 
   /// Solves for the free coordinates' accelerations with the matrices of factor().
@@ -73,10 +76,9 @@ class ArticulatedBodies {
   }
 
   /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.
-  template <typename T>
-  [[nodiscard]] RPSUP_INLINE T calc_drive_force(int index, const JointAxes& axes, const Scratch<T>& scratch) const {
-    const auto k = static_cast<std::size_t>(index);
-    const TreeJoint& joint = model_.joints[k];
+  /// @param k  the joint's index
+  template <typename Joint, typename T>
+  [[nodiscard]] RPSUP_INLINE T calc_drive_force(const Joint& joint, std::size_t k, const JointAxes& axes, const Scratch<T>& scratch) const {
     SpatialForce<T> force = scratch.forces[k];
     if (joint.parent_moves) {
       const SpatialAcceleration<T>& a = scratch.accelerations[k];
@@ -92,11 +94,21 @@ class ArticulatedBodies {
     Sym3<double> A;
     Mat3<double> C;
     Sym3<double> J;
+    // Of a rod in the place of C and J:
+    Sym3<double> carried;       ///< A of what it carries
+    double reach = 0.0;         ///< how far along it
+  };
+  /// A rod turns about its own axis by itself: in its frame J^-1 = (1 / I_x), (a, b; b, d), and C x = 0.
+  struct RodAnswer {
+    Mat3<double> R;
+    Vec3<double> C_J_y, C_J_z;  ///< columns y and z of C J^-1
+    double a, b, d, I_x_inverse;
   };
   /// What eliminating a joint's coordinates left behind.
   struct Eliminated {
     Mat3<double> C;             ///< spherical
     Sym3<double> J_inverse;     ///< spherical
+    RodAnswer rod;
     Vec3<double> U_a, U_alpha;  ///< single: force and moment of a unit acceleration of the coordinate
     double D_inverse;           ///< single
   };
@@ -113,7 +125,7 @@ class ArticulatedBodies {
     answer.A.xx += joint.numbers().mass;
     answer.A.yy += joint.numbers().mass;
     answer.A.zz += joint.numbers().mass;
-    if (!joint.answers_turning) return;
+    if (!joint.answers_turning || joint.is_rod) return;
     if (!joint.com_at_origin) answer.C += cross_matrix(rotate_constant(R, joint.numbers().mc, joint.com_along_x));
     if (joint.inertia != JointShape::Inertia::kNone) answer.J += calc_inertia(joint, R);
   }
@@ -122,21 +134,59 @@ class ArticulatedBodies {
   RPSUP_INLINE bool eliminate(const Joint& joint, const Mat3<double>& R, Answer& answer, const Vec3<double>& axis, Eliminated& eliminated) const {
     if (joint.driven) return true;
     if (joint.kind != JointShape::Kind::kSpherical) return eliminate_single(joint, axis, answer, eliminated);
-    if (joint.is_bare_rod()) {
-      const double across = 1.0 / joint.numbers().I[4];
-      eliminated.J_inverse = {};
-      add_outer(eliminated.J_inverse, 1.0 / joint.numbers().I[0] - across, R.x);
-      eliminated.J_inverse.xx += across;
-      eliminated.J_inverse.yy += across;
-      eliminated.J_inverse.zz += across;
-    } else {
-      const Sym3Inverse<double> inverse = invert(answer.J);
-      if (!(inverse.determinant > 0.0)) return false;
-      eliminated.J_inverse = inverse.matrix;
-    }
+    if (joint.is_rod) return eliminate_rod(joint, R, answer, eliminated.rod);
+    const Sym3Inverse<double> inverse = invert(answer.J);
+    if (!(inverse.determinant > 0.0)) return false;
+    eliminated.J_inverse = inverse.matrix;
     eliminated.C = answer.C;
     if (joint.parent_moves) subtract_turning(eliminated, answer.A);
     return true;
+  }
+
+  /// With A_c of what the rod carries at l x:  C y = -mc z - l A_c z,  C z = mc y + l A_c y,
+  /// J_yy = I_y + l^2 z A_c z,  J_zz = I_y + l^2 y A_c y,  J_yz = -l^2 z A_c y.
+  template <typename Joint>
+  RPSUP_INLINE bool eliminate_rod(const Joint& joint, const Mat3<double>& R, Answer& answer, RodAnswer& rod) const {
+    const double mc = joint.numbers().mc[0], I_y = joint.numbers().I[4];
+    rod.R = R;
+    rod.I_x_inverse = 1.0 / joint.numbers().I[0];
+    Vec3<double> C_y = -mc * R.z, C_z = mc * R.y;
+    double determinant;
+    if (joint.carries_moving) {
+      const double l = answer.reach;
+      const Vec3<double> y = l * (answer.carried * R.y), z = l * (answer.carried * R.z);
+      const double J_yy = I_y + l * dot(R.z, z), J_zz = I_y + l * dot(R.y, y), J_yz = -l * dot(R.z, y);
+      determinant = J_yy * J_zz - J_yz * J_yz;
+      const double inverse = 1.0 / determinant;
+      rod.a = inverse * J_zz;
+      rod.b = -inverse * J_yz;
+      rod.d = inverse * J_yy;
+      C_y -= z;
+      C_z += y;
+      rod.C_J_y = rod.a * C_y + rod.b * C_z;
+      rod.C_J_z = rod.b * C_y + rod.d * C_z;
+    } else {
+      determinant = I_y;
+      rod.a = rod.d = 1.0 / I_y;
+      rod.b = 0.0;
+      rod.C_J_y = rod.a * C_y;
+      rod.C_J_z = rod.a * C_z;
+    }
+    if (joint.parent_moves) {
+      subtract_outer(rod.C_J_y, C_y, answer.A);
+      subtract_outer(rod.C_J_z, C_z, answer.A);
+    }
+    return determinant > 0.0;
+  }
+
+  /// A <- A - u v^T, of which the upper half counts.
+  RPSUP_INLINE static void subtract_outer(const Vec3<double>& u, const Vec3<double>& v, Sym3<double>& A) {
+    A.xx -= u.x * v.x;
+    A.yy -= u.y * v.y;
+    A.zz -= u.z * v.z;
+    A.xy -= u.x * v.y;
+    A.xz -= u.x * v.z;
+    A.yz -= u.y * v.z;
   }
 
   /// A <- A - C J^-1 C^T: all three rotations at once, whatever their axes.
@@ -179,6 +229,11 @@ class ArticulatedBodies {
   RPSUP_INLINE void carry(const Joint& joint, const Answer& answer, const Vec3<double>& r, Answer& parent) {
     if (joint.last_child) parent = Answer{};
     parent.A += answer.A;
+    if (joint.parent_is_rod) {
+      parent.carried = answer.A;
+      parent.reach = joint.numbers().placement.p[0];
+      return;
+    }
     if (!joint.parent_answers_turning) return;
     const Mat3<double> B = times_cross(answer.A, r);
     parent.C.x -= B.x;
@@ -225,6 +280,13 @@ class ArticulatedBodies {
                              SpatialForce<T>& force) const {
     if (joint.kind == JointShape::Kind::kSpherical) {
       const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
+      if (joint.is_rod) {
+        const Vec3<T> n = transpose_times(e.rod.R, moment - force.moment);
+        own = {e.rod.I_x_inverse * n.x, e.rod.a * n.y + e.rod.b * n.z, e.rod.b * n.y + e.rod.d * n.z};
+        force.force += n.y * e.rod.C_J_y + n.z * e.rod.C_J_z;
+        force.moment = moment;
+        return;
+      }
       own = e.J_inverse * (moment - force.moment);
       force.force += e.C * own;
       force.moment = moment;
@@ -246,7 +308,15 @@ class ArticulatedBodies {
     }
     if (joint.kind == JointShape::Kind::kSpherical) {
       Vec3<T> alpha = scratch.own[k];
-      if (joint.parent_moves) alpha -= e.J_inverse * transpose_times(e.C, own.linear);
+      if (joint.is_rod) {
+        if (joint.parent_moves) {
+          alpha.y -= dot(e.rod.C_J_y, own.linear);
+          alpha.z -= dot(e.rod.C_J_z, own.linear);
+        }
+        alpha = e.rod.R * alpha;
+      } else if (joint.parent_moves) {
+        alpha -= e.J_inverse * transpose_times(e.C, own.linear);
+      }
       const Vec3<T> relative = alpha - own.angular;
       qdd[0] = dot(axes.dual.x, relative);
       qdd[1] = dot(axes.dual.y, relative);
@@ -268,8 +338,8 @@ class ArticulatedBodies {
   }
 
   const TreeModel& model_;
-  Buffer<Answer> answers_;
-  Buffer<Eliminated> eliminated_;
+  JointRoom<Answer> answers_;
+  JointRoom<Eliminated> eliminated_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

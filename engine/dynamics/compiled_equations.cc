@@ -14,10 +14,13 @@ Equations* try_shapes(const TreeModel& model, const std::vector<ClearanceJoint>&
 
 }  // namespace
 
-/// The linkage with prescribed drives is known when the program is compiled, with a rigid coupler and with one of four parts.
+/// The linkage with prescribed drives is known when the program is compiled, with a rigid coupler and with one of four parts, with clearance and
+/// without.
 Equations* make_compiled_equations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles) {
-  if (Equations* rigid = try_shapes<KnownShapes<kRigidRpsup>>(model, joints, bristles)) return rigid;
-  if (Equations* flexible = try_shapes<KnownShapes<kFlexibleRpsup>>(model, joints, bristles)) return flexible;
+  if (Equations* rigid = try_shapes<KnownShapes<kRigidRpsup, true>>(model, joints, bristles)) return rigid;
+  if (Equations* flexible = try_shapes<KnownShapes<kFlexibleRpsup, true>>(model, joints, bristles)) return flexible;
+  if (Equations* ideal = try_shapes<KnownShapes<kRigidRpsup, false>>(model, joints, bristles)) return ideal;
+  if (Equations* flexible_ideal = try_shapes<KnownShapes<kFlexibleRpsup, false>>(model, joints, bristles)) return flexible_ideal;
   return try_shapes<AnyShapes>(model, joints, bristles);
 }
 

@@ -19,15 +19,27 @@ class CompiledEquations final : public Equations {
         free_(static_cast<int>(model.free.size())),
         drives_(static_cast<int>(model.drives.size())),
         bristles_(static_cast<int>(bristles)),
-        plain_(model, joints, bristles),
-        varied_(model, joints, plain_),
+        joints_(joints),
+        bristle_rates_(bristles),
+        kept_(model, joints),
+        varied_(model, joints, bristles, kept_),
         plan_(model, bristles) {}
 
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
-    set_state(y, drives);
-    plain_.drives_moved = drives_moved;
-    const EvaluationStatus status = plain_.evaluate(drives);
-    if (status == EvaluationStatus::kOk) write_rates(dydt);
+    if constexpr (Shapes::on_stack) {
+      EquationsOfMotion<Shapes> at(model_, joints_);
+      at.bristle_rates = dydt + 2 * free_;
+      return evaluate(y, drives, at, dydt);
+    } else {
+      return evaluate_and_keep(y, drives, drives_moved, dydt);
+    }
+  }
+
+  EvaluationStatus evaluate_and_keep(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
+    kept_.drives_moved = Shapes::on_stack || drives_moved;
+    kept_.bristle_rates = bristle_rates_.data();
+    const EvaluationStatus status = evaluate(y, drives, kept_, dydt);
+    for (int b = 0; b < bristles_; ++b) dydt[2 * free_ + b] = bristle_rates_[static_cast<std::size_t>(b)];
     return status;
   }
 
@@ -46,46 +58,53 @@ class CompiledEquations final : public Equations {
   }
 
  private:
-  /// Sets q, qd, the driven qdd and the bristles; the free qdd to zero.
-  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives) {
-    for (int a = 0; a < free_; ++a) {
-      const auto i = static_cast<std::size_t>(model_.free[static_cast<std::size_t>(a)]);
-      plain_.q[i] = y[a];
-      plain_.qd[i] = y[free_ + a];
-      plain_.qdd[i] = 0.0;
-    }
-    if (!model_.drive_rows)
-      for (int k = 0; k < drives_; ++k) {
-        const auto i = static_cast<std::size_t>(model_.drives[static_cast<std::size_t>(k)]);
-        plain_.q[i] = drives[k].q;
-        plain_.qd[i] = drives[k].qd;
-        plain_.qdd[i] = drives[k].qdd;
-      }
-    for (int b = 0; b < bristles_; ++b) plain_.bristles[static_cast<std::size_t>(b)] = y[2 * free_ + b];
+  RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, EquationsOfMotion<Shapes>& at, double* dydt) const {
+    set_state(y, drives, at);
+    const EvaluationStatus status = at.evaluate(drives);
+    if (status == EvaluationStatus::kOk) write_rates(at, dydt);
+    return status;
   }
 
-  void write_rates(double* dydt) const {
-    for (int a = 0; a < free_; ++a) {
-      const auto i = static_cast<std::size_t>(model_.free[static_cast<std::size_t>(a)]);
-      dydt[a] = plain_.qd[i];
-      dydt[free_ + a] = plain_.qdd[i];
+  /// Sets q, qd, the driven qdd and the bristles; the free qdd to zero.
+  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives, EquationsOfMotion<Shapes>& at) const {
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
+        const auto i = static_cast<std::size_t>(joint.first + k);
+        at.q[i] = joint.driven ? drives[joint.drive].q : y[joint.first_free + k];
+        at.qd[i] = joint.driven ? drives[joint.drive].qd : y[free_ + joint.first_free + k];
+        at.qdd[i] = joint.driven ? drives[joint.drive].qdd : 0.0;
+      });
+    });
+    at.bristles = y + 2 * free_;
+  }
+
+  RPSUP_INLINE void write_rates(const EquationsOfMotion<Shapes>& at, double* dydt) const {
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (joint.driven) return;
+      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
+        dydt[joint.first_free + k] = at.qd[static_cast<std::size_t>(joint.first + k)];
+        dydt[free_ + joint.first_free + k] = at.qdd[static_cast<std::size_t>(joint.first + k)];
+      });
+    });
+    double* next = dydt + 2 * free_ + bristles_;
+    if constexpr (Shapes::have_rows) {
+      for (std::size_t k = 0; k < at.drive_force.size(); ++k) next[k] = at.drive_force[k] * at.qd[static_cast<std::size_t>(model_.drives[k])];
+    } else {
+      Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+        if (joint.driven) next[joint.drive] = at.drive_force[static_cast<std::size_t>(joint.drive)] * at.qd[static_cast<std::size_t>(joint.first)];
+      });
     }
-    double* next = dydt + 2 * free_;
-    for (int b = 0; b < bristles_; ++b) *next++ = plain_.bristle_rates[static_cast<std::size_t>(b)];
-    for (int k = 0; k < drives_; ++k) {
-      const auto drive = static_cast<std::size_t>(k);
-      *next++ = plain_.drive_force[drive] * plain_.qd[static_cast<std::size_t>(model_.drives[drive])];
-    }
-    *next++ = plain_.losses.impact;
-    *next++ = plain_.losses.friction;
-    *next++ = plain_.losses.structural;
+    next += at.drive_force.size();
+    *next++ = at.losses.impact;
+    *next++ = at.losses.friction;
+    *next++ = at.losses.structural;
   }
 
   /// Bristles whose contacts touch: the others neither move nor act.
   void find_acting_bristles(const double* y, Linearisation& result) const {
     int count = 0;
     for (int b = 0; b < bristles_; b += 2) {
-      const bool acts = plain_.bristle_rates[static_cast<std::size_t>(b)] != 0.0 || plain_.bristle_rates[static_cast<std::size_t>(b + 1)] != 0.0 ||
+      const bool acts = bristle_rates_[static_cast<std::size_t>(b)] != 0.0 || bristle_rates_[static_cast<std::size_t>(b + 1)] != 0.0 ||
                         y[2 * free_ + b] != 0.0 || y[2 * free_ + b + 1] != 0.0;
       if (!acts) continue;
       result.bristles[count++] = b;
@@ -101,8 +120,8 @@ class CompiledEquations final : public Equations {
     for (int b = 0; b < result.bristle_count; ++b) plan_.output(row++, group) = varied_.bristle_rates[static_cast<std::size_t>(result.bristles[b])];
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const int drive = model_.drives[k];
-      plan_.output(row++, group) = plain_.qd[static_cast<std::size_t>(drive)] * varied_.drive_force[k] +
-                                   plain_.drive_force[k] * plan_.coordinates(group)[drive].qd;
+      plan_.output(row++, group) = kept_.qd[static_cast<std::size_t>(drive)] * varied_.drive_force[k] +
+                                   kept_.drive_force[k] * plan_.coordinates(group)[drive].qd;
     }
     plan_.output(row++, group) = varied_.losses.impact;
     plan_.output(row++, group) = varied_.losses.friction;
@@ -111,7 +130,9 @@ class CompiledEquations final : public Equations {
 
   const TreeModel& model_;
   int free_, drives_, bristles_;
-  EquationsOfMotion<Shapes> plain_;
+  const std::vector<ClearanceJoint>& joints_;
+  Buffer<double> bristle_rates_;                ///< of the solution that is kept
+  EquationsOfMotion<Shapes> kept_;
   VariedEquations<Shapes> varied_;
   DirectionPlan plan_;
 };
@@ -129,15 +150,15 @@ void CompiledEquations<Shapes>::read_out(Evaluation& at) const {
     copy(m.y, to + 3);
     copy(m.z, to + 6);
   };
-  for (std::size_t i = 0; i < plain_.q.size(); ++i) {
-    at.q.data()[i] = plain_.q[i];
-    at.qd.data()[i] = plain_.qd[i];
-    at.qdd.data()[i] = plain_.qdd[i];
+  for (std::size_t i = 0; i < kept_.q.size(); ++i) {
+    at.q.data()[i] = kept_.q[i];
+    at.qd.data()[i] = kept_.qd[i];
+    at.qdd.data()[i] = kept_.qdd[i];
   }
   for (std::size_t i = 0; i < model_.joints.size(); ++i) {
     const TreeJoint& joint = model_.joints[i];
-    const Frame<double, double>& from = plain_.frames[i];
-    const JointAxes& axes = plain_.axes[i];
+    const Frame<double, double>& from = kept_.frames[i];
+    const JointAxes& axes = kept_.axes[i];
     for (int k = 0; k < joint.count(); ++k) {
       FrameMotion& to = at.frames.data()[joint.first + k];
       copy(axes.axis[k], to.axis.data());
@@ -150,9 +171,9 @@ void CompiledEquations<Shapes>::read_out(Evaluation& at) const {
       copy(from.vd, to.vd.data());
     }
   }
-  for (std::size_t k = 0; k < model_.drives.size(); ++k) at.drive_force.data()[k] = plain_.drive_force[k];
-  for (std::size_t k = 0; k < plain_.cuts.size(); ++k) {
-    const CutJointMotion<double, double>& from = plain_.cuts[k];
+  for (std::size_t k = 0; k < model_.drives.size(); ++k) at.drive_force.data()[k] = kept_.drive_force[k];
+  for (std::size_t k = 0; k < kept_.cuts.size(); ++k) {
+    const CutJointMotion<double, double>& from = kept_.cuts[k];
     JointState& to = at.joints.data()[k];
     copy_matrix(from.journal.R, to.journal.R_bj.data());
     copy(from.journal.p, to.journal.p_bj.data());

@@ -18,10 +18,10 @@ struct CutJointMotion {
 };
 
 /// A bearing or journal on its body. @param accelerations  whether they are wanted
-template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE Frame<P, V> place(const TreePlacement& placement, const Frame<P, V>& body, bool accelerations) {
+template <typename Placement, typename P, typename V>
+[[nodiscard]] RPSUP_INLINE Frame<P, V> place(const Placement& placement, const Frame<P, V>& body, bool accelerations) {
   Frame<P, V> placed;
-  placed.R = placement.turned ? multiply_constant(body.R, placement.R) : body.R;
+  placed.R = placement.turned ? multiply_constant(body.R, placement.numbers().R) : body.R;
   placed.p = body.p;
   placed.w = body.w;
   placed.v = body.v;
@@ -30,7 +30,7 @@ template <typename P, typename V>
     placed.vd = body.vd;
   }
   if (!placement.shifted) return placed;
-  const Vec3<P> r = rotate_constant(body.R, placement.p, placement.along_x);
+  const Vec3<P> r = rotate_constant(body.R, placement.numbers().p, placement.along_x);
   if (accelerations) {
     shift_frame(r, true, placed);
   } else {
@@ -41,9 +41,9 @@ template <typename P, typename V>
 }
 
 /// Sets both parts from the frames of the bodies that they sit on, and how the one moves in the other.
-template <typename P, typename V>
-RPSUP_INLINE void place_parts(const TreeCutJoint& joint, const Frame<P, V>& bearing_body, const Frame<P, V>& journal_body, CutJointMotion<P, V>& cut) {
-  const bool ideal = joint.clearance < 0;
+template <typename Joint, typename P, typename V>
+RPSUP_INLINE void place_parts(const Joint& joint, const Frame<P, V>& bearing_body, const Frame<P, V>& journal_body, CutJointMotion<P, V>& cut) {
+  const bool ideal = !joint.has_clearance();
   cut.b = place(joint.bearing, bearing_body, ideal);
   cut.j = place(joint.journal, journal_body, ideal);
   const Vec3<P> offset = cut.j.p - cut.b.p;

@@ -45,11 +45,13 @@ class Equations {
   /// @param drives        motion of each drive at the time of y
   /// @param drives_moved  whether it is another one than in the last call
   [[nodiscard]] virtual EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) = 0;
+  /// The same, and keeps all that it finds on the way.
+  [[nodiscard]] virtual EvaluationStatus evaluate_and_keep(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) = 0;
 
-  /// What evaluate() last found, for observers.
+  /// What evaluate_and_keep() last found, for observers.
   virtual void read_out(Evaluation& at) const = 0;
 
-  /// All derivatives where evaluate() was last called, and came to an end: at the same y and motion of the drives. Exact to rounding.
+  /// All derivatives where evaluate_and_keep() was last called, and came to an end: at the same y and motion of the drives. Exact to rounding.
   virtual void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) = 0;
 
  protected:

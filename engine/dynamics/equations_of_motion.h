@@ -1,5 +1,6 @@
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "engine/clearance/joint_contact.h"
@@ -9,6 +10,7 @@
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/multiplier_matrix.h"
 #include "engine/dynamics/spring_pull.h"
+#include "engine/math/finite.h"
 #include "engine/math/sine_cosine.h"
 
 namespace engine {
@@ -20,25 +22,51 @@ struct LossPowers {
   T impact{}, friction{}, structural{};
 };
 
+/// The constraints of closed loops and enforced drives, solved for their multipliers.
+struct LoopEquations {
+  explicit LoopEquations(const TreeModel& model)
+      : rows(model),
+        lambda(static_cast<std::size_t>(model.rows)),
+        response(static_cast<std::size_t>(model.rows * model.coordinates)),
+        violations(model.cut_joints.size()),
+        matrix(model),
+        scratch(model) {}
+
+  ConstraintRows rows;
+  Buffer<double> lambda;                        ///< the rows' multipliers
+  Buffer<double> response;                      ///< M^-1 Phi_q^T, row after row of Phi
+  Buffer<JointViolation<double, double>> violations;  ///< one a cut joint; of ideal ones
+  MultiplierMatrix matrix;                      ///< factored
+  MultiplierMatrix::Scratch<double> scratch;
+};
+/// There are none.
+struct NoLoops {
+  RPSUP_INLINE explicit NoLoops(const TreeModel&) {}
+};
+
 /// The equations of motion of a mechanism at one instant, Eqs. (1)-(13), with room for all that they need.
 /// Shapes: the tree's joints, AnyShapes or known ones.
 template <typename Shapes>
 class EquationsOfMotion {
+  template <typename T>
+  using JointRoom = typename Shapes::template JointRoom<T>;
+  template <typename T>
+  using CoordinateRoom = typename Shapes::template CoordinateRoom<T>;
+  template <typename T>
+  using DriveRoom = typename Shapes::template DriveRoom<T>;
+
  public:
-  EquationsOfMotion(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristle_room)
+  RPSUP_INLINE EquationsOfMotion(const TreeModel& model, const std::vector<ClearanceJoint>& joints)
       : q(static_cast<std::size_t>(model.coordinates), in_sine_blocks(static_cast<std::size_t>(model.coordinates))),
         qd(q.size()),
         qdd(q.size()),
-        bristles(bristle_room),
-        bristle_rates(bristle_room),
         drive_force(model.drives.size()),
         frames(model.joints.size()),
         axes(model.joints.size()),
         cuts(model.cut_joints.size()),
         pulls(model.springs.size()),
         bodies(model),
-        rows(model),
-        lambda(static_cast<std::size_t>(model.rows)),
+        loops(model),
         model_(model),
         joints_(joints),
         ground_(make_ground(model)),
@@ -47,20 +75,18 @@ class EquationsOfMotion {
         sines_(in_sine_blocks(q.size())),
         cosines_(in_sine_blocks(q.size())),
         given_(model.joints.size()),
-        needed_(model.joints.size()),
-        response_(static_cast<std::size_t>(model.rows) * q.size()),
-        violations_(model.cut_joints.size()),
-        matrix_(model),
-        multiplier_scratch_(model) {}
+        needed_(model.joints.size()) {}
 
   /// Computes everything below from q, qd, the driven qdd (free ones: zero) and the bristles.
   [[nodiscard]] RPSUP_INLINE EvaluationStatus evaluate(const DrivenMotion* drives) {
     calc_frames();
+    const bool definite = bodies.factor(frames.data(), axes.data());
     if (!calc_contacts()) return EvaluationStatus::kBristleMissing;
+    if (!definite) return EvaluationStatus::kNonFinite;
     calc_needed_forces();
-    if (!bodies.factor(frames.data(), axes.data())) return EvaluationStatus::kNonFinite;
     calc_free_accelerations();
-    if (model_.rows > 0 && !solve_multipliers(drives)) return EvaluationStatus::kLocked;
+    if constexpr (Shapes::have_rows)
+      if (model_.rows > 0 && !solve_multipliers(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
     calc_losses();
     if (is_finite()) return EvaluationStatus::kOk;
@@ -71,65 +97,79 @@ class EquationsOfMotion {
   /// @param multipliers  in: wanted  @tparam T  a number, or several side by side
   template <typename T>
   RPSUP_INLINE void find_multipliers(const T* accelerations, T* multipliers, MultiplierMatrix::Scratch<T>& scratch) const {
-    for (int r = 0; r < rows.count; ++r)
-      for (const int i : model_.free) multipliers[r] -= rows.row(r)[i] * accelerations[i];
-    matrix_.solve(multipliers, scratch);
+    for (int r = 0; r < loops.rows.count; ++r)
+      for (const int i : model_.free) multipliers[r] -= loops.rows.row(r)[i] * accelerations[i];
+    loops.matrix.solve(multipliers, scratch);
   }
 
   /// tau <- tau + Phi_q^T lambda
   template <typename T>
   RPSUP_INLINE void add_reactions(const T* multipliers, T* tau) const {
-    for (int r = 0; r < rows.count; ++r)
-      for (const int i : model_.free) tau[i] += rows.row(r)[i] * multipliers[r];
+    for (int r = 0; r < loops.rows.count; ++r)
+      for (const int i : model_.free) tau[i] += loops.rows.row(r)[i] * multipliers[r];
   }
 
   [[nodiscard]] const Frame<double, double>& ground() const { return ground_; }
 
   // In
-  Buffer<double> q;                             ///< one a coordinate, as the following
-  Buffer<double> qd, qdd;                       ///< qdd of free coordinates: out
-  Buffer<double> bristles;
+  CoordinateRoom<double> q, qd, qdd;            ///< qdd of free coordinates: out
+  const double* bristles = nullptr;
   bool drives_moved = true;                     ///< whether the driven coordinates are others than in the last evaluation
   // Out
-  Buffer<double> bristle_rates;
-  Buffer<double> drive_force;                   ///< one a drive, [N] or [N m]
-  Buffer<Frame<double, double>> frames;         ///< of each joint's body, with the accelerations that free coordinates do not add to
-  Buffer<JointAxes> axes;
-  Buffer<CutJointMotion<double, double>> cuts;
-  Buffer<SpringPull<double>> pulls;             ///< of each spring between two points
+  double* bristle_rates = nullptr;              ///< where they go
+  DriveRoom<double> drive_force;                ///< [N] or [N m]
+  JointRoom<Frame<double, double>> frames;      ///< of each joint's body, with the accelerations that free coordinates do not add to
+  JointRoom<JointAxes> axes;
+  typename Shapes::template CutRoom<CutJointMotion<double, double>> cuts;
+  typename Shapes::template SpringRoom<SpringPull<double>> pulls;  ///< of each spring between two points
   LossPowers<double> losses;
   ArticulatedBodies<Shapes> bodies;
-  ConstraintRows rows;
-  Buffer<double> lambda;                        ///< the rows' multipliers
+  std::conditional_t<Shapes::have_rows, LoopEquations, NoLoops> loops;
 
  private:
   /// All frames, root to tip. The joints that stand on driven ones alone move with time only.
   RPSUP_INLINE void calc_frames() {
-    calc_sines_and_cosines(q.data(), q.size(), sines_.data(), cosines_.data());  // of slides too: asking costs more
+    if constexpr (Shapes::known) {
+      // Arrays whose addresses are known, so that the others may stay in registers.
+      CoordinateRoom<double> angles(0), sines(0), cosines(0);
+      Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+        each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
+          angles[static_cast<std::size_t>(joint.first + k)] = q[static_cast<std::size_t>(joint.first + k)];
+        });
+      });
+      calc_frames(angles.data(), sines.data(), cosines.data());
+    } else {
+      calc_frames(q.data(), sines_.data(), cosines_.data());
+    }
+  }
+
+  /// @param sines, cosines  room for them
+  RPSUP_INLINE void calc_frames(const double* angles, double* sines, double* cosines) {
+    calc_sines_and_cosines(angles, q.size(), sines, cosines);  // of slides too: asking costs more
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.moves && !drives_moved) return;
       const auto first = static_cast<std::size_t>(joint.first);
       Frame<double, double> f = joint.parent < 0 ? ground_ : frames[static_cast<std::size_t>(joint.parent)];
-      calc_joint_frame(joint, &q[first], &sines_[first], &cosines_[first], &qd[first], &qdd[first], f, axes[i]);
+      calc_joint_frame(joint, &q[first], &sines[first], &cosines[first], &qd[first], &qdd[first], f, axes[i]);
       frames[i] = f;
-      if (!joint.moves) given_[i] = calc_body_force(joint, f);
+      given_[i] = calc_body_force(joint, f);
     });
   }
 
   RPSUP_INLINE bool calc_contacts() {
     bool complete = true;
     std::size_t bristle = 0;
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
-      const TreeCutJoint& joint = model_.cut_joints[k];
-      place_parts(joint, frame_of(joint.bearing_joint), frame_of(joint.journal_joint), cuts[k]);
-      if (joint.clearance < 0) continue;
-      const ClearanceJoint& contact = joints_[static_cast<std::size_t>(joint.clearance)];
-      cuts[k].load = {};
-      complete = add_contacts(contact, cuts[k].journal, bristles.data() + bristle, bristle_rates.data() + bristle, cuts[k].load) && complete;
-      cuts[k].reaction = cuts[k].b.R * cuts[k].load.force;
-      cuts[k].moment = cuts[k].b.R * cuts[k].load.moment;
+    Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
+      CutJointMotion<double, double>& cut = cuts[k];
+      place_parts(joint, frame_of(joint.bearing_joint), frame_of(joint.journal_joint), cut);
+      cut.load = {};
+      if (!joint.has_clearance()) return;
+      const ClearanceJoint& contact = joints_[static_cast<std::size_t>(joint.numbers().clearance)];
+      complete = add_contacts(contact, cut.journal, bristles + bristle, bristle_rates + bristle, cut.load) && complete;
+      cut.reaction = cut.b.R * cut.load.force;
+      cut.moment = cut.b.R * cut.load.moment;
       bristle += static_cast<std::size_t>(contact.bristle_count());
-    }
+    });
     return complete;
   }
 
@@ -139,12 +179,9 @@ class EquationsOfMotion {
 
   /// What moves each joint's body as its frame moves, less the contacts' and springs' loads on it.
   RPSUP_INLINE void calc_needed_forces() {
-    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      needed_[i] = joint.moves ? calc_body_force(joint, frames[i]) : given_[i];
-    });
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
-      const TreeCutJoint& joint = model_.cut_joints[k];
-      if (joint.clearance < 0) continue;
+    Shapes::outwards(model_, [&](std::size_t i, const auto&) RPSUP_INLINE_LAMBDA { needed_[i] = given_[i]; });
+    Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.has_clearance()) return;
       const CutJointMotion<double, double>& cut = cuts[k];
       // Both act at the journal's centre: on the journal, and the opposite on the bearing.
       if (joint.journal_joint >= 0) {
@@ -158,7 +195,7 @@ class EquationsOfMotion {
         needed.force += cut.reaction;
         needed.moment += cut.moment + cross(cut.j.p - frames[static_cast<std::size_t>(joint.bearing_joint)].p, cut.reaction);
       }
-    }
+    });
     if constexpr (Shapes::have_springs) apply_springs();
   }
 
@@ -182,44 +219,47 @@ class EquationsOfMotion {
   RPSUP_INLINE void calc_free_accelerations() {
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       const auto first = static_cast<std::size_t>(joint.first);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k)
+      each_coordinate(joint, [&](int index) RPSUP_INLINE_LAMBDA {
+        const auto k = static_cast<std::size_t>(index);
         tau_[first + k] =
             joint.sprung ? -(joint.numbers().stiffness[k] * q[first + k] + joint.numbers().damping[k] * qd[first + k]) : 0.0;
+      });
     });
     solve();
   }
 
   RPSUP_INLINE void solve() {
-    for (std::size_t i = 0; i < needed_.size(); ++i) scratch_.forces[i] = needed_[i];
+    Shapes::outwards(model_, [&](std::size_t i, const auto&) RPSUP_INLINE_LAMBDA { scratch_.forces[i] = needed_[i]; });
     bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data());
   }
 
   /// (Phi_q M^-1 Phi_q^T) lambda = -(Phi_q qdd_0 + bias) - 2 alpha Phi_d - beta^2 Phi, with qdd_0 the accelerations without constraints.
   RPSUP_INLINE bool solve_multipliers(const DrivenMotion* drives) {
     calc_rows(drives);
+    auto& [rows, lambda, response, violations, matrix, scratch] = loops;
     if (model_.least_multipliers && is_apart()) return false;
     const int n = model_.coordinates;
-    matrix_.start(rows, model_.free);
-    for (int k = 0; k < matrix_.acting_count(); ++k) {
-      const double* row = rows.row(matrix_.acting(k));
+    matrix.start(rows, model_.free);
+    for (int k = 0; k < matrix.acting_count(); ++k) {
+      const double* row = rows.row(matrix.acting(k));
       scratch_.forces.fill({});
-      bodies.solve(axes.data(), row, scratch_, response_.data() + k * n);
+      bodies.solve(axes.data(), row, scratch_, response.data() + k * n);
       for (int l = 0; l <= k; ++l) {
         double entry = 0.0;
-        for (const int i : model_.free) entry += row[i] * response_[static_cast<std::size_t>(l * n + i)];
-        matrix_.entry(k, l) = entry;
+        for (const int i : model_.free) entry += row[i] * response[static_cast<std::size_t>(l * n + i)];
+        matrix.entry(k, l) = entry;
       }
     }
-    if (!matrix_.factor()) return false;
+    if (!matrix.factor()) return false;
     for (std::size_t r = 0; r < lambda.size(); ++r)
       lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
-    find_multipliers(qdd.data(), lambda.data(), multiplier_scratch_);
+    find_multipliers(qdd.data(), lambda.data(), scratch);
     add_reactions(lambda.data(), tau_.data());
     solve();
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (joint.first_row < 0) continue;
-      const JointReaction<double> reaction = calc_joint_reaction(joint.rows, violations_[k], cuts[k].b.R, lambda.data() + joint.first_row);
+      const JointReaction<double> reaction = calc_joint_reaction(joint.rows, violations[k], cuts[k].b.R, lambda.data() + joint.first_row);
       cuts[k].reaction = reaction.force;
       cuts[k].moment = reaction.moment;
     }
@@ -230,15 +270,17 @@ class EquationsOfMotion {
   [[nodiscard]] RPSUP_INLINE bool is_apart() const {
     constexpr double kApart = 1e-2;  // [m] or [1]
     double largest = 0.0;
-    for (int r = 0; r < model_.first_drive_row; ++r) largest = std::max(largest, std::abs(rows.Phi[static_cast<std::size_t>(r)]));
+    for (int r = 0; r < model_.first_drive_row; ++r) largest = std::max(largest, std::abs(loops.rows.Phi[static_cast<std::size_t>(r)]));
     return !(largest < kApart);
   }
 
   RPSUP_INLINE void calc_rows(const DrivenMotion* drives) {
+    ConstraintRows& rows = loops.rows;
+    Buffer<JointViolation<double, double>>& violations = loops.violations;
     for (std::size_t k = 0; k < cuts.size(); ++k)
       if (model_.cut_joints[k].first_row >= 0) {
-        violations_[k] = calc_joint_violation(model_.cut_joints[k].rows, cuts[k].b, cuts[k].j);
-        calc_joint_rows(model_, model_.cut_joints[k], frames.data(), axes.data(), cuts[k].b, cuts[k].j, violations_[k], rows);
+        violations[k] = calc_joint_violation(model_.cut_joints[k].rows, cuts[k].b, cuts[k].j);
+        calc_joint_rows(model_, model_.cut_joints[k], frames.data(), axes.data(), cuts[k].b, cuts[k].j, violations[k], rows);
       }
     if (!model_.couplings.empty()) calc_coupling_rows(model_, q.data(), qd.data(), qdd.data(), rows);
     if (!model_.drive_rows) return;
@@ -253,48 +295,52 @@ class EquationsOfMotion {
   }
 
   RPSUP_INLINE void calc_drive_forces() {
-    for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      const auto d = static_cast<std::size_t>(model_.drives[k]);
+    if constexpr (Shapes::have_rows)
       if (model_.drive_rows) {
-        drive_force[k] = lambda[static_cast<std::size_t>(model_.first_drive_row) + k];
-        continue;
+        for (std::size_t k = 0; k < drive_force.size(); ++k) drive_force[k] = loops.lambda[static_cast<std::size_t>(model_.first_drive_row) + k];
+        return;
       }
-      const auto index = static_cast<std::size_t>(model_.drive_joints[k]);
-      const TreeJoint& joint = model_.joints[index];
-      double force = bodies.calc_drive_force(model_.drive_joints[k], axes[index], scratch_);
-      if (joint.sprung) force += joint.stiffness[0] * q[d] + joint.damping[0] * qd[d];
-      for (int r = 0; r < rows.count; ++r) force -= rows.row(r)[d] * lambda[static_cast<std::size_t>(r)];
-      drive_force[k] = force;
-    }
+    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.driven) return;
+      const auto d = static_cast<std::size_t>(joint.first);
+      double force = bodies.calc_drive_force(joint, i, axes[i], scratch_);
+      if (joint.sprung) force += joint.numbers().stiffness[0] * q[d] + joint.numbers().damping[0] * qd[d];
+      if constexpr (Shapes::have_rows)
+        for (int r = 0; r < loops.rows.count; ++r) force -= loops.rows.row(r)[d] * loops.lambda[static_cast<std::size_t>(r)];
+      drive_force[static_cast<std::size_t>(joint.drive)] = force;
+    });
   }
 
   RPSUP_INLINE void calc_losses() {
     losses = {};
-    for (const CutJointMotion<double, double>& cut : cuts) {
-      losses.impact += cut.load.impact_power;
-      losses.friction += cut.load.friction_power;
-    }
+    Shapes::cut_joints(model_, [&](std::size_t k, const auto&) RPSUP_INLINE_LAMBDA {
+      losses.impact += cuts[k].load.impact_power;
+      losses.friction += cuts[k].load.friction_power;
+    });
     if constexpr (Shapes::have_springs)
       for (const SpringPull<double>& pull : pulls) losses.structural += pull.loss;
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.sprung) return;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {
-        const double rate = qd[static_cast<std::size_t>(joint.first) + k];
-        losses.structural += joint.numbers().damping[k] * (rate * rate);
-      }
+      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
+        const double rate = qd[static_cast<std::size_t>(joint.first + k)];
+        losses.structural += joint.numbers().damping[static_cast<std::size_t>(k)] * (rate * rate);
+      });
     });
   }
 
   [[nodiscard]] RPSUP_INLINE bool is_out_of_range() const {
     bool out = false;
-    for (std::size_t k = 0; k < cuts.size(); ++k) out = out || cuts[k].load.out_of_range;
+    Shapes::cut_joints(model_, [&](std::size_t k, const auto&) RPSUP_INLINE_LAMBDA { out = out || cuts[k].load.out_of_range; });
     return out;
   }
 
   [[nodiscard]] RPSUP_INLINE bool is_finite() const {
-    double sum = 0.0;
-    for (const int i : model_.free) sum += qdd[static_cast<std::size_t>(i)] * 0.0;
-    return sum == 0.0;
+    bool finite = true;
+    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (joint.driven) return;
+      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA { finite = finite && is_number(qdd[static_cast<std::size_t>(joint.first + k)]); });
+    });
+    return finite;
   }
 
  private:
@@ -302,14 +348,10 @@ class EquationsOfMotion {
   const std::vector<ClearanceJoint>& joints_;
   const Frame<double, double> ground_;
   typename ArticulatedBodies<Shapes>::template Scratch<double> scratch_;
-  Buffer<double> tau_;
-  Buffer<double> sines_, cosines_;              ///< one a coordinate
-  Buffer<SpatialForce<double>> given_;          ///< needed by the bodies that move with time only
-  Buffer<SpatialForce<double>> needed_;
-  Buffer<double> response_;                     ///< M^-1 Phi_q^T, row after row of Phi
-  Buffer<JointViolation<double, double>> violations_;  ///< one a cut joint; of ideal ones
-  MultiplierMatrix matrix_;                     ///< factored
-  MultiplierMatrix::Scratch<double> multiplier_scratch_;
+  CoordinateRoom<double> tau_;
+  typename Shapes::template SineRoom<double> sines_, cosines_;
+  JointRoom<SpatialForce<double>> given_;       ///< needed by the bodies that move with time only
+  JointRoom<SpatialForce<double>> needed_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

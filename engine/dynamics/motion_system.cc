@@ -71,14 +71,20 @@ bool MotionSystem::move_drives(double t) {
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
-  const EvaluationStatus status = equations_->evaluate(y.data(), drives_.data(), moved, dydt.data());
+  solved_ = false;
+  return equations_->evaluate(y.data(), drives_.data(), moved, dydt.data());
+}
+
+EvaluationStatus MotionSystem::solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
+  const bool moved = move_drives(t);
+  const EvaluationStatus status = equations_->evaluate_and_keep(y.data(), drives_.data(), moved, dydt.data());
   solved_ = status == EvaluationStatus::kOk;
   solved_y_ = y;
   return status;
 }
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at) {
-  const EvaluationStatus status = calc_derivative(t, y, dydt);
+  const EvaluationStatus status = solve(t, y, dydt);
   at.t = t;
   const Eigen::Index drives = at.drive_force.size();
   at.energy.drive_work = y.segment(controlled_size(), drives);
@@ -91,7 +97,7 @@ EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& 
 
 EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y) {
   const bool is_solved = solved_ && t == drives_time_ && y == solved_y_;
-  const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : calc_derivative(t, y, dydt_);
+  const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : solve(t, y, dydt_);
   if (status != EvaluationStatus::kOk) return status;
   equations_->linearise(y.data(), drives_.data(), jacobian_.linearisation());
   jacobian_.calc_time_derivative(time_derivative_);

@@ -67,6 +67,8 @@ class MotionSystem {
 
  private:
   [[nodiscard]] bool move_drives(double t);
+  /// Computes dy/dt and keeps the equations' solution.
+  [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
   void make_room();
 
   const Mechanism& mechanism_;

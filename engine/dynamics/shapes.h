@@ -6,7 +6,9 @@
 
 #include "engine/kinematics/joint_shape.h"
 #include "engine/kinematics/tree_model.h"
+#include "engine/math/buffer.h"
 #include "engine/math/instruction_set.h"
+#include "engine/math/sine_cosine.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -20,6 +22,8 @@ struct KnownJoint {
   static constexpr int axis = shape.axis;
   static constexpr int parent = shape.parent;
   static constexpr bool driven = shape.driven;
+  static constexpr int drive = shape.drive;
+  static constexpr int first_free = shape.first_free;
   static constexpr bool turned = shape.turned;
   static constexpr bool shifted = shape.shifted;
   static constexpr bool shifted_along_x = shape.shifted_along_x;
@@ -35,18 +39,79 @@ struct KnownJoint {
   static constexpr bool answers_turning = shape.answers_turning;
   static constexpr bool carries_moving = shape.carries_moving;
   static constexpr bool last_child = shape.last_child;
+  static constexpr bool is_rod = shape.is_rod;
+  static constexpr bool parent_is_rod = shape.parent_is_rod;
 
   [[nodiscard]] static constexpr int count() { return shape.count(); }
   [[nodiscard]] static constexpr bool rotates() { return shape.rotates(); }
-  [[nodiscard]] static constexpr bool is_bare_rod() { return shape.is_bare_rod(); }
   [[nodiscard]] RPSUP_INLINE const TreeJoint& numbers() const { return joint; }
 
   const TreeJoint& joint;
 };
 
+/// A joint's coordinates: visit(k). Known ones are no loop, so that what they index may stay in registers.
+template <typename Visit>
+RPSUP_INLINE void each_coordinate(const TreeJoint& joint, const Visit& visit) {
+  for (int k = 0; k < joint.count(); ++k) visit(k);
+}
+template <const auto& shapes, std::size_t index, typename Visit>
+RPSUP_INLINE void each_coordinate(const KnownJoint<shapes, index>&, const Visit& visit) {
+  visit(0);
+  if constexpr (KnownJoint<shapes, index>::count() == 3) {
+    visit(1);
+    visit(2);
+  }
+}
+
+/// A placement whose zeros are known when the program is compiled.
+template <bool is_shifted>
+struct KnownPlacement {
+  static constexpr bool turned = false, shifted = is_shifted, along_x = true;
+
+  [[nodiscard]] static bool fit(const TreePlacement& placement) { return !placement.turned && placement.shifted == shifted && placement.along_x; }
+  [[nodiscard]] RPSUP_INLINE const TreePlacement& numbers() const { return placement; }
+
+  const TreePlacement& placement;
+};
+
+/// A cut joint between known bodies.
+template <int bearing_on, int journal_on, bool clearance>
+struct KnownCutJoint {
+  static constexpr int bearing_joint = bearing_on, journal_joint = journal_on;
+  using Bearing = KnownPlacement<true>;
+  using Journal = KnownPlacement<false>;
+
+  [[nodiscard]] static bool fit(const TreeCutJoint& joint) {
+    return joint.bearing_joint == bearing_joint && joint.journal_joint == journal_joint && joint.has_clearance() == clearance &&
+           Bearing::fit(joint.bearing) && Journal::fit(joint.journal);
+  }
+  [[nodiscard]] static constexpr bool has_clearance() { return clearance; }
+  [[nodiscard]] RPSUP_INLINE const TreeCutJoint& numbers() const { return joint; }
+
+  const TreeCutJoint& joint;
+  Bearing bearing{joint.bearing};
+  Journal journal{joint.journal};
+};
+
 /// The joints of any tree: visit(index, joint) from the root to the tips and back.
 struct AnyShapes {
   static constexpr bool have_springs = true;  ///< there may be some between two points
+  static constexpr bool have_rows = true;     ///< there may be constraints
+  static constexpr bool known = false;        ///< when the program is compiled
+  static constexpr bool on_stack = false;     ///< all that an evaluation finds has room there
+  template <typename T>
+  using JointRoom = Buffer<T>;
+  template <typename T>
+  using CoordinateRoom = Buffer<T>;
+  template <typename T>
+  using SineRoom = Buffer<T>;
+  template <typename T>
+  using DriveRoom = Buffer<T>;
+  template <typename T>
+  using CutRoom = Buffer<T>;
+  template <typename T>
+  using SpringRoom = Buffer<T>;
+
   [[nodiscard]] static bool fit(const TreeModel&) { return true; }
 
   template <typename Visit>
@@ -58,15 +123,42 @@ struct AnyShapes {
   RPSUP_INLINE static void inwards(const TreeModel& model, const Visit& visit) {
     for (std::size_t i = model.joints.size(); i-- > 0;) visit(i, model.joints[i]);
   }
+  template <typename Visit>
+  RPSUP_INLINE static void cut_joints(const TreeModel& model, const Visit& visit) {
+    const std::size_t count = model.cut_joints.size();
+    for (std::size_t k = 0; k < count; ++k) visit(k, model.cut_joints[k]);
+  }
 };
 
-/// The joints of a tree known when the program is compiled. @tparam shapes  an array of JointShape
-template <const auto& shapes>
+/// The joints of a tree known when the program is compiled: the last one's body carries the journal, the third last one's the bearing.
+/// @tparam shapes     an array of JointShape
+/// @tparam clearance  whether the cut joint has any
+template <const auto& shapes, bool clearance>
 struct KnownShapes {
   static constexpr std::size_t n = shapes.size();
+  static constexpr std::size_t n_q = static_cast<std::size_t>(shapes[n - 1].first + shapes[n - 1].count());
+  static constexpr std::size_t n_drives = 2;
   static constexpr bool have_springs = false;
+  static constexpr bool have_rows = !clearance;
+  static constexpr bool known = true;
+  static constexpr bool on_stack = clearance;
+  template <typename T>
+  using JointRoom = FixedBuffer<T, n>;
+  template <typename T>
+  using CoordinateRoom = FixedBuffer<T, n_q, in_sine_blocks(n_q)>;
+  template <typename T>
+  using SineRoom = FixedBuffer<T, 0>;         ///< elsewhere: see EquationsOfMotion
+  template <typename T>
+  using DriveRoom = FixedBuffer<T, n_drives>;
+  template <typename T>
+  using CutRoom = FixedBuffer<T, 1>;
+  template <typename T>
+  using SpringRoom = FixedBuffer<T, 0>;
+  using CutJoint = KnownCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
+
   [[nodiscard]] static bool fit(const TreeModel& model) {
-    if (model.joints.size() != n || !model.springs.empty()) return false;
+    if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() || !model.couplings.empty()) return false;
+    if (model.cut_joints.size() != 1 || !CutJoint::fit(model.cut_joints[0])) return false;
     for (std::size_t i = 0; i < n; ++i)
       if (!(static_cast<const JointShape&>(model.joints[i]) == shapes[i])) return false;
     return true;
@@ -79,6 +171,10 @@ struct KnownShapes {
   template <typename Visit>
   RPSUP_INLINE static void inwards(const TreeModel& model, const Visit& visit) {
     inwards(model, visit, std::make_index_sequence<n>());
+  }
+  template <typename Visit>
+  RPSUP_INLINE static void cut_joints(const TreeModel& model, const Visit& visit) {
+    visit(std::integral_constant<std::size_t, 0>(), CutJoint{model.cut_joints[0]});
   }
 
  private:
@@ -100,14 +196,16 @@ consteval std::array<JointShape, n_rfe + 4> make_rpsup_shapes() {
   using Kind = JointShape::Kind;
   using Inertia = JointShape::Inertia;
   std::array<JointShape, n_rfe + 4> shapes{};
-  shapes[0] = {.kind = Kind::kRotation, .axis = 2, .driven = true, .shifted_along_x = true, .inertia = Inertia::kAxisymmetric, .com_at_origin = false};
-  shapes[1] = {.kind = Kind::kTranslation, .axis = 0, .parent = 0, .driven = true, .shifted_along_x = true, .inertia = Inertia::kAxisymmetric,
-               .com_at_origin = false};
+  shapes[0] = {.kind = Kind::kRotation, .axis = 2, .driven = true, .drive = 0, .shifted_along_x = true,
+               .inertia = Inertia::kAxisymmetric, .com_at_origin = false};
+  shapes[1] = {.kind = Kind::kTranslation, .axis = 0, .parent = 0, .driven = true, .drive = 1, .shifted_along_x = true,
+               .inertia = Inertia::kAxisymmetric, .com_at_origin = false};
   for (std::size_t i = 0; i < n_rfe; ++i)
     shapes[2 + i] = {.kind = Kind::kSpherical, .axis = 2, .parent = static_cast<int>(i) + 1, .shifted = true, .shifted_along_x = true,
                      .sprung = i > 0, .inertia = Inertia::kAxisymmetric, .com_at_origin = false};
   shapes[2 + n_rfe] = {.kind = Kind::kTranslation, .axis = 0, .shifted = true, .inertia = Inertia::kDiagonal};
-  shapes[3 + n_rfe] = {.kind = Kind::kRotation, .axis = 1, .parent = static_cast<int>(n_rfe) + 2, .shifted_along_x = true, .inertia = Inertia::kDiagonal};
+  shapes[3 + n_rfe] = {.kind = Kind::kRotation, .axis = 1, .parent = static_cast<int>(n_rfe) + 2, .shifted_along_x = true,
+                       .inertia = Inertia::kDiagonal};
   complete_shapes(shapes);
   return shapes;
 }

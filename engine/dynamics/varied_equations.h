@@ -27,9 +27,10 @@ template <typename Shapes>
 class VariedEquations {
  public:
   /// @param solved  the equations; evaluate() before hold()
-  VariedEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, const EquationsOfMotion<Shapes>& solved)
+  VariedEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles,
+                  const EquationsOfMotion<Shapes>& solved)
       : qdd(static_cast<std::size_t>(model.coordinates)),
-        bristle_rates(solved.bristles.size()),
+        bristle_rates(bristles),
         drive_force(model.drives.size()),
         model_(model),
         joints_(joints),
@@ -74,7 +75,8 @@ class VariedEquations {
     carry_forces();
     vary_applied_forces();
     solve();
-    if (model_.rows > 0) vary_multipliers(time, drives);
+    if constexpr (Shapes::have_rows)
+      if (model_.rows > 0) vary_multipliers(time, drives);
     vary_drive_forces();
     vary_losses();
   }
@@ -99,7 +101,7 @@ class VariedEquations {
     for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       const CutJointMotion<double, double>& cut = solved_.cuts[k];
-      if (joint.clearance < 0) {
+      if (!joint.has_clearance()) {
         hold_load(joint.journal_joint, cut.j.p, cut.reaction, cut.moment);
         hold_load(joint.bearing_joint, bearing_point(joint.rows, cut.b, cut.j), -cut.reaction, -cut.moment);
         continue;
@@ -167,8 +169,8 @@ class VariedEquations {
     int first_bristle = 0;
     for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
-      if (joint.clearance < 0) {
-        vary_reaction(joint);
+      if (!joint.has_clearance()) {
+        if constexpr (Shapes::have_rows) vary_reaction(joint);
         continue;
       }
       vary_contact(joint, solved_.cuts[k], first_bristle);
@@ -245,7 +247,7 @@ class VariedEquations {
     for (std::size_t r = 0; r < static_cast<std::size_t>(joint.rows.count()); ++r)
       lambda_[first + r] =
           -(violation.Phi_dd[r].d + 2.0 * model_.alpha * violation.Phi_d[r].d + (model_.beta * model_.beta) * violation.Phi[r].d);
-    const JointReaction<Dual> reaction = calc_joint_reaction(joint.rows, violation, b.R, solved_.lambda.data() + first);
+    const JointReaction<Dual> reaction = calc_joint_reaction(joint.rows, violation, b.R, solved_.loops.lambda.data() + first);
     vary_load(joint.journal_joint, j.p, reaction.force, reaction.moment);
     vary_load(joint.bearing_joint, bearing_point(joint.rows, b, j), -reaction.force, -reaction.moment);
   }
@@ -338,19 +340,20 @@ class VariedEquations {
   }
 
   RPSUP_INLINE void vary_drive_forces() {
-    for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      const auto d = static_cast<std::size_t>(model_.drives[k]);
-      if (model_.drive_rows) {
-        drive_force[k] = lambda_[static_cast<std::size_t>(model_.first_drive_row) + k];
-        continue;
-      }
-      const auto index = static_cast<std::size_t>(model_.drive_joints[k]);
-      const TreeJoint& joint = model_.joints[index];
-      Lanes force = solved_.bodies.calc_drive_force(model_.drive_joints[k], solved_.axes[index], scratch_);
-      if (joint.sprung) force += joint.stiffness[0] * coordinates_[d].q + joint.damping[0] * coordinates_[d].qd;
-      for (int r = 0; r < solved_.rows.count; ++r) force -= solved_.rows.row(r)[d] * lambda_[static_cast<std::size_t>(r)];
-      drive_force[k] = force;
+    if (model_.drive_rows) {
+      for (std::size_t k = 0; k < drive_force.size(); ++k) drive_force[k] = lambda_[static_cast<std::size_t>(model_.first_drive_row) + k];
+      return;
     }
+    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.driven) return;
+      const auto d = static_cast<std::size_t>(joint.first);
+      Lanes force = solved_.bodies.calc_drive_force(joint, i, solved_.axes[i], scratch_);
+      const TreeJoint& numbers = joint.numbers();
+      if (joint.sprung) force += numbers.stiffness[0] * coordinates_[d].q + numbers.damping[0] * coordinates_[d].qd;
+      if constexpr (Shapes::have_rows)
+        for (int r = 0; r < solved_.loops.rows.count; ++r) force -= solved_.loops.rows.row(r)[d] * lambda_[static_cast<std::size_t>(r)];
+      drive_force[static_cast<std::size_t>(joint.drive)] = force;
+    });
   }
 
   RPSUP_INLINE void vary_losses() {

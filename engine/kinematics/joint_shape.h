@@ -16,6 +16,7 @@ struct JointShape {
   int axis = 0;                         ///< of a single coordinate: 0, 1, 2 for x, y, z
   int parent = -1;                      ///< joint that carries it
   bool driven = false;                  ///< its motion is given: the coordinate is eliminated
+  int drive = -1;                       ///< by which drive
   bool turned = false;                  ///< its axes are not those of the parent's frame
   bool shifted = false;                 ///< it is not at the origin of the parent's frame
   bool shifted_along_x = false;         ///< and if so, along x alone
@@ -25,6 +26,7 @@ struct JointShape {
   bool com_along_x = true;
 
   // What follows, by complete_shapes().
+  int first_free = 0;                   ///< how many free coordinates stand before its own
   bool parent_turns = false;            ///< its parent's frame may rotate
   bool turns = false;                   ///< its own frame may
   bool moves = false;                   ///< it, or a joint that carries it, is free
@@ -33,11 +35,11 @@ struct JointShape {
   bool answers_turning = false;         ///< it is one, or a joint that carries it
   bool carries_moving = false;          ///< it carries joints that move
   bool last_child = false;              ///< of those that its parent carries and that move
+  bool is_rod = false;                  ///< it turns a rod about one end that carries nothing which moves, or one more such joint along the rod
+  bool parent_is_rod = false;
 
   [[nodiscard]] constexpr int count() const { return kind == Kind::kSpherical ? 3 : 1; }
   [[nodiscard]] constexpr bool rotates() const { return kind != Kind::kTranslation; }
-  /// A rod that carries nothing which moves: its inertia has an inverse in closed form.
-  [[nodiscard]] constexpr bool is_bare_rod() const { return inertia == Inertia::kAxisymmetric && com_along_x && !carries_moving; }
 
   bool operator==(const JointShape&) const = default;
 };
@@ -45,10 +47,12 @@ struct JointShape {
 /// Sets what follows from the other members. @param shapes  each behind the one that carries it
 template <typename Shapes>
 constexpr void complete_shapes(Shapes& shapes) {
-  int first = 0;
+  int first = 0, first_free = 0;
   for (auto& shape : shapes) {
     shape.first = first;
     first += shape.count();
+    shape.first_free = first_free;
+    if (!shape.driven) first_free += shape.count();
     if (shape.parent >= 0) {
       const auto& parent = shapes[static_cast<std::size_t>(shape.parent)];
       shape.parent_turns = parent.turns;
@@ -58,6 +62,7 @@ constexpr void complete_shapes(Shapes& shapes) {
     shape.turns = shape.parent_turns || shape.rotates();
     shape.moves = shape.parent_moves || !shape.driven;
     shape.answers_turning = shape.parent_answers_turning || (!shape.driven && shape.rotates());
+    shape.is_rod = shape.kind == JointShape::Kind::kSpherical && shape.inertia == JointShape::Inertia::kAxisymmetric && shape.com_along_x;
   }
   for (std::size_t i = shapes.size(); i-- > 0;) {
     auto& shape = shapes[i];
@@ -65,7 +70,10 @@ constexpr void complete_shapes(Shapes& shapes) {
     auto& parent = shapes[static_cast<std::size_t>(shape.parent)];
     shape.last_child = !parent.carries_moving;
     parent.carries_moving = true;
+    const bool at_a_rods_end = shape.kind == JointShape::Kind::kSpherical && (!shape.shifted || shape.shifted_along_x);
+    parent.is_rod = parent.is_rod && shape.last_child && at_a_rods_end;
   }
+  for (auto& shape : shapes) shape.parent_is_rod = shape.parent >= 0 && shapes[static_cast<std::size_t>(shape.parent)].is_rod;
 }
 
 }  // namespace engine

@@ -63,7 +63,8 @@ class JointFinder {
     joint.turned = joint.placement.turned;
     joint.shifted = joint.placement.shifted;
     joint.shifted_along_x = joint.placement.along_x;
-    joint.driven = is_eliminated(i);
+    joint.drive = eliminating_drive(i);
+    joint.driven = joint.drive >= 0;
     joint.parent = joint_of(c.parent);
     for (int k = 0; k < joint.count(); ++k) {
       joint.stiffness[static_cast<std::size_t>(k)] = coordinate(i + k).stiffness;
@@ -75,13 +76,15 @@ class JointFinder {
     joints_.push_back(joint);
   }
 
-  [[nodiscard]] bool is_eliminated(int i) const {
-    return mechanism_.drive_rows == DriveRows::kEliminated &&
-           std::any_of(mechanism_.drives.begin(), mechanism_.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
+  /// The drive that gives a coordinate's motion; -1: it is free, or a multiplier enforces the drive.
+  [[nodiscard]] int eliminating_drive(int i) const {
+    if (mechanism_.drive_rows != DriveRows::kEliminated) return -1;
+    const auto drive = std::find_if(mechanism_.drives.begin(), mechanism_.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
+    return drive == mechanism_.drives.end() ? -1 : static_cast<int>(drive - mechanism_.drives.begin());
   }
 
   [[nodiscard]] bool is_free_rotation(int i, Axis axis) const {
-    return coordinate(i).motion == Motion::kRotation && coordinate(i).axis == axis && !is_eliminated(i);
+    return coordinate(i).motion == Motion::kRotation && coordinate(i).axis == axis && eliminating_drive(i) < 0;
   }
 
   /// Three free rotations about z, y, x of one point, with nothing else on the two frames between.
@@ -131,10 +134,7 @@ TreeModel::TreeModel(const Mechanism& mechanism)
       gravity(array_of(mechanism.gravity_W)) {
   JointFinder finder(mechanism);
   joints = finder.find();
-  for (const Drive& drive : mechanism.drives) {
-    drives.push_back(drive.coordinate);
-    drive_joints.push_back(finder.joint_of(drive.coordinate));
-  }
+  for (const Drive& drive : mechanism.drives) drives.push_back(drive.coordinate);
   for (const TreeJoint& joint : joints)
     for (int k = 0; k < joint.count() && !joint.driven; ++k) free.push_back(joint.first + k);
   int clearances = 0;

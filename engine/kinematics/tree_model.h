@@ -15,6 +15,8 @@ struct TreePlacement {
   bool along_x = false;               ///< p = (x, 0, 0)
   std::array<double, 9> R{};          ///< column after column
   std::array<double, 3> p{};          ///< [m]
+
+  [[nodiscard]] const TreePlacement& numbers() const { return *this; }
 };
 
 /// A joint and the body that it carries, with their numbers.
@@ -46,6 +48,9 @@ struct TreeCutJoint {
   int clearance = -1;                 ///< index among the joints with clearance; -1: ideal
   int first_row = -1;                 ///< of its constraint rows; -1: it has clearance
   CutRows rows;
+
+  [[nodiscard]] bool has_clearance() const { return clearance >= 0; }
+  [[nodiscard]] const TreeCutJoint& numbers() const { return *this; }
 };
 
 /// A spring between points on the bodies of two joints, -1: on the ground.
@@ -68,7 +73,6 @@ struct TreeModel {
   std::vector<TreeSpring> springs;
   std::vector<int> free;              ///< free coordinates
   std::vector<int> drives;            ///< coordinate of each drive
-  std::vector<int> drive_joints;      ///< joint of each drive
   bool drive_rows = false;            ///< drives are constraint rows
   bool least_multipliers = false;     ///< see Mechanism
   int rows = 0;                       ///< constraint rows

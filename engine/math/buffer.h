@@ -33,5 +33,30 @@ class Buffer {
   std::size_t size_;
 };
 
+/// The same of a length that is known when the program is compiled, its entries not set: where it lives on the stack they may stay in registers.
+template <typename T, std::size_t length, std::size_t room = length>
+class FixedBuffer {
+ public:
+  RPSUP_INLINE explicit FixedBuffer(std::size_t /*size*/, std::size_t /*room*/ = 0) {}
+
+  [[nodiscard]] RPSUP_INLINE T& operator[](std::size_t i) { return data_.entries[i]; }
+  [[nodiscard]] RPSUP_INLINE const T& operator[](std::size_t i) const { return data_.entries[i]; }
+  [[nodiscard]] RPSUP_INLINE T* data() { return data_.entries; }
+  [[nodiscard]] RPSUP_INLINE const T* data() const { return data_.entries; }
+  [[nodiscard]] static constexpr std::size_t size() { return length; }
+  [[nodiscard]] RPSUP_INLINE T* begin() { return data(); }
+  [[nodiscard]] RPSUP_INLINE T* end() { return data() + length; }
+  RPSUP_INLINE void fill(const T& value) {
+    for (T& entry : *this) entry = value;
+  }
+
+ private:
+  union Room {
+    RPSUP_INLINE Room() {}
+    T entries[room > 0 ? room : 1];
+  };
+  Room data_;
+};
+
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

@@ -22,6 +22,27 @@ struct Lanes {
 
   Part part[kParts];
 
+  Lanes() = default;
+  // Copied part by part: left to the compiler, a copy goes through smaller words, and the next reader waits for it.
+  RPSUP_INLINE Lanes(const Lanes& other) { *this = other; }
+  RPSUP_INLINE Lanes& operator=(const Lanes& other) {
+    for (int i = 0; i < kParts; ++i) part[i] = other.part[i];
+    return *this;
+  }
+
+  /// @param numbers  eight doubles
+  [[nodiscard]] RPSUP_INLINE static Lanes load(const void* numbers) {
+    using Stored = double __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
+    Lanes lanes;
+    for (int i = 0; i < kParts; ++i) lanes.part[i] = static_cast<const Stored*>(numbers)[i];
+    return lanes;
+  }
+  /// The same number in all lanes.
+  [[nodiscard]] RPSUP_INLINE static Lanes all(double number) {
+    Lanes lanes;
+    for (Part& p : lanes.part) p = number - Part{};
+    return lanes;
+  }
   /// One in a lane, zero in the others.
   [[nodiscard]] RPSUP_INLINE static Lanes unit(int lane) {
     Lanes lanes{};
@@ -54,6 +75,22 @@ template <typename Operation>
 [[nodiscard]] RPSUP_INLINE Lanes operator*(const Lanes& a, double s) { return s * a; }
 RPSUP_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
 RPSUP_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
+/// Lane by lane.
+[[nodiscard]] RPSUP_INLINE Lanes operator*(const Lanes& a, const Lanes& b) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] * b.part[i]; });
+}
+[[nodiscard]] RPSUP_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] / b.part[i]; });
+}
+/// Lane by lane: a > b ? yes : no
+[[nodiscard]] RPSUP_INLINE Lanes choose_greater(const Lanes& a, const Lanes& b, const Lanes& yes, const Lanes& no) {
+  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] > b.part[i] ? yes.part[i] : no.part[i]; });
+}
+/// The sum of all lanes, halves first: the same for every instruction set.
+[[nodiscard]] RPSUP_INLINE double sum(const Lanes& a) {
+  const auto half = [&](int i) RPSUP_INLINE_LAMBDA { return a[i] + a[i + 4]; };
+  return (half(0) + half(2)) + (half(1) + half(3));
+}
 /// s a + t b
 [[nodiscard]] RPSUP_INLINE Lanes combine(double s, const Lanes& a, double t, const Lanes& b) {
   return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i] + t * b.part[i]; });

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "engine/clearance/clearance_joint.h"
 #include "engine/clearance/clearance_parameters.h"
 #include "engine/clearance/continuum_law.h"
 #include "engine/clearance/elements_law.h"
@@ -87,6 +89,60 @@ TEST(RadialContinuum, FrictionOpposesTheSlidingAndItsPowerIsLost) {
   EXPECT_NEAR(load.friction_power, f_n * 5.0 * v * v, 1e-8 * f_n);
   EXPECT_NEAR(rates[0], v, 1e-12);
   EXPECT_NEAR(rates[1], 0.0, 1e-12);
+}
+
+/// Force and moment of the faces' points one by one, for contacts that have just begun.
+ContactLoad sum_all_face_points(const ClearanceParameters& joint, const JournalMotion& journal) {
+  const double stiffness = joint.K_a / (joint.n_a * joint.n_ce_axial);
+  ContactLoad sum;
+  for (const double side : {1.0, -1.0})
+    for (int circle = 1; circle <= joint.n_a; ++circle)
+      for (int k = 0; k < joint.n_ce_axial; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / joint.n_ce_axial;
+        const double radius = joint.r_j() * circle / joint.n_a;
+        const Eigen::Vector3d r = journal.R_bj * Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), side * 0.5 * joint.L_b);
+        const double delta = side * (journal.p_bj + r).z() - 0.5 * joint.L_b - joint.c_a;
+        const double rate = side * journal.calc_velocity(r).z();
+        if (delta <= 0.0) continue;
+        const double f = std::max(0.0, stiffness * delta * (1.0 + joint.chi * rate / std::max(rate, joint.minimum_onset_rate)));
+        const Eigen::Vector3d force(0.0, 0.0, -side * f);
+        sum.force += force;
+        sum.moment += r.cross(force);
+        sum.impact_power += (f - stiffness * delta) * rate;
+        sum.elastic_energy += 0.5 * stiffness * delta * delta;
+      }
+  return sum;
+}
+
+TEST(AxialFaces, PointsTakenSideBySideActAsOneByOne) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const auto& [circles, points] : {std::pair{1, 8}, {1, 3}, {3, 5}, {2, 8}, {1, 9}}) {
+    ClearanceParameters parameters = joint_without_friction();
+    parameters.n_a = circles;
+    parameters.n_ce_axial = points;
+    ClearanceJoint joint(parameters);
+    std::vector<double> bristles(static_cast<std::size_t>(joint.bristle_count()), 0.0), rates = bristles;
+    int pushed_back = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      JournalMotion journal = journal_at(0.0, 0.0);
+      journal.p_bj.z() = 2e-6 * uniform(random);
+      const Eigen::Vector3d axis(uniform(random), uniform(random), 0.3);
+      journal.R_bj = Eigen::AngleAxisd(5e-4 * uniform(random), axis.normalized()).toRotationMatrix();
+      journal.v = Eigen::Vector3d(uniform(random), uniform(random), 0.01 * uniform(random));
+      journal.w = Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+      const ContactLoad expected = sum_all_face_points(parameters, journal);
+      ContactLoad load;
+      ASSERT_TRUE(joint.calc(journal, bristles.data(), rates.data(), load));
+      const double scale = 1e-9 * (1.0 + expected.force.norm());
+      EXPECT_LE((load.force - expected.force).norm(), scale);
+      EXPECT_LE((load.moment - expected.moment).norm(), scale * parameters.L_b);
+      EXPECT_NEAR(load.impact_power, expected.impact_power, scale);
+      EXPECT_NEAR(load.elastic_energy, expected.elastic_energy, scale);
+      if (expected.force.norm() > 0.0) ++pushed_back;
+    }
+    EXPECT_GT(pushed_back, 50) << "few trials touch";
+  }
 }
 
 ClearanceParameters joint_of_elements(int n_ce) {

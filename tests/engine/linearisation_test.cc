@@ -183,6 +183,16 @@ TEST_P(Linearisation, AndTheRatesAreTheSameBytesWithEveryInstructionSet) {
   }
 }
 
+TEST_P(Linearisation, TheRatesAreTheSameBytesWhetherAllIsKeptOrNot) {
+  for (const std::string_view set : instruction_sets()) {
+    Moving moving(GetParam(), set);
+    Eigen::VectorXd rates = Eigen::VectorXd::Zero(moving.f.size());
+    Evaluation at = moving.system_.make_evaluation();
+    ASSERT_EQ(moving.system_.calc_derivative(Moving::kTime, moving.y, rates, at), EvaluationStatus::kOk);
+    EXPECT_EQ((moving.f - rates).cwiseAbs().maxCoeff(), 0.0) << set;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, testing::ValuesIn(all_cases()), [](const auto& test) { return test.param.name; });
 
 }  // namespace
