@@ -4,7 +4,6 @@
 
 #include "engine/clearance/contact_law.h"
 #include "engine/clearance/radial_continuum.h"
-#include "engine/math/finite.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -119,6 +118,10 @@ RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<
   const P& delta = place.delta;
   if (!(value_of(delta) > 0.0)) return;
   const RingOffset<P>& ring = place.ring;
+  if (value_of(delta) >= contact.range()) {
+    load.out_of_range = true;
+    return;
+  }
   const V rate = place.calc_rate(journal);
   const RingForce<P> force = calc_ring_force(contact, delta);
   const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
@@ -128,13 +131,12 @@ RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<
   add_touch(joint, journal, Touch<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i, bristle_rates + 2 * i, load);
   load.elastic_energy += force.energy;
   load.max_penetration = std::max(load.max_penetration, value_of(delta));
-  load.out_of_range = load.out_of_range || !is_number(force.energy);
   load.close_touch(2 * i);
 }
 
-/// Kept out of the code of round bores, which most are.
+/// Kept out of the code of round bores, which most are. (static: see add_elements.)
 template <typename P, typename V, typename Load>
-[[gnu::noinline]] void add_worn_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
+[[gnu::noinline]] static void add_worn_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
                                           Load& load) {
   for (int i = 0; i < contact.parameters().n_r; ++i)
     add_ring(contact, journal, i, place_on_worn_bore(contact, journal, i), bristles, bristle_rates, load);

@@ -12,7 +12,7 @@ enum class StiffnessLaw {
 
 /// An elastic force at one penetration.
 struct ElasticForce {
-  double force;   ///< [N]; not a number beyond the law's range
+  double force;   ///< [N]; not a number beyond the law's range: ask range() first
   double slope;   ///< by the penetration, [N/m]
   double energy;  ///< stored, [J]
 };

@@ -6,6 +6,7 @@
 
 #include "engine/clearance/contact_law.h"
 #include "engine/clearance/radial_elements.h"
+#include "engine/math/finite.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -79,8 +80,9 @@ template <typename P, typename V>
 ///
 /// Only elements on the arc that can touch are looked at. @returns false if one touched that has no bristle in the state
 /// @tparam Load  a JointLoad<V>
+/// static: the linker would share it between files that are compiled with other rules for numbers that are none.
 template <typename P, typename V, typename Load>
-[[nodiscard, gnu::noinline]] bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles,
+[[nodiscard, gnu::noinline]] static bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles,
                                                V* bristle_rates, Load& load) {
   const ClearanceParameters& joint = elements.parameters();
   const double stiffness = elements.element_stiffness();
@@ -91,7 +93,7 @@ template <typename P, typename V, typename Load>
     const Vec3<P> axial = calc_ring_position(joint, i) * journal.R.z;
     const OffsetInJournal offset = calc_offset_in_journal(journal, axial);
     const double half = calc_half_arc(joint, offset.squared, std::sqrt(offset.along_x * offset.along_x + offset.along_y * offset.along_y));
-    if (half < 0.0) continue;
+    if (half < 0.0 || !is_number(half)) continue;
     const double direction = std::atan2(offset.along_y, offset.along_x);
     const int low = static_cast<int>(std::ceil((direction - half) / elements.spacing()));
     const int high = std::min(low + joint.n_ce - 1, static_cast<int>(std::floor((direction + half) / elements.spacing())));

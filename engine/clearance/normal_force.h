@@ -31,6 +31,8 @@ class OnsetLatch {
   double rate_ = 0.0;  ///< 0: no contact
 };
 
+static_assert(sizeof(OnsetLatch) == sizeof(double), "the rates of neighbours are read as numbers side by side");
+
 /// The cubic delta(s), s in [0, 1], through two penetrations and their rates, a step of dt apart.
 class PenetrationCubic {
  public:

@@ -16,7 +16,11 @@ Penetration penetration_at(const Place& place, const RelativeMotion<double, doub
 }  // namespace
 
 RadialContinuum::RadialContinuum(const ClearanceParameters& joint)
-    : joint_(joint), ring_stiffness_(joint.K / joint.n_r), ring_damping_(joint.damping / joint.n_r), latches_(static_cast<std::size_t>(joint.n_r)) {
+    : joint_(joint),
+      ring_stiffness_(joint.K / joint.n_r),
+      ring_damping_(joint.damping / joint.n_r),
+      range_(joint.cylinders.range()),
+      latches_(static_cast<std::size_t>(joint.n_r)) {
   for (int i = 0; i < joint.n_r; ++i) positions_.push_back(calc_ring_position(joint, i));
 }
 

@@ -19,6 +19,8 @@ class RadialContinuum {
   [[nodiscard]] const OnsetLatch* latches() const { return latches_.data(); }
   [[nodiscard]] double ring_position(int ring) const { return positions_[static_cast<std::size_t>(ring)]; }  ///< along the journal's axis, [m]
   [[nodiscard]] double ring_stiffness() const { return ring_stiffness_; }  ///< by Hertz's law, of each, [N/m^1.5]
+  /// Largest penetration for which the stiffness law holds; infinite for most. [m]
+  [[nodiscard]] double range() const { return range_; }
   [[nodiscard]] double ring_damping() const { return ring_damping_; }      ///< Kelvin and Voigt's, of each, [N s/m]
   /// Bristle components in the state: two a ring.
   [[nodiscard]] int bristle_count() const { return 2 * joint_.n_r; }
@@ -33,7 +35,7 @@ class RadialContinuum {
   [[nodiscard]] Penetration calc_penetration(const RelativeMotion<double, double>& journal, int ring) const;
 
   ClearanceParameters joint_;
-  double ring_stiffness_, ring_damping_;
+  double ring_stiffness_, ring_damping_, range_;
   std::vector<double> positions_;
   std::vector<OnsetLatch> latches_;
 };

@@ -176,7 +176,7 @@ class ArticulatedBodies {
       subtract_outer(rod.C_J_y, C_y, answer.A);
       subtract_outer(rod.C_J_z, C_z, answer.A);
     }
-    return determinant > 0.0;
+    return determinant > 0.0 && joint.numbers().I[0] > 0.0;
   }
 
   /// A <- A - u v^T, of which the upper half counts.

@@ -23,7 +23,9 @@ class CompiledEquations final : public Equations {
         bristle_rates_(bristles),
         kept_(model, joints),
         varied_(model, joints, bristles, kept_),
-        plan_(model, bristles) {}
+        plan_(model, bristles) {
+    kept_.drive_force.fill(0.0);  // to be read if the first evaluation fails
+  }
 
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
     if constexpr (Shapes::on_stack) {
@@ -39,6 +41,7 @@ class CompiledEquations final : public Equations {
     kept_.drives_moved = Shapes::on_stack || drives_moved;
     kept_.bristle_rates = bristle_rates_.data();
     const EvaluationStatus status = evaluate(y, drives, kept_, dydt);
+    kept_.bristles = nullptr;
     for (int b = 0; b < bristles_; ++b) dydt[2 * free_ + b] = bristle_rates_[static_cast<std::size_t>(b)];
     return status;
   }

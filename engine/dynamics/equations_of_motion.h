@@ -82,6 +82,7 @@ class EquationsOfMotion {
     calc_frames();
     const bool definite = bodies.factor(frames.data(), axes.data());
     if (!calc_contacts()) return EvaluationStatus::kBristleMissing;
+    if (is_out_of_range()) return EvaluationStatus::kOutOfRange;
     if (!definite) return EvaluationStatus::kNonFinite;
     calc_needed_forces();
     calc_free_accelerations();
@@ -89,8 +90,7 @@ class EquationsOfMotion {
       if (model_.rows > 0 && !solve_multipliers(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
     calc_losses();
-    if (is_finite()) return EvaluationStatus::kOk;
-    return is_out_of_range() ? EvaluationStatus::kOutOfRange : EvaluationStatus::kNonFinite;
+    return is_finite() ? EvaluationStatus::kOk : EvaluationStatus::kNonFinite;
   }
 
   /// What the constraints lack of the accelerations that they want: lambda <- (Phi_q M^-1 Phi_q^T)^-1 (wanted - Phi_q qdd). After evaluate().
@@ -163,6 +163,7 @@ class EquationsOfMotion {
       CutJointMotion<double, double>& cut = cuts[k];
       place_parts(joint, frame_of(joint.bearing_joint), frame_of(joint.journal_joint), cut);
       cut.load = {};
+      cut.reaction = cut.moment = {};
       if (!joint.has_clearance()) return;
       const ClearanceJoint& contact = joints_[static_cast<std::size_t>(joint.numbers().clearance)];
       complete = add_contacts(contact, cut.journal, bristles + bristle, bristle_rates + bristle, cut.load) && complete;
@@ -335,7 +336,7 @@ class EquationsOfMotion {
   }
 
   [[nodiscard]] RPSUP_INLINE bool is_finite() const {
-    bool finite = true;
+    bool finite = is_number(losses.impact + losses.friction + losses.structural);
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.driven) return;
       each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA { finite = finite && is_number(qdd[static_cast<std::size_t>(joint.first + k)]); });

@@ -26,7 +26,7 @@ struct BristleVariation {
 template <typename Shapes>
 class VariedEquations {
  public:
-  /// @param solved  the equations; evaluate() before hold()
+  /// @param solved  the equations; evaluated and kept before hold()
   VariedEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles,
                   const EquationsOfMotion<Shapes>& solved)
       : qdd(static_cast<std::size_t>(model.coordinates)),

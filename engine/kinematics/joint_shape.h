@@ -31,11 +31,11 @@ struct JointShape {
   bool turns = false;                   ///< its own frame may
   bool moves = false;                   ///< it, or a joint that carries it, is free
   bool parent_moves = false;
-  bool parent_answers_turning = false;  ///< a joint that carries it is a free rotation
+  bool parent_answers_turning = false;  ///< a joint that carries it is a rotation: moments matter, of a driven one to its drive
   bool answers_turning = false;         ///< it is one, or a joint that carries it
   bool carries_moving = false;          ///< it carries joints that move
   bool last_child = false;              ///< of those that its parent carries and that move
-  bool is_rod = false;                  ///< it turns a rod about one end that carries nothing which moves, or one more such joint along the rod
+  bool is_rod = false;                  ///< it turns a rod about one end that carries nothing which moves, or one spherical joint along it
   bool parent_is_rod = false;
 
   [[nodiscard]] constexpr int count() const { return kind == Kind::kSpherical ? 3 : 1; }
@@ -61,7 +61,7 @@ constexpr void complete_shapes(Shapes& shapes) {
     }
     shape.turns = shape.parent_turns || shape.rotates();
     shape.moves = shape.parent_moves || !shape.driven;
-    shape.answers_turning = shape.parent_answers_turning || (!shape.driven && shape.rotates());
+    shape.answers_turning = shape.parent_answers_turning || shape.rotates();
     shape.is_rod = shape.kind == JointShape::Kind::kSpherical && shape.inertia == JointShape::Inertia::kAxisymmetric && shape.com_along_x;
   }
   for (std::size_t i = shapes.size(); i-- > 0;) {

@@ -51,6 +51,23 @@ TEST(Linkage, AScrewTurnsUnderItsLoad) {
   EXPECT_NEAR(run.last("slide_m"), lead * run.last("turn_rad"), 1e-12);
 }
 
+// What a drive that turns does must be in the work that it does, also where only a slide is free: bodies whose masses lie beside it, on a driven
+// crank, and under a driven eccentric.
+TEST(Linkage, ADriveFeelsWhatSlidesBesideItsAxis) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -9.81, 0.0};
+  linkage.bodies = {make_body("crank", 1.0, {0.1, 0.0, 0.0}, {0.02, 0.02, 0.02}), make_body("carriage", 2.0, {0.05, 0.2, 0.0}, {0.2, 0.2, 0.2}),
+                    make_body("eccentric", 0.5, {0.03, 0.0, 0.1}, {0.02, 0.02, 0.02})};
+  const DriveLaw turning = Harmonic{.amplitude = 0.8, .omega = 8.0};
+  linkage.joints = {{.name = "turn", .from = kGroundName, .to = "crank", .placement = {}, .freedoms = {{.name = "turn", .drive = turning}}},
+                    {.name = "slide", .kind = JointKind::kPrismatic, .from = "crank", .to = "carriage", .placement = {},
+                     .axes = {Axis::kX, Axis::kY}, .freedoms = {{.name = "slide", .start = 0.1, .stiffness = 200.0}}},
+                    {.name = "swing", .from = "carriage", .to = "eccentric", .placement = {}, .freedoms = {{.name = "swing", .drive = turning}}}};
+  const LinkageRun run(linkage, accurate(2.0));
+  EXPECT_GT(std::abs(run.last("slide_m") - 0.1), 1e-3);
+  EXPECT_LT(run.metric("energy_imbalance_j"), 1e-7);
+}
+
 // A pendulum held twice at one point: the rows depend on each other, and the least reactions share its weight.
 TEST(Linkage, RedundantJointsShareTheLoad) {
   Linkage linkage;

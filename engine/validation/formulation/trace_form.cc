@@ -109,14 +109,14 @@ class Engine {
   std::vector<FrameMotion> frames_;
 };
 
-/// The same chains with heavy bodies in place of links and elements, and without gravity.
+/// The same chains with heavy bodies, of three different moments, in place of links and elements, and without gravity.
 Mechanism with_heavy_bodies(Mechanism chains) {
   chains.gravity_W.setZero();
   for (Coordinate& c : chains.coordinates) {
     if (c.mass == 0.0) continue;
     c.mass = 1.0;
     c.com.setZero();
-    c.inertia.setIdentity();
+    c.inertia = Eigen::Vector3d(1.0, 1.25, 1.5).asDiagonal();
   }
   return chains;
 }
