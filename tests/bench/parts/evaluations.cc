@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <benchmark/benchmark.h>
@@ -32,8 +33,8 @@ std::vector<std::pair<std::string, RpsupParameters>> evaluated_cases() {
           {"flexible/ideal", linkage(Coupler::kFlexible, 0.0, 10.0)}};
 }
 
-void evaluate(benchmark::State& run, const RpsupParameters& parameters) {
-  ContactState state(parameters);
+void evaluate(benchmark::State& run, const RpsupParameters& parameters, std::string_view instruction_set) {
+  ContactState state(parameters, instruction_set);
   if (parameters.c_r > 0.0 && !(state.penetration() > 0.0)) run.SkipWithError("no contact");
   for (auto _ : run) state.evaluate();
 }
@@ -58,7 +59,9 @@ void calc_contact(benchmark::State& run, const RpsupParameters& parameters, doub
 
 void register_evaluations() {
   for (const auto& [name, parameters] : evaluated_cases())
-    benchmark::RegisterBenchmark(("right_hand_side/" + name).c_str(), [p = parameters](benchmark::State& run) { evaluate(run, p); });
+    for (const std::string_view set : engine::instruction_sets())
+      benchmark::RegisterBenchmark(("right_hand_side/" + name + "/" + std::string(set)).c_str(),
+                                   [p = parameters, set](benchmark::State& run) { evaluate(run, p, set); });
   const RpsupParameters continuum = linkage(Coupler::kRigid, 0.25e-3, 10.0);
   for (const auto& [name, parameters] : {std::pair{"continuum", continuum}, std::pair{"elements", with_elements(continuum)}})
     for (const auto& [where, push] : {std::pair{"touching", 0.255e-3}, std::pair{"apart", 0.2e-3}})
