@@ -5,10 +5,9 @@
 
 #include "engine/clearance/joint_contact.h"
 #include "engine/dynamics/articulated_bodies.h"
-#include "engine/dynamics/constraint_rows.h"
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/equations.h"
-#include "engine/dynamics/multiplier_matrix.h"
+#include "engine/dynamics/loop_equations.h"
 #include "engine/dynamics/spring_pull.h"
 #include "engine/math/finite.h"
 #include "engine/math/sine_cosine.h"
@@ -20,28 +19,6 @@ inline namespace RPSUP_INSTRUCTION_SET {
 template <typename T>
 struct LossPowers {
   T impact{}, friction{}, structural{};
-};
-
-/// The constraints of closed loops and enforced drives, solved for their multipliers.
-struct LoopEquations {
-  explicit LoopEquations(const TreeModel& model)
-      : rows(model),
-        lambda(static_cast<std::size_t>(model.rows)),
-        response(static_cast<std::size_t>(model.rows * model.coordinates)),
-        violations(model.cut_joints.size()),
-        matrix(model),
-        scratch(model) {}
-
-  ConstraintRows rows;
-  Buffer<double> lambda;                        ///< the rows' multipliers
-  Buffer<double> response;                      ///< M^-1 Phi_q^T, row after row of Phi
-  Buffer<JointViolation<double, double>> violations;  ///< one a cut joint; of ideal ones
-  MultiplierMatrix matrix;                      ///< factored
-  MultiplierMatrix::Scratch<double> scratch;
-};
-/// There are none.
-struct NoLoops {
-  RPSUP_INLINE explicit NoLoops(const TreeModel&) {}
 };
 
 /// The equations of motion of a mechanism at one instant, Eqs. (1)-(13), with room for all that they need.
