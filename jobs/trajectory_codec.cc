@@ -182,7 +182,7 @@ engine::Trajectory rounded_to_stored(engine::Trajectory trajectory) {
 
 std::string encode_trajectory(const engine::Trajectory& trajectory) {
   check_is_table(trajectory);
-  Compressor compressor;
+  thread_local Compressor compressor;  // takes longer to make than a short trajectory to compress
   ByteWriter header;
   header.number(std::uint64_t{count_samples(trajectory)});
   header.number(static_cast<std::uint32_t>(trajectory.channels.size()));

@@ -29,7 +29,9 @@ json StudyDesk::submit(const ordered_json& request, const KeptText& kept) {
                                       for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
                                       return *kept.answer = text_of(kind_->make_resource(begun.search, begun.results, options_.threads));
                                     }};
-  return find(store_.add_search(kind_->id_prefix(), first.plan, first.request.dump(), request.dump(), options_.max_queued_jobs, answer)).value();
+  const std::string id = store_.add_search(kind_->id_prefix(), first.plan, first.request.dump(), request.dump(), options_.max_queued_jobs, answer);
+  ++begun_;
+  return find(id).value();
 }
 
 std::optional<json> StudyDesk::find(const std::string& id) const {
@@ -71,6 +73,7 @@ bool StudyDesk::retry(const std::string& id, const std::function<void(const std:
   under_way_.erase(id);
   retry_sweep(row->sweep_id);
   store_.reopen_search_of(row->sweep_id);
+  ++begun_;
   return true;
 }
 
@@ -85,12 +88,16 @@ void StudyDesk::change_sweep(const std::string& sweep_id, const std::function<vo
   const std::lock_guard lock(moving_);
   std::erase_if(under_way_, [&](const auto& study) { return study.second.sweep_id == sweep_id; });
   change();
+  ++begun_;
 }
 
 StudyMoves StudyDesk::advance() {
   const std::lock_guard lock(moving_);
+  const std::uint64_t begun = begun_;
+  if (idle_since_ == begun) return {};  // most services have no study, and are not to ask the store for them after each job
   const auto running = store_.list_searches(kind_->id_prefix(), "running", "", kNoLimit >> 1U);
   forget_ended(running);
+  if (running.empty()) idle_since_ = begun;
   StudyMoves moves;
   for (const SearchRow& study : running) {
     for (bool goes_on = true; goes_on;) {  // what is added may be known already, and ask for more at once

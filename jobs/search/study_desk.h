@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -128,6 +129,8 @@ class StudyDesk {
   std::unique_ptr<StudyKind> kind_;
   std::mutex moving_;  ///< held by who changes a study, so that nothing is added to one that is being cancelled
   std::map<std::string, UnderWay> under_way_;  ///< by id; guarded by moving_
+  std::atomic<std::uint64_t> begun_ = 1;       ///< how often a study has begun or gone on
+  std::uint64_t idle_since_ = 0;               ///< begun_ when none was under way; guarded by moving_
   mutable std::mutex progress_mutex_;
   std::map<std::string, double> progress_;     ///< by id; guarded by progress_mutex_
 };
