@@ -46,6 +46,16 @@ void keep_answer(SQLite::Database& database, const std::string& key, const std::
 }
 
 Store::Store(const std::filesystem::path& file, const StoreRoom& room) : file_(file), room_(room), lock_(file), writer_(file), readers_(file) {
+  try {
+    begin();
+  } catch (const StorageError& error) {
+    if (!is_damage(error.code)) throw;
+    throw StorageError("the store " + file.string() + " is damaged (" + error.what() + "); it has been left as it is", error.code, false);
+  }
+  writer_.accept();
+}
+
+void Store::begin() {
   writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
     release_batches_of_other_engines(database);

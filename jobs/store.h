@@ -256,6 +256,8 @@ class Store {
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
 
  private:
+  /// Puts what was running when the process ended back into the queue.
+  void begin();
   void check_quota_of(SQLite::Database& database) const;
   /// Adds jobs to a sweep. False if there is none.
   bool add_jobs(SQLite::Database& database, const std::string& id, const std::vector<PlannedJob>& jobs, std::size_t max_queued);

@@ -78,6 +78,11 @@ SQLite::Database open_for_writing(const std::filesystem::path& store) {
 
 bool is_no_room(int system_error) { return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG; }
 
+bool is_damage(int sqlite_code) {
+  const int primary = sqlite_code & 0xff;
+  return primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB;
+}
+
 bool is_full(const SQLite::Exception& error, const SQLite::Database* database) {
   if (error.getErrorCode() == SQLITE_FULL) return true;
   return error.getErrorCode() == SQLITE_IOERR && database != nullptr && is_no_room(last_error_of_log(*database));
@@ -106,10 +111,10 @@ void roll_back_unfinished(SQLite::Database& database) noexcept {
 Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {
   with_storage_errors([&] {
     harden(database_);
-    // A store that is refused stays as it is: closing must not move its log into it.
+    // A store that is refused stays as it is: nothing is added to its log before all is known to go well, and closing must not move it into the file.
+    database_.exec("PRAGMA cache_spill = OFF");
     sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     prepare_schema(database_, store);
-    sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
     // Freed pages are not wiped: results are no secrets, and wiping makes deleting slow.
     database_.exec("PRAGMA foreign_keys = ON; PRAGMA secure_delete = OFF; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 67108864");
   });
@@ -117,7 +122,13 @@ Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(
 
 Writer::~Writer() {
   // Nothing is lost if this fails: the log is read at the next start.
-  database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+  if (accepted_) database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+void Writer::accept() {
+  with_storage_errors([&] { database_.exec("PRAGMA cache_spill = ON"); });
+  sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
+  accepted_ = true;
 }
 
 void Writer::set_durability(Durability durability) {

@@ -35,6 +35,9 @@ class StoreLock {
 /// @param database  that failed; null: unknown
 [[nodiscard]] bool is_full(const SQLite::Exception& error, const SQLite::Database* database);
 
+/// Whether a code of SQLite's, extended or not, says that the file is damaged or no database.
+[[nodiscard]] bool is_damage(int sqlite_code);
+
 /// Runs database work and throws StorageError in the place of SQLite's exceptions.
 /// @param database  that the work is done with; null: one of its own
 template <typename Work>
@@ -106,7 +109,7 @@ class Transaction {
 class Writer {
  public:
   explicit Writer(const std::filesystem::path& store);
-  ~Writer();
+  ~Writer();  ///< moves the log into the file, if accept() was called
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
@@ -121,6 +124,9 @@ class Writer {
   auto write_often(Durability durability, Work&& work) {
     return write_with(durability, std::forward<Work>(work), statements_);
   }
+
+  /// Says that the store has shown no damage. Until then its file is left as it is, however this ends.
+  void accept();
 
   /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their turn.
   void release_free_pages();
@@ -150,6 +156,7 @@ class Writer {
   SQLite::Database database_;
   Statements statements_{database_};
   Durability durability_ = Durability::kSurvivesPowerLoss;
+  bool accepted_ = false;
 };
 
 /// Read-only connections, kept for the next who needs one.

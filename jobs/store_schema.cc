@@ -7,6 +7,7 @@
 #include <sqlite3.h>
 
 #include "jobs/errors.h"
+#include "jobs/store_connection.h"
 
 namespace jobs {
 namespace {
@@ -189,15 +190,15 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& sto
   try {
     check_identity(database, name);
     if (pragma(database, "user_version") > 0) check_health(database, name);
-    // The first two only take effect in a file without tables. Large pages suit large trajectories.
-    database.exec("PRAGMA page_size = 8192; PRAGMA auto_vacuum = INCREMENTAL");
+    // Large pages suit large trajectories. Neither takes effect in a file that has tables, but the second is written all the same.
+    if (is_empty(database)) database.exec("PRAGMA page_size = 8192; PRAGMA auto_vacuum = INCREMENTAL");
     if (database.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
       throw StorageError("the store " + name + " lies on a file system that does not share memory, as a network's", SQLITE_CANTOPEN, false);
     }
     migrate(database);
   } catch (const SQLite::Exception& error) {
     const int code = error.getErrorCode();
-    if (code != SQLITE_CORRUPT && code != SQLITE_NOTADB) throw;
+    if (!is_damage(code)) throw;
     throw StorageError("the store " + name + " is damaged or no database (" + error.what() + "); it has been left as it is", code, false);
   }
 }

@@ -184,6 +184,33 @@ TEST(Store, LeavesTheLogOfAStoreThatItRefusesAlone) {
   EXPECT_EQ(bytes_of(killed), file);
 }
 
+TEST(Store, LeavesTheLogOfAStoreAloneWhoseDamageIsOnlySeenAsItIsWritten) {
+  const TemporaryStore temporary;
+  const std::filesystem::path killed = temporary.file().string() + ".killed";
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 1000}}})");
+  }
+  // Putting these back into the queue takes pages from the list of free ones, which leads nowhere. No table has it, so none seems damaged.
+  execute_sql(temporary.file(), "UPDATE jobs SET state = 'running', started_ms = created_ms");
+  constexpr std::streamoff kFreePages = 32;
+  {
+    std::fstream file(temporary.file(), std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(kFreePages);
+    file << std::string{0, 0x7f, 0, 0, 0, 0, 0, 5};
+  }
+  {
+    SQLite::Database other(temporary.file().string(), SQLite::OPEN_READWRITE);
+    other.exec("UPDATE sweeps SET name = 'in the log'");
+    copy_files(temporary.file(), killed);
+  }
+  const std::string log = bytes_of(killed.string() + "-wal"), file = bytes_of(killed);
+  ASSERT_FALSE(log.empty());
+  EXPECT_NE(refusal_of(killed).find("is damaged"), std::string::npos);
+  EXPECT_TRUE(bytes_of(killed.string() + "-wal") == log);
+  EXPECT_TRUE(bytes_of(killed) == file);
+}
+
 TEST(Store, RefusesALogWhoseStoreIsGone) {
   const TemporaryStore temporary;
   const std::filesystem::path killed = temporary.file().string() + ".killed";
