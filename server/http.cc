@@ -84,9 +84,18 @@ void copy_to(httplib::Response& to, Response from) {
   }
 }
 
-/// The media type is not looked at beyond this: `curl -d` calls every body a form.
+/// Only browsers send these. Another site's page can have them send a form or plain text without asking, but not JSON.
+bool is_of_a_page(const httplib::Request& request) { return request.has_header("Origin") || request.has_header("Sec-Fetch-Site"); }
+
+bool is_json(const std::string& media_type) { return media_type.substr(0, media_type.find_first_of("; ")) == "application/json"; }
+
+/// Of programs the media type is not looked at beyond this: `curl -d` calls every body a form.
 std::optional<Refusal> find_media_fault(const httplib::Request& request) {
   if (request.is_multipart_form_data()) return Refusal{415, "send the JSON text itself, not as a part of a form"};
+  const bool empty = request.get_header_value("Content-Length") == "0";
+  if (!empty && is_of_a_page(request) && !is_json(request.get_header_value("Content-Type"))) {
+    return Refusal{415, "a page sends JSON with Content-Type: application/json"};
+  }
   const std::string encoding = request.get_header_value("Content-Encoding");
   if (encoding.empty() || encoding == "identity" || encoding == "gzip" || encoding == "deflate") return std::nullopt;
   return Refusal{415, "of the content encodings, gzip and deflate are understood"};

@@ -48,7 +48,8 @@ class PowerLoss : public testing::TestWithParam<unsigned> {
 
   void do_something(jobs::Store& store, int number) {
     const std::string request = R"({"reuse": false, "sweep": {"crank_velocity_rad_s": [1, 2, )" + std::to_string(number + 3) + "]}}";
-    now_.acknowledged.push_back(store.add_sweep(jobs::plan_sweep(request_of(request.c_str()), 10), request, 10'000));
+    const jobs::KeptAnswer<jobs::SweepRow> kept{.key = std::to_string(number), .request = request, .make_text = [](const auto& row) { return row.id; }};
+    now_.acknowledged.push_back(store.add_sweep(jobs::plan_sweep(request_of(request.c_str()), 10), request, 10'000, kept));
     if (number % 3 == 0) compute_a_job(store);
     if (number % 5 == 4) {
       const std::string id = now_.acknowledged[now_.acknowledged.size() - 2];
@@ -92,6 +93,9 @@ TEST_P(PowerLoss, LeavesWhatWasAcknowledged) {
         EXPECT_TRUE(sweep && jobs::sweep_state(sweep->counts) == "cancelled") << id;
       }
       for (const std::string& id : loss.deleted) EXPECT_FALSE(store.find_sweep(id).has_value()) << id;
+    }
+    for (const std::string& id : loss.acknowledged) {
+      EXPECT_EQ(query_sql(loss.store, "SELECT count(*) FROM answers WHERE answer = '" + id + "'"), "1") << "the answer that a repeated request gets";
     }
     EXPECT_EQ(query_sql(loss.store, "PRAGMA integrity_check"), "ok");
     EXPECT_EQ(query_sql(loss.store, "SELECT count(*) FROM pragma_foreign_key_check()"), "0");

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/http_stream.h"
+#include "server/route_table.h"
 #include "tests/server/raw_client.h"
 #include "tests/server/service_fixture.h"
 
@@ -332,7 +333,38 @@ TEST_F(Http, RefusesOtherNamesAndOtherSites) {
   EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://evil.com\r\n")), 403);
   EXPECT_EQ(status_of(post("/v1/sweeps", request, "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: navigate\r\n")), 403);
   EXPECT_EQ(sweep_count(), 0U);
-  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://localhost\r\n")), 201);
+  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://localhost\r\nContent-Type: application/json\r\n")), 201);
+}
+
+TEST_F(Http, RefusesOtherNamesAndOtherSitesOnEveryRoute) {
+  for (const server::Route& route : server::route_table()) {
+    std::string path(route.pattern);
+    if (const auto id = path.find("{id}"); id != std::string::npos) path.replace(id, 4, "swp_1");
+    const std::string line = std::string(route.method) + " " + path + " HTTP/1.1\r\n";
+    EXPECT_EQ(status_of(ask(line + "Host: evil.com\r\n\r\n")), 403) << line;
+    EXPECT_EQ(status_of(ask(line + "Host: localhost\r\nOrigin: http://evil.com\r\n\r\n")), 403) << line;
+    EXPECT_EQ(status_of(ask(line + "Host: localhost\r\nSec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: no-cors\r\n\r\n")), 403) << line;
+  }
+}
+
+TEST_F(Http, TakesOnlyJsonOfPages) {
+  const std::string request = R"({"sweep": {"clearance_mm": [0.1]}})";
+  for (const char* const of_a_page : {"Origin: http://localhost\r\n", "Sec-Fetch-Site: same-origin\r\n"}) {
+    const auto post_as = [&](const std::string& media) { return status_of(post("/v1/sweeps", request, of_a_page + media)); };
+    EXPECT_EQ(post_as("Content-Type: text/plain\r\n"), 415);
+    EXPECT_EQ(post_as("Content-Type: application/x-www-form-urlencoded\r\n"), 415);
+    EXPECT_EQ(post_as("Content-Type: application/jsonp\r\n"), 415);
+    EXPECT_EQ(post_as(""), 415);
+    EXPECT_EQ(post_as("Content-Type: application/json; charset=utf-8\r\n"), 201);
+    EXPECT_EQ(status_of(ask(std::string("POST /v1/sweeps/none/cancel HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n") + of_a_page + "\r\n")), 404)
+        << "nothing is sent";
+  }
+}
+
+TEST_F(Http, ReadsTheBodyOfAGetAsNothingElse) {
+  const std::string answer = ask("GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 44\r\n\r\nDELETE /v1/sweeps HTTP/1.1\r\nHost: evil\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << "one answer a connection";
 }
 
 TEST_F(Http, SaysNothingToOtherSitesUnlessTheyAreAllowed) {
@@ -362,7 +394,7 @@ TEST(HttpCors, LetsTheSitesOnTheListIn) {
     EXPECT_NE(preflight.find(header), std::string::npos) << header << preflight;
   }
   const std::string body = R"({"sweep": {"clearance_mm": [0.1]}})";
-  const std::string posted = ask("POST /v1/sweeps", good, "Content-Length: " + std::to_string(body.size()) + "\r\n", body);
+  const std::string posted = ask("POST /v1/sweeps", good, "Content-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n", body);
   EXPECT_EQ(status_of(posted), 201);
   EXPECT_NE(posted.find("Access-Control-Allow-Origin: https://lab.example.org\r\n"), std::string::npos);
   EXPECT_NE(posted.find("Access-Control-Expose-Headers: Content-Disposition, ETag, Location, Preference-Applied,"), std::string::npos);

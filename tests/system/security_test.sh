@@ -30,7 +30,9 @@ expect_code 2 "$rpsup" serve --db a.db --port 0 --name https://rpsup.example.org
 ! grep -F "$secret" err out || fail "a message holds the token"
 
 start_service store.db --token-file token --name rpsup.example.org --log-level debug
-expect_equal "$(stat --format=%a store.db store.db-wal store.db.lock | sort -u)" 600 "modes of the store's files"
+expect_equal "$(stat --format=%a store.db store.db-wal store.db-shm store.db.lock | sort -u)" 600 "modes of the store's files"
+expect_code 0 "$rpsup" export --db store.db copy.db
+expect_equal "$(stat --format=%a copy.db)" 600 "mode of a copy"
 
 # Every method of every route asks for the token, before the body is read, and so does what is not there.
 for method in GET HEAD POST PUT PATCH DELETE OPTIONS TRACE; do
@@ -77,6 +79,14 @@ done
 
 # The program's list of arguments, which every user may read, does not hold it either.
 ! tr '\0' ' ' <"/proc/$service/cmdline" | grep -F "$secret" || fail "the arguments hold the token"
+# What is refused for want of a token is not taken for the next request.
+exec 3<>"/dev/tcp/127.0.0.1/${url##*:}"
+printf 'POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 60\r\n\r\nGET /healthz HTTP/1.1\r\nHost: localhost\r\nX-Rest: 0123456\r\n\r\n' >&3
+timeout 20 cat <&3 >unread || true
+exec 3>&-
+expect_equal "$(grep -c '^HTTP/1.1' unread)" 1 "answers to a request whose body was not read"
+expect_text unread '^HTTP/1.1 401'
+
 stop_service TERM
 expect_equal "$code" 0 "exit code of the service"
 
