@@ -32,7 +32,7 @@ echo '{"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "sweep": {"clearance
 id=$(submit small.json)
 wait_for_end "$id"
 echo '{"sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 9000}}}' >large.json
-expect_equal "$(curl --silent --max-time 20 --data @large.json --output answer --write-out '%{http_code}' "$url/v1/sweeps")" 507 "a sweep that has no room"
+expect_equal "$(curl --silent --max-time 100 --data @large.json --output answer --write-out '%{http_code}' "$url/v1/sweeps")" 507 "a sweep that has no room"
 expect_equal "$(jq -r .detail answer)" 'the store may hold 1 MB and has no room for this; delete sweeps that are not needed any more' "what is said of it"
 for path in /readyz /v1/sweeps "/v1/sweeps/$id" "/v1/sweeps/$id/results" /v1/jobs /v1/store; do
   expect_equal "$(status_of "$url$path")" 200 "reading $path"
