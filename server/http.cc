@@ -1,5 +1,7 @@
 #include "server/http.h"
 
+#include <strings.h>
+
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -87,7 +89,10 @@ void copy_to(httplib::Response& to, Response from) {
 /// Only browsers send these. Another site's page can have them send a form or plain text without asking, but not JSON.
 bool is_of_a_page(const httplib::Request& request) { return request.has_header("Origin") || request.has_header("Sec-Fetch-Site"); }
 
-bool is_json(const std::string& media_type) { return media_type.substr(0, media_type.find_first_of("; ")) == "application/json"; }
+bool is_json(const std::string& content_type) {
+  const std::string media_type = content_type.substr(0, content_type.find_first_of("; \t"));
+  return ::strcasecmp(media_type.c_str(), "application/json") == 0;
+}
 
 /// Of programs the media type is not looked at beyond this: `curl -d` calls every body a form.
 std::optional<Refusal> find_media_fault(const httplib::Request& request) {

@@ -356,6 +356,7 @@ TEST_F(Http, TakesOnlyJsonOfPages) {
     EXPECT_EQ(post_as("Content-Type: application/jsonp\r\n"), 415);
     EXPECT_EQ(post_as(""), 415);
     EXPECT_EQ(post_as("Content-Type: application/json; charset=utf-8\r\n"), 201);
+    EXPECT_EQ(post_as("Content-Type: Application/JSON\r\n"), 201) << "media types have no case";
     EXPECT_EQ(status_of(ask(std::string("POST /v1/sweeps/none/cancel HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n") + of_a_page + "\r\n")), 404)
         << "nothing is sent";
   }
