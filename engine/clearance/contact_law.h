@@ -17,19 +17,22 @@ struct RelativeMotion {
   Vec3<V> v, w;     ///< of the journal centre and of the journal relative to {b}
 
   /// Velocity of the journal's material point at r from its centre, less that of the bearing's at the same place.
-  [[nodiscard]] RPSUP_INLINE Vec3<V> calc_velocity(const Vec3<P>& r) const { return v + cross(w, r); }
+  template <typename Place>
+  [[nodiscard]] RPSUP_INLINE Vec3<Mixed<V, Place>> calc_velocity(const Vec3<Place>& r) const { return v + cross(w, r); }
 };
 
 /// What all contacts of one joint do together. Force and moment act on the journal, about its centre, in {b}.
 template <typename V>
 struct JointLoad {
+  using Value = ValueOf<V>;
+
   Vec3<V> force, moment;
   V impact_power{};                  ///< lost in the normal law, [W]
   V friction_power{};                ///< [W]
-  double radial_normal_sum = 0.0;    ///< [N]
-  double friction_sum = 0.0;         ///< magnitudes, [N]
-  double max_penetration = 0.0;      ///< of radial contacts, [m]
-  double elastic_energy = 0.0;       ///< [J]
+  Value radial_normal_sum{};         ///< [N]
+  Value friction_sum{};              ///< magnitudes, [N]
+  Value max_penetration{};           ///< of radial contacts, [m]
+  Value elastic_energy{};            ///< [J]
   bool out_of_range = false;         ///< a penetration is beyond what the stiffness law holds for
 
   /// Called when all that one touch does has been added. @param bristle  its place in the state
@@ -54,6 +57,22 @@ template <typename V>
   if (latched > 0.0) return V(latched);
   return value_of(rate) > minimum ? rate : V(minimum);
 }
+template <int count>
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> choose_onset_rate(const LaneBlock<count>& latched, const LaneBlock<count>& rate, double minimum) {
+  const auto none = LaneBlock<count>{}, least = LaneBlock<count>::all(minimum);
+  return choose_greater(latched, none, latched, choose_greater(rate, least, rate, least));
+}
+
+/// x where it is not negative, else zero.
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V cut_at_zero(const V& x) {
+  return value_of(x) < 0.0 ? V(0.0) : x;
+}
+template <int count>
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> cut_at_zero(const LaneBlock<count>& x) {
+  const LaneBlock<count> none{};
+  return choose_greater(none, x, none, x);
+}
 
 /// Damping on a given elastic force, Eq. (11.1): f_n = f_e (1 + chi rate / rate_onset) + damping rate, never negative.
 ///
@@ -63,19 +82,7 @@ template <typename P, typename V>
 [[nodiscard]] RPSUP_INLINE NormalLaw<V> calc_normal_law(const P& elastic, const V& rate, const V& onset_rate, double chi, double damping) {
   V total = elastic * (1.0 + chi * rate / onset_rate);
   if (damping > 0.0) total += damping * rate;
-  if (value_of(total) < 0.0) return {V(0.0), -(elastic * rate)};
-  return {total, (total - elastic) * rate};
-}
-
-/// The same laws for places side by side.
-[[nodiscard]] RPSUP_INLINE Lanes choose_onset_rate(const Lanes& latched, const Lanes& rate, double minimum) {
-  const Lanes least = Lanes::all(minimum);
-  return choose_greater(latched, Lanes{}, latched, choose_greater(rate, least, rate, least));
-}
-[[nodiscard]] RPSUP_INLINE NormalLaw<Lanes> calc_normal_law(const Lanes& elastic, const Lanes& rate, const Lanes& onset_rate, double chi,
-                                                            double damping) {
-  const Lanes total = elastic * (Lanes::all(1.0) + chi * rate / onset_rate) + damping * rate;
-  const Lanes cut = choose_greater(Lanes{}, total, Lanes{}, total);
+  const V cut = cut_at_zero(total);
   return {cut, (cut - elastic) * rate};
 }
 
@@ -90,11 +97,11 @@ struct Touch {
 /// Adds normal force and friction of one touch to the load. The bristle has two components, along t = e_b x n and along the axis.
 /// @param bristle        may be null: no bristle to read or move
 /// @param bristle_rate   where its rate goes
-template <typename P, typename V>
-RPSUP_INLINE void add_touch(const ClearanceParameters& joint, const RelativeMotion<P, V>& journal, const Touch<P, V>& touch, const V* bristle,
+template <typename Journal, typename P, typename V>
+RPSUP_INLINE void add_touch(const ClearanceParameters& joint, const Journal& journal, const Touch<P, V>& touch, const V* bristle,
                             V* bristle_rate, JointLoad<V>& load) {
   const V& f_n = touch.normal.total;
-  Vec3<V> force{-(f_n * touch.n_x), -(f_n * touch.n_y), V(0.0)};
+  Vec3<V> force{-(f_n * touch.n_x), -(f_n * touch.n_y), V{}};
   load.radial_normal_sum += value_of(f_n);
   load.impact_power += touch.normal.loss_power;
   if (joint.friction) {
@@ -102,13 +109,13 @@ RPSUP_INLINE void add_touch(const ClearanceParameters& joint, const RelativeMoti
     const Vec3<V> velocity = journal.calc_velocity(touch.r);
     const V v_t = velocity.y * touch.n_x - velocity.x * touch.n_y;
     const V& v_z = velocity.z;
-    const FrictionForce<V> friction = calc_friction(law, v_t, v_z, bristle ? bristle[0] : V(0.0), bristle ? bristle[1] : V(0.0));
+    const FrictionForce<V> friction = calc_friction(law, v_t, v_z, bristle ? bristle[0] : V{}, bristle ? bristle[1] : V{});
     const V f_t = f_n * friction.along_t.force_ratio;
     const V f_z = f_n * friction.along_z.force_ratio;
     force.x += f_t * touch.n_y;
     force.y -= f_t * touch.n_x;
     force.z -= f_z;
-    load.friction_sum += std::sqrt(value_of(f_t) * value_of(f_t) + value_of(f_z) * value_of(f_z));
+    load.friction_sum += sqrt(value_of(f_t) * value_of(f_t) + value_of(f_z) * value_of(f_z));
     load.friction_power += f_t * v_t + f_z * v_z;
     if (bristle_rate) {
       bristle_rate[0] = friction.along_t.rate;

@@ -1,55 +1,21 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 
 #include "engine/clearance/contact_law.h"
 #include "engine/clearance/radial_continuum.h"
+#include "engine/clearance/ring.h"
+#include "engine/clearance/two_rings.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
-
-/// Offset of a ring's centre from the bearing axis in the cross-section. Below 1e-12 m there is no normal: n is zero.
-template <typename P>
-struct RingOffset {
-  Vec3<P> axial;    ///< from the journal centre to the ring's
-  P distance;       ///< |e|
-  P n_x, n_y;       ///< e / |e|
-};
-
-template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE RingOffset<P> calc_ring_offset(const RelativeMotion<P, V>& journal, double position) {
-  RingOffset<P> ring;
-  ring.axial = position * journal.R.z;
-  const P e_x = journal.p.x + ring.axial.x;
-  const P e_y = journal.p.y + ring.axial.y;
-  ring.distance = sqrt(e_x * e_x + e_y * e_y);
-  const bool has_normal = value_of(ring.distance) > 1e-12;
-  const P inverse = has_normal ? 1.0 / ring.distance : P(0.0);
-  ring.n_x = inverse * e_x;
-  ring.n_y = inverse * e_y;
-  return ring;
-}
-
-template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE V calc_ring_rate(const RelativeMotion<P, V>& journal, const RingOffset<P>& ring) {
-  const Vec3<V> velocity = journal.calc_velocity(ring.axial);
-  return ring.n_x * velocity.x + ring.n_y * velocity.y;
-}
-
-template <typename P>
-struct RingForce {
-  P elastic;         ///< [N]
-  double energy;     ///< stored, [J]
-};
 
 /// The elastic force of one of the rings.
 template <typename P>
 [[nodiscard]] RPSUP_INLINE RingForce<P> calc_ring_force(const RadialContinuum& contact, const P& delta) {
   const ClearanceParameters& joint = contact.parameters();
-  if (joint.cylinders.law == StiffnessLaw::kHertz) {
-    const P elastic = contact.ring_stiffness() * (delta * sqrt(delta));
-    return {elastic, 0.4 * value_of(elastic) * value_of(delta)};
-  }
+  if (joint.cylinders.law == StiffnessLaw::kHertz) return calc_hertz_force(contact, delta);
   const ElasticForce whole = joint.cylinders.calc(value_of(delta));
   return {chain(delta, whole.force / joint.n_r, whole.slope / joint.n_r), whole.energy / joint.n_r};
 }
@@ -71,7 +37,7 @@ struct RoundPlace {
 template <typename P, typename V>
 [[nodiscard]] RPSUP_INLINE RoundPlace<P> place_on_round_bore(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int ring) {
   const RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
-  return {offset, offset.distance - contact.parameters().c_r};
+  return {offset, calc_penetration(contact, offset)};
 }
 
 /// Where a ring presses on a worn bore, or would. The direction of its offset, theta, decides how far it gets, R(theta): worn_bore.h.
@@ -157,7 +123,11 @@ RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMo
     load = own_load;
     return;
   }
-  for (int i = 0; i < joint.n_r; ++i) add_ring(contact, journal, i, place_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
+  int i = 0;
+  if constexpr (std::is_same_v<Load, JointLoad<double>>)
+    if (joint.cylinders.law == StiffnessLaw::kHertz)
+      for (; i + 1 < joint.n_r; i += 2) add_two_rings(contact, journal, i, bristles, bristle_rates, load);
+  for (; i < joint.n_r; ++i) add_ring(contact, journal, i, place_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

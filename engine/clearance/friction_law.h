@@ -9,12 +9,20 @@ namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// Stribeck's curve g(|v|) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2). Beyond (v / v_s)^2 = 40 the exponential is below rounding.
+/// @param squared  (v / v_s)^2
+template <typename V>
+[[nodiscard]] RPSUP_INLINE V calc_stribeck_at(const FrictionParameters& p, const V& squared) {
+  if (value_of(squared) > 40.0) return V(p.mu_k);
+  return p.mu_k + (p.mu_s - p.mu_k) * exp(-squared);
+}
+[[nodiscard]] RPSUP_INLINE LanePair calc_stribeck_at(const FrictionParameters& p, const LanePair& squared) {
+  return join(calc_stribeck_at(p, squared[0]), calc_stribeck_at(p, squared[1]));
+}
+
 template <typename V>
 [[nodiscard]] RPSUP_INLINE V calc_stribeck_curve(const FrictionParameters& p, const V& speed) {
   const V ratio = speed / p.v_s;
-  const V squared = ratio * ratio;
-  if (value_of(squared) > 40.0) return V(p.mu_k);
-  return p.mu_k + (p.mu_s - p.mu_k) * exp(-squared);
+  return calc_stribeck_at(p, ratio * ratio);
 }
 
 /// How fast a bristle that slides lets go: sigma_0 |v| / g(|v|), [1/s].

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/dynamics/body_force.h"
+#include "engine/dynamics/rod_motion.h"
 #include "engine/dynamics/shapes.h"
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/kinematics/tree_model.h"
@@ -60,8 +61,9 @@ class ArticulatedBodies {
   /// Solves for the free coordinates' accelerations with the matrices of factor().
   /// @param tau  generalised force on each coordinate
   /// @param qdd  one a coordinate; only free ones are written
+  /// @param rods  one a joint: motion of rods whose angular acceleration is counted from zero; null: theirs, too, adds to that of their frames
   template <typename T>
-  RPSUP_INLINE void solve(const JointAxes* axes, const T* tau, Scratch<T>& scratch, T* qdd) const {
+  RPSUP_INLINE void solve(const JointAxes* axes, const T* tau, Scratch<T>& scratch, T* qdd, const RodMotion* rods = nullptr) const {
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       SpatialForce<T>& force = scratch.forces[i];
       if (!joint.driven) transmit(joint, axes[i], eliminated_[i], tau + joint.first, scratch.own[i], force);
@@ -71,7 +73,7 @@ class ArticulatedBodies {
       if (joint.parent_turns) parent.moment += force.moment + cross(axes[i].r, force.force);
     });
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      if (joint.moves) accelerate(joint, i, axes[i], scratch, qdd + joint.first);
+      if (joint.moves) accelerate(joint, i, axes[i], scratch, qdd + joint.first, rods);
     });
   }
 
@@ -299,7 +301,7 @@ class ArticulatedBodies {
 
   /// A joint's acceleration, after its parent's.
   template <typename Joint, typename T>
-  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes& axes, Scratch<T>& scratch, T* qdd) const {
+  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes& axes, Scratch<T>& scratch, T* qdd, const RodMotion* rods) const {
     const Eliminated& e = eliminated_[k];
     SpatialAcceleration<T> own;
     if (joint.parent_moves) {
@@ -317,10 +319,17 @@ class ArticulatedBodies {
       } else if (joint.parent_moves) {
         alpha -= e.J_inverse * transpose_times(e.C, own.linear);
       }
-      const Vec3<T> relative = alpha - own.angular;
+      Vec3<T> relative = alpha - own.angular;
+      const bool from_zero = rods && joint.is_rod;
+      if (from_zero) relative = relative - rods[k].wd_carried;
       qdd[0] = dot(axes.dual.x, relative);
       qdd[1] = dot(axes.dual.y, relative);
       qdd[2] = dot(axes.dual.z, relative);
+      if (from_zero) {
+        qdd[0] = rods[k].qdd_turning[0] + qdd[0];
+        qdd[1] = rods[k].qdd_turning[1] + qdd[1];
+        qdd[2] = rods[k].qdd_turning[2] + qdd[2];
+      }
       own.angular = alpha;
     } else if (!joint.driven) {
       T acceleration = scratch.own[k].x;

@@ -170,8 +170,6 @@ void CompiledEquations<Shapes>::read_out(Evaluation& at) const {
       copy(from.p, to.p.data());
       copy(from.w, to.w.data());
       copy(from.v, to.v.data());
-      copy(from.wd, to.wd.data());
-      copy(from.vd, to.vd.data());
     }
   }
   for (std::size_t k = 0; k < model_.drives.size(); ++k) at.drive_force.data()[k] = kept_.drive_force[k];

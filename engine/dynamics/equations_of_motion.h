@@ -8,6 +8,7 @@
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/loop_equations.h"
+#include "engine/dynamics/rod_motion.h"
 #include "engine/dynamics/spring_pull.h"
 #include "engine/math/finite.h"
 #include "engine/math/sine_cosine.h"
@@ -52,7 +53,8 @@ class EquationsOfMotion {
         sines_(in_sine_blocks(q.size())),
         cosines_(in_sine_blocks(q.size())),
         given_(model.joints.size()),
-        needed_(model.joints.size()) {}
+        needed_(model.joints.size()),
+        rods_(model.joints.size()) {}
 
   /// Computes everything below from q, qd, the driven qdd (free ones: zero) and the bristles.
   [[nodiscard]] RPSUP_INLINE EvaluationStatus evaluate(const DrivenMotion* drives) {
@@ -107,29 +109,34 @@ class EquationsOfMotion {
   /// All frames, root to tip. The joints that stand on driven ones alone move with time only.
   RPSUP_INLINE void calc_frames() {
     if constexpr (Shapes::known) {
-      // Arrays whose addresses are known, so that the others may stay in registers.
-      CoordinateRoom<double> angles(0), sines(0), cosines(0);
-      Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
-        each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
-          angles[static_cast<std::size_t>(joint.first + k)] = q[static_cast<std::size_t>(joint.first + k)];
-        });
-      });
-      calc_frames(angles.data(), sines.data(), cosines.data());
+      double sines[Shapes::sine_room], cosines[Shapes::sine_room];  // of which addresses are known: the others may stay in registers
+      calc_frames(sines, cosines);
     } else {
-      calc_frames(q.data(), sines_.data(), cosines_.data());
+      calc_frames(sines_.data(), cosines_.data());
     }
   }
 
   /// @param sines, cosines  room for them
-  RPSUP_INLINE void calc_frames(const double* angles, double* sines, double* cosines) {
-    calc_sines_and_cosines(angles, q.size(), sines, cosines);  // of slides too: asking costs more
+  RPSUP_INLINE void calc_frames(double* sines, double* cosines) {
+    Shapes::each_sine_block(q, [&](std::size_t place, const SineBlock& angles) RPSUP_INLINE_LAMBDA {
+      const SinesAndCosines of = calc_sines_and_cosines(angles);
+      of.sine.store(sines + place);
+      of.cosine.store(cosines + place);
+    });
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.moves && !drives_moved) return;
       const auto first = static_cast<std::size_t>(joint.first);
+      const std::size_t place = Shapes::sine_place(joint);
       Frame<double, double> f = joint.parent < 0 ? ground_ : frames[static_cast<std::size_t>(joint.parent)];
-      calc_joint_frame(joint, &q[first], &sines[first], &cosines[first], &qd[first], &qdd[first], f, axes[i]);
+      if (Shapes::rods_from_zero && joint.is_rod) {
+        const RodMotion* parent = joint.parent_is_rod ? &rods_[static_cast<std::size_t>(joint.parent)] : nullptr;
+        calc_rod_frame(joint, parent, &sines[place], &cosines[place], &qd[first], f, axes[i], rods_[i]);
+        given_[i] = calc_rod_force(joint, f, rods_[i]);
+      } else {
+        calc_joint_frame(joint, &q[first], &sines[place], &cosines[place], &qd[first], &qdd[first], f, axes[i]);
+        given_[i] = calc_body_force(joint, f);
+      }
       frames[i] = f;
-      given_[i] = calc_body_force(joint, f);
     });
   }
 
@@ -208,7 +215,7 @@ class EquationsOfMotion {
 
   RPSUP_INLINE void solve() {
     Shapes::outwards(model_, [&](std::size_t i, const auto&) RPSUP_INLINE_LAMBDA { scratch_.forces[i] = needed_[i]; });
-    bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data());
+    bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data(), Shapes::rods_from_zero ? rods_.data() : nullptr);
   }
 
   /// (Phi_q M^-1 Phi_q^T) lambda = -(Phi_q qdd_0 + bias) - 2 alpha Phi_d - beta^2 Phi, with qdd_0 the accelerations without constraints.
@@ -327,9 +334,10 @@ class EquationsOfMotion {
   const Frame<double, double> ground_;
   typename ArticulatedBodies<Shapes>::template Scratch<double> scratch_;
   CoordinateRoom<double> tau_;
-  typename Shapes::template SineRoom<double> sines_, cosines_;
+  typename Shapes::SineRoom sines_, cosines_;
   JointRoom<SpatialForce<double>> given_;       ///< needed by the bodies that move with time only
   JointRoom<SpatialForce<double>> needed_;
+  typename Shapes::RodRoom rods_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "engine/dynamics/rod_motion.h"
 #include "engine/kinematics/joint_shape.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
@@ -99,18 +100,19 @@ struct AnyShapes {
   static constexpr bool have_rows = true;     ///< there may be constraints
   static constexpr bool known = false;        ///< when the program is compiled
   static constexpr bool on_stack = false;     ///< all that an evaluation finds has room there
+  static constexpr bool rods_from_zero = false;  ///< see RodMotion
   template <typename T>
   using JointRoom = Buffer<T>;
   template <typename T>
   using CoordinateRoom = Buffer<T>;
-  template <typename T>
-  using SineRoom = Buffer<T>;
+  using SineRoom = Buffer<double>;
   template <typename T>
   using DriveRoom = Buffer<T>;
   template <typename T>
   using CutRoom = Buffer<T>;
   template <typename T>
   using SpringRoom = Buffer<T>;
+  using RodRoom = FixedBuffer<RodMotion, 0>;
 
   [[nodiscard]] static bool fit(const TreeModel&) { return true; }
 
@@ -128,7 +130,34 @@ struct AnyShapes {
     const std::size_t count = model.cut_joints.size();
     for (std::size_t k = 0; k < count; ++k) visit(k, model.cut_joints[k]);
   }
+
+  /// The coordinates whose sines are needed, side by side: visit(place, block). Those of slides among them: asking costs more.
+  template <typename Visit>
+  RPSUP_INLINE static void each_sine_block(const Buffer<double>& q, const Visit& visit) {
+    for (std::size_t i = 0; i < q.size(); i += kSineBlock) visit(i, SineBlock::load(&q[i]));
+  }
+  /// Where the sines of a joint's coordinates are.
+  [[nodiscard]] RPSUP_INLINE static std::size_t sine_place(const TreeJoint& joint) { return static_cast<std::size_t>(joint.first); }
 };
+
+/// The angles of known joints: those against springs, which are small, behind the others.
+template <std::size_t n>
+struct Angles {
+  std::array<std::size_t, 3 * n> coordinate{};
+  std::array<std::size_t, n> place{};         ///< of each joint's first
+  std::size_t count = 0;
+};
+template <std::size_t n>
+[[nodiscard]] consteval Angles<n> angles_of(const std::array<JointShape, n>& shapes) {
+  Angles<n> angles;
+  for (const bool sprung : {false, true})
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!shapes[i].rotates() || shapes[i].sprung != sprung) continue;
+      angles.place[i] = angles.count;
+      for (int k = 0; k < shapes[i].count(); ++k) angles.coordinate[angles.count++] = static_cast<std::size_t>(shapes[i].first + k);
+    }
+  return angles;
+}
 
 /// The joints of a tree known when the program is compiled: the last one's body carries the journal, the third last one's the bearing.
 /// @tparam shapes     an array of JointShape
@@ -142,18 +171,19 @@ struct KnownShapes {
   static constexpr bool have_rows = !clearance;
   static constexpr bool known = true;
   static constexpr bool on_stack = clearance;
+  static constexpr bool rods_from_zero = clearance;
   template <typename T>
   using JointRoom = FixedBuffer<T, n>;
   template <typename T>
-  using CoordinateRoom = FixedBuffer<T, n_q, in_sine_blocks(n_q)>;
-  template <typename T>
-  using SineRoom = FixedBuffer<T, 0>;         ///< elsewhere: see EquationsOfMotion
+  using CoordinateRoom = FixedBuffer<T, n_q>;
+  using SineRoom = FixedBuffer<double, 0>;    ///< elsewhere: see EquationsOfMotion
   template <typename T>
   using DriveRoom = FixedBuffer<T, n_drives>;
   template <typename T>
   using CutRoom = FixedBuffer<T, 1>;
   template <typename T>
   using SpringRoom = FixedBuffer<T, 0>;
+  using RodRoom = FixedBuffer<RodMotion, rods_from_zero ? n : 0>;
   using CutJoint = KnownCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
@@ -177,7 +207,28 @@ struct KnownShapes {
     visit(std::integral_constant<std::size_t, 0>(), CutJoint{model.cut_joints[0]});
   }
 
+  static constexpr std::size_t sine_room = in_sine_blocks(angles_of(shapes).count);
+  template <typename Visit>
+  RPSUP_INLINE static void each_sine_block(const CoordinateRoom<double>& q, const Visit& visit) {
+    each_sine_block(q, visit, std::make_index_sequence<sine_room / kSineBlock>());
+  }
+  template <std::size_t index>
+  [[nodiscard]] RPSUP_INLINE static constexpr std::size_t sine_place(const KnownJoint<shapes, index>&) {
+    return angles_of(shapes).place[index];
+  }
+
  private:
+  /// Put together from numbers: as the parts of a block in memory they would have to get there first.
+  template <typename Visit, std::size_t... block>
+  RPSUP_INLINE static void each_sine_block(const CoordinateRoom<double>& q, const Visit& visit, std::index_sequence<block...>) {
+    (visit(block * kSineBlock, make_sine_block<block * kSineBlock>(q, std::make_index_sequence<kSineBlock>())), ...);
+  }
+  template <std::size_t first, std::size_t... lane>
+  [[nodiscard]] RPSUP_INLINE static SineBlock make_sine_block(const CoordinateRoom<double>& q, std::index_sequence<lane...>) {
+    SineBlock block;
+    block.part[0] = SineBlock::Part{(first + lane < angles_of(shapes).count ? q[angles_of(shapes).coordinate[first + lane]] : 0.0)...};
+    return block;
+  }
   template <typename Visit, std::size_t... i>
   RPSUP_INLINE static void outwards(const TreeModel& model, const Visit& visit, std::index_sequence<i...>) {
     const TreeJoint* joints = model.joints.data();

@@ -103,6 +103,16 @@ RPSUP_INLINE void slide_frame(const Vec3<double>& s, bool turns, double q, doubl
   return axis == 0 ? R.x : axis == 1 ? R.y : R.z;
 }
 
+/// Turns a frame about its own z, then y, then x. @param sines, cosines, qd  of the three angles
+RPSUP_INLINE void turn_spherical(bool turns, const double* sines, const double* cosines, const double* qd, Frame<double, double>& f, JointAxes& axes) {
+  turn_frame(2, turns, {sines[0], cosines[0]}, qd[0], f, axes.axis[0]);
+  const Vec3<double> x = f.R.x;
+  turn_frame(1, true, {sines[1], cosines[1]}, qd[1], f, axes.axis[1]);
+  const double inverse = 1.0 / cosines[1];
+  axes.dual = {inverse * f.R.z, axes.axis[1], inverse * x};
+  turn_frame(0, true, {sines[2], cosines[2]}, qd[2], f, axes.axis[2]);
+}
+
 /// From the frame of a joint's parent to its own, Eq. (2) and its derivatives by time; accelerations without those of free coordinates.
 /// @param f  in: the parent's frame
 /// @param q, sines, cosines, qd, qdd  of the joint's first coordinate on; sines and cosines of rotations only, qdd of a driven one only
@@ -124,12 +134,7 @@ RPSUP_INLINE void calc_joint_frame(const Joint& joint, const double* q, const do
     turn_frame(joint.axis, joint.parent_turns, {sines[0], cosines[0]}, qd[0], f, axes.axis[0]);
     if (joint.driven) f.wd += qdd[0] * axes.axis[0];
   } else {
-    turn_frame(2, joint.parent_turns, {sines[0], cosines[0]}, qd[0], f, axes.axis[0]);
-    const Vec3<double> x = f.R.x;
-    turn_frame(1, true, {sines[1], cosines[1]}, qd[1], f, axes.axis[1]);
-    const double inverse = 1.0 / dot(axes.axis[0], f.R.z);  // 1 / cos theta
-    axes.dual = {inverse * f.R.z, axes.axis[1], inverse * x};
-    turn_frame(0, true, {sines[2], cosines[2]}, qd[2], f, axes.axis[2]);
+    turn_spherical(joint.parent_turns, sines, cosines, qd, f, axes);
   }
 }
 

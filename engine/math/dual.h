@@ -1,100 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
-#include "engine/math/instruction_set.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
-
-/// Eight numbers, in the widest parts that the instruction set has. (Left to the compiler, wider ones fall apart badly.)
-struct Lanes {
-#if defined(__AVX512F__)
-  static constexpr int kWidth = 8;
-#elif defined(__AVX__)
-  static constexpr int kWidth = 4;
-#else
-  static constexpr int kWidth = 2;
-#endif
-  static constexpr int kCount = 8;
-  static constexpr int kParts = kCount / kWidth;
-  using Part = double __attribute__((vector_size(8 * kWidth), aligned(8)));
-
-  Part part[kParts];
-
-  Lanes() = default;
-  // Copied part by part: left to the compiler, a copy goes through smaller words, and the next reader waits for it.
-  RPSUP_INLINE Lanes(const Lanes& other) { *this = other; }
-  RPSUP_INLINE Lanes& operator=(const Lanes& other) {
-    for (int i = 0; i < kParts; ++i) part[i] = other.part[i];
-    return *this;
-  }
-
-  /// @param numbers  eight doubles
-  [[nodiscard]] RPSUP_INLINE static Lanes load(const void* numbers) {
-    using Stored = double __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
-    Lanes lanes;
-    for (int i = 0; i < kParts; ++i) lanes.part[i] = static_cast<const Stored*>(numbers)[i];
-    return lanes;
-  }
-  /// The same number in all lanes.
-  [[nodiscard]] RPSUP_INLINE static Lanes all(double number) {
-    Lanes lanes;
-    for (Part& p : lanes.part) p = number - Part{};
-    return lanes;
-  }
-  /// One in a lane, zero in the others.
-  [[nodiscard]] RPSUP_INLINE static Lanes unit(int lane) {
-    Lanes lanes{};
-    lanes.set(lane, 1.0);
-    return lanes;
-  }
-
-  [[nodiscard]] RPSUP_INLINE double operator[](int lane) const { return part[lane / kWidth][lane % kWidth]; }
-  RPSUP_INLINE void set(int lane, double value) { part[lane / kWidth][lane % kWidth] = value; }
-};
-
-template <typename Operation>
-[[nodiscard]] RPSUP_INLINE Lanes for_each_part(const Operation& operation) {
-  Lanes result;
-  for (int i = 0; i < Lanes::kParts; ++i) result.part[i] = operation(i);
-  return result;
-}
-[[nodiscard]] RPSUP_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] + b.part[i]; });
-}
-[[nodiscard]] RPSUP_INLINE Lanes operator-(const Lanes& a, const Lanes& b) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] - b.part[i]; });
-}
-[[nodiscard]] RPSUP_INLINE Lanes operator-(const Lanes& a) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return -a.part[i]; });
-}
-[[nodiscard]] RPSUP_INLINE Lanes operator*(double s, const Lanes& a) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i]; });
-}
-[[nodiscard]] RPSUP_INLINE Lanes operator*(const Lanes& a, double s) { return s * a; }
-RPSUP_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
-RPSUP_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
-/// Lane by lane.
-[[nodiscard]] RPSUP_INLINE Lanes operator*(const Lanes& a, const Lanes& b) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] * b.part[i]; });
-}
-[[nodiscard]] RPSUP_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] / b.part[i]; });
-}
-/// Lane by lane: a > b ? yes : no
-[[nodiscard]] RPSUP_INLINE Lanes choose_greater(const Lanes& a, const Lanes& b, const Lanes& yes, const Lanes& no) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] > b.part[i] ? yes.part[i] : no.part[i]; });
-}
-/// The sum of all lanes, halves first: the same for every instruction set.
-[[nodiscard]] RPSUP_INLINE double sum(const Lanes& a) {
-  const auto half = [&](int i) RPSUP_INLINE_LAMBDA { return a[i] + a[i + 4]; };
-  return (half(0) + half(2)) + (half(1) + half(3));
-}
-/// s a + t b
-[[nodiscard]] RPSUP_INLINE Lanes combine(double s, const Lanes& a, double t, const Lanes& b) {
-  return for_each_part([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i] + t * b.part[i]; });
-}
 
 /// A number with its derivatives in eight directions: forward differentiation, exact to rounding. What is computed with these is
 /// computed together with its derivatives, from the same lines of code.
@@ -176,6 +88,10 @@ struct Dual {
 /// The number alone: for decisions, which have no derivative.
 [[nodiscard]] RPSUP_INLINE double value_of(double a) { return a; }
 [[nodiscard]] RPSUP_INLINE double value_of(const Dual& a) { return a.value; }
+template <int count>
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> value_of(const LaneBlock<count>& a) { return a; }
+template <typename T>
+using ValueOf = decltype(value_of(std::declval<T>()));
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

@@ -57,11 +57,30 @@ TEST(SinesAndCosines, AreExactWhereTheyCanBe) {
   EXPECT_EQ(numbers.sine[6], 4e-324);
 }
 
+TEST(SinesAndCosines, DoNotDependOnTheNumbersBeside) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-0.8, 0.8);
+  for (int round = 0; round < 3000; ++round) {
+    Numbers small;  // which takes a shorter way, unless one is beyond pi / 4
+    for (double& x : small.x) x = uniform(random);
+    small.calc();
+    for (const double large : {5.0, 2e6}) {
+      Numbers mixed = small;
+      for (std::size_t i = static_cast<std::size_t>(round % 2); i < kCount; i += 2) mixed.x[i] = large;
+      mixed.calc();
+      for (std::size_t i = static_cast<std::size_t>(1 - round % 2); i < kCount; i += 2) {
+        ASSERT_EQ(mixed.sine[i], small.sine[i]) << small.x[i];
+        ASSERT_EQ(mixed.cosine[i], small.cosine[i]) << small.x[i];
+      }
+    }
+  }
+}
+
 TEST(SinesAndCosines, OfLargeNumbersAndOfNoNumbersAreTheLibrarys) {
   Numbers numbers;
   numbers.x = {1e6, -3e15, 1e300, 0.5, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), 2.0};
   numbers.calc();
-  for (const std::size_t i : {0, 1, 2, 3, 6}) {
+  for (const std::size_t i : {0, 1, 2}) {
     EXPECT_EQ(numbers.sine[i], std::sin(numbers.x[i])) << numbers.x[i];
     EXPECT_EQ(numbers.cosine[i], std::cos(numbers.x[i])) << numbers.x[i];
   }
