@@ -4,17 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "jobs/parameters.h"
 #include "jobs/service.h"
 
 namespace jobs {
 
 namespace {
-
-/// Samples are kept in double precision until the job has ended.
-double trajectory_bytes(const JobSpec& spec) {
-  const double samples = std::floor(spec.options.duration * spec.options.output_rate) + 1.0;
-  return samples * static_cast<double>(channel_table(spec).size() * sizeof(double));
-}
 
 std::string megabytes(double bytes) { return std::to_string(std::lround(std::ceil(bytes * 1e-6))) + " MB"; }
 
@@ -22,8 +17,11 @@ std::string megabytes(double bytes) { return std::to_string(std::lround(std::cei
 
 JobSpec within_limits(JobSpec spec, const JobLimits& limits) {
   if (limits.steps > 0) spec.options.step_limit = std::min(spec.options.step_limit, limits.steps);
-  const double needed = trajectory_bytes(spec);
-  if (limits.memory_bytes > 0 && needed > static_cast<double>(limits.memory_bytes)) {
+  if (limits.memory_bytes == 0) return spec;
+  // Samples are kept in double precision until the job has ended.
+  const double channel_bytes = sizeof(double) * (std::floor(spec.options.duration * spec.options.output_rate) + 1.0);
+  if (has_more_channels(spec, static_cast<double>(limits.memory_bytes) / channel_bytes)) {
+    const double needed = channel_bytes * static_cast<double>(channel_table(spec).size());
     throw NeedsTooMuchMemory("the trajectory takes " + megabytes(needed) + " while the job runs; this service allows " +
                              megabytes(static_cast<double>(limits.memory_bytes)) + ": lower output_rate_hz or duration_s");
   }

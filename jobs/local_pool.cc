@@ -59,7 +59,7 @@ void LocalPool::wake() {
 }
 
 void LocalPool::stop_job(const std::string& id) {
-  const std::lock_guard lock(claim_mutex_);
+  const std::lock_guard lock(running_mutex_);
   for (auto& [attempt, stop] : running_) {
     if (attempt.first == id) stop.request_stop();
   }
@@ -80,16 +80,17 @@ void LocalPool::stop() {
 void LocalPool::work(const std::stop_token& stop) {
   lower_priority();
   milliseconds next_pause = kFirstPause;
-  while (!stop.stop_requested()) {
+  std::optional<Task> task;
+  while (task || !stop.stop_requested()) {
     std::uint64_t seen = 0;
     {
       const std::lock_guard lock(wake_mutex_);
       seen = wakes_;
     }
     try {
-      std::stop_source job_stop;
-      if (const auto job = claim_next(stop, job_stop)) {
-        compute(*job, stop, job_stop.get_token());
+      if (!task) task = claim_next();
+      if (task) {
+        task = compute(*task, stop);
       } else {
         std::unique_lock lock(wake_mutex_);
         wake_.wait(lock, stop, [&] { return wakes_ != seen; });
@@ -103,26 +104,37 @@ void LocalPool::work(const std::stop_token& stop) {
   }
 }
 
-std::optional<ClaimedJob> LocalPool::claim_next(const std::stop_token& stop, std::stop_source& job_stop) {
-  const std::lock_guard lock(claim_mutex_);
-  if (stop.stop_requested()) return std::nullopt;
-  auto job = source_.claim();
-  if (!job) return job;
+template <typename Source>
+std::optional<LocalPool::Task> LocalPool::take(const Source& source) {
+  std::optional<Task> task;
   try {
-    running_.insert_or_assign({job->id, job->attempt}, job_stop);
-  } catch (const std::bad_alloc&) {  // the store has it as running: nobody else would take it
-    deliver(*job, std::nullopt, stop);
+    source([&](const ClaimedJob& job) {
+      task.emplace(Task{.job = job, .stop = {}});
+      const std::lock_guard lock(running_mutex_);
+      running_.insert_or_assign({job.id, job.attempt}, task->stop);
+    });
+  } catch (...) {
+    if (task) forget(task->job);
     throw;
   }
-  return job;
+  return task;
 }
 
-void LocalPool::compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) {
-  const std::optional<RunRecord> record = run(job, stop, job_stop);
-  deliver(job, record, stop);
-  // If another job has waited for this one, this thread is about to claim it: nobody need be woken.
-  const std::lock_guard lock(claim_mutex_);
+void LocalPool::forget(const ClaimedJob& job) {
+  const std::lock_guard lock(running_mutex_);
   running_.erase({job.id, job.attempt});
+}
+
+std::optional<LocalPool::Task> LocalPool::claim_next() {
+  return take([&](const Taken& taken) { source_.claim(taken); });
+}
+
+std::optional<LocalPool::Task> LocalPool::compute(const Task& task, const std::stop_token& stop) {
+  const std::optional<RunRecord> record = run(task.job, stop, task.stop.get_token());
+  std::optional<Task> next = deliver(task.job, record, stop);
+  // If another job has waited for this one, this thread takes it now: nobody need be woken.
+  forget(task.job);
+  return next;
 }
 
 std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const {
@@ -144,15 +156,18 @@ std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_t
 
 /// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered again. If the
 /// program ends before that, the job is still marked as running and will be queued again at the next start.
-void LocalPool::deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop) {
+std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop) {
   for (milliseconds next_pause = kFirstPause;; next_pause = std::min(2 * next_pause, kLongestPause)) {
     try {
-      if (!record || (record->end == RunRecord::End::kStopped && stop.stop_requested())) return source_.give_back(job);
-      return source_.record(job, *record);
+      if (!record || (record->end == RunRecord::End::kStopped && stop.stop_requested())) {
+        source_.give_back(job);
+        return std::nullopt;
+      }
+      return take([&](const Taken& taken) { source_.record(job, *record, stop.stop_requested() ? Taken{} : taken); });
     } catch (const std::exception& error) {  // the store's errors, or no memory
       tell("the result could not be stored yet", job.id, error);
     }
-    if (stop.stop_requested()) return;
+    if (stop.stop_requested()) return std::nullopt;
     pause(next_pause, stop);
   }
 }

@@ -20,8 +20,10 @@ namespace jobs {
 
 /// Where an executor gets its jobs and leaves what became of them. Members may be called from any thread and throw StorageError.
 struct JobSource {
-  std::function<std::optional<ClaimedJob>()> claim;
-  std::function<void(const ClaimedJob&, const RunRecord&)> record;
+  /// Tells of a job before anybody else can know that it is running; takes none if that throws.
+  std::function<std::optional<ClaimedJob>(const Taken&)> claim;
+  /// May claim the next job at once, if it has somebody to tell of it; if there is none, claim() is asked.
+  std::function<std::optional<ClaimedJob>(const ClaimedJob&, const RunRecord&, const Taken&)> record;
   std::function<void(const ClaimedJob&)> give_back;
 };
 
@@ -41,13 +43,24 @@ class LocalPool : public Executor {
   [[nodiscard]] nlohmann::json status() const override;
 
  private:
+  /// A job of one of the threads.
+  struct Task {
+    ClaimedJob job;
+    std::stop_source stop;
+  };
+
   void work(const std::stop_token& stop);
-  std::optional<ClaimedJob> claim_next(const std::stop_token& stop, std::stop_source& job_stop);
-  void compute(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop);
+  [[nodiscard]] std::optional<Task> claim_next();
+  /// Does what is to be done for the job. @returns the next one, if that has been claimed on the way
+  [[nodiscard]] std::optional<Task> compute(const Task& task, const std::stop_token& stop);
   /// Empty if there was no memory even to say so.
   [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const;
   /// @param record  empty: the job goes back to the queue
-  void deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop);
+  [[nodiscard]] std::optional<Task> deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop);
+  /// Calls source(taken) and makes a task of the job that it claims: one that can be stopped as soon as others know that it runs.
+  template <typename Source>
+  [[nodiscard]] std::optional<Task> take(const Source& source);
+  void forget(const ClaimedJob& job);
   void tell(const char* what, const std::string& id, const std::exception& error) const noexcept;
   void pause(std::chrono::milliseconds time, const std::stop_token& stop);
 
@@ -57,7 +70,7 @@ class LocalPool : public Executor {
   const int slots_;
   const std::function<void(const std::string&)> log_;
 
-  std::mutex claim_mutex_;  // guards running_; held while claiming, so that a job is in the store as running and here at once
+  std::mutex running_mutex_;  // guards running_; taken while the source is locked, so nothing may be asked of that under it
   /// By id and attempt: a job that was cancelled and queued again may begin before its former attempt has stopped.
   std::map<std::pair<std::string, std::int64_t>, std::stop_source> running_;
 

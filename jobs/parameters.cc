@@ -87,7 +87,8 @@ void add_size_faults(const json& completed, const JobSpec& spec, std::vector<Fau
   if (samples > kMostSamples) {
     faults.push_back({"/output_rate_hz", "duration_s times output_rate_hz is " + readable_number(std::floor(samples)) + " samples; at most " +
                                              readable_number(kMostSamples) + " are kept"});
-  } else if (const double values = samples * static_cast<double>(channel_table(spec).size()); values > kMostStoredValues) {
+  } else if (has_more_channels(spec, kMostStoredValues / samples)) {
+    const double values = samples * static_cast<double>(channel_table(spec).size());
     faults.push_back({"/output_rate_hz", "the trajectory would have " + readable_number(std::floor(values)) + " values; at most " +
                                              readable_number(kMostStoredValues) + " are kept"});
   }
@@ -133,6 +134,19 @@ void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fa
                           : fault.field() == "reach" ? pointer_of_reach(completed) : pointer_of_member(fault.field());
     faults.push_back({pointer, pointer.empty() ? fault.what() : fault.detail()});
   }
+}
+
+/// As many channels as a job of "rpsup" has at most: that of links in as many parts and of as many worn rings as there may be.
+std::size_t count_most_channels() {
+  JobSpec spec = to_job_spec(fill_in_defaults({{"coupler", "flexible"}, {"crank", "flexible"}, {"rod", "flexible"}, {"cross", "flexible"},
+                                               {"cross_length_mm", 100}}));
+  for (const std::string_view key : {"rigid_elements", "crank_elements", "rod_elements", "cross_elements", "radial_levels"}) {
+    const ParameterInfo& info = *find_parameter(key);
+    info.write(spec, static_cast<int>(info.range.maximum));
+  }
+  constexpr std::size_t kSectors = 8;
+  spec.parameters.wear_depth.assign(static_cast<std::size_t>(spec.parameters.radial_levels), std::vector<double>(kSectors, 0.0));
+  return channel_table(spec).size();
 }
 
 /// The job's other parameters alone.
@@ -232,5 +246,11 @@ JobSpec to_job_spec(const json& completed_parameters) {
 std::vector<engine::QuantityInfo> channel_table(const JobSpec& spec) {
   return spec.linkage ? engine::linkage_tables(*spec.linkage).channels : engine::channel_table(spec.parameters);
 }
+
+bool has_more_channels(const JobSpec& spec, double most) {
+  static const auto most_of_any = static_cast<double>(count_most_channels());
+  return (spec.linkage || most < most_of_any) && static_cast<double>(channel_table(spec).size()) > most;
+}
+
 
 }  // namespace jobs

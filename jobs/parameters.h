@@ -8,6 +8,8 @@
 
 namespace jobs {
 
+struct JobSpec;
+
 // The three steps of complete_parameters, for those who have many parameter sets made of the same values.
 // Pointers of the faults start at the parameter set: "/clearance_mm".
 
@@ -23,5 +25,8 @@ namespace jobs {
 /// The faults that values have together: limits that depend on each other, and what the engine refuses.
 /// @param completed  from fill_in_defaults
 [[nodiscard]] std::vector<Fault> find_combination_faults(const nlohmann::json& completed);
+
+/// Whether the job's trajectory has more channels than that. Of jobs of "rpsup" they are only counted where some of those might have more.
+[[nodiscard]] bool has_more_channels(const JobSpec& spec, double most);
 
 }  // namespace jobs

@@ -139,6 +139,9 @@ struct ClaimedJob {
   std::string parameters;
 };
 
+/// Told of a job as it is being claimed.
+using Taken = std::function<void(const ClaimedJob&)>;
+
 /// Jobs that were given to a cluster together.
 struct BatchRow {
   std::int64_t seq = 0;
@@ -192,11 +195,13 @@ class Store {
   bool retry_sweep(const std::string& id, std::size_t max_queued);
 
   /// Takes a job: of the sweeps of the highest priority the one that was served least recently, of that the first whose content
-  /// nobody is computing.
-  [[nodiscard]] std::optional<ClaimedJob> claim(const Lane& lane = {});
+  /// nobody is computing. @param taken  told of it before anybody can see it as running; if it throws, no job is taken
+  [[nodiscard]] std::optional<ClaimedJob> claim(const Lane& lane = {}, const Taken& taken = {});
   /// Stores what a run left, and settles every queued job of the same content. False, and nothing is stored, if the job
   /// is no longer this attempt's (it was cancelled).
   bool record(const ClaimedJob& job, const RunRecord& record);
+  /// Does both, which costs less together: record() and then claim(), or nothing if either fails.
+  [[nodiscard]] std::optional<ClaimedJob> record_and_claim(const ClaimedJob& job, const RunRecord& record, const Lane& lane, const Taken& taken);
   /// Puts a job back that was not computed to its end. Nothing happens if it is no longer this attempt's.
   void give_back(const ClaimedJob& job);
 
@@ -256,8 +261,12 @@ class Store {
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
 
  private:
+  struct Outcome;  ///< what a run left, as it is stored
+
   /// Puts what was running when the process ended back into the queue.
   void begin();
+  [[nodiscard]] std::optional<ClaimedJob> claim(Statements& statements, const Lane& lane, const Taken& taken);
+  bool record(Statements& statements, const ClaimedJob& job, const Outcome& outcome);
   void check_quota_of(SQLite::Database& database) const;
   /// Adds jobs to a sweep. False if there is none.
   bool add_jobs(SQLite::Database& database, const std::string& id, const std::vector<PlannedJob>& jobs, std::size_t max_queued);

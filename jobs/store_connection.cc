@@ -148,7 +148,12 @@ void Writer::release_free_pages() {
   }
 }
 
-std::unique_ptr<SQLite::Database> ReaderPool::take() {
+ReaderPool::Connection::Connection(const std::filesystem::path& store) : database(store.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms) {
+  harden(database);
+  database.exec("PRAGMA query_only = ON");
+}
+
+std::unique_ptr<ReaderPool::Connection> ReaderPool::take() {
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
@@ -157,13 +162,10 @@ std::unique_ptr<SQLite::Database> ReaderPool::take() {
       return connection;
     }
   }
-  auto connection = std::make_unique<SQLite::Database>(store_.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms);
-  harden(*connection);
-  connection->exec("PRAGMA query_only = ON");
-  return connection;
+  return std::make_unique<Connection>(store_);
 }
 
-void ReaderPool::put_back(std::unique_ptr<SQLite::Database> connection) {
+void ReaderPool::put_back(std::unique_ptr<Connection> connection) {
   constexpr std::size_t kMostIdle = 8;
   const std::lock_guard lock(mutex_);
   if (idle_.size() < kMostIdle) idle_.push_back(std::move(connection));

@@ -169,12 +169,27 @@ class ReaderPool {
   auto read(Work&& work) {
     return with_storage_errors([&] {
       Lease lease(*this);
-      Transaction transaction(*lease.connection, "BEGIN");
-      return work(static_cast<const SQLite::Database&>(*lease.connection));
+      Transaction transaction(lease.connection->database, "BEGIN");
+      return work(static_cast<const SQLite::Database&>(lease.connection->database));
+    });
+  }
+
+  /// The same for work(statements), which is done often, and reads one thing.
+  template <typename Work>
+  auto read_often(Work&& work) {
+    return with_storage_errors([&] {
+      Lease lease(*this);
+      return work(lease.connection->statements);
     });
   }
 
  private:
+  struct Connection {
+    explicit Connection(const std::filesystem::path& store);
+
+    SQLite::Database database;
+    Statements statements{database};
+  };
   struct Lease {
     explicit Lease(ReaderPool& owner) : pool(owner), connection(owner.take()) {}
     ~Lease() { pool.put_back(std::move(connection)); }
@@ -182,15 +197,15 @@ class ReaderPool {
     Lease& operator=(const Lease&) = delete;
 
     ReaderPool& pool;
-    std::unique_ptr<SQLite::Database> connection;
+    std::unique_ptr<Connection> connection;
   };
 
-  std::unique_ptr<SQLite::Database> take();
-  void put_back(std::unique_ptr<SQLite::Database> connection);
+  std::unique_ptr<Connection> take();
+  void put_back(std::unique_ptr<Connection> connection);
 
   const std::filesystem::path store_;
   std::mutex mutex_;  // guards idle_
-  std::vector<std::unique_ptr<SQLite::Database>> idle_;
+  std::vector<std::unique_ptr<Connection>> idle_;
 };
 
 }  // namespace jobs

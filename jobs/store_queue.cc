@@ -41,40 +41,62 @@ void end_job(Statements& statements, const ClaimedJob& job, JobState state, std:
 
 }  // namespace
 
-std::optional<ClaimedJob> Store::claim(const Lane& lane) {
-  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) -> std::optional<ClaimedJob> {
-    for (const std::int64_t sweep : find_turns(statements, lane, served_)) {
-      auto job = find_claimable(statements, sweep);
-      if (!job) continue;
-      const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
-      take->bind(1, job->attempt);
-      take->bind(2, now_unix_ms());
-      take->bind(3, job->seq);
-      take->exec();
-      served_[sweep] = ++claims_;
-      return job;
-    }
-    return std::nullopt;
-  });
+struct Store::Outcome {
+  explicit Outcome(const RunRecord& run)
+      : record(run),
+        succeeded(run.end == RunRecord::End::kSucceeded),
+        sampled(!run.trajectory.columns.empty()),
+        trajectory(sampled ? encode_trajectory(run.trajectory) : ""),
+        metrics(succeeded ? run.metrics.dump() : "") {}
+
+  const RunRecord& record;
+  const bool succeeded, sampled;
+  const std::string trajectory, metrics;
+};
+
+std::optional<ClaimedJob> Store::claim(const Lane& lane, const Taken& taken) {
+  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return claim(statements, lane, taken); });
 }
 
 bool Store::record(const ClaimedJob& job, const RunRecord& record) {
-  // Outside of the lock: other threads compute in the meantime.
-  const bool sampled = !record.trajectory.columns.empty();
-  const std::string blob = sampled ? encode_trajectory(record.trajectory) : "";
-  const bool succeeded = record.end == RunRecord::End::kSucceeded;
-  const std::string metrics = succeeded ? record.metrics.dump() : "";
+  const Outcome outcome(record);  // outside of the lock: other threads compute in the meantime
+  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return this->record(statements, job, outcome); });
+}
+
+std::optional<ClaimedJob> Store::record_and_claim(const ClaimedJob& job, const RunRecord& record, const Lane& lane, const Taken& taken) {
+  const Outcome outcome(record);
   return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
-    const auto content = content_if_current(statements, job);
-    if (!content) return false;
-    const std::int64_t now_ms = now_unix_ms();
-    const std::int64_t result = insert_result(statements, *content, record, metrics, own_provenance());
-    if (sampled) insert_trajectory(statements, result, blob);
-    end_job(statements, job, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++changes_);
-    if (succeeded) settle_waiting(statements, *content, result, now_ms, changes_);
-    check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
-    return true;
+    this->record(statements, job, outcome);
+    return claim(statements, lane, taken);
   });
+}
+
+std::optional<ClaimedJob> Store::claim(Statements& statements, const Lane& lane, const Taken& taken) {
+  for (const std::int64_t sweep : find_turns(statements, lane, served_)) {
+    auto job = find_claimable(statements, sweep);
+    if (!job) continue;
+    const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
+    take->bind(1, job->attempt);
+    take->bind(2, now_unix_ms());
+    take->bind(3, job->seq);
+    take->exec();
+    served_[sweep] = ++claims_;
+    if (taken) taken(*job);
+    return job;
+  }
+  return std::nullopt;
+}
+
+bool Store::record(Statements& statements, const ClaimedJob& job, const Outcome& outcome) {
+  const auto content = content_if_current(statements, job);
+  if (!content) return false;
+  const std::int64_t now_ms = now_unix_ms();
+  const std::int64_t result = insert_result(statements, *content, outcome.record, outcome.metrics, own_provenance());
+  if (outcome.sampled) insert_trajectory(statements, result, outcome.trajectory);
+  end_job(statements, job, outcome.succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++changes_);
+  if (outcome.succeeded) settle_waiting(statements, *content, result, now_ms, changes_);
+  check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
+  return true;
 }
 
 void Store::give_back(const ClaimedJob& job) {

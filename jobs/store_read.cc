@@ -126,12 +126,11 @@ std::optional<SweepRow> Store::find_sweep(const std::string& id) const {
 }
 
 std::optional<bool> Store::has_sweep_ended(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<bool> {
-    SQLite::Statement find(database,
-                           "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') "
-                           "OR EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') FROM sweeps s WHERE s.id = ?");
-    find.bind(1, id);
-    return find.executeStep() ? std::optional(find.getColumn(0).getInt() == 0) : std::nullopt;
+  return readers_.read_often([&](Statements& statements) -> std::optional<bool> {
+    const auto find = statements.use("SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') "
+                                     "OR EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') FROM sweeps s WHERE s.id = ?");
+    find->bindNoCopy(1, id);
+    return find->executeStep() ? std::optional(find->getColumn(0).getInt() == 0) : std::nullopt;
   });
 }
 

@@ -111,11 +111,14 @@ class Remaining {
  public:
   explicit Remaining(BatchJobs jobs) : jobs_(std::move(jobs)) {}
 
-  std::optional<ClaimedJob> claim() {
+  std::optional<ClaimedJob> claim(const Taken& taken) {
     const std::lock_guard lock(mutex_);
     if (jobs_.empty()) return std::nullopt;
-    auto first = jobs_.extract(jobs_.begin());
-    return ClaimedJob{.seq = first.key(), .id = std::to_string(first.key()), .attempt = 1, .parameters = std::move(first.mapped())};
+    const auto& [place, parameters] = *jobs_.begin();
+    ClaimedJob job{.seq = place, .id = std::to_string(place), .attempt = 1, .parameters = parameters};
+    taken(job);
+    jobs_.erase(jobs_.begin());
+    return job;
   }
 
  private:
@@ -150,8 +153,11 @@ bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requeste
   Remaining remaining(read_jobs(folder.jobs(), plan.places, header));
   if (header.engine != engine_version()) throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
   Delivery delivery(order, folder, header.batch);
-  LocalPool pool({.claim = [&] { return remaining.claim(); },
-                  .record = [&](const ClaimedJob& job, const RunRecord& record) { delivery.add(static_cast<Place>(job.seq), record); },
+  LocalPool pool({.claim = [&](const Taken& taken) { return remaining.claim(taken); },
+                  .record = [&](const ClaimedJob& job, const RunRecord& record, const Taken&) -> std::optional<ClaimedJob> {
+                    delivery.add(static_cast<Place>(job.seq), record);
+                    return std::nullopt;
+                  },
                   .give_back = [](const ClaimedJob&) {}},
                  order.runner, order.threads, log, header.limits);
   const auto interval = std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(header.deliver_every_s));

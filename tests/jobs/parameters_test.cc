@@ -5,6 +5,7 @@
 
 #include "jobs/content_id.h"
 #include "jobs/parameter_table.h"
+#include "jobs/parameters.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
 
@@ -207,6 +208,17 @@ TEST(CanonicalText, IsOneForAllWaysToWriteTheSameParameters) {
   EXPECT_EQ(text(R"({"guide_offset_y_m": -0.0})"), defaults);
   EXPECT_EQ(text(R"({"links": {"1,3": {"mass_kg": 0.306}}})"), defaults);
   EXPECT_NE(text(R"({"clearance_mm": 0.26})"), defaults);
+}
+
+TEST(Channels, AreMoreThanOneFewerThanThereAreAndNotMoreThanThemselves) {
+  for (const json& given : {json::object(), json{{"coupler", "flexible"}, {"rigid_elements", 64}},
+                            json{{"coupler", "flexible"}, {"rigid_elements", 64}, {"crank", "flexible"}, {"crank_elements", 64}, {"rod", "flexible"},
+                                 {"rod_elements", 64}, {"cross", "flexible"}, {"cross_elements", 64}, {"cross_length_mm", 100}, {"radial_levels", 16}}}) {
+    const jobs::JobSpec spec = jobs::to_job_spec(jobs::complete_parameters(given, ""));
+    const auto channels = static_cast<double>(jobs::channel_table(spec).size());
+    EXPECT_TRUE(jobs::has_more_channels(spec, channels - 1.0)) << given;
+    EXPECT_FALSE(jobs::has_more_channels(spec, channels)) << given;
+  }
 }
 
 }  // namespace

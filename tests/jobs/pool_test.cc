@@ -16,6 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+std::optional<jobs::ClaimedJob> record_nothing(const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) { return std::nullopt; }
+
 TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
@@ -23,14 +25,19 @@ TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
   std::atomic<int> logs = 0;
   std::atomic<bool> stored = false;
   const jobs::ClaimedJob job{.seq = 1, .id = "job_1", .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
-  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> { return claims++ == 0 ? std::optional(job) : std::nullopt; },
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
+                          if (claims++ > 0) return std::nullopt;
+                          taken(job);
+                          return job;
+                        },
                         .record =
-                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record) {
+                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record, const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
                               EXPECT_EQ(claimed.id, "job_1");
                               EXPECT_EQ(record.end, jobs::RunRecord::End::kSucceeded);
                               if (offers++ == 0) throw jobs::StorageError("disk full", 13, true);
                               stored = true;
                               stored.notify_all();
+                              return std::nullopt;
                             },
                         .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE() << "a finished job was given back"; }},
                        engine.runner(), 1, [&](const std::string& text) {
@@ -47,13 +54,13 @@ TEST(LocalPool, OutlivesAStoreThatCannotBeClaimedFrom) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<bool> done = false;
-  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> {
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
                           if (claims++ == 0) throw jobs::StorageError("disk full", 13, true);
                           done = true;
                           done.notify_all();
                           return std::nullopt;
                         },
-                        .record = [](const jobs::ClaimedJob&, const jobs::RunRecord&) {},
+                        .record = record_nothing,
                         .give_back = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) {});
   done.wait(false);
@@ -64,24 +71,64 @@ TEST(LocalPool, OutlivesALogThatHasNoMemory) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<bool> done = false;
-  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> {
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
                           if (claims++ == 0) throw std::bad_alloc();
                           done = true;
                           done.notify_all();
                           return std::nullopt;
                         },
-                        .record = [](const jobs::ClaimedJob&, const jobs::RunRecord&) {},
+                        .record = record_nothing,
                         .give_back = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) { throw std::bad_alloc(); });
   done.wait(false);
   EXPECT_EQ(claims, 2);
 }
 
+TEST(LocalPool, ComputesTheJobThatARecordHasClaimedAndCanStopIt) {
+  FakeEngine engine;
+  std::atomic<int> records = 0;
+  std::atomic<bool> running = false;
+  const auto job_of = [](int k, double speed) {
+    return jobs::ClaimedJob{.seq = k, .id = "job_" + std::to_string(k), .attempt = 1,
+                            .parameters = jobs::complete_parameters({{"crank_velocity_rad_s", speed}}, "").dump()};
+  };
+  std::atomic<int> claims = 0;
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
+                          if (claims++ > 0) return std::nullopt;
+                          taken(job_of(1, 1.0));
+                          return job_of(1, 1.0);
+                        },
+                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord& record, const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
+                          if (++records == 1) {
+                            EXPECT_EQ(job.id, "job_1");
+                            taken(job_of(2, 2.0));
+                            throw jobs::StorageError("disk full", 13, true);  // so that nothing has been claimed
+                          }
+                          if (records == 2) {
+                            engine.hold();
+                            taken(job_of(2, 2.0));
+                            running = true;
+                            running.notify_all();
+                            return job_of(2, 2.0);
+                          }
+                          EXPECT_EQ(job.id, "job_2");
+                          EXPECT_EQ(record.end, jobs::RunRecord::End::kStopped);
+                          EXPECT_EQ(claims, 1);
+                          records.notify_all();
+                          return std::nullopt;
+                        },
+                        .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
+                       engine.runner(), 1, [](const std::string&) {});
+  running.wait(false);
+  pool.stop_job("job_2");  // which may not have begun yet
+  for (int seen = records; seen < 3; seen = records) records.wait(seen);
+}
+
 TEST(LocalPool, SleepsWhileThereIsNothingToDo) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
-  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> { ++claims; claims.notify_all(); return std::nullopt; },
-                        .record = [](const jobs::ClaimedJob&, const jobs::RunRecord&) {},
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) -> std::optional<jobs::ClaimedJob> { ++claims; claims.notify_all(); return std::nullopt; },
+                        .record = record_nothing,
                         .give_back = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) {});
   claims.wait(0);
@@ -97,9 +144,13 @@ TEST(LocalPool, StopsAtOnceWhileItWaitsForTheDisk) {
   std::atomic<int> claims = 0;
   std::atomic<bool> offered = false;
   const jobs::ClaimedJob job{.seq = 1, .id = "job_1", .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
-  jobs::LocalPool pool({.claim = [&]() -> std::optional<jobs::ClaimedJob> { return claims++ == 0 ? std::optional(job) : std::nullopt; },
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
+                          if (claims++ > 0) return std::nullopt;
+                          taken(job);
+                          return job;
+                        },
                         .record =
-                            [&](const jobs::ClaimedJob&, const jobs::RunRecord&) {
+                            [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
                               offered = true;
                               offered.notify_all();
                               throw jobs::StorageError("disk full", 13, true);

@@ -65,6 +65,30 @@ TEST(Store, QueuesAgainWhatADeadProcessLeftRunning) {
   EXPECT_EQ(store.find_job(again.id)->attempts, 2);
 }
 
+TEST(Store, RecordsAJobAndClaimsTheNextOrDoesNeither) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string sweep = add_sweep(store, kThreeJobs);
+  const jobs::ClaimedJob first = store.claim().value();
+  const auto refuse = [](const jobs::ClaimedJob&) { throw std::bad_alloc(); };
+  EXPECT_THROW((void)store.record_and_claim(first, success(1.0), {}, refuse), std::bad_alloc);
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kRunning), 1);
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 2);
+  std::string told;
+  const auto second = store.record_and_claim(first, success(1.0), {}, [&](const jobs::ClaimedJob& job) { told = job.id; });
+  ASSERT_TRUE(second.has_value());
+  EXPECT_EQ(told, second->id);
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kSucceeded), 1);
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kRunning), 1);
+  // One that was cancelled meanwhile leaves nothing; the next is claimed as ever.
+  EXPECT_EQ(store.cancel_job(second->id).outcome, jobs::CancelOutcome::kDone);
+  const auto third = store.record_and_claim(*second, success(2.0), {}, {});
+  ASSERT_TRUE(third.has_value());
+  EXPECT_FALSE(store.find_job(second->id)->metrics.has_value());
+  EXPECT_FALSE(store.record_and_claim(*third, success(3.0), {}, {}).has_value());
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kSucceeded), 2);
+}
+
 TEST(Store, IsRefusedToASecondOpener) {
   const TemporaryStore temporary;
   {
