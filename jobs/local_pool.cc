@@ -104,11 +104,11 @@ void LocalPool::work(const std::stop_token& stop) {
   }
 }
 
-template <typename Source>
-std::optional<LocalPool::Task> LocalPool::take(const Source& source) {
+template <typename HandOver>
+std::optional<LocalPool::Task> LocalPool::take(const HandOver& hand_over) {
   std::optional<Task> task;
   try {
-    source([&](const ClaimedJob& job) {
+    hand_over([&](const ClaimedJob& job) {
       task.emplace(Task{.job = job, .stop = {}});
       const std::lock_guard lock(running_mutex_);
       running_.insert_or_assign({job.id, job.attempt}, task->stop);
@@ -120,14 +120,13 @@ std::optional<LocalPool::Task> LocalPool::take(const Source& source) {
   return task;
 }
 
-void LocalPool::forget(const ClaimedJob& job) {
+/// Takes no memory: what has been claimed meanwhile would be lost with the exception.
+void LocalPool::forget(const ClaimedJob& job) noexcept {
   const std::lock_guard lock(running_mutex_);
-  running_.erase({job.id, job.attempt});
+  std::erase_if(running_, [&](const auto& running) { return running.first.first == job.id && running.first.second == job.attempt; });
 }
 
-std::optional<LocalPool::Task> LocalPool::claim_next() {
-  return take([&](const Taken& taken) { source_.claim(taken); });
-}
+std::optional<LocalPool::Task> LocalPool::claim_next() { return take(source_.claim); }
 
 std::optional<LocalPool::Task> LocalPool::compute(const Task& task, const std::stop_token& stop) {
   const std::optional<RunRecord> record = run(task.job, stop, task.stop.get_token());
@@ -157,18 +156,21 @@ std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_t
 /// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered again. If the
 /// program ends before that, the job is still marked as running and will be queued again at the next start.
 std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop) {
+  bool with_next = true;  // at the first try: what is wrong with the next job must not keep this one's result
   for (milliseconds next_pause = kFirstPause;; next_pause = std::min(2 * next_pause, kLongestPause)) {
+    with_next = with_next && !stop.stop_requested();
     try {
       if (!record || (record->end == RunRecord::End::kStopped && stop.stop_requested())) {
         source_.give_back(job);
         return std::nullopt;
       }
-      return take([&](const Taken& taken) { source_.record(job, *record, stop.stop_requested() ? Taken{} : taken); });
+      return take([&](const Taken& taken) { source_.record(job, *record, with_next ? taken : Taken{}); });
     } catch (const std::exception& error) {  // the store's errors, or no memory
       tell("the result could not be stored yet", job.id, error);
     }
     if (stop.stop_requested()) return std::nullopt;
     pause(next_pause, stop);
+    with_next = false;
   }
 }
 

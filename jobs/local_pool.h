@@ -20,10 +20,10 @@ namespace jobs {
 
 /// Where an executor gets its jobs and leaves what became of them. Members may be called from any thread and throw StorageError.
 struct JobSource {
-  /// Tells of a job before anybody else can know that it is running; takes none if that throws.
-  std::function<std::optional<ClaimedJob>(const Taken&)> claim;
-  /// May claim the next job at once, if it has somebody to tell of it; if there is none, claim() is asked.
-  std::function<std::optional<ClaimedJob>(const ClaimedJob&, const RunRecord&, const Taken&)> record;
+  /// Hands over a job, if there is one, before anybody else can know that it is running. If taking it throws, or this does afterwards, it is not.
+  std::function<void(const Taken&)> claim;
+  /// May claim the next job at once, if there is somebody to take it, or do nothing at all; if it hands over none, claim() is asked.
+  std::function<void(const ClaimedJob&, const RunRecord&, const Taken&)> record;
   std::function<void(const ClaimedJob&)> give_back;
 };
 
@@ -57,10 +57,10 @@ class LocalPool : public Executor {
   [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const;
   /// @param record  empty: the job goes back to the queue
   [[nodiscard]] std::optional<Task> deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop);
-  /// Calls source(taken) and makes a task of the job that it claims: one that can be stopped as soon as others know that it runs.
-  template <typename Source>
-  [[nodiscard]] std::optional<Task> take(const Source& source);
-  void forget(const ClaimedJob& job);
+  /// Calls hand_over(taken) and makes a task of the job that is handed over: one that can be stopped as soon as others know that it runs.
+  template <typename HandOver>
+  [[nodiscard]] std::optional<Task> take(const HandOver& hand_over);
+  void forget(const ClaimedJob& job) noexcept;
   void tell(const char* what, const std::string& id, const std::exception& error) const noexcept;
   void pause(std::chrono::milliseconds time, const std::stop_token& stop);
 

@@ -252,5 +252,4 @@ bool has_more_channels(const JobSpec& spec, double most) {
   return (spec.linkage || most < most_of_any) && static_cast<double>(channel_table(spec).size()) > most;
 }
 
-
 }  // namespace jobs

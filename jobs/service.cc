@@ -57,9 +57,9 @@ class Service::Impl {
 
   void start() {
     if (!executors_.empty()) return;
-    executors_.push_back(std::make_unique<LocalPool>(JobSource{.claim = [this](const Taken& taken) { return claim(taken); },
+    executors_.push_back(std::make_unique<LocalPool>(JobSource{.claim = [this](const Taken& taken) { claim(taken); },
                                                                .record = [this](const ClaimedJob& job, const RunRecord& run,
-                                                                                const Taken& next) { return record(job, run, next); },
+                                                                                const Taken& next) { record(job, run, next); },
                                                                .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
                                                      options_.runner, options_.threads, options_.log, options_.job_limits));
     if (has_cluster()) {
@@ -320,10 +320,8 @@ class Service::Impl {
     searches_.change_sweep(id, [&] { wear_studies_.change_sweep(id, change); });
   }
 
-  std::optional<ClaimedJob> claim(const Taken& taken) {
-    auto job = store_.claim(lane_of(kLocalExecutor), taken);
-    if (job) ++activity_;
-    return job;
+  void claim(const Taken& taken) {
+    if (store_.claim(lane_of(kLocalExecutor), taken)) ++activity_;
   }
 
   void check_open() const {
@@ -366,16 +364,14 @@ class Service::Impl {
     return sweep;
   }
 
-  /// @param next  told of the next job; empty: none is taken
-  std::optional<ClaimedJob> record(const ClaimedJob& job, const RunRecord& run, const Taken& next) {
-    std::optional<ClaimedJob> claimed;
+  /// @param next  takes the next job; empty: nobody does
+  void record(const ClaimedJob& job, const RunRecord& run, const Taken& next) {
     if (next) {
-      claimed = store_.record_and_claim(job, run, lane_of(kLocalExecutor), next);
+      static_cast<void>(store_.record_and_claim(job, run, lane_of(kLocalExecutor), next));
     } else {
       store_.record(job, run);
     }
     tell_change();
-    return claimed;
   }
 
   /// Does the rest of a cancellation. False if there is nothing of that id. @param why_not  null if it may have ended

@@ -179,6 +179,7 @@ class ReaderPool {
   auto read_often(Work&& work) {
     return with_storage_errors([&] {
       Lease lease(*this);
+      roll_back_unfinished(lease.connection->database);
       return work(lease.connection->statements);
     });
   }

@@ -38,7 +38,7 @@ RPSUP_INLINE void add_lane(const JointLoad<LanePair>& two, int lane, JointLoad<d
 }
 
 /// What two rings side by side do on a round bore, by Hertz's law: to the bit what add_ring() does with one after the other, but their roots and
-/// quotients take no longer than those of one. A ring that does not press adds zeros.
+/// quotients take no longer than those of one. A ring that does not press adds zeros. Hertz's law holds for every penetration.
 RPSUP_INLINE void add_two_rings(const RadialContinuum& contact, const RelativeMotion<double, double>& journal, int i, const double* bristles,
                                 double* bristle_rates, JointLoad<double>& load) {
   const ClearanceParameters& joint = contact.parameters();

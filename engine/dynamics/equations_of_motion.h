@@ -26,6 +26,7 @@ struct LossPowers {
 /// Shapes: the tree's joints, AnyShapes or known ones.
 template <typename Shapes>
 class EquationsOfMotion {
+  static_assert(!Shapes::rods_from_zero || !(Shapes::have_rows || Shapes::have_springs), "they would take wd and vd of frames for those of rods");
   template <typename T>
   using JointRoom = typename Shapes::template JointRoom<T>;
   template <typename T>

@@ -44,7 +44,7 @@ struct Evaluation {
   double t = 0.0;
   Eigen::VectorXd q, qd, qdd;                               ///< every coordinate
   Eigen::VectorXd drive_force;                              ///< one a drive, [N] or [N m]
-  std::vector<FrameMotion> frames;                          ///< one a coordinate, without accelerations
+  std::vector<FrameMotion> frames;                          ///< one a coordinate; accelerations are not set
   std::vector<JointState> joints;                           ///< one a cut joint
   EnergyAccount energy;                                     ///< kinetic and potential: by calc_energies()
 };

@@ -39,7 +39,7 @@ RPSUP_INLINE void calc_rod_frame(const Joint& joint, const RodMotion* parent, co
   turn_spherical(joint.parent_turns, sines, cosines, qd, f, axes);
   f.wd = {};
   rod.wd_carried = joint.parent_turns ? parent_wd + cross(parent_w, f.w) : Vec3<double>{};
-  // zd yd (z x y) + yd xd (y x x) + zd xd (z x x), of the axes z, y and x as they stand, in the basis reciprocal to them.
+  // -(zd yd z x y + yd xd y x x + zd xd z x x), of the axes z, y and x as they stand, in the basis reciprocal to them.
   const double zy = qd[0] * qd[1], yx = qd[1] * qd[2], inverse = 1.0 / cosines[1];
   rod.qdd_turning[0] = inverse * (zy * sines[1] + yx);
   rod.qdd_turning[1] = -(qd[0] * qd[2]) * cosines[1];

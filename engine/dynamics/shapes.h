@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
 
+#include "engine/dynamics/angles_of.h"
 #include "engine/dynamics/rod_motion.h"
 #include "engine/kinematics/joint_shape.h"
 #include "engine/kinematics/tree_model.h"
@@ -140,31 +142,13 @@ struct AnyShapes {
   [[nodiscard]] RPSUP_INLINE static std::size_t sine_place(const TreeJoint& joint) { return static_cast<std::size_t>(joint.first); }
 };
 
-/// The angles of known joints: those against springs, which are small, behind the others.
-template <std::size_t n>
-struct Angles {
-  std::array<std::size_t, 3 * n> coordinate{};
-  std::array<std::size_t, n> place{};         ///< of each joint's first
-  std::size_t count = 0;
-};
-template <std::size_t n>
-[[nodiscard]] consteval Angles<n> angles_of(const std::array<JointShape, n>& shapes) {
-  Angles<n> angles;
-  for (const bool sprung : {false, true})
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!shapes[i].rotates() || shapes[i].sprung != sprung) continue;
-      angles.place[i] = angles.count;
-      for (int k = 0; k < shapes[i].count(); ++k) angles.coordinate[angles.count++] = static_cast<std::size_t>(shapes[i].first + k);
-    }
-  return angles;
-}
-
 /// The joints of a tree known when the program is compiled: the last one's body carries the journal, the third last one's the bearing.
 /// @tparam shapes     an array of JointShape
 /// @tparam clearance  whether the cut joint has any
 template <const auto& shapes, bool clearance>
 struct KnownShapes {
   static constexpr std::size_t n = shapes.size();
+  static_assert(std::ranges::none_of(shapes, [](const JointShape& s) { return s.is_rod && (s.turned || s.driven); }), "RodMotion knows no such rods");
   static constexpr std::size_t n_q = static_cast<std::size_t>(shapes[n - 1].first + shapes[n - 1].count());
   static constexpr std::size_t n_drives = 2;
   static constexpr bool have_springs = false;

@@ -111,14 +111,12 @@ class Remaining {
  public:
   explicit Remaining(BatchJobs jobs) : jobs_(std::move(jobs)) {}
 
-  std::optional<ClaimedJob> claim(const Taken& taken) {
+  void claim(const Taken& taken) {
     const std::lock_guard lock(mutex_);
-    if (jobs_.empty()) return std::nullopt;
+    if (jobs_.empty()) return;
     const auto& [place, parameters] = *jobs_.begin();
-    ClaimedJob job{.seq = place, .id = std::to_string(place), .attempt = 1, .parameters = parameters};
-    taken(job);
+    taken(ClaimedJob{.seq = place, .id = std::to_string(place), .attempt = 1, .parameters = parameters});
     jobs_.erase(jobs_.begin());
-    return job;
   }
 
  private:
@@ -153,11 +151,8 @@ bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requeste
   Remaining remaining(read_jobs(folder.jobs(), plan.places, header));
   if (header.engine != engine_version()) throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
   Delivery delivery(order, folder, header.batch);
-  LocalPool pool({.claim = [&](const Taken& taken) { return remaining.claim(taken); },
-                  .record = [&](const ClaimedJob& job, const RunRecord& record, const Taken&) -> std::optional<ClaimedJob> {
-                    delivery.add(static_cast<Place>(job.seq), record);
-                    return std::nullopt;
-                  },
+  LocalPool pool({.claim = [&](const Taken& taken) { remaining.claim(taken); },
+                  .record = [&](const ClaimedJob& job, const RunRecord& record, const Taken&) { delivery.add(static_cast<Place>(job.seq), record); },
                   .give_back = [](const ClaimedJob&) {}},
                  order.runner, order.threads, log, header.limits);
   const auto interval = std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(header.deliver_every_s));

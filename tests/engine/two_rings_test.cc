@@ -4,6 +4,8 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 

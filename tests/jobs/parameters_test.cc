@@ -211,9 +211,11 @@ TEST(CanonicalText, IsOneForAllWaysToWriteTheSameParameters) {
 }
 
 TEST(Channels, AreMoreThanOneFewerThanThereAreAndNotMoreThanThemselves) {
-  for (const json& given : {json::object(), json{{"coupler", "flexible"}, {"rigid_elements", 64}},
-                            json{{"coupler", "flexible"}, {"rigid_elements", 64}, {"crank", "flexible"}, {"crank_elements", 64}, {"rod", "flexible"},
-                                 {"rod_elements", 64}, {"cross", "flexible"}, {"cross_elements", 64}, {"cross_length_mm", 100}, {"radial_levels", 16}}}) {
+  const json all_flexible{{"coupler", "flexible"}, {"rigid_elements", 64}, {"crank", "flexible"}, {"crank_elements", 64}, {"rod", "flexible"},
+                          {"rod_elements", 64}, {"cross", "flexible"}, {"cross_elements", 64}, {"cross_length_mm", 100}, {"radial_levels", 16}};
+  json largest = all_flexible;
+  largest["wear_depth_um"] = std::vector<std::vector<double>>(16, std::vector<double>(8, 1.0));
+  for (const json& given : {json::object(), json{{"coupler", "flexible"}, {"rigid_elements", 64}}, all_flexible, largest}) {
     const jobs::JobSpec spec = jobs::to_job_spec(jobs::complete_parameters(given, ""));
     const auto channels = static_cast<double>(jobs::channel_table(spec).size());
     EXPECT_TRUE(jobs::has_more_channels(spec, channels - 1.0)) << given;

@@ -16,7 +16,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::optional<jobs::ClaimedJob> record_nothing(const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) { return std::nullopt; }
+jobs::ClaimedJob numbered_job(int k) {
+  return {.seq = k, .id = "job_" + std::to_string(k), .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
+}
+
+void record_nothing(const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) {}
 
 TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
   FakeEngine engine;
@@ -24,20 +28,16 @@ TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
   std::atomic<int> offers = 0;
   std::atomic<int> logs = 0;
   std::atomic<bool> stored = false;
-  const jobs::ClaimedJob job{.seq = 1, .id = "job_1", .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
-                          if (claims++ > 0) return std::nullopt;
-                          taken(job);
-                          return job;
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) {
+                          if (claims++ == 0) taken(numbered_job(1));
                         },
                         .record =
-                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record, const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
+                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record, const jobs::Taken&) {
                               EXPECT_EQ(claimed.id, "job_1");
                               EXPECT_EQ(record.end, jobs::RunRecord::End::kSucceeded);
                               if (offers++ == 0) throw jobs::StorageError("disk full", 13, true);
                               stored = true;
                               stored.notify_all();
-                              return std::nullopt;
                             },
                         .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE() << "a finished job was given back"; }},
                        engine.runner(), 1, [&](const std::string& text) {
@@ -54,11 +54,10 @@ TEST(LocalPool, OutlivesAStoreThatCannotBeClaimedFrom) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<bool> done = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) {
                           if (claims++ == 0) throw jobs::StorageError("disk full", 13, true);
                           done = true;
                           done.notify_all();
-                          return std::nullopt;
                         },
                         .record = record_nothing,
                         .give_back = [](const jobs::ClaimedJob&) {}},
@@ -71,11 +70,10 @@ TEST(LocalPool, OutlivesALogThatHasNoMemory) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<bool> done = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) {
                           if (claims++ == 0) throw std::bad_alloc();
                           done = true;
                           done.notify_all();
-                          return std::nullopt;
                         },
                         .record = record_nothing,
                         .give_back = [](const jobs::ClaimedJob&) {}},
@@ -84,50 +82,82 @@ TEST(LocalPool, OutlivesALogThatHasNoMemory) {
   EXPECT_EQ(claims, 2);
 }
 
-TEST(LocalPool, ComputesTheJobThatARecordHasClaimedAndCanStopIt) {
+TEST(LocalPool, ComputesTheJobThatARecordHandsOverAndCanStopIt) {
   FakeEngine engine;
-  std::atomic<int> records = 0;
-  std::atomic<bool> running = false;
-  const auto job_of = [](int k, double speed) {
-    return jobs::ClaimedJob{.seq = k, .id = "job_" + std::to_string(k), .attempt = 1,
-                            .parameters = jobs::complete_parameters({{"crank_velocity_rad_s", speed}}, "").dump()};
-  };
   std::atomic<int> claims = 0;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
-                          if (claims++ > 0) return std::nullopt;
-                          taken(job_of(1, 1.0));
-                          return job_of(1, 1.0);
-                        },
-                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord& record, const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
-                          if (++records == 1) {
-                            EXPECT_EQ(job.id, "job_1");
-                            taken(job_of(2, 2.0));
-                            throw jobs::StorageError("disk full", 13, true);  // so that nothing has been claimed
-                          }
-                          if (records == 2) {
+  std::atomic<int> records = 0;
+  std::atomic<bool> handed_over = false;
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) { if (claims++ == 0) taken(numbered_job(1)); },
+                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord& record, const jobs::Taken& taken) {
+                          if (records == 0) {
                             engine.hold();
-                            taken(job_of(2, 2.0));
-                            running = true;
-                            running.notify_all();
-                            return job_of(2, 2.0);
+                            taken(numbered_job(2));
+                            handed_over = true;
+                            handed_over.notify_all();
+                          } else {
+                            EXPECT_EQ(job.id, "job_2");
+                            EXPECT_EQ(record.end, jobs::RunRecord::End::kStopped);
+                            EXPECT_EQ(claims, 1);
                           }
-                          EXPECT_EQ(job.id, "job_2");
-                          EXPECT_EQ(record.end, jobs::RunRecord::End::kStopped);
-                          EXPECT_EQ(claims, 1);
+                          ++records;
                           records.notify_all();
-                          return std::nullopt;
                         },
                         .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
                        engine.runner(), 1, [](const std::string&) {});
-  running.wait(false);
+  handed_over.wait(false);
   pool.stop_job("job_2");  // which may not have begun yet
-  for (int seen = records; seen < 3; seen = records) records.wait(seen);
+  for (int seen = records; seen < 2; seen = records) records.wait(seen);
+}
+
+TEST(LocalPool, OffersAResultAloneThatCouldNotBeStoredWithTheNextJob) {
+  FakeEngine engine;
+  std::atomic<int> claims = 0;
+  std::atomic<int> records = 0;
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) { if (claims++ == 0) taken(numbered_job(1)); },
+                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord&, const jobs::Taken& taken) {
+                          EXPECT_EQ(job.id, "job_1");
+                          if (records++ == 0) {
+                            taken(numbered_job(2));
+                            throw std::bad_alloc();  // so that nothing has been claimed
+                          }
+                          EXPECT_FALSE(taken);
+                          records.notify_all();
+                        },
+                        .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
+                       engine.runner(), 1, [](const std::string&) {});
+  for (int seen = records; seen < 2; seen = records) records.wait(seen);
+  EXPECT_EQ(engine.begun_speeds().size(), 1U);
+}
+
+TEST(LocalPool, GivesBackAJobThatItIsHandedAsItStops) {
+  FakeEngine engine;
+  std::atomic<int> claims = 0;
+  std::atomic<bool> recording = false;
+  std::atomic<bool> stopping = false;
+  std::vector<std::string> given_back;
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) { if (claims++ == 0) taken(numbered_job(1)); },
+                        .record = [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken& taken) {
+                          engine.hold();
+                          recording = true;
+                          recording.notify_all();
+                          stopping.wait(false);
+                          std::this_thread::sleep_for(50ms);
+                          taken(numbered_job(2));
+                        },
+                        .give_back = [&](const jobs::ClaimedJob& job) { given_back.push_back(job.id); }},
+                       engine.runner(), 1, [](const std::string&) {});
+  recording.wait(false);
+  stopping = true;
+  stopping.notify_all();
+  pool.stop();
+  EXPECT_EQ(given_back, std::vector<std::string>{"job_2"});
+  EXPECT_EQ(claims, 1);
 }
 
 TEST(LocalPool, SleepsWhileThereIsNothingToDo) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) -> std::optional<jobs::ClaimedJob> { ++claims; claims.notify_all(); return std::nullopt; },
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) { ++claims; claims.notify_all(); },
                         .record = record_nothing,
                         .give_back = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) {});
@@ -143,14 +173,11 @@ TEST(LocalPool, StopsAtOnceWhileItWaitsForTheDisk) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<bool> offered = false;
-  const jobs::ClaimedJob job{.seq = 1, .id = "job_1", .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) -> std::optional<jobs::ClaimedJob> {
-                          if (claims++ > 0) return std::nullopt;
-                          taken(job);
-                          return job;
+  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) {
+                          if (claims++ == 0) taken(numbered_job(1));
                         },
                         .record =
-                            [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) -> std::optional<jobs::ClaimedJob> {
+                            [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) {
                               offered = true;
                               offered.notify_all();
                               throw jobs::StorageError("disk full", 13, true);
