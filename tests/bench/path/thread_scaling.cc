@@ -1,9 +1,12 @@
-// How many times the jobs of one thread two threads do. The ratio of passing times is only right on a quiet machine, so what it is
-// made of is printed, too: how much dearer a job is beside another one, and how long threads wait for each other.
+// How many times the jobs of one thread two threads do, by turns in some rounds, of which the median counts. The ratio of passing times is
+// only right on a quiet machine, so what it is made of is printed, too: how much dearer a job is beside another one, and how long threads wait
+// for each other.
 //
 // usage: bench_thread_scaling [jobs] [parameters as JSON]
 
+#include <algorithm>
 #include <mutex>
+#include <vector>
 
 #include "tests/bench/path/measure.h"
 
@@ -12,6 +15,7 @@ namespace {
 using namespace path_bench;
 
 constexpr double kBound = 1.95;
+constexpr int kRounds = 7;
 
 struct Sweep {
   double elapsed_s = 0.0;
@@ -46,19 +50,30 @@ Sweep measure(int threads, std::size_t jobs, const nlohmann::json& parameters) {
   return sweep;
 }
 
+double median(const std::vector<Sweep>& sweeps, double Sweep::*part) {
+  std::vector<double> values;
+  for (const Sweep& sweep : sweeps) values.push_back(sweep.*part);
+  std::ranges::nth_element(values, values.begin() + kRounds / 2);
+  return values[kRounds / 2];
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::size_t jobs = count_argument(argc, argv, 1, 200);
   const auto parameters = nlohmann::json::parse(argc > 2 ? argv[2] : R"({"coupler": "rigid", "clearance_mm": 0})");
   measure(2, std::min<std::size_t>(jobs, 8), parameters);  // warms up
-  const Sweep one = measure(1, jobs, parameters);
-  const Sweep two = measure(2, jobs, parameters);
+  std::vector<Sweep> one, two;
+  for (int round = 0; round < kRounds; ++round) {
+    one.push_back(measure(1, jobs, parameters));
+    two.push_back(measure(2, jobs, parameters));
+  }
   const double n = static_cast<double>(jobs);
-  print_figure("simulation, CPU a job, 1 thread", 1e3 * one.run_cpu_s / n, "ms");
-  print_figure("simulation, CPU a job, 2 threads", 1e3 * two.run_cpu_s / n, "ms");
-  print_figure("all, CPU a job, 1 thread", 1e3 * one.cpu_s / n, "ms");
-  print_figure("all, CPU a job, 2 threads", 1e3 * two.cpu_s / n, "ms");
-  print_figure("2 threads, share of their time outside of simulations", 100.0 * (1.0 - two.run_elapsed_s / (2.0 * two.elapsed_s)), "%");
-  print_ratio("2 threads, jobs against 1, by passing time", one.elapsed_s / two.elapsed_s, kBound);
+  print_figure("simulation, CPU a job, 1 thread", 1e3 * median(one, &Sweep::run_cpu_s) / n, "ms");
+  print_figure("simulation, CPU a job, 2 threads", 1e3 * median(two, &Sweep::run_cpu_s) / n, "ms");
+  print_figure("all, CPU a job, 1 thread", 1e3 * median(one, &Sweep::cpu_s) / n, "ms");
+  print_figure("all, CPU a job, 2 threads", 1e3 * median(two, &Sweep::cpu_s) / n, "ms");
+  const double in_simulations = median(two, &Sweep::run_elapsed_s) / (2.0 * median(two, &Sweep::elapsed_s));
+  print_figure("2 threads, share of their time outside of simulations", 100.0 * (1.0 - in_simulations), "%");
+  print_ratio("2 threads, jobs against 1, by passing time", median(one, &Sweep::elapsed_s) / median(two, &Sweep::elapsed_s), kBound);
 }
