@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "engine/clearance/joint_contact.h"
 #include "engine/math/buffer.h"
 #include "engine/math/dual_vec3.h"
@@ -7,16 +9,46 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// How the journal's motion as seen from the bearing varies in eight directions, all in {b}.
+/// How the journal's motion as seen from the bearing varies, all in {b}. @tparam T  a number, or one for each of several directions
+template <typename T>
 struct JournalVariation {
-  Vec3<Lanes> turn, p;  ///< of {j}; of the journal's centre
-  Vec3<Lanes> v, w;
+  Vec3<T> turn, p;  ///< of {j}; of the journal's centre
+  Vec3<T> v, w;
 };
 
-/// How what the contacts of a joint do varies in eight directions.
+/// How what the contacts of a joint do varies.
+template <typename T>
 struct LoadVariation {
-  Vec3<Lanes> force, moment;
-  Lanes impact_power{}, friction_power{};
+  Vec3<T> force, moment;
+  T impact_power{}, friction_power{};
+};
+
+/// The derivatives of one number by the journal's motion, and by the two bristles of a touch.
+struct ContactRow {
+  Lanes by_position;  ///< turn, p
+  Lanes by_rate;      ///< v, w, and the touch's own two bristles
+
+  template <typename T>
+  [[nodiscard]] RPSUP_INLINE T apply(const JournalVariation<T>& varies) const {
+    return dot3(by_position, 0, varies.turn) + dot3(by_position, 3, varies.p) + dot3(by_rate, 0, varies.v) + dot3(by_rate, 3, varies.w);
+  }
+  template <typename T>
+  [[nodiscard]] RPSUP_INLINE static T dot3(const Lanes& by, int first, const Vec3<T>& v) {
+    return by[first] * v.x + by[first + 1] * v.y + by[first + 2] * v.z;
+  }
+};
+
+/// Those of all that a joint's contacts do together: force and moment on the journal, about its centre, in {b}, and powers.
+struct ContactRows {
+  static constexpr int kImpactPower = 6, kFrictionPower = 7, kCount = 8;
+
+  template <typename T>
+  [[nodiscard]] RPSUP_INLINE LoadVariation<T> apply(const JournalVariation<T>& varies) const {
+    const auto row = [&](int i) RPSUP_INLINE_LAMBDA { return of[i].apply(varies); };
+    return {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, row(kImpactPower), row(kFrictionPower)};
+  }
+
+  ContactRow of[kCount];
 };
 
 /// The derivatives of all that a joint's contacts do, by the twelve numbers of the journal's motion and by the bristles. Each touch reads its
@@ -39,41 +71,39 @@ class ContactDerivative {
   }
 
   /// What comes of a variation of the journal's motion, the bristles held.
-  [[nodiscard]] RPSUP_INLINE LoadVariation apply(const JournalVariation& varies) const {
-    const auto row = [&](int i) RPSUP_INLINE_LAMBDA { return rows_[i].apply(varies); };
-    return {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, row(kImpactPower), row(kFrictionPower)};
-  }
-  [[nodiscard]] RPSUP_INLINE Lanes apply_to_bristle(int bristle, const JournalVariation& varies) const {
+  [[nodiscard]] RPSUP_INLINE LoadVariation<Lanes> apply(const JournalVariation<Lanes>& varies) const { return rows_.apply(varies); }
+  [[nodiscard]] RPSUP_INLINE Lanes apply_to_bristle(int bristle, const JournalVariation<Lanes>& varies) const {
     return rate_rows_[static_cast<std::size_t>(bristle)].apply(varies);
   }
 
   /// Adds what comes of a bristle that varies by `lanes`.
-  RPSUP_INLINE void add_bristle(int bristle, const Lanes& lanes, LoadVariation& load) const {
-    const double* by = by_bristle_[static_cast<std::size_t>(bristle)].output;
+  RPSUP_INLINE void add_bristle(int bristle, const Lanes& lanes, LoadVariation<Lanes>& load) const {
+    const double* by = load_by_bristle(bristle);
     load.force += Vec3<Lanes>{by[0] * lanes, by[1] * lanes, by[2] * lanes};
     load.moment += Vec3<Lanes>{by[3] * lanes, by[4] * lanes, by[5] * lanes};
-    load.friction_power += by[kFrictionPower] * lanes;
+    load.friction_power += by[ContactRows::kFrictionPower] * lanes;
   }
   /// Of a bristle's rate, by one of the two that its touch reads.
   [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
     return by / 2 == bristle / 2 ? rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2] : 0.0;
   }
 
+  /// Whether anything touches.
+  [[nodiscard]] RPSUP_INLINE bool acts() const {
+    constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+    for (const ContactRow& row : rows_.of)
+      if (!all_below(row.by_position, kLeast) || !all_below(row.by_rate, kLeast)) return true;
+    return false;
+  }
+  [[nodiscard]] RPSUP_INLINE const ContactRows& load_rows() const { return rows_; }
+  [[nodiscard]] RPSUP_INLINE const ContactRow& rate_row(int bristle) const { return rate_rows_[static_cast<std::size_t>(bristle)]; }
+  /// Of the outputs of ContactRows, by a bristle.
+  [[nodiscard]] RPSUP_INLINE const double* load_by_bristle(int bristle) const { return by_bristle_[static_cast<std::size_t>(bristle)].output; }
+
  private:
-  static constexpr int kImpactPower = 6, kFrictionPower = 7, kOutputs = 8;
+  static constexpr int kOutputs = ContactRows::kCount;
   static constexpr int kOwnBristle = 6;  ///< the first of its lanes in by_rate
 
-  struct Row {
-    Lanes by_position;  ///< turn, p
-    Lanes by_rate;      ///< v, w, and the touch's own two bristles
-
-    [[nodiscard]] RPSUP_INLINE Lanes apply(const JournalVariation& varies) const {
-      return dot3(by_position, 0, varies.turn) + dot3(by_position, 3, varies.p) + dot3(by_rate, 0, varies.v) + dot3(by_rate, 3, varies.w);
-    }
-    [[nodiscard]] RPSUP_INLINE static Lanes dot3(const Lanes& by, int first, const Vec3<Lanes>& v) {
-      return by[first] * v.x + by[first + 1] * v.y + by[first + 2] * v.z;
-    }
-  };
   struct ByBristle {
     double output[kOutputs];
   };
@@ -99,7 +129,7 @@ class ContactDerivative {
                                             join(journal.p, {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)}), join(journal.v, {}), join(journal.w, {})};
     JointLoad<Dual> load;
     (void)add_contacts(joint, varied, constant_bristles_.data(), rates_.data(), load);
-    store(load, &Row::by_position);
+    store(load, &ContactRow::by_position);
   }
 
   RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal) {
@@ -109,20 +139,20 @@ class ContactDerivative {
     load.by_bristle = by_bristle_.data();
     by_bristle_.fill({});
     (void)add_contacts(joint, varied, bristles_.data(), rates_.data(), load);
-    store(load, &Row::by_rate);
+    store(load, &ContactRow::by_rate);
   }
 
-  RPSUP_INLINE void store(const JointLoad<Dual>& load, Lanes Row::*part) {
+  RPSUP_INLINE void store(const JointLoad<Dual>& load, Lanes ContactRow::*part) {
     const Dual* outputs[kOutputs] = {&load.force.x, &load.force.y, &load.force.z, &load.moment.x, &load.moment.y, &load.moment.z,
                                      &load.impact_power, &load.friction_power};
-    for (int i = 0; i < kOutputs; ++i) rows_[i].*part = outputs[i]->d;
+    for (int i = 0; i < kOutputs; ++i) rows_.of[i].*part = outputs[i]->d;
     for (std::size_t b = 0; b < rates_.size(); ++b) rate_rows_[b].*part = rates_[b].d;
   }
 
   Buffer<Dual> constant_bristles_, bristles_, rates_;
-  Row rows_[kOutputs];                ///< force, moment, powers
+  ContactRows rows_;
   Buffer<ByBristle> by_bristle_;      ///< of the same, by each bristle
-  Buffer<Row> rate_rows_;
+  Buffer<ContactRow> rate_rows_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "engine/clearance/contact_law.h"
 #include "engine/clearance/radial_elements.h"
@@ -43,7 +44,7 @@ template <typename P, typename V>
   return std::atan2(offset.along_y, offset.along_x);
 }
 
-/// One element of a ring: its place, its normal, its penetration Delta = rho - r_b.
+/// One element of a ring, or several side by side: their place, their normal, their penetration Delta = rho - r_b.
 template <typename P>
 struct ElementPlace {
   Vec3<P> r;        ///< from the journal centre
@@ -51,27 +52,139 @@ struct ElementPlace {
   P delta;
 };
 
-template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE ElementPlace<P> place_element(const RadialElements& elements, const RelativeMotion<P, V>& journal, const Vec3<P>& axial,
-                                                         int k) {
-  const ClearanceParameters& joint = elements.parameters();
+/// @param cosine, sine  of the element's angle in {j}
+template <typename P, typename V, typename Angle>
+[[nodiscard]] RPSUP_INLINE ElementPlace<Mixed<Angle, P>> place_element(const ClearanceParameters& joint, const RelativeMotion<P, V>& journal,
+                                                                       const Vec3<P>& axial, const Angle& cosine, const Angle& sine) {
   const double r_j = joint.r_j();
-  ElementPlace<P> element;
-  element.r = axial + (r_j * elements.cosines()[k]) * journal.R.x + (r_j * elements.sines()[k]) * journal.R.y;
-  const P x = journal.p.x + element.r.x;
-  const P y = journal.p.y + element.r.y;
-  const P rho = sqrt(x * x + y * y);
-  const P inverse = 1.0 / rho;
+  ElementPlace<Mixed<Angle, P>> element;
+  element.r = axial + (r_j * cosine) * journal.R.x + (r_j * sine) * journal.R.y;
+  const auto x = journal.p.x + element.r.x;
+  const auto y = journal.p.y + element.r.y;
+  const auto rho = sqrt(x * x + y * y);
+  const auto inverse = 1.0 / rho;
   element.n_x = inverse * x;
   element.n_y = inverse * y;
   element.delta = rho - joint.r_b;
   return element;
 }
+template <typename P, typename V>
+[[nodiscard]] RPSUP_INLINE ElementPlace<P> place_element(const RadialElements& elements, const RelativeMotion<P, V>& journal, const Vec3<P>& axial,
+                                                         int k) {
+  return place_element(elements.parameters(), journal, axial, elements.cosines()[k], elements.sines()[k]);
+}
+
+template <typename P, typename V, typename Place>
+[[nodiscard]] RPSUP_INLINE Mixed<V, Place> calc_element_rate(const RelativeMotion<P, V>& journal, const ElementPlace<Place>& element) {
+  const auto velocity = journal.calc_velocity(element.r);
+  return element.n_x * velocity.x + element.n_y * velocity.y;
+}
+
+/// The elements of a ring that can touch, by their angles: from low to high, which may be beyond a full turn. low > high if none can.
+struct ElementArc {
+  int low, high;
+};
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE V calc_element_rate(const RelativeMotion<P, V>& journal, const ElementPlace<P>& element) {
-  const Vec3<V> velocity = journal.calc_velocity(element.r);
-  return element.n_x * velocity.x + element.n_y * velocity.y;
+[[nodiscard]] RPSUP_INLINE ElementArc find_arc(const RadialElements& elements, const RelativeMotion<P, V>& journal, const Vec3<P>& axial) {
+  const ClearanceParameters& joint = elements.parameters();
+  const OffsetInJournal offset = calc_offset_in_journal(journal, axial);
+  const double half = calc_half_arc(joint, offset.squared, std::sqrt(offset.along_x * offset.along_x + offset.along_y * offset.along_y));
+  if (half < 0.0 || !is_number(half)) return {0, -1};
+  const double direction = std::atan2(offset.along_y, offset.along_x);
+  const int low = static_cast<int>(std::ceil((direction - half) / elements.spacing()));
+  return {low, std::min(low + joint.n_ce - 1, static_cast<int>(std::floor((direction + half) / elements.spacing())))};
+}
+
+/// What one element does if it touches. @returns false if it does and has no bristle in the state
+template <typename P, typename V, typename Load>
+RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMotion<P, V>& journal, const Vec3<P>& axial, int ring, int k,
+                              const V* bristles, V* bristle_rates, Load& load) {
+  const ClearanceParameters& joint = elements.parameters();
+  const ElementPlace<P> element = place_element(elements, journal, axial, k);
+  if (!(value_of(element.delta) > 0.0)) return true;
+  const int place = elements.place_of_bristle(ring, k);
+  const V rate = calc_element_rate(journal, element);
+  const P elastic = elements.element_stiffness() * element.delta;
+  const V onset = choose_onset_rate(elements.latch(ring, k).rate(), rate, joint.minimum_onset_rate);
+  add_touch(joint, journal, Touch<P, V>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi, 0.0)},
+            place < 0 ? nullptr : bristles + place, place < 0 ? nullptr : bristle_rates + place, load);
+  load.elastic_energy += 0.5 * value_of(elastic) * value_of(element.delta);
+  load.max_penetration = std::max(load.max_penetration, value_of(element.delta));
+  if (place >= 0) load.close_touch(place);
+  return place >= 0;
+}
+
+/// At eight places side by side; by laws that ask what a place does, one after the other.
+[[nodiscard]] RPSUP_INLINE FrictionForce<Lanes> calc_friction(const FrictionParameters& p, const Lanes& v_t, const Lanes& v_z, const Lanes& z_t,
+                                                              const Lanes& z_z) {
+  if (p.law == FrictionLaw::kLuGre || p.law == FrictionLaw::kDahl) {
+    const Lanes decay = calc_bristle_decay(p, sqrt(v_t * v_t + v_z * v_z));
+    return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
+  }
+  FrictionForce<Lanes> all{};
+  for (int lane = 0; lane < Lanes::kCount; ++lane) {
+    const FrictionForce<double> one = calc_friction(p, v_t[lane], v_z[lane], z_t[lane], z_z[lane]);
+    all.along_t.force_ratio.set(lane, one.along_t.force_ratio);
+    all.along_t.rate.set(lane, one.along_t.rate);
+    all.along_z.force_ratio.set(lane, one.along_z.force_ratio);
+    all.along_z.rate.set(lane, one.along_z.rate);
+  }
+  return all;
+}
+
+/// Eight neighbours on a ring side by side, the first of them k, with bristles from `place` on. Those that do not touch add zeros.
+RPSUP_INLINE void add_neighbours(const RadialElements& elements, const RelativeMotion<double, double>& journal, const Vec3<double>& axial, int ring, int k,
+                                 int place, const double* bristles, double* bristle_rates, JointLoad<Lanes>& load) {
+  const ClearanceParameters& joint = elements.parameters();
+  const ElementPlace<Lanes> element =
+      place_element(joint, journal, axial, Lanes::load(elements.cosines() + k), Lanes::load(elements.sines() + k));
+  const Lanes none{};
+  const Lanes delta = cut_at_zero(element.delta);
+  const Lanes rate = calc_element_rate(journal, element);
+  const Lanes elastic = elements.element_stiffness() * delta;
+  const Lanes onset = choose_onset_rate(Lanes::load(&elements.latch(ring, k)), rate, joint.minimum_onset_rate);
+  const LanePairs own = LanePairs::load(bristles + place);
+  const Lanes z[2] = {own.first, own.second};
+  Lanes rates[2] = {none, none};
+  add_touch(joint, journal, Touch<Lanes, Lanes>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi, 0.0)}, z, rates,
+            load);
+  load.elastic_energy += 0.5 * (elastic * delta);
+  load.max_penetration = choose_greater(delta, load.max_penetration, delta, load.max_penetration);
+  LanePairs{choose_greater(delta, none, rates[0], none), choose_greater(delta, none, rates[1], none)}.store(bristle_rates + place);
+}
+
+/// Adds what eight places do together.
+RPSUP_INLINE void add_sums(const JointLoad<Lanes>& of, JointLoad<double>& load) {
+  load.force += Vec3<double>{sum(of.force.x), sum(of.force.y), sum(of.force.z)};
+  load.moment += Vec3<double>{sum(of.moment.x), sum(of.moment.y), sum(of.moment.z)};
+  load.impact_power += sum(of.impact_power);
+  load.friction_power += sum(of.friction_power);
+  load.radial_normal_sum += sum(of.radial_normal_sum);
+  load.friction_sum += sum(of.friction_sum);
+  load.max_penetration = std::max(load.max_penetration, find_largest(of.max_penetration));
+  load.elastic_energy += sum(of.elastic_energy);
+}
+
+/// What an arc's elements do, eight side by side; one by one where the numbers of eight do not stand side by side. Behind the arc's end none touches.
+RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements, const RelativeMotion<double, double>& journal, const Vec3<double>& axial, int ring,
+                                  const ElementArc& arc, const double* bristles, double* bristle_rates, JointLoad<double>& load) {
+  bool inside = true;
+  JointLoad<Lanes> abreast;
+  bool any_abreast = false;
+  for (int unwrapped = arc.low; unwrapped <= arc.high;) {
+    const int k = elements.wrap(unwrapped);
+    if (elements.are_side_by_side(ring, k, Lanes::kCount)) {
+      add_neighbours(elements, journal, axial, ring, k, elements.place_of_bristle(ring, k), bristles, bristle_rates, abreast);
+      any_abreast = true;
+      unwrapped += Lanes::kCount;
+    } else {
+      inside = add_element(elements, journal, axial, ring, k, bristles, bristle_rates, load) && inside;
+      ++unwrapped;
+    }
+  }
+  if (any_abreast) add_sums(abreast, load);
+  return inside;
 }
 
 /// The paper's radial contact elements: n_ce points on each ring of the journal, each with its own spring, latch and bristle.
@@ -84,33 +197,17 @@ template <typename P, typename V>
 template <typename P, typename V, typename Load>
 [[nodiscard, gnu::noinline]] static bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles,
                                                V* bristle_rates, Load& load) {
-  const ClearanceParameters& joint = elements.parameters();
-  const double stiffness = elements.element_stiffness();
   const int count = elements.bristle_count();
   for (int b = 0; b < count; ++b) bristle_rates[b] = V(0.0);
   bool inside = true;
-  for (int i = 0; i < joint.n_r; ++i) {
-    const Vec3<P> axial = calc_ring_position(joint, i) * journal.R.z;
-    const OffsetInJournal offset = calc_offset_in_journal(journal, axial);
-    const double half = calc_half_arc(joint, offset.squared, std::sqrt(offset.along_x * offset.along_x + offset.along_y * offset.along_y));
-    if (half < 0.0 || !is_number(half)) continue;
-    const double direction = std::atan2(offset.along_y, offset.along_x);
-    const int low = static_cast<int>(std::ceil((direction - half) / elements.spacing()));
-    const int high = std::min(low + joint.n_ce - 1, static_cast<int>(std::floor((direction + half) / elements.spacing())));
-    for (int unwrapped = low; unwrapped <= high; ++unwrapped) {
-      const int k = elements.wrap(unwrapped);
-      const ElementPlace<P> element = place_element(elements, journal, axial, k);
-      if (!(value_of(element.delta) > 0.0)) continue;
-      const int place = elements.place_of_bristle(i, k);
-      inside = inside && place >= 0;
-      const V rate = calc_element_rate(journal, element);
-      const P elastic = stiffness * element.delta;
-      const V onset = choose_onset_rate(elements.latch(i, k).rate(), rate, joint.minimum_onset_rate);
-      add_touch(joint, journal, Touch<P, V>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi, 0.0)},
-                place < 0 ? nullptr : bristles + place, place < 0 ? nullptr : bristle_rates + place, load);
-      load.elastic_energy += 0.5 * value_of(elastic) * value_of(element.delta);
-      load.max_penetration = std::max(load.max_penetration, value_of(element.delta));
-      if (place >= 0) load.close_touch(place);
+  for (int ring = 0; ring < elements.parameters().n_r; ++ring) {
+    const Vec3<P> axial = calc_ring_position(elements.parameters(), ring) * journal.R.z;
+    const ElementArc arc = find_arc(elements, journal, axial);
+    if constexpr (std::is_same_v<V, double>) {
+      inside = add_arc_abreast(elements, journal, axial, ring, arc, bristles, bristle_rates, load) && inside;
+    } else {
+      for (int k = arc.low; k <= arc.high; ++k)
+        inside = add_element(elements, journal, axial, ring, elements.wrap(k), bristles, bristle_rates, load) && inside;
     }
   }
   return inside;

@@ -18,6 +18,12 @@ template <typename V>
 [[nodiscard]] RPSUP_INLINE LanePair calc_stribeck_at(const FrictionParameters& p, const LanePair& squared) {
   return join(calc_stribeck_at(p, squared[0]), calc_stribeck_at(p, squared[1]));
 }
+[[nodiscard]] RPSUP_INLINE Lanes calc_stribeck_at(const FrictionParameters& p, const Lanes& squared) {
+  Lanes curve = Lanes::all(p.mu_k);
+  if (all_below(choose_greater(squared, Lanes::all(40.0), Lanes{}, Lanes::all(1.0)), 0.5)) return curve;
+  for (int lane = 0; lane < Lanes::kCount; ++lane) curve.set(lane, calc_stribeck_at(p, squared[lane]));
+  return curve;
+}
 
 template <typename V>
 [[nodiscard]] RPSUP_INLINE V calc_stribeck_curve(const FrictionParameters& p, const V& speed) {

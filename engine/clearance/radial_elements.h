@@ -32,6 +32,12 @@ class RadialElements {
     return slot < window_ ? 2 * (ring * window_ + slot) : -1;
   }
 
+  /// Whether what belongs to so many elements from k on stands side by side, their bristles' places among it.
+  [[nodiscard]] bool are_side_by_side(int ring, int k, int count) const {
+    const int slot = wrap(k - first_.data()[ring]);
+    return k + count <= joint_.n_ce && slot + count <= window_;
+  }
+
   /// Appends the penetration of each ring's deepest element.
   void add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const;
 

@@ -167,16 +167,23 @@ class ArticulatedBodies {
       C_z += y;
       rod.C_J_y = rod.a * C_y + rod.b * C_z;
       rod.C_J_z = rod.b * C_y + rod.d * C_z;
+      if (joint.parent_moves) {
+        subtract_outer(rod.C_J_y, C_y, answer.A);
+        subtract_outer(rod.C_J_z, C_z, answer.A);
+      }
     } else {
       determinant = I_y;
       rod.a = rod.d = 1.0 / I_y;
       rod.b = 0.0;
       rod.C_J_y = rod.a * C_y;
       rod.C_J_z = rod.a * C_z;
-    }
-    if (joint.parent_moves) {
-      subtract_outer(rod.C_J_y, C_y, answer.A);
-      subtract_outer(rod.C_J_z, C_z, answer.A);
+      if (joint.parent_moves) {  // y y^T + z z^T = 1 - x x^T
+        const double across = mc * mc * rod.a;
+        answer.A.xx -= across;
+        answer.A.yy -= across;
+        answer.A.zz -= across;
+        add_outer(answer.A, across, R.x);
+      }
     }
     return determinant > 0.0 && joint.numbers().I[0] > 0.0;
   }

@@ -13,6 +13,13 @@ struct SpatialForce {
   Vec3<T> force, moment;
 };
 
+template <typename T>
+RPSUP_INLINE SpatialForce<T>& operator+=(SpatialForce<T>& a, const SpatialForce<T>& b) {
+  a.force += b.force;
+  a.moment += b.moment;
+  return a;
+}
+
 /// The inertia of a joint's body about its frame's origin, in W.
 template <typename Joint, typename P>
 [[nodiscard]] RPSUP_INLINE Sym3<P> calc_inertia(const Joint& body, const Mat3<P>& R) {

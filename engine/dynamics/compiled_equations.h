@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/equations_of_motion.h"
 #include "engine/dynamics/direction_plan.h"
+#include "engine/dynamics/shifted_bodies.h"
 #include "engine/dynamics/varied_equations.h"
 
 namespace engine {
@@ -23,7 +24,8 @@ class CompiledEquations final : public Equations {
         bristle_rates_(bristles),
         kept_(model, joints),
         varied_(model, joints, bristles, kept_),
-        plan_(model, bristles) {
+        plan_(model, bristles),
+        bodies_(ShiftedBodies::fit(model) ? std::make_unique<ShiftedBodies>(model, joints) : nullptr) {
     kept_.drive_force.fill(0.0);  // to be read if the first evaluation fails
   }
 
@@ -59,6 +61,21 @@ class CompiledEquations final : public Equations {
     }
     plan_.sort(result);
   }
+
+  bool have_bodies() const override { return bodies_ != nullptr; }
+
+  void linearise_bodies(const double* y, const DrivenMotion* drives, Linearisation& result) override {
+    find_acting_bristles(y, result);
+    varied_.hold(y + 2 * free_);
+    plan_.start(drives, nullptr, 0);
+    varied_.differentiate(plan_.coordinates(0), nullptr, 0, plan_.time(0), drives);
+    take_outputs(0, result);
+    plan_.sort_time(result);
+    bodies_->take_up({kept_.frames.data(), kept_.axes.data(), varied_.held(), varied_.held_coordinates(), kept_.cuts.data(), varied_.contacts(),
+                      kept_.qd.data(), result.bristles, result.bristle_count});
+  }
+  bool factor_bodies(double shift) override { return bodies_->factor(shift); }
+  void solve_bodies(double* x) override { bodies_->solve_in_place(x); }
 
  private:
   RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, EquationsOfMotion<Shapes>& at, double* dydt) const {
@@ -138,6 +155,7 @@ class CompiledEquations final : public Equations {
   EquationsOfMotion<Shapes> kept_;
   VariedEquations<Shapes> varied_;
   DirectionPlan plan_;
+  std::unique_ptr<ShiftedBodies> bodies_;       ///< null: the tree is none for them
 };
 
 /// Copies numbers one by one: functions of Eigen would be shared between instruction sets by the linker.

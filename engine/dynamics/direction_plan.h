@@ -44,7 +44,7 @@ class DirectionPlan {
       bristles_[static_cast<std::size_t>(b)] = {bristles[b], Lanes::unit((first_bristle_column_ + b) % Lanes::kCount)};
     if (model_.drive_rows) return;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      CoordinateVariation& driven = variation(0, model_.drives[k]);
+      CoordinateVariation<Lanes>& driven = variation(0, model_.drives[k]);
       driven.q = drives[k].qd * Lanes::unit(0);
       driven.qd = drives[k].qdd * Lanes::unit(0);
       driven.qdd = drives[k].qddd * Lanes::unit(0);
@@ -53,7 +53,7 @@ class DirectionPlan {
 
   [[nodiscard]] int groups() const { return groups_; }
   /// Those of the groups behind the last moving one stand still.
-  [[nodiscard]] const CoordinateVariation* coordinates(int group) const {
+  [[nodiscard]] const CoordinateVariation<Lanes>* coordinates(int group) const {
     return coordinates_.data() + static_cast<std::size_t>(group < moving_groups_ ? group : moving_groups_) * n_;
   }
   [[nodiscard]] Lanes time(int group) const { return group == 0 ? Lanes::unit(0) : Lanes{}; }
@@ -65,13 +65,18 @@ class DirectionPlan {
   /// Where an output of a group goes.
   [[nodiscard]] RPSUP_INLINE Lanes& output(int row, int group) { return outputs_[static_cast<std::size_t>(row * groups_ + group)]; }
 
+  /// Writes the outputs by time.
+  void sort_time(Linearisation& result) const {
+    for (int row = 0; row < result.outputs; ++row) result.by_t[row] = entry(outputs_.data() + row * groups_, 0);
+  }
+
   /// Writes all outputs by variables.
   void sort(Linearisation& result) const {
+    sort_time(result);
     const auto n = static_cast<int>(model_.free.size());
     const int bristle_stride = static_cast<int>(bristles_.size());
     for (int row = 0; row < result.outputs; ++row) {
       const Lanes* from = outputs_.data() + row * groups_;
-      result.by_t[row] = entry(from, 0);
       double* by_q = result.by_q + row * n;
       double* by_v = result.by_v + row * n;
       for (int a = 0; a < n; ++a) {
@@ -92,8 +97,8 @@ class DirectionPlan {
   }
   [[nodiscard]] static int group_of(int column) { return static_cast<int>(static_cast<unsigned>(column) / Lanes::kCount); }
   [[nodiscard]] int clamp(int bristle) const { return bristle < 0 ? 0 : bristle > bristle_count_ ? bristle_count_ : bristle; }
-  CoordinateVariation& variation(int column, int coordinate) {
-    CoordinateVariation& entry = coordinates_[static_cast<std::size_t>(group_of(column)) * n_ + static_cast<std::size_t>(coordinate)];
+  CoordinateVariation<Lanes>& variation(int column, int coordinate) {
+    CoordinateVariation<Lanes>& entry = coordinates_[static_cast<std::size_t>(group_of(column)) * n_ + static_cast<std::size_t>(coordinate)];
     entry.varies = true;
     return entry;
   }
@@ -104,7 +109,7 @@ class DirectionPlan {
   int first_bristle_column_ = 0, moving_groups_ = 0;
   int bristle_count_ = 0, groups_ = 0;
   Buffer<BristleVariation> bristles_;
-  Buffer<CoordinateVariation> coordinates_;  ///< group after group, one a coordinate; those left over stand still
+  Buffer<CoordinateVariation<Lanes>> coordinates_;  ///< group after group, one a coordinate; those left over stand still
   Buffer<Lanes> outputs_;                    ///< row after row, one a group
 };
 

@@ -8,6 +8,7 @@
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/loop_equations.h"
+#include "engine/dynamics/loss_powers.h"
 #include "engine/dynamics/rod_motion.h"
 #include "engine/dynamics/spring_pull.h"
 #include "engine/math/finite.h"
@@ -15,12 +16,6 @@
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
-
-/// Work and losses by time.
-template <typename T>
-struct LossPowers {
-  T impact{}, friction{}, structural{};
-};
 
 /// The equations of motion of a mechanism at one instant, Eqs. (1)-(13), with room for all that they need.
 /// Shapes: the tree's joints, AnyShapes or known ones.

@@ -95,13 +95,34 @@ EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& 
   return status;
 }
 
-EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y) {
+EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Elimination elimination) {
   const bool is_solved = solved_ && t == drives_time_ && y == solved_y_;
   const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : solve(t, y, dydt_);
   if (status != EvaluationStatus::kOk) return status;
-  equations_->linearise(y.data(), drives_.data(), jacobian_.linearisation());
+  elimination_ = elimination;
+  if (elimination == Elimination::kBodies)
+    equations_->linearise_bodies(y.data(), drives_.data(), jacobian_.linearisation());
+  else
+    equations_->linearise(y.data(), drives_.data(), jacobian_.linearisation());
   jacobian_.calc_time_derivative(time_derivative_);
   return EvaluationStatus::kOk;
+}
+
+Elimination MotionSystem::choose_elimination() const {
+  constexpr Eigen::Index kManyCoordinates = 26, kManyBristles = 300;  // measured: both take as long there
+  const bool many = free_count() >= kManyCoordinates || bristles_ >= kManyBristles;
+  return many && can_eliminate_bodies() ? Elimination::kBodies : Elimination::kMatrix;
+}
+
+bool MotionSystem::factor(double shift) {
+  return elimination_ == Elimination::kBodies ? equations_->factor_bodies(shift) : shifted_.factor(jacobian_, shift);
+}
+
+void MotionSystem::solve_in_place(Eigen::VectorXd& x) {
+  if (elimination_ == Elimination::kBodies)
+    equations_->solve_bodies(x.data());
+  else
+    shifted_.solve_in_place(jacobian_, x.data());
 }
 
 void MotionSystem::calc_energies(Evaluation& at) const {

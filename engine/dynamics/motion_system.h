@@ -17,6 +17,10 @@
 
 namespace engine {
 
+/// How the systems of an implicit step are solved: with a matrix of the free coordinates, whose cost grows with the third power of their number, or
+/// body by body, which takes no complex shift, no constraints and no springs between points.
+enum class Elimination { kMatrix, kBodies };
+
 /// The mechanism as a first-order system dy/dt = f(t, y), Eqs. (13.1) and (13.2).
 ///
 ///     y = (q of the free coordinates, their rates, bristles, work of each drive, impact, friction and structural loss)
@@ -38,14 +42,17 @@ class MotionSystem {
   [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at);
 
   /// Computes the exact Jacobian J = df/dy and df/dt at (t, y), with the contacts as they are. Both are valid until the next call.
-  [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y);
+  [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y, Elimination elimination = Elimination::kMatrix);
+  /// Which one is the cheaper for this mechanism with real shifts.
+  [[nodiscard]] Elimination choose_elimination() const;
+  [[nodiscard]] bool can_eliminate_bodies() const { return equations_->have_bodies(); }
   /// df/dt of the last linearise(), one for each entry of y.
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }
   /// Factors (shift 1 - J). False if it is singular. There is room for one real and one complex shift.
-  [[nodiscard]] bool factor(double shift) { return shifted_.factor(jacobian_, shift); }
+  [[nodiscard]] bool factor(double shift);
   [[nodiscard]] bool factor(std::complex<double> shift) { return complex_shifted_.factor(jacobian_, shift); }
   /// x <- (shift 1 - J)^-1 x after factor() of such a shift.
-  void solve_in_place(Eigen::VectorXd& x) { shifted_.solve_in_place(jacobian_, x.data()); }
+  void solve_in_place(Eigen::VectorXd& x);
   void solve_in_place(Eigen::VectorXcd& x) { complex_shifted_.solve_in_place(jacobian_, x.data()); }
 
   /// Kinetic and potential energy of an evaluation.
@@ -84,6 +91,7 @@ class MotionSystem {
   bool solved_ = false;        ///< the equations hold their solution at (drives_time_, solved_y_), with the contacts as they are
   Eigen::VectorXd solved_y_;
   Eigen::VectorXd dydt_;       ///< for linearise()
+  Elimination elimination_ = Elimination::kMatrix;  ///< of the last linearise()
   StateJacobian jacobian_;
   ShiftedJacobian<double> shifted_;
   ShiftedJacobian<std::complex<double>> complex_shifted_;

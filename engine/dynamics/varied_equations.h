@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/clearance/contact_derivative.h"
 #include "engine/dynamics/equations_of_motion.h"
+#include "engine/dynamics/varied_contact.h"
 #include "engine/dynamics/varied_frame.h"
 #include "engine/math/dual_vec3.h"
 
@@ -65,7 +65,7 @@ class VariedEquations {
 
   /// @param coordinates  one a coordinate; qdd of driven ones only
   /// @param time         lane in which time varies, the drives' coordinates with it
-  RPSUP_INLINE void differentiate(const CoordinateVariation* coordinates, const BristleVariation* bristles, int bristle_count, const Lanes& time,
+  RPSUP_INLINE void differentiate(const CoordinateVariation<Lanes>* coordinates, const BristleVariation* bristles, int bristle_count, const Lanes& time,
                                   const DrivenMotion* drives) {
     coordinates_ = coordinates;
     bristles_ = bristles;
@@ -80,6 +80,11 @@ class VariedEquations {
     vary_drive_forces();
     vary_losses();
   }
+
+  // Of the solution taken up, for others
+  [[nodiscard]] const HeldJoint* held() const { return held_.data(); }
+  [[nodiscard]] const HeldCoordinate* held_coordinates() const { return held_coordinates_.data(); }
+  [[nodiscard]] const std::unique_ptr<ContactDerivative>* contacts() const { return contacts_.data(); }
 
   // Out
   Buffer<Lanes> qdd;                        ///< of free coordinates
@@ -142,7 +147,7 @@ class VariedEquations {
         forces_[i] = {};
         return;
       }
-      VariedFrame f;
+      VariedFrame<Lanes> f;
       if (!parent_still) f = frames_[static_cast<std::size_t>(joint.parent)];
       vary_joint_frame(joint, solved_.axes[i], held_[i], &held_coordinates_[first], coordinates_ + joint.first, f, own_turns_[i]);
       forces_[i] = vary_body_force(joint, solved_.frames[i].R, held_[i], f);
@@ -153,14 +158,9 @@ class VariedEquations {
   [[nodiscard]] RPSUP_INLINE bool is_still(int joint) const { return joint < 0 || still_[static_cast<std::size_t>(joint)]; }
 
   /// How the frame of a joint's body varies, with the origin at p.
-  [[nodiscard]] RPSUP_INLINE VariedFrame see_at(int joint, const Vec3<double>& p) const {
-    VariedFrame f;
-    if (is_still(joint)) return f;
-    f = frames_[static_cast<std::size_t>(joint)];
-    const Vec3<double> r = p - solved_.frames[static_cast<std::size_t>(joint)].p;
-    f.shift += cross(f.turn, r);
-    f.v += cross(f.w, r);
-    return f;
+  [[nodiscard]] RPSUP_INLINE VariedFrame<Lanes> see_at(int joint, const Vec3<double>& p) const {
+    if (is_still(joint)) return {};
+    return move_origin(frames_[static_cast<std::size_t>(joint)], arm_of(joint, p));
   }
 
   RPSUP_INLINE void vary_loads() {
@@ -192,18 +192,11 @@ class VariedEquations {
   RPSUP_INLINE void vary_contact(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut, int first_bristle) {
     const ContactDerivative& contact = *contacts_[static_cast<std::size_t>(joint.clearance)];
     const int bristles = joints_[static_cast<std::size_t>(joint.clearance)].bristle_count();
-    LoadVariation load;
-    Vec3<Lanes> turn, offset;
+    LoadVariation<Lanes> load;
+    VariedJournal<Lanes> journal;
     if (!is_still(joint.bearing_joint) || !is_still(joint.journal_joint)) {
-      const VariedFrame b = see_at(joint.bearing_joint, cut.b.p);
-      const VariedFrame j = see_at(joint.journal_joint, cut.j.p);
-      const Vec3<double> d = cut.j.p - cut.b.p;
-      turn = j.turn - b.turn;
-      offset = j.shift - b.shift - cross(b.turn, d);
-      const Vec3<Lanes> w = j.w + cross(turn, cut.j.w) - b.w;
-      const Vec3<Lanes> v = j.v + cross(turn, cut.j.v) - b.v - cross(b.w, d) - cross(cut.b.w, offset);
-      const Mat3<double>& R = cut.b.R;
-      const JournalVariation varies{transpose_times(R, turn), transpose_times(R, offset), transpose_times(R, v), transpose_times(R, w)};
+      journal = vary_journal(cut, see_at(joint.bearing_joint, cut.b.p), see_at(joint.journal_joint, cut.j.p));
+      const JournalVariation<Lanes> varies = see_from_bearing(cut.b.R, journal);
       load = contact.apply(varies);
       for (int b_own = 0; b_own < bristles; ++b_own)
         bristle_rates[static_cast<std::size_t>(first_bristle + b_own)] = contact.apply_to_bristle(b_own, varies);
@@ -217,24 +210,15 @@ class VariedEquations {
     }
     losses.impact += load.impact_power;
     losses.friction += load.friction_power;
-    const Vec3<Lanes> force = cut.b.R * load.force;
-    const Vec3<Lanes> moment = cut.b.R * load.moment;
-    if (joint.bearing_joint >= 0) {
-      SpatialForce<Lanes>& on_bearing = forces_[static_cast<std::size_t>(joint.bearing_joint)];
-      on_bearing.force += force;
-      on_bearing.moment += moment + cross(arm_of(joint.bearing_joint, cut.j.p), force) + cross(offset, cut.reaction);
-    }
-    if (joint.journal_joint >= 0) {
-      const Vec3<Lanes> own_force = force - cross(turn, cut.reaction);
-      const Vec3<Lanes> own_moment = moment - cross(turn, cut.b.R * cut.load.moment);
-      SpatialForce<Lanes>& on_journal = forces_[static_cast<std::size_t>(joint.journal_joint)];
-      on_journal.force -= own_force;
-      on_journal.moment -= own_moment;
-      if (joint.journal.shifted) on_journal.moment -= cross(arm_of(joint.journal_joint, cut.j.p), own_force);
-    }
+    const VariedNeed<Lanes> need =
+        vary_need(cut, journal.turn, journal.offset, load, arm_of(joint.bearing_joint, cut.j.p), arm_of(joint.journal_joint, cut.j.p));
+    if (joint.bearing_joint >= 0) forces_[static_cast<std::size_t>(joint.bearing_joint)] += need.of_bearing;
+    if (joint.journal_joint >= 0) forces_[static_cast<std::size_t>(joint.journal_joint)] += need.of_journal;
   }
 
+  /// From the origin of a joint's body to p.
   [[nodiscard]] RPSUP_INLINE Vec3<double> arm_of(int joint, const Vec3<double>& p) const {
+    if (joint < 0) return p;
     return p - solved_.frames[static_cast<std::size_t>(joint)].p;
   }
 
@@ -254,7 +238,7 @@ class VariedEquations {
 
   /// The frame of a joint's body, with all accelerations, as an observer at rest sees it.
   [[nodiscard]] RPSUP_INLINE Frame<Dual, Dual> see_at_rest(int joint) const {
-    const VariedFrame& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
+    const VariedFrame<Lanes>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
     const HeldJoint& held = joint < 0 ? ground_ : held_[static_cast<std::size_t>(joint)];
     const Frame<double, double>& stands = joint < 0 ? solved_.ground() : solved_.frames[static_cast<std::size_t>(joint)];
     const auto turned = [&](const Vec3<double>& v) RPSUP_INLINE_LAMBDA { return join(v, cross(f.turn, v)); };
@@ -266,7 +250,7 @@ class VariedEquations {
   /// A force at p, with a moment about it, as an observer at rest sees them, on a joint's body.
   RPSUP_INLINE void vary_load(int joint, const Vec3<Dual>& p, const Vec3<Dual>& force, const Vec3<Dual>& moment) {
     if (joint < 0) return;
-    const VariedFrame& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
+    const VariedFrame<Lanes>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
     const Vec3<Dual> origin = join(solved_.frames[static_cast<std::size_t>(joint)].p, f.shift);
     const Vec3<Dual> about_origin = moment + cross(p - origin, force);
     forces_[static_cast<std::size_t>(joint)].force -= derivatives_of(force) - cross(f.turn, values_of(force));
@@ -277,7 +261,7 @@ class VariedEquations {
   RPSUP_INLINE void carry_forces() {
     tau_.fill({});
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      const CoordinateVariation* varies = coordinates_ + joint.first;
+      const CoordinateVariation<Lanes>* varies = coordinates_ + joint.first;
       bool own = false;
       for (int k = 0; k < joint.count(); ++k) own = own || varies[k].varies;
       if (!own) return;
@@ -300,7 +284,7 @@ class VariedEquations {
       if (!joint.sprung) return;
       const auto first = static_cast<std::size_t>(joint.first);
       for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {
-        const CoordinateVariation& coordinate = coordinates_[first + k];
+        const CoordinateVariation<Lanes>& coordinate = coordinates_[first + k];
         if (coordinate.varies) tau_[first + k] -= joint.numbers().stiffness[k] * coordinate.q + joint.numbers().damping[k] * coordinate.qd;
       }
     });
@@ -322,8 +306,8 @@ class VariedEquations {
   RPSUP_INLINE void vary_coupling_rows() {
     for (std::size_t k = 0; k < model_.couplings.size(); ++k) {
       const Coupling& coupling = model_.couplings[k];
-      const CoordinateVariation& a = coordinates_[coupling.coordinate];
-      const CoordinateVariation& b = coordinates_[coupling.follows];
+      const CoordinateVariation<Lanes>& a = coordinates_[coupling.coordinate];
+      const CoordinateVariation<Lanes>& b = coordinates_[coupling.follows];
       lambda_[static_cast<std::size_t>(model_.first_coupling_row) + k] = -(a.qdd - coupling.ratio * b.qdd) -
                                                                          2.0 * model_.alpha * (a.qd - coupling.ratio * b.qd) -
                                                                          (model_.beta * model_.beta) * (a.q - coupling.ratio * b.q);
@@ -333,7 +317,7 @@ class VariedEquations {
   /// The drives' motion varies in time, and by nothing else.
   RPSUP_INLINE void vary_drive_rows(const Lanes& time, const DrivenMotion* drives) {
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      const CoordinateVariation& varies = coordinates_[model_.drives[k]];
+      const CoordinateVariation<Lanes>& varies = coordinates_[model_.drives[k]];
       lambda_[static_cast<std::size_t>(model_.first_drive_row) + k] = drives[k].qddd * time - 2.0 * model_.alpha * (varies.qd - drives[k].qdd * time) -
                                                                       (model_.beta * model_.beta) * (varies.q - drives[k].qd * time);
     }
@@ -375,11 +359,11 @@ class VariedEquations {
   Buffer<HeldCoordinate> held_coordinates_;
   std::vector<std::unique_ptr<ContactDerivative>> contacts_;
   // Of the directions at hand
-  const CoordinateVariation* coordinates_ = nullptr;
+  const CoordinateVariation<Lanes>* coordinates_ = nullptr;
   const BristleVariation* bristles_ = nullptr;
   int bristle_count_ = 0;
-  const VariedFrame at_rest_{};
-  Buffer<VariedFrame> frames_;
+  const VariedFrame<Lanes> at_rest_{};
+  Buffer<VariedFrame<Lanes>> frames_;
   Buffer<Vec3<Lanes>> own_turns_;           ///< of each joint against its parent
   Buffer<bool> still_;                      ///< joints that no direction moves: their frames are not set
   Buffer<SpatialForce<Lanes>> forces_;      ///< how what each joint's body needs varies

@@ -6,28 +6,30 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// How a coordinate varies in eight directions.
+/// How a coordinate varies. @tparam T  a number, or one for each of several directions
+template <typename T>
 struct CoordinateVariation {
   bool varies = false;
-  Lanes q{}, qd{}, qdd{};
+  T q{}, qd{}, qdd{};
 };
 
-/// How a frame's motion varies in eight directions, w, v, wd and vd as an observer sees them who turns with the frame: R d(R^T w). For him a
+/// How a frame's motion varies, w, v, wd and vd as an observer sees them who turns with the frame: R d(R^T w). For him a
 /// chain that is turned as a whole stays as it is, R with it.
+template <typename T>
 struct VariedFrame {
-  Vec3<Lanes> turn, shift;  ///< by how much the frame turns and its origin moves
-  Vec3<Lanes> w, v, wd, vd;
+  Vec3<T> turn, shift;  ///< by how much the frame turns and its origin moves
+  Vec3<T> w, v, wd, vd;
 };
 
 /// From the variation of the frame of a joint's parent to that of its own.
 /// @param coordinates, varies  of the joint's first coordinate on
 /// @param own_turn  out: by how much the joint itself turns its frame
-template <typename Joint>
+template <typename Joint, typename T>
 RPSUP_INLINE void vary_joint_frame(const Joint& joint, const JointAxes& axes, const HeldJoint& held, const HeldCoordinate* coordinates,
-                                   const CoordinateVariation* varies, VariedFrame& f, Vec3<Lanes>& own_turn) {
+                                   const CoordinateVariation<T>* varies, VariedFrame<T>& f, Vec3<T>& own_turn) {
   const bool slides = joint.kind == JointShape::Kind::kTranslation;
   if (joint.parent_turns && (joint.shifted || slides)) {
-    const Vec3<Lanes> carried = cross(f.w, axes.r);
+    const Vec3<T> carried = cross(f.w, axes.r);
     f.v += carried;
     f.vd += cross(f.wd, axes.r) + cross(f.w, held.w_r) + cross(held.parent_w, carried);
     f.shift += cross(f.turn, axes.r);
@@ -64,9 +66,9 @@ RPSUP_INLINE void vary_joint_frame(const Joint& joint, const JointAxes& axes, co
 }
 
 /// How the force that a joint's body needs varies, seen by the observer who turns with it.
-template <typename Joint>
-[[nodiscard]] RPSUP_INLINE SpatialForce<Lanes> vary_body_force(const Joint& body, const Mat3<double>& R, const HeldJoint& held, const VariedFrame& f) {
-  SpatialForce<Lanes> varied;
+template <typename Joint, typename T>
+[[nodiscard]] RPSUP_INLINE SpatialForce<T> vary_body_force(const Joint& body, const Mat3<double>& R, const HeldJoint& held, const VariedFrame<T>& f) {
+  SpatialForce<T> varied;
   if (body.inertia == JointShape::Inertia::kNone) return varied;
   varied.force = body.numbers().mass * f.vd;
   if (!body.com_at_origin) {

@@ -3,6 +3,7 @@
 #include <immintrin.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/math/instruction_set.h"
 
@@ -46,6 +47,14 @@ struct LanePart<8> {
 #endif
 #if defined(__AVX512F__)
 [[nodiscard]] RPSUP_INLINE bool any(const LanePart<8>::Bits& lanes) { return _mm512_movepi64_mask(reinterpret_cast<__m512i>(lanes)) != 0; }
+#endif
+
+[[nodiscard]] RPSUP_INLINE LanePart<2>::Type sqrt_of(const LanePart<2>::Type& part) { return _mm_sqrt_pd(part); }
+#if defined(__AVX__)
+[[nodiscard]] RPSUP_INLINE LanePart<4>::Type sqrt_of(const LanePart<4>::Type& part) { return _mm256_sqrt_pd(part); }
+#endif
+#if defined(__AVX512F__)
+[[nodiscard]] RPSUP_INLINE LanePart<8>::Type sqrt_of(const LanePart<8>::Type& part) { return _mm512_sqrt_pd(part); }
 #endif
 
 /// Numbers side by side, in the widest parts that the instruction set has. (Left to the compiler, wider ones fall apart badly.)
@@ -149,6 +158,14 @@ template <int count>
 [[nodiscard]] RPSUP_INLINE LaneBlock<count> operator/(const LaneBlock<count>& a, double s) {
   return for_each_part<count>([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] / s; });
 }
+template <int count>
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> operator/(double s, const LaneBlock<count>& a) {
+  return for_each_part<count>([&](int i) RPSUP_INLINE_LAMBDA { return s / a.part[i]; });
+}
+template <int count>
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> sqrt(const LaneBlock<count>& a) {
+  return for_each_part<count>([&](int i) RPSUP_INLINE_LAMBDA { return sqrt_of(a.part[i]); });
+}
 /// Lane by lane: a > b ? yes : no
 template <int count>
 [[nodiscard]] RPSUP_INLINE LaneBlock<count> choose_greater(const LaneBlock<count>& a, const LaneBlock<count>& b, const LaneBlock<count>& yes,
@@ -180,16 +197,51 @@ using LanePair = LaneBlock<2>;
   pair.part[0] = LanePair::Part{a, b};
   return pair;
 }
-[[nodiscard]] RPSUP_INLINE LanePair sqrt(const LanePair& a) {
-  LanePair root;
-  root.part[0] = _mm_sqrt_pd(a.part[0]);
-  return root;
-}
+
+/// Numbers that stand in pairs, one pair a lane: the first and the second of each.
+struct LanePairs {
+  Lanes first, second;
+
+  /// @param numbers  the first pair, then the others
+  [[nodiscard]] RPSUP_INLINE static LanePairs load(const double* numbers) {
+    const Lanes a = Lanes::load(numbers), b = Lanes::load(numbers + Lanes::kCount);
+    const auto part = [&](int i) RPSUP_INLINE_LAMBDA { return i < Lanes::kParts ? a.part[i] : b.part[i - Lanes::kParts]; };
+    LanePairs pairs;
+    for (int i = 0; i < Lanes::kParts; ++i) {
+      pairs.first.part[i] = take_every_other<0>(part(2 * i), part(2 * i + 1), std::make_integer_sequence<int, Lanes::kWidth>());
+      pairs.second.part[i] = take_every_other<1>(part(2 * i), part(2 * i + 1), std::make_integer_sequence<int, Lanes::kWidth>());
+    }
+    return pairs;
+  }
+  RPSUP_INLINE void store(double* numbers) const {
+    constexpr int kWidth = Lanes::kWidth;
+    using Stored = typename LanePart<kWidth>::Stored;
+    for (int i = 0; i < Lanes::kParts; ++i) {
+      reinterpret_cast<Stored*>(numbers)[2 * i] = alternate<0>(first.part[i], second.part[i], std::make_integer_sequence<int, kWidth>());
+      reinterpret_cast<Stored*>(numbers)[2 * i + 1] = alternate<kWidth / 2>(first.part[i], second.part[i], std::make_integer_sequence<int, kWidth>());
+    }
+  }
+
+ private:
+  template <int from, int... i>
+  [[nodiscard]] RPSUP_INLINE static Lanes::Part take_every_other(const Lanes::Part& a, const Lanes::Part& b, std::integer_sequence<int, i...>) {
+    return __builtin_shufflevector(a, b, (2 * i + from)...);
+  }
+  template <int from, int... i>
+  [[nodiscard]] RPSUP_INLINE static Lanes::Part alternate(const Lanes::Part& a, const Lanes::Part& b, std::integer_sequence<int, i...>) {
+    return __builtin_shufflevector(a, b, (from + i / 2 + (i % 2) * Lanes::kWidth)...);
+  }
+};
 
 /// The sum of all lanes, halves first: the same for every instruction set.
 [[nodiscard]] RPSUP_INLINE double sum(const Lanes& a) {
   const auto half = [&](int i) RPSUP_INLINE_LAMBDA { return a[i] + a[i + 4]; };
   return (half(0) + half(2)) + (half(1) + half(3));
+}
+[[nodiscard]] RPSUP_INLINE double find_largest(const Lanes& a) {
+  double largest = a[0];
+  for (int lane = 1; lane < Lanes::kCount; ++lane) largest = a[lane] > largest ? a[lane] : largest;
+  return largest;
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -53,6 +53,7 @@ TEST_P(RightHandSide, AllocatesNothing) {
   (void)system.prepare_step(start.at, 1e-9, start.y);  // the elements' bristles go where the contact is
   ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
   EXPECT_EQ(start.at.joints[0].load.max_penetration > 0.0, GetParam().parameters.c_r > 0.0);
+  EXPECT_EQ(system.choose_elimination() == Elimination::kBodies, GetParam().parameters.rigid_elements > 4);
   Rodas5 rodas(tolerance);
   Radau5 radau(tolerance);
   ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the methods' own vectors
@@ -94,6 +95,13 @@ RpsupParameters with(Coupler coupler, ContactForm contact, double c_r, DriveEnfo
   return p;
 }
 
+/// So many that an implicit step's systems are solved body by body.
+RpsupParameters with_parts(int rigid_elements) {
+  RpsupParameters parameters = with(Coupler::kFlexible, ContactForm::kElements, 0.25e-3, DriveEnforcement::kPrescribed);
+  parameters.rigid_elements = rigid_elements;
+  return parameters;
+}
+
 /// y' = -y, entry by entry.
 struct DecaySystem {
   Eigen::VectorXd f_t;
@@ -128,6 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
         AllocationCase{"rigid", with(Coupler::kRigid, ContactForm::kContinuum, 0.25e-3, DriveEnforcement::kPrescribed)},
         AllocationCase{"flexible", with(Coupler::kFlexible, ContactForm::kContinuum, 0.25e-3, DriveEnforcement::kPrescribed)},
         AllocationCase{"elements", with(Coupler::kFlexible, ContactForm::kElements, 0.25e-3, DriveEnforcement::kPrescribed)},
+        AllocationCase{"body_by_body", with_parts(16)},
         AllocationCase{"ideal", with(Coupler::kFlexible, ContactForm::kContinuum, 0.0, DriveEnforcement::kPrescribed)},
         AllocationCase{"multipliers", with(Coupler::kRigid, ContactForm::kContinuum, 0.0, DriveEnforcement::kBaumgarte)}),
     [](const auto& c) { return c.param.name; });

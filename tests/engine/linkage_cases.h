@@ -81,6 +81,31 @@ namespace engine {
   return linkage;
 }
 
+/// A tree of all sorts whose two loops are closed by joints with clearance: a sprung carriage that slides along x with a driven crank on it, which a
+/// flexible rod joins to a rocker; on this an arm, with a pin in the ground. Coordinates: carriage 0, rocker 2.
+[[nodiscard]] inline Linkage make_loose_loops(const ClearanceParameters& clearance) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -9.81, 0.0};
+  linkage.bodies = {make_body("carriage", 1.0, {0.0, 0.01, 0.0}, {1e-3, 2e-3, 3e-3}), make_body("crank", 0.2, {0.05, 0.01, 0.0}, {1e-4, 2e-4, 2e-4}),
+                    make_body("rocker", 0.4, {0.15, 0.0, 0.01}, {1e-4, 3e-3, 3e-3}), make_body("arm", 0.2, {0.1, 0.0, 0.0}, {1e-4, 1e-3, 1e-3})};
+  linkage.bodies.push_back({.name = "rod", .beam = UniformBeam{.length = 0.4, .mass = 0.2, .I_x = 2e-6, .EI_y = 50.0, .EI_z = 40.0, .GJ = 30.0, .damping_ratio = 0.02},
+                            .elements = 3});
+  linkage.joints = {
+      {.name = "slide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "carriage", .placement = {}, .axes = {Axis::kX, Axis::kY},
+       .freedoms = {{.name = "x", .guess = 0.05, .stiffness = 50.0, .damping = 2.0}}},
+      {.name = "crank", .from = "carriage", .to = "crank", .placement = {.p = {0.0, 0.02, 0.01}},
+       .freedoms = {{.name = "crank", .drive = Harmonic{0.1, 0.3, 5.0, 0.4}}}},
+      {.name = "rocker", .from = kGroundName, .to = "rocker", .placement = {.p = {0.45, 0.0, 0.0}}, .freedoms = {{.name = "rocker", .guess = 1.6}}},
+      {.name = "ball", .kind = JointKind::kSpherical, .from = "crank", .to = "rod", .placement = {.p = {0.1, 0.0, -0.01}},
+       .freedoms = {{.name = "z", .guess = 0.7}, {.name = "y"}, {.name = "x_turn"}}},
+      {.name = "elbow", .from = "rocker", .to = "arm", .placement = {.p = {0.2, 0.0, 0.0}}, .freedoms = {{.name = "elbow", .guess = -2.5}}},
+      {.name = "end", .from = "rocker", .to = "rod", .placement = {.p = {0.3, 0.0, 0.0}}, .cut = true, .to_placement = {.p = {0.4, 0.0, 0.0}},
+       .clearance = clearance},
+      {.name = "foot", .from = "arm", .to = kGroundName, .placement = {.p = {0.25, 0.0, 0.0}}, .cut = true, .to_placement = {.p = {0.6, 0.0, 0.0}},
+       .clearance = clearance}};
+  return linkage;
+}
+
 /// A nut that slides down a screw of 20 mm a turn as it turns; turned by a drive or free.
 [[nodiscard]] inline Linkage make_screw() {
   Linkage linkage;

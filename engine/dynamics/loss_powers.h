@@ -1,0 +1,15 @@
+#pragma once
+
+#include "engine/math/instruction_set.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// Work and losses by time.
+template <typename T>
+struct LossPowers {
+  T impact{}, friction{}, structural{};
+};
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/clearance/clearance_joint.h"
+#include "engine/dynamics/cut_joint_motion.h"
+#include "engine/dynamics/loss_powers.h"
+#include "engine/dynamics/shifted_contact.h"
+#include "engine/dynamics/varied_contact.h"
+#include "engine/dynamics/varied_frame.h"
+#include "engine/kinematics/tree_model.h"
+#include "engine/math/buffer.h"
+#include "engine/math/dense_matrix.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// The system (shift 1 - J) x = known of an implicit step solved body by body, J the Jacobian of MotionSystem's state equation: in a time that
+/// grows with the number of bodies, and of bristles. J itself is never written down.
+///
+/// The unknowns are the variations u of the free coordinates' rates. With them each coordinate and its acceleration are known,
+///
+///     dq = (u + known_q) / shift,  dqd = u,  dqdd = shift u - known_v
+///
+/// so that the variation of a body's frame is a linear function of its parent's and of its own joint's u. The force that a body and all that it
+/// carries need follows the frame's variation (dw, dwd, dvd), nine numbers as seen by who turns with it: see VariedFrame. Of that a joint's u are
+/// eliminated on the way to the root, and found on the way back, as accelerations are by ArticulatedBodies. Contacts join bodies that are no
+/// parent and child: how all answers the twelve numbers y of a journal's motion, taken as given, leaves a matrix of twelve for each joint that touches.
+///
+/// There may be no constraints, and no springs between points.
+class ShiftedBodies {
+ public:
+  /// @param model, joints  must outlive this
+  ShiftedBodies(const TreeModel& model, const std::vector<ClearanceJoint>& joints);
+
+  [[nodiscard]] static bool fit(const TreeModel& model) { return model.rows == 0 && model.springs.empty(); }
+
+  /// A solution of the equations of motion, and what of it their variations need. All but the contacts' derivatives is copied.
+  struct Solution {
+    const Frame<double, double>* frames;
+    const JointAxes* axes;
+    const HeldJoint* held;
+    const HeldCoordinate* held_coordinates;
+    const CutJointMotion<double, double>* cuts;
+    const std::unique_ptr<ContactDerivative>* contacts;
+    const double* qd;
+    const int* acting_bristles;  ///< in pairs, by their place among all
+    int acting_count;
+  };
+  void take_up(const Solution& solution);
+
+  /// False if (shift 1 - J) is singular.
+  [[nodiscard]] bool factor(double shift);
+  /// x <- (shift 1 - J)^-1 x, of a state as MotionSystem has it.
+  void solve_in_place(double* x);
+
+ private:
+  static constexpr int kInputs = 9;             ///< dw, dwd, dvd
+  static constexpr int kForces = 6;             ///< force and moment
+  static constexpr std::size_t kJournal = 12;   ///< numbers of a journal's motion
+
+  /// A body and the joint that carries it.
+  struct Body {
+    // Of the solution
+    Mat3<double> R;
+    Vec3<double> p;
+    JointAxes axes;
+    HeldJoint held;
+    HeldCoordinate coordinates[3];
+    double rate_of_loss[3];            ///< of dampers, by the coordinate's rate
+    // Of the factors
+    double answer[kForces][kInputs];   ///< of all that it carries: the force needed, by the frame's variation
+    double by_own[kForces][3];         ///< the force passed on to the parent, by u
+    double inverse[3][3];              ///< of what the joint lacks of balance, by u
+    double by_parent[3][kInputs];      ///< u, or of a driven joint its force, by the parent's variation
+  };
+  /// Room for solutions in one or several directions.
+  template <typename T>
+  struct Room {
+    explicit Room(const TreeModel& model);
+    Buffer<SpatialForce<T>> forces;    ///< in: needed more by each body; then all that is needed behind its joint, with what is known of u
+    Buffer<T> own;                     ///< u before the parent moves, or of a driven joint its force; one a coordinate
+    Buffer<VariedFrame<T>> frames;
+    Buffer<T> u;                       ///< of the free coordinates
+    Buffer<T> drive_force;
+  };
+  /// What a joint passes on.
+  template <typename T>
+  struct Passed {
+    SpatialForce<T> to_parent;         ///< about the parent's origin
+    T lacks[3];                        ///< of balance, along each axis
+  };
+  /// A joint with clearance.
+  struct Contact {
+    Contact(const TreeCutJoint& on, std::size_t bristles, int first) : joint(on), end_bristle(first + static_cast<int>(bristles)),
+                                                                       first_bristle(first), acting(bristles), shifted(bristles) {}
+    const TreeCutJoint& joint;
+    int end_bristle, first_bristle;
+    CutJointMotion<double, double> cut;
+    const ContactDerivative* derivative = nullptr;
+    Buffer<int> acting;                ///< bristles, by their place among its own
+    int acting_count = 0;
+    ShiftedContact shifted;
+  };
+
+  [[nodiscard]] bool eliminate(std::size_t i);
+  template <typename T>
+  [[nodiscard]] Passed<T> respond(std::size_t i, VariedFrame<T> f, const CoordinateVariation<T>* own) const;
+  template <typename T>
+  [[nodiscard]] Passed<T> pass_on(std::size_t i, const CoordinateVariation<T>* own, const Vec3<T>& own_turn, SpatialForce<T> force) const;
+
+  [[nodiscard]] bool factor_contacts();
+  void answer_journals(std::size_t group);
+  template <typename T>
+  void add_need(const Contact& contact, const Vec3<T>& turn, const Vec3<T>& offset, const LoadVariation<T>& load, Room<T>& room) const;
+  template <typename T>
+  [[nodiscard]] JournalVariation<T> calc_journal(const Contact& contact, const Room<T>& room) const;
+  template <typename T>
+  [[nodiscard]] VariedFrame<T> see_at(int joint, const Vec3<double>& p, const Room<T>& room) const;
+  [[nodiscard]] Vec3<double> arm_of(int joint, const Vec3<double>& p) const;
+
+  template <typename T>
+  [[nodiscard]] CoordinateVariation<T> vary_known(const TreeJoint& joint, int k, const double* known) const;
+  template <typename T>
+  void pass_inwards(const double* known, Room<T>& room) const;
+  template <typename T>
+  void pass_outwards(const double* known, Room<T>& room) const;
+  void solve_journals(double* z);
+  void add_losses(const LoadVariation<double>& load);
+  void write_state(double* x) const;
+
+  const TreeModel& model_;
+  int free_, bristles_;
+  double shift_ = 1.0, inverse_shift_ = 1.0;
+  Buffer<Body> bodies_;
+  Buffer<double> drive_rates_;
+  std::vector<std::unique_ptr<Contact>> contacts_;
+  Buffer<Contact*> touching_;
+  std::size_t touching_count_ = 0, groups_ = 0;   ///< groups: of the touching journals' numbers, several side by side
+  DenseMatrix journal_matrix_;                    ///< of those numbers
+  Buffer<double> journals_;                       ///< the numbers, in whole groups
+  Buffer<Lanes> u_by_journals_;                   ///< free coordinates x groups
+  Buffer<Lanes> drive_force_by_journals_;         ///< drives x groups
+  LossPowers<double> losses_;
+  Room<double> room_;
+  Room<Lanes> lanes_room_;
+};
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "engine/math/buffer.h"
+#include "engine/math/finite.h"
+
+namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// A square matrix to be factored, Gauss with partial pivoting. (Functions of Eigen would be shared between instruction sets by the linker.)
+class DenseMatrix {
+ public:
+  /// @param room  largest number of rows
+  explicit DenseMatrix(std::size_t room) : entries_(room * room), order_(room) {}
+
+  /// Makes it n x n. Entries are not set.
+  void resize(std::size_t n) { n_ = n; }
+  [[nodiscard]] std::size_t size() const { return n_; }
+  [[nodiscard]] RPSUP_INLINE double& operator()(std::size_t row, std::size_t column) { return entries_[row * n_ + column]; }
+  [[nodiscard]] RPSUP_INLINE double operator()(std::size_t row, std::size_t column) const { return entries_[row * n_ + column]; }
+
+  /// L U = P A in place. False if A is singular.
+  [[nodiscard]] bool factor() {
+    for (std::size_t k = 0; k < n_; ++k) {
+      std::size_t pivot = k;
+      for (std::size_t i = k + 1; i < n_; ++i)
+        if (std::abs((*this)(i, k)) > std::abs((*this)(pivot, k))) pivot = i;
+      order_[k] = pivot;
+      if (pivot != k)
+        for (std::size_t j = 0; j < n_; ++j) std::swap((*this)(k, j), (*this)(pivot, j));
+      const double inverse = 1.0 / (*this)(k, k);
+      if (!is_number(inverse)) return false;
+      for (std::size_t i = k + 1; i < n_; ++i) {
+        const double factor = (*this)(i, k) *= inverse;
+        for (std::size_t j = k + 1; j < n_; ++j) (*this)(i, j) -= factor * (*this)(k, j);
+      }
+    }
+    return true;
+  }
+
+  /// x <- A^-1 x after factor().
+  void solve_in_place(double* x) const {
+    for (std::size_t k = 0; k < n_; ++k) {
+      std::swap(x[k], x[order_[k]]);
+      for (std::size_t j = 0; j < k; ++j) x[k] -= (*this)(k, j) * x[j];
+    }
+    for (std::size_t k = n_; k-- > 0;) {
+      for (std::size_t j = k + 1; j < n_; ++j) x[k] -= (*this)(k, j) * x[j];
+      x[k] /= (*this)(k, k);
+    }
+  }
+
+ private:
+  std::size_t n_ = 0;
+  Buffer<double> entries_;       ///< row after row
+  Buffer<std::size_t> order_;    ///< which row each one was exchanged with
+};
+
+}  // namespace RPSUP_INSTRUCTION_SET
+}  // namespace engine
