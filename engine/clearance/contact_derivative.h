@@ -23,6 +23,13 @@ struct LoadVariation {
   T impact_power{}, friction_power{};
 };
 
+/// The bristles of a joint that touch or are bent: the others do nothing, and stay as they are.
+struct ActingBristles {
+  int first = 0;             ///< of the joint's bristles among all
+  const int* own = nullptr;  ///< which of the joint's bristles, in pairs
+  int count = 0;
+};
+
 /// The derivatives of one number by the journal's motion, and by the two bristles of a touch.
 struct ContactRow {
   Lanes by_position;  ///< turn, p
@@ -57,17 +64,16 @@ class ContactDerivative {
  public:
   explicit ContactDerivative(std::size_t bristles)
       : constant_bristles_(bristles), bristles_(bristles), rates_(bristles), by_bristle_(bristles), rate_rows_(bristles) {
-    for (std::size_t b = 0; b < bristles; ++b) bristles_[b].d = Lanes::unit(kOwnBristle + static_cast<int>(b % 2));
+    for (std::size_t b = 0; b < bristles; ++b) bristles_[b] = Dual(0.0, Lanes::unit(kOwnBristle + static_cast<int>(b % 2)));
   }
 
-  /// @param bristles  of this joint
-  RPSUP_INLINE void calc(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal, const double* bristles) {
-    for (std::size_t b = 0; b < bristles_.size(); ++b) {
-      constant_bristles_[b] = Dual(bristles[b]);
-      bristles_[b].value = bristles[b];
-    }
-    differentiate_by_position(joint, journal);
-    differentiate_by_rate(joint, journal);
+  /// @param bristles  of all joints; derivatives of those that do not act are not set
+  RPSUP_INLINE void calc(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal, const double* bristles,
+                         const ActingBristles& acting) {
+    set_bristles(bristles + acting.first, acting);
+    differentiate_by_position(joint, journal, acting);
+    differentiate_by_rate(joint, journal, acting);
+    relax_bristles(acting);
   }
 
   /// What comes of a variation of the journal's motion, the bristles held.
@@ -122,31 +128,51 @@ class ContactDerivative {
     double before[2][kOutputs] = {};
   };
 
-  RPSUP_INLINE void differentiate_by_position(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal) {
+  RPSUP_INLINE void set_bristles(const double* own, const ActingBristles& acting) {
+    for (int i = 0; i < acting.count; ++i) {
+      const auto b = static_cast<std::size_t>(acting.own[i]);
+      constant_bristles_[b].value = bristles_[b].value = own[b];
+      rates_[b] = Dual(0.0);
+      by_bristle_[b] = {};
+    }
+  }
+  /// Those that do not act are zero, and so is what they do.
+  RPSUP_INLINE void relax_bristles(const ActingBristles& acting) {
+    for (int i = 0; i < acting.count; ++i) {
+      const auto b = static_cast<std::size_t>(acting.own[i]);
+      constant_bristles_[b].value = bristles_[b].value = 0.0;
+    }
+  }
+
+  RPSUP_INLINE void differentiate_by_position(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal,
+                                              const ActingBristles& acting) {
     const Vec3<Lanes> turn{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
     const auto turned = [&](const Vec3<double>& u) RPSUP_INLINE_LAMBDA { return join(u, cross(turn, u)); };
     const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)},
                                             join(journal.p, {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)}), join(journal.v, {}), join(journal.w, {})};
     JointLoad<Dual> load;
     (void)add_contacts(joint, varied, constant_bristles_.data(), rates_.data(), load);
-    store(load, &ContactRow::by_position);
+    store(load, acting, &ContactRow::by_position);
   }
 
-  RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal) {
+  RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal,
+                                          const ActingBristles& acting) {
     const RelativeMotion<double, Dual> varied{journal.R, journal.p, join(journal.v, {Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
                                               join(journal.w, {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
     TouchedLoad load;
     load.by_bristle = by_bristle_.data();
-    by_bristle_.fill({});
     (void)add_contacts(joint, varied, bristles_.data(), rates_.data(), load);
-    store(load, &ContactRow::by_rate);
+    store(load, acting, &ContactRow::by_rate);
   }
 
-  RPSUP_INLINE void store(const JointLoad<Dual>& load, Lanes ContactRow::*part) {
+  RPSUP_INLINE void store(const JointLoad<Dual>& load, const ActingBristles& acting, Lanes ContactRow::*part) {
     const Dual* outputs[kOutputs] = {&load.force.x, &load.force.y, &load.force.z, &load.moment.x, &load.moment.y, &load.moment.z,
                                      &load.impact_power, &load.friction_power};
     for (int i = 0; i < kOutputs; ++i) rows_.of[i].*part = outputs[i]->d;
-    for (std::size_t b = 0; b < rates_.size(); ++b) rate_rows_[b].*part = rates_[b].d;
+    for (int i = 0; i < acting.count; ++i) {
+      const auto b = static_cast<std::size_t>(acting.own[i]);
+      rate_rows_[b].*part = rates_[b].d;
+    }
   }
 
   Buffer<Dual> constant_bristles_, bristles_, rates_;

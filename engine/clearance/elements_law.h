@@ -191,13 +191,13 @@ RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements, const Relative
 ///
 ///     Delta = rho - r_b,  f_e = s Delta,  s = K / n_r * 3 sqrt(c_r) / (4 sqrt 2) * 2 pi / n_ce
 ///
-/// Only elements on the arc that can touch are looked at. @returns false if one touched that has no bristle in the state
+/// Only elements on the arc that can touch are looked at: of derivatives of bristles' rates only theirs are set. @returns false if one touched that has no bristle in the state
 /// @tparam Load  a JointLoad<V>
 /// static: the linker would share it between files that are compiled with other rules for numbers that are none.
 template <typename P, typename V, typename Load>
 [[nodiscard, gnu::noinline]] static bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles,
                                                V* bristle_rates, Load& load) {
-  const int count = elements.bristle_count();
+  const int count = std::is_same_v<V, double> ? elements.bristle_count() : 0;
   for (int b = 0; b < count; ++b) bristle_rates[b] = V(0.0);
   bool inside = true;
   for (int ring = 0; ring < elements.parameters().n_r; ++ring) {

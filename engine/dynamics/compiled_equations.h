@@ -52,7 +52,7 @@ class CompiledEquations final : public Equations {
 
   void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) override {
     find_acting_bristles(y, result);
-    varied_.hold(y + 2 * free_);
+    varied_.hold(y + 2 * free_, result.bristles, result.bristle_count);
     plan_.start(drives, result.bristles, result.bristle_count);
     for (int group = 0; group < plan_.groups(); ++group) {
       const int bristle = plan_.first_bristle(group);
@@ -66,13 +66,13 @@ class CompiledEquations final : public Equations {
 
   void linearise_bodies(const double* y, const DrivenMotion* drives, Linearisation& result) override {
     find_acting_bristles(y, result);
-    varied_.hold(y + 2 * free_);
+    varied_.hold(y + 2 * free_, result.bristles, result.bristle_count);
     plan_.start(drives, nullptr, 0);
     varied_.differentiate(plan_.coordinates(0), nullptr, 0, plan_.time(0), drives);
     take_outputs(0, result);
     plan_.sort_time(result);
     bodies_->take_up({kept_.frames.data(), kept_.axes.data(), varied_.held(), varied_.held_coordinates(), kept_.cuts.data(), varied_.contacts(),
-                      kept_.qd.data(), result.bristles, result.bristle_count});
+                      varied_.acting(), kept_.qd.data()});
   }
   bool factor_bodies(double shift) override { return bodies_->factor(shift); }
   void solve_bodies(double* x) override { bodies_->solve_in_place(x); }

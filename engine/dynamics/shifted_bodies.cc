@@ -116,12 +116,8 @@ ShiftedBodies::ShiftedBodies(const TreeModel& model, const std::vector<Clearance
       drive_force_by_journals_(model.drives.size() * journals_.size() / kLanes),
       room_(model),
       lanes_room_(model) {
-  int first = 0;
-  for (const TreeCutJoint& joint : model.cut_joints) {
-    const int bristles = joints[at(joint.clearance)].bristle_count();
-    contacts_.push_back(std::make_unique<Contact>(joint, at(bristles), first));
-    first += bristles;
-  }
+  for (const TreeCutJoint& joint : model.cut_joints)
+    contacts_.push_back(std::make_unique<Contact>(joint, at(joints[at(joint.clearance)].bristle_count())));
 }
 
 void ShiftedBodies::take_up(const Solution& solution) {
@@ -138,14 +134,11 @@ void ShiftedBodies::take_up(const Solution& solution) {
     }
     if (joint.driven) drive_rates_[at(joint.drive)] = solution.qd[joint.first];
   }
-  int next = 0;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     Contact& contact = *contacts_[k];
     contact.cut = solution.cuts[k];
     contact.derivative = solution.contacts[contact.joint.clearance].get();
-    contact.acting_count = 0;
-    for (; next < solution.acting_count && solution.acting_bristles[next] < contact.end_bristle; ++next)
-      contact.acting[at(contact.acting_count++)] = solution.acting_bristles[next] - contact.first_bristle;
+    contact.acting = solution.acting[contact.joint.clearance];
   }
 }
 
@@ -260,9 +253,9 @@ bool ShiftedBodies::factor_contacts() {
   touching_count_ = 0;
   bool regular = true;
   for (const std::unique_ptr<Contact>& contact : contacts_) {
-    if (contact->acting_count == 0 && !contact->derivative->acts()) continue;
+    if (contact->acting.count == 0 && !contact->derivative->acts()) continue;
     touching_[touching_count_++] = contact.get();
-    regular = contact->shifted.factor(*contact->derivative, contact->acting.data(), contact->acting_count, shift_) && regular;
+    regular = contact->shifted.factor(*contact->derivative, contact->acting, shift_) && regular;
   }
   journal_matrix_.resize(kJournal * touching_count_);
   groups_ = count_groups(kJournal * touching_count_);
@@ -407,7 +400,7 @@ void ShiftedBodies::solve_in_place(double* x) {
   losses_ = {};
   room_.forces.fill({});
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    const LoadVariation<double> load = touching_[t]->shifted.start(z + touching_[t]->first_bristle);
+    const LoadVariation<double> load = touching_[t]->shifted.start(z + touching_[t]->acting.first);
     add_need<double>(*touching_[t], {}, {}, load, room_);
     add_losses(load);
   }
@@ -440,7 +433,7 @@ void ShiftedBodies::solve_journals(double* z) {
     JournalVariation<double> y;
     for (std::size_t k = 0; k < kJournal; ++k) number_of(y, k) = journals_[t * kJournal + k];
     add_losses(touching_[t]->shifted.apply(y));
-    touching_[t]->shifted.finish(y, z + touching_[t]->first_bristle);
+    touching_[t]->shifted.finish(y, z + touching_[t]->acting.first);
   }
 }
 

@@ -36,7 +36,7 @@ class ShiftedBodies {
 
   [[nodiscard]] static bool fit(const TreeModel& model) { return model.rows == 0 && model.springs.empty(); }
 
-  /// A solution of the equations of motion, and what of it their variations need. All but the contacts' derivatives is copied.
+  /// A solution of the equations of motion, and what of it their variations need. All but the contacts' derivatives and bristles is copied.
   struct Solution {
     const Frame<double, double>* frames;
     const JointAxes* axes;
@@ -44,9 +44,8 @@ class ShiftedBodies {
     const HeldCoordinate* held_coordinates;
     const CutJointMotion<double, double>* cuts;
     const std::unique_ptr<ContactDerivative>* contacts;
+    const ActingBristles* acting;
     const double* qd;
-    const int* acting_bristles;  ///< in pairs, by their place among all
-    int acting_count;
   };
   void take_up(const Solution& solution);
 
@@ -93,14 +92,11 @@ class ShiftedBodies {
   };
   /// A joint with clearance.
   struct Contact {
-    Contact(const TreeCutJoint& on, std::size_t bristles, int first) : joint(on), end_bristle(first + static_cast<int>(bristles)),
-                                                                       first_bristle(first), acting(bristles), shifted(bristles) {}
+    Contact(const TreeCutJoint& on, std::size_t bristles) : joint(on), shifted(bristles) {}
     const TreeCutJoint& joint;
-    int end_bristle, first_bristle;
     CutJointMotion<double, double> cut;
     const ContactDerivative* derivative = nullptr;
-    Buffer<int> acting;                ///< bristles, by their place among its own
-    int acting_count = 0;
+    ActingBristles acting;
     ShiftedContact shifted;
   };
 

@@ -14,39 +14,43 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// by the journal's motion y and the bristles z, of which each pair answers itself alone.
 class ShiftedContact {
  public:
-  explicit ShiftedContact(std::size_t bristles) : acting_(bristles), inverse_(2 * bristles), response_(bristles), own_(bristles) {}
+  explicit ShiftedContact(std::size_t bristles)
+      : stride_(in_groups(bristles)), inverse_(2 * bristles), response_(kJournal * stride_), own_(stride_), found_(stride_) {}
 
-  /// @param contact  with its derivatives  @param acting  bristles of this joint that touch, in pairs
+  /// @param contact  with its derivatives; it and `acting` must stay as they are
   /// @returns false if the bristles' own matrix is singular
-  [[nodiscard]] RPSUP_INLINE bool factor(const ContactDerivative& contact, const int* acting, int count, double shift) {
+  [[nodiscard]] RPSUP_INLINE bool factor(const ContactDerivative& contact, const ActingBristles& acting, double shift) {
     contact_ = &contact;
+    acting_ = acting;
     rows_ = contact.load_rows();
-    count_ = count;
     bool regular = true;
-    for (int i = 0; i < count; i += 2) {
-      const int b = acting[i];
-      acting_[at(i)] = b;
-      acting_[at(i + 1)] = b + 1;
-      regular = invert_pair(b, shift, &inverse_[at(2 * i)]) && regular;
-      answer(i, contact.rate_row(b).by_position, contact.rate_row(b + 1).by_position, &ContactRow::by_position);
-      answer(i, contact.rate_row(b).by_rate, contact.rate_row(b + 1).by_rate, &ContactRow::by_rate);
-      for (int pair = 0; pair < 2; ++pair)
-        for (int row = 0; row < ContactRows::kCount; ++row) add_response(i + pair, contact.load_by_bristle(b + pair)[row], rows_.of[row]);
+    for (int i = 0; i < acting.count; i += 2) {
+      const int b = acting.own[i];
+      double* inverse = &inverse_[at(2 * i)];
+      regular = invert_pair(b, shift, inverse) && regular;
+      const ContactRow& first = contact.rate_row(b);
+      const ContactRow& second = contact.rate_row(b + 1);
+      for (int k = 0; k < 2; ++k) {
+        const ContactRow response{combine(inverse[2 * k], first.by_position, inverse[2 * k + 1], second.by_position),
+                                  combine(inverse[2 * k], first.by_rate, inverse[2 * k + 1], second.by_rate)};
+        keep(i + k, response);
+        for (int row = 0; row < ContactRows::kCount; ++row) {
+          rows_.of[row].by_position += contact.load_by_bristle(b + k)[row] * response.by_position;
+          rows_.of[row].by_rate += contact.load_by_bristle(b + k)[row] * response.by_rate;
+        }
+      }
     }
     return regular;
   }
 
   /// The load that comes of what is known of the bristles. @param z  all of this joint's
   [[nodiscard]] RPSUP_INLINE LoadVariation<double> start(const double* z) {
-    double load[ContactRows::kCount] = {};
-    for (int i = 0; i < count_; i += 2) {
-      const double first = z[acting_[at(i)]], second = z[acting_[at(i + 1)]];
-      for (int pair = 0; pair < 2; ++pair) {
-        const double* inverse = &inverse_[at(2 * (i + pair))];
-        own_[at(i + pair)] = inverse[0] * first + inverse[1] * second;
-        const double* by = contact_->load_by_bristle(acting_[at(i + pair)]);
-        for (int row = 0; row < ContactRows::kCount; ++row) load[row] += by[row] * own_[at(i + pair)];
-      }
+    Lanes load{};
+    for (int i = 0; i < acting_.count; ++i) {
+      const double* pair = z + (acting_.own[i] & ~1);
+      const double* inverse = &inverse_[at(2 * i)];
+      own_[at(i)] = inverse[0] * pair[0] + inverse[1] * pair[1];
+      load += own_[at(i)] * Lanes::load(contact_->load_by_bristle(acting_.own[i]));
     }
     return {{load[0], load[1], load[2]}, {load[3], load[4], load[5]}, load[ContactRows::kImpactPower], load[ContactRows::kFrictionPower]};
   }
@@ -58,12 +62,21 @@ class ShiftedContact {
   }
 
   /// Sets the acting bristles, after start().
-  RPSUP_INLINE void finish(const JournalVariation<double>& y, double* z) const {
-    for (int i = 0; i < count_; ++i) z[acting_[at(i)]] = own_[at(i)] + response_[at(i)].apply(y);
+  RPSUP_INLINE void finish(const JournalVariation<double>& y, double* z) {
+    const double numbers[kJournal] = {y.turn.x, y.turn.y, y.turn.z, y.p.x, y.p.y, y.p.z, y.v.x, y.v.y, y.v.z, y.w.x, y.w.y, y.w.z};
+    for (std::size_t i = 0; i < at(acting_.count); i += Lanes::kCount) {
+      Lanes found = Lanes::load(&own_[i]);
+      for (std::size_t k = 0; k < kJournal; ++k) found += numbers[k] * Lanes::load(&response_[k * stride_ + i]);
+      found.store(&found_[i]);
+    }
+    for (int i = 0; i < acting_.count; ++i) z[acting_.own[i]] = found_[at(i)];
   }
 
  private:
+  static constexpr std::size_t kJournal = 12;  ///< numbers of a journal's motion
+
   [[nodiscard]] RPSUP_INLINE static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] static std::size_t in_groups(std::size_t n) { return (n + Lanes::kCount - 1) / Lanes::kCount * Lanes::kCount; }
 
   RPSUP_INLINE bool invert_pair(int b, double shift, double* inverse) const {
     const double a00 = shift - contact_->rate_by_bristle(b, b), a01 = -contact_->rate_by_bristle(b, b + 1);
@@ -76,25 +89,21 @@ class ShiftedContact {
     return is_number(inverse_determinant);
   }
 
-  /// How a pair answers the journal's motion: of its rates' rows.
-  RPSUP_INLINE void answer(int i, const Lanes& first, const Lanes& second, Lanes ContactRow::*part) {
-    const double* inverse = &inverse_[at(2 * i)];
-    response_[at(i)].*part = combine(inverse[0], first, inverse[1], second);
-    response_[at(i + 1)].*part = combine(inverse[2], first, inverse[3], second);
-  }
-
-  RPSUP_INLINE void add_response(int i, double by, ContactRow& row) const {
-    row.by_position += by * response_[at(i)].by_position;
-    row.by_rate += by * response_[at(i)].by_rate;
+  RPSUP_INLINE void keep(int i, const ContactRow& response) {
+    for (int k = 0; k < 6; ++k) {
+      response_[at(k) * stride_ + at(i)] = response.by_position[k];
+      response_[at(k + 6) * stride_ + at(i)] = response.by_rate[k];
+    }
   }
 
   const ContactDerivative* contact_ = nullptr;
+  ActingBristles acting_;
   ContactRows rows_;
-  int count_ = 0;                ///< bristles that act
-  Buffer<int> acting_;
-  Buffer<double> inverse_;       ///< 2 x 2 for each pair, row after row
-  Buffer<ContactRow> response_;  ///< of the acting bristles
+  std::size_t stride_;           ///< room for all bristles in whole groups
+  Buffer<double> inverse_;       ///< 2 x 2 for each acting pair, row after row
+  Buffer<double> response_;      ///< of the acting bristles to each number of the journal's motion, side by side
   Buffer<double> own_;           ///< what they would be with the journal held
+  Buffer<double> found_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

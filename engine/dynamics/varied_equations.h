@@ -37,6 +37,8 @@ class VariedEquations {
         solved_(solved),
         held_(model.joints.size()),
         held_coordinates_(qdd.size()),
+        acting_(joints.size()),
+        own_bristles_(bristles),
         frames_(model.joints.size()),
         own_turns_(model.joints.size()),
         still_(model.joints.size()),
@@ -51,7 +53,9 @@ class VariedEquations {
   }
 
   /// Takes up the solution: what all directions share.
-  RPSUP_INLINE void hold(const double* bristles) {
+  /// @param acting  the bristles that touch or are bent, in pairs and in their order: rates of the others are not set
+  RPSUP_INLINE void hold(const double* bristles, const int* acting, int acting_count) {
+    find_acting(acting, acting_count);
     hold_motion();
     hold_loads(bristles);
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
@@ -85,14 +89,27 @@ class VariedEquations {
   [[nodiscard]] const HeldJoint* held() const { return held_.data(); }
   [[nodiscard]] const HeldCoordinate* held_coordinates() const { return held_coordinates_.data(); }
   [[nodiscard]] const std::unique_ptr<ContactDerivative>* contacts() const { return contacts_.data(); }
+  [[nodiscard]] const ActingBristles* acting() const { return acting_.data(); }
 
   // Out
   Buffer<Lanes> qdd;                        ///< of free coordinates
-  Buffer<Lanes> bristle_rates;
+  Buffer<Lanes> bristle_rates;              ///< of those that act
   Buffer<Lanes> drive_force;
   LossPowers<Lanes> losses;
 
  private:
+  /// Sorts the acting bristles by joints.
+  RPSUP_INLINE void find_acting(const int* acting, int count) {
+    int first = 0, next = 0;
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      const int end = first + joints_[k].bristle_count();
+      ActingBristles& own = acting_[k];
+      own = {first, own_bristles_.data() + next, 0};
+      for (; next < count && acting[next] < end; ++next, ++own.count) own_bristles_[static_cast<std::size_t>(next)] = acting[next] - first;
+      first = end;
+    }
+  }
+
   RPSUP_INLINE void hold_motion() {
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       const auto first = static_cast<std::size_t>(joint.first);
@@ -111,9 +128,8 @@ class VariedEquations {
         hold_load(joint.bearing_joint, bearing_point(joint.rows, cut.b, cut.j), -cut.reaction, -cut.moment);
         continue;
       }
-      const ClearanceJoint& clearance = joints_[static_cast<std::size_t>(joint.clearance)];
-      contacts_[static_cast<std::size_t>(joint.clearance)]->calc(clearance, cut.journal, bristles);
-      bristles += clearance.bristle_count();
+      const auto own = static_cast<std::size_t>(joint.clearance);
+      contacts_[own]->calc(joints_[own], cut.journal, bristles, acting_[own]);
       hold_load(joint.journal_joint, cut.j.p, cut.reaction, cut.moment);
       hold_load(joint.bearing_joint, cut.j.p, -cut.reaction, -cut.moment);
     }
@@ -165,16 +181,13 @@ class VariedEquations {
 
   RPSUP_INLINE void vary_loads() {
     losses = {};
-    bristle_rates.fill({});
-    int first_bristle = 0;
     for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (!joint.has_clearance()) {
         if constexpr (Shapes::have_rows) vary_reaction(joint);
         continue;
       }
-      vary_contact(joint, solved_.cuts[k], first_bristle);
-      first_bristle += joints_[static_cast<std::size_t>(joint.clearance)].bristle_count();
+      vary_contact(joint, solved_.cuts[k]);
     }
     if constexpr (Shapes::have_springs)
       for (const TreeSpring& spring : model_.springs) vary_spring(spring);
@@ -189,24 +202,26 @@ class VariedEquations {
   }
 
   /// All in W as an observer sees it who turns with the bearing, until the journal's own is needed.
-  RPSUP_INLINE void vary_contact(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut, int first_bristle) {
+  RPSUP_INLINE void vary_contact(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut) {
     const ContactDerivative& contact = *contacts_[static_cast<std::size_t>(joint.clearance)];
-    const int bristles = joints_[static_cast<std::size_t>(joint.clearance)].bristle_count();
+    const ActingBristles& acting = acting_[static_cast<std::size_t>(joint.clearance)];
+    Lanes* rates = bristle_rates.data() + acting.first;
     LoadVariation<Lanes> load;
     VariedJournal<Lanes> journal;
-    if (!is_still(joint.bearing_joint) || !is_still(joint.journal_joint)) {
+    const bool still = is_still(joint.bearing_joint) && is_still(joint.journal_joint);
+    if (!still) {
       journal = vary_journal(cut, see_at(joint.bearing_joint, cut.b.p), see_at(joint.journal_joint, cut.j.p));
       const JournalVariation<Lanes> varies = see_from_bearing(cut.b.R, journal);
       load = contact.apply(varies);
-      for (int b_own = 0; b_own < bristles; ++b_own)
-        bristle_rates[static_cast<std::size_t>(first_bristle + b_own)] = contact.apply_to_bristle(b_own, varies);
+      for (int i = 0; i < acting.count; ++i) rates[acting.own[i]] = contact.apply_to_bristle(acting.own[i], varies);
+    } else {
+      for (int i = 0; i < acting.count; ++i) rates[acting.own[i]] = {};
     }
     for (int i = 0; i < bristle_count_; ++i) {
-      const int own = bristles_[i].bristle - first_bristle;
-      if (own < 0 || own >= bristles) continue;
+      const int own = bristles_[i].bristle - acting.first;
+      if (own < 0 || own >= joints_[static_cast<std::size_t>(joint.clearance)].bristle_count()) continue;
       contact.add_bristle(own, bristles_[i].lanes, load);
-      for (const int other : {own & ~1, own | 1})
-        bristle_rates[static_cast<std::size_t>(first_bristle + other)] += contact.rate_by_bristle(other, own) * bristles_[i].lanes;
+      for (const int other : {own & ~1, own | 1}) rates[other] += contact.rate_by_bristle(other, own) * bristles_[i].lanes;
     }
     losses.impact += load.impact_power;
     losses.friction += load.friction_power;
@@ -358,6 +373,8 @@ class VariedEquations {
   Buffer<HeldJoint> held_;
   Buffer<HeldCoordinate> held_coordinates_;
   std::vector<std::unique_ptr<ContactDerivative>> contacts_;
+  Buffer<ActingBristles> acting_;           ///< of each joint with clearance
+  Buffer<int> own_bristles_;                ///< theirs
   // Of the directions at hand
   const CoordinateVariation<Lanes>* coordinates_ = nullptr;
   const BristleVariation* bristles_ = nullptr;
