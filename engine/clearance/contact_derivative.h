@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "engine/clearance/joint_contact.h"
 #include "engine/math/buffer.h"
 #include "engine/math/dual_vec3.h"
@@ -94,11 +92,11 @@ class ContactDerivative {
     return by / 2 == bristle / 2 ? rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2] : 0.0;
   }
 
-  /// Whether anything touches.
+  /// Whether the load varies at all.
   [[nodiscard]] RPSUP_INLINE bool acts() const {
-    constexpr double kLeast = std::numeric_limits<double>::denorm_min();
     for (const ContactRow& row : rows_.of)
-      if (!all_below(row.by_position, kLeast) || !all_below(row.by_rate, kLeast)) return true;
+      for (int lane = 0; lane < Lanes::kCount; ++lane)
+        if (row.by_position[lane] != 0.0 || row.by_rate[lane] != 0.0) return true;
     return false;
   }
   [[nodiscard]] RPSUP_INLINE const ContactRows& load_rows() const { return rows_; }
@@ -148,8 +146,9 @@ class ContactDerivative {
                                               const ActingBristles& acting) {
     const Vec3<Lanes> turn{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
     const auto turned = [&](const Vec3<double>& u) RPSUP_INLINE_LAMBDA { return join(u, cross(turn, u)); };
-    const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)},
-                                            join(journal.p, {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)}), join(journal.v, {}), join(journal.w, {})};
+    const Vec3<Lanes> shift{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)};
+    const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)}, join(journal.p, shift),
+                                            join(journal.v, {}), join(journal.w, {})};
     JointLoad<Dual> load;
     (void)add_contacts(joint, varied, constant_bristles_.data(), rates_.data(), load);
     store(load, acting, &ContactRow::by_position);

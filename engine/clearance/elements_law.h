@@ -134,8 +134,8 @@ RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMoti
 }
 
 /// Eight neighbours on a ring side by side, the first of them k, with bristles from `place` on. Those that do not touch add zeros.
-RPSUP_INLINE void add_neighbours(const RadialElements& elements, const RelativeMotion<double, double>& journal, const Vec3<double>& axial, int ring, int k,
-                                 int place, const double* bristles, double* bristle_rates, JointLoad<Lanes>& load) {
+RPSUP_INLINE void add_neighbours(const RadialElements& elements, const RelativeMotion<double, double>& journal, const Vec3<double>& axial,
+                                 int ring, int k, int place, const double* bristles, double* bristle_rates, JointLoad<Lanes>& load) {
   const ClearanceParameters& joint = elements.parameters();
   const ElementPlace<Lanes> element =
       place_element(joint, journal, axial, Lanes::load(elements.cosines() + k), Lanes::load(elements.sines() + k));
@@ -166,7 +166,8 @@ RPSUP_INLINE void add_sums(const JointLoad<Lanes>& of, JointLoad<double>& load) 
   load.elastic_energy += sum(of.elastic_energy);
 }
 
-/// What an arc's elements do, eight side by side; one by one where the numbers of eight do not stand side by side. Behind the arc's end none touches.
+/// What an arc's elements do, eight side by side; one by one where the numbers of eight do not stand so, or eight would go around the ring.
+/// Between the arc's end and its beginning none touches.
 RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements, const RelativeMotion<double, double>& journal, const Vec3<double>& axial, int ring,
                                   const ElementArc& arc, const double* bristles, double* bristle_rates, JointLoad<double>& load) {
   bool inside = true;
@@ -174,7 +175,8 @@ RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements, const Relative
   bool any_abreast = false;
   for (int unwrapped = arc.low; unwrapped <= arc.high;) {
     const int k = elements.wrap(unwrapped);
-    if (elements.are_side_by_side(ring, k, Lanes::kCount)) {
+    const bool fit = unwrapped + Lanes::kCount <= arc.low + elements.parameters().n_ce;
+    if (fit && elements.are_side_by_side(ring, k, Lanes::kCount)) {
       add_neighbours(elements, journal, axial, ring, k, elements.place_of_bristle(ring, k), bristles, bristle_rates, abreast);
       any_abreast = true;
       unwrapped += Lanes::kCount;
@@ -191,19 +193,21 @@ RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements, const Relative
 ///
 ///     Delta = rho - r_b,  f_e = s Delta,  s = K / n_r * 3 sqrt(c_r) / (4 sqrt 2) * 2 pi / n_ce
 ///
-/// Only elements on the arc that can touch are looked at: of derivatives of bristles' rates only theirs are set. @returns false if one touched that has no bristle in the state
+/// Only elements on the arc that can touch are looked at. @returns false if one touched that has no bristle in the state
 /// @tparam Load  a JointLoad<V>
+/// @param bristle_rates  where they go: numbers all of them, numbers with derivatives those of the elements that touch
 /// static: the linker would share it between files that are compiled with other rules for numbers that are none.
 template <typename P, typename V, typename Load>
 [[nodiscard, gnu::noinline]] static bool add_elements(const RadialElements& elements, const RelativeMotion<P, V>& journal, const V* bristles,
                                                V* bristle_rates, Load& load) {
-  const int count = std::is_same_v<V, double> ? elements.bristle_count() : 0;
-  for (int b = 0; b < count; ++b) bristle_rates[b] = V(0.0);
+  constexpr bool kPlain = std::is_same_v<V, double>;
+  if constexpr (kPlain)
+    for (int b = 0; b < elements.bristle_count(); ++b) bristle_rates[b] = 0.0;
   bool inside = true;
   for (int ring = 0; ring < elements.parameters().n_r; ++ring) {
     const Vec3<P> axial = calc_ring_position(elements.parameters(), ring) * journal.R.z;
     const ElementArc arc = find_arc(elements, journal, axial);
-    if constexpr (std::is_same_v<V, double>) {
+    if constexpr (kPlain) {
       inside = add_arc_abreast(elements, journal, axial, ring, arc, bristles, bristle_rates, load) && inside;
     } else {
       for (int k = arc.low; k <= arc.high; ++k)

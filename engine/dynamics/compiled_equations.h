@@ -62,7 +62,7 @@ class CompiledEquations final : public Equations {
     plan_.sort(result);
   }
 
-  bool have_bodies() const override { return bodies_ != nullptr; }
+  bool can_solve_by_bodies() const override { return bodies_ != nullptr; }
 
   void linearise_bodies(const double* y, const DrivenMotion* drives, Linearisation& result) override {
     find_acting_bristles(y, result);

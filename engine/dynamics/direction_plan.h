@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/varied_equations.h"
 #include "engine/kinematics/tree_model.h"
@@ -18,8 +20,7 @@ class DirectionPlan {
         n_(static_cast<std::size_t>(model.coordinates)),
         column_of_q_(model.free.size()),
         bristles_(bristles),
-        coordinates_((model.free.size() + 2) * n_),
-        outputs_((model.free.size() + 2 + bristles / Lanes::kCount) * (model.free.size() + bristles + model.drives.size() + 3)) {
+        coordinates_((model.free.size() + 2) * n_) {
     int column = 1;
     int free = 0;
     for (const TreeJoint& joint : model.joints) {
@@ -40,6 +41,7 @@ class DirectionPlan {
   void start(const DrivenMotion* drives, const int* bristles, int count) {
     bristle_count_ = count;
     groups_ = group_of(first_bristle_column_ + count - 1) + 1;
+    make_room();
     for (int b = 0; b < count; ++b)
       bristles_[static_cast<std::size_t>(b)] = {bristles[b], Lanes::unit((first_bristle_column_ + b) % Lanes::kCount)};
     if (model_.drive_rows) return;
@@ -63,11 +65,11 @@ class DirectionPlan {
   [[nodiscard]] const BristleVariation* bristles() const { return bristles_.data(); }
 
   /// Where an output of a group goes.
-  [[nodiscard]] RPSUP_INLINE Lanes& output(int row, int group) { return outputs_[static_cast<std::size_t>(row * groups_ + group)]; }
+  [[nodiscard]] RPSUP_INLINE Lanes& output(int row, int group) { return (*outputs_)[static_cast<std::size_t>(row * groups_ + group)]; }
 
   /// Writes the outputs by time.
   void sort_time(Linearisation& result) const {
-    for (int row = 0; row < result.outputs; ++row) result.by_t[row] = entry(outputs_.data() + row * groups_, 0);
+    for (int row = 0; row < result.outputs; ++row) result.by_t[row] = entry(outputs_->data() + row * groups_, 0);
   }
 
   /// Writes all outputs by variables.
@@ -76,7 +78,7 @@ class DirectionPlan {
     const auto n = static_cast<int>(model_.free.size());
     const int bristle_stride = static_cast<int>(bristles_.size());
     for (int row = 0; row < result.outputs; ++row) {
-      const Lanes* from = outputs_.data() + row * groups_;
+      const Lanes* from = outputs_->data() + row * groups_;
       double* by_q = result.by_q + row * n;
       double* by_v = result.by_v + row * n;
       for (int a = 0; a < n; ++a) {
@@ -89,6 +91,13 @@ class DirectionPlan {
   }
 
  private:
+  /// For all that any bristles may ask for, once there are any.
+  void make_room() {
+    const std::size_t bristles = bristle_count_ > 0 ? bristles_.size() : 0;
+    const std::size_t rows = model_.free.size() + bristles_.size() + model_.drives.size() + 3;
+    const std::size_t room = (static_cast<std::size_t>(moving_groups_) + 1 + bristles / Lanes::kCount) * rows;
+    if (!outputs_ || outputs_->size() < room) outputs_ = std::make_unique<Buffer<Lanes>>(room);
+  }
   /// Lanes are numbers side by side.
   [[nodiscard]] RPSUP_INLINE static double entry(const Lanes* row, int column) {
     double value;
@@ -110,7 +119,7 @@ class DirectionPlan {
   int bristle_count_ = 0, groups_ = 0;
   Buffer<BristleVariation> bristles_;
   Buffer<CoordinateVariation<Lanes>> coordinates_;  ///< group after group, one a coordinate; those left over stand still
-  Buffer<Lanes> outputs_;                    ///< row after row, one a group
+  std::unique_ptr<Buffer<Lanes>> outputs_;   ///< row after row, one a group
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -55,7 +55,7 @@ class Equations {
   virtual void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) = 0;
 
   /// Whether the systems of an implicit step can be solved body by body, without the derivatives by coordinates, rates and bristles.
-  [[nodiscard]] virtual bool have_bodies() const = 0;
+  [[nodiscard]] virtual bool can_solve_by_bodies() const = 0;
   /// The same as linearise() for that: computes the derivatives by time, and keeps what factor_bodies() needs of the others.
   virtual void linearise_bodies(const double* y, const DrivenMotion* drives, Linearisation& result) = 0;
   /// Factors (shift 1 - J), J the Jacobian of MotionSystem's state equation at the last linearise_bodies(). False if it is singular.

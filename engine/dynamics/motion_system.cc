@@ -1,5 +1,6 @@
 #include "engine/dynamics/motion_system.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "engine/dynamics/energies.h"
@@ -35,8 +36,19 @@ void MotionSystem::make_room() {
   const auto bristles = static_cast<int>(bristles_);
   const auto drives = static_cast<int>(drives_.size());
   jacobian_ = StateJacobian(free, bristles, drives);
+  have_matrices_ = false;
+  elimination_ = Elimination::kMatrix;
+}
+
+/// What only the matrix needs: of many bristles it takes much room.
+void MotionSystem::make_matrices() {
+  const auto free = static_cast<int>(free_count());
+  const auto bristles = static_cast<int>(bristles_);
+  const auto drives = static_cast<int>(drives_.size());
+  jacobian_.make_matrices();
   shifted_ = {free, bristles, drives};
   complex_shifted_ = {free, bristles, drives};
+  have_matrices_ = true;
 }
 
 Eigen::VectorXd MotionSystem::make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const {
@@ -100,22 +112,30 @@ EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Eli
   const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : solve(t, y, dydt_);
   if (status != EvaluationStatus::kOk) return status;
   elimination_ = elimination;
-  if (elimination == Elimination::kBodies)
+  if (elimination == Elimination::kBodies) {
     equations_->linearise_bodies(y.data(), drives_.data(), jacobian_.linearisation());
-  else
+  } else {
+    if (!have_matrices_) make_matrices();
     equations_->linearise(y.data(), drives_.data(), jacobian_.linearisation());
+  }
   jacobian_.calc_time_derivative(time_derivative_);
   return EvaluationStatus::kOk;
 }
 
 Elimination MotionSystem::choose_elimination() const {
-  constexpr Eigen::Index kManyCoordinates = 26, kManyBristles = 300;  // measured: both take as long there
-  const bool many = free_count() >= kManyCoordinates || bristles_ >= kManyBristles;
-  return many && can_eliminate_bodies() ? Elimination::kBodies : Elimination::kMatrix;
+  // Measured with one joint, both take as long there; each joint that touches costs the bodies about as much.
+  constexpr Eigen::Index kManyCoordinates = 26, kManyBristles = 300;
+  const auto joints = static_cast<Eigen::Index>(std::max<std::size_t>(1, clearance_joints_.size()));
+  const bool many = free_count() >= kManyCoordinates * joints || bristles_ >= kManyBristles * joints;
+  return many && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;
 }
 
 bool MotionSystem::factor(double shift) {
   return elimination_ == Elimination::kBodies ? equations_->factor_bodies(shift) : shifted_.factor(jacobian_, shift);
+}
+
+bool MotionSystem::factor(std::complex<double> shift) {
+  return elimination_ == Elimination::kMatrix && complex_shifted_.factor(jacobian_, shift);
 }
 
 void MotionSystem::solve_in_place(Eigen::VectorXd& x) {

@@ -41,16 +41,17 @@ class MotionSystem {
   /// Computes dy/dt and tells everything found on the way to it. Allocates nothing.
   [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at);
 
-  /// Computes the exact Jacobian J = df/dy and df/dt at (t, y), with the contacts as they are. Both are valid until the next call.
+  /// Computes the exact Jacobian J = df/dy, or what solving body by body needs of it, and df/dt at (t, y), with the contacts as they are. All is
+  /// valid until the next call.
   [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y, Elimination elimination = Elimination::kMatrix);
   /// Which one is the cheaper for this mechanism with real shifts.
   [[nodiscard]] Elimination choose_elimination() const;
-  [[nodiscard]] bool can_eliminate_bodies() const { return equations_->have_bodies(); }
+  [[nodiscard]] bool can_solve_by_bodies() const { return equations_->can_solve_by_bodies(); }
   /// df/dt of the last linearise(), one for each entry of y.
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }
-  /// Factors (shift 1 - J). False if it is singular. There is room for one real and one complex shift.
+  /// Factors (shift 1 - J). False if it is singular, or the shift complex without the matrix. There is room for one real and one complex shift.
   [[nodiscard]] bool factor(double shift);
-  [[nodiscard]] bool factor(std::complex<double> shift) { return complex_shifted_.factor(jacobian_, shift); }
+  [[nodiscard]] bool factor(std::complex<double> shift);
   /// x <- (shift 1 - J)^-1 x after factor() of such a shift.
   void solve_in_place(Eigen::VectorXd& x);
   void solve_in_place(Eigen::VectorXcd& x) { complex_shifted_.solve_in_place(jacobian_, x.data()); }
@@ -77,6 +78,7 @@ class MotionSystem {
   /// Computes dy/dt and keeps the equations' solution.
   [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
   void make_room();
+  void make_matrices();
 
   const Mechanism& mechanism_;
   TreeModel model_;
@@ -92,6 +94,7 @@ class MotionSystem {
   Eigen::VectorXd solved_y_;
   Eigen::VectorXd dydt_;       ///< for linearise()
   Elimination elimination_ = Elimination::kMatrix;  ///< of the last linearise()
+  bool have_matrices_ = false;                      ///< there is room for them, which bodies do without
   StateJacobian jacobian_;
   ShiftedJacobian<double> shifted_;
   ShiftedJacobian<std::complex<double>> complex_shifted_;

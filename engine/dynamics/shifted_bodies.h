@@ -17,7 +17,7 @@ namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// The system (shift 1 - J) x = known of an implicit step solved body by body, J the Jacobian of MotionSystem's state equation: in a time that
-/// grows with the number of bodies, and of bristles. J itself is never written down.
+/// grows with the number of bodies and of bristles. J itself is never written down.
 ///
 /// The unknowns are the variations u of the free coordinates' rates. With them each coordinate and its acceleration are known,
 ///
@@ -25,8 +25,10 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///
 /// so that the variation of a body's frame is a linear function of its parent's and of its own joint's u. The force that a body and all that it
 /// carries need follows the frame's variation (dw, dwd, dvd), nine numbers as seen by who turns with it: see VariedFrame. Of that a joint's u are
-/// eliminated on the way to the root, and found on the way back, as accelerations are by ArticulatedBodies. Contacts join bodies that are no
-/// parent and child: how all answers the twelve numbers y of a journal's motion, taken as given, leaves a matrix of twelve for each joint that touches.
+/// eliminated on the way to the root, and found on the way back, as accelerations are by ArticulatedBodies.
+///
+/// Contacts join bodies that are no parent and child. How all answers the twelve numbers of a journal's motion, taken as given, leaves a matrix
+/// of twelve for each joint that touches (Woodbury's identity). It costs digits where a contact is stiffer than all that moves without it.
 ///
 /// There may be no constraints, and no springs between points.
 class ShiftedBodies {
@@ -57,7 +59,7 @@ class ShiftedBodies {
  private:
   static constexpr int kInputs = 9;             ///< dw, dwd, dvd
   static constexpr int kForces = 6;             ///< force and moment
-  static constexpr std::size_t kJournal = 12;   ///< numbers of a journal's motion
+  static constexpr std::size_t kJournal = ShiftedContact::kJournal;
 
   /// A body and the joint that carries it.
   struct Body {

@@ -7,13 +7,15 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// The contacts of a joint in the system (shift 1 - J) x = known: what they do where their bristles answer, too. With the derivatives
+/// The contacts of a joint in the system (shift 1 - J) x = known, with their bristles z eliminated. From the derivatives by the journal's motion y
+/// and by z, of which each pair answers itself alone,
 ///
-///     load = L y + B z,  rate of z = R y + S z  =>  z = (shift 1 - S)^-1 (known + R y)
-///
-/// by the journal's motion y and the bristles z, of which each pair answers itself alone.
+///     load = L y + B z,  shift z - known = D y + E z,
+///     z = (shift 1 - E)^-1 (known + D y),  load = (L + B (shift 1 - E)^-1 D) y + B (shift 1 - E)^-1 known
 class ShiftedContact {
  public:
+  static constexpr std::size_t kJournal = 12;  ///< numbers of a journal's motion
+
   explicit ShiftedContact(std::size_t bristles)
       : stride_(in_groups(bristles)), inverse_(2 * bristles), response_(kJournal * stride_), own_(stride_), found_(stride_) {}
 
@@ -73,8 +75,6 @@ class ShiftedContact {
   }
 
  private:
-  static constexpr std::size_t kJournal = 12;  ///< numbers of a journal's motion
-
   [[nodiscard]] RPSUP_INLINE static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] static std::size_t in_groups(std::size_t n) { return (n + Lanes::kCount - 1) / Lanes::kCount * Lanes::kCount; }
 

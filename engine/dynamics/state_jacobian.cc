@@ -13,12 +13,21 @@ std::size_t area(int rows, int columns) { return static_cast<std::size_t>(rows) 
 StateJacobian::StateJacobian(int free_coordinates, int bristles, int drives)
     : free_(free_coordinates), bristles_(bristles), rates_of_work_(drives + 3) {
   const int outputs = free_ + bristles_ + rates_of_work_;
+  by_t_.resize(area(outputs, 1));
+  acting_.resize(area(bristles_, 1));
+  derivatives_.outputs = outputs;
+  derivatives_.bristles = acting_.data();
+  derivatives_.by_t = by_t_.data();
+}
+
+void StateJacobian::make_matrices() {
+  const int outputs = free_ + bristles_ + rates_of_work_;
   by_q_.resize(area(outputs, free_));
   by_v_.resize(area(outputs, free_));
   by_bristle_.resize(area(outputs, bristles_));
-  by_t_.resize(area(outputs, 1));
-  acting_.resize(area(bristles_, 1));
-  derivatives_ = {outputs, 0, acting_.data(), by_q_.data(), by_v_.data(), by_t_.data(), by_bristle_.data()};
+  derivatives_.by_q = by_q_.data();
+  derivatives_.by_v = by_v_.data();
+  derivatives_.by_bristle = by_bristle_.data();
 }
 
 void StateJacobian::calc_time_derivative(Eigen::VectorXd& by_t) const {

@@ -12,7 +12,10 @@ namespace engine {
 /// answers itself and the coordinates alone, and nothing depends on works and losses.
 class StateJacobian {
  public:
+  /// With room for df/dt alone.
   StateJacobian(int free_coordinates, int bristles, int drives);
+  /// With room for all.
+  void make_matrices();
 
   /// Where the derivatives go.
   [[nodiscard]] Linearisation& linearisation() { return derivatives_; }

@@ -25,7 +25,8 @@ template <typename T>
 
 /// @param b, j  variations of bearing and journal
 template <typename T>
-[[nodiscard]] RPSUP_INLINE VariedJournal<T> vary_journal(const CutJointMotion<double, double>& cut, const VariedFrame<T>& b, const VariedFrame<T>& j) {
+[[nodiscard]] RPSUP_INLINE VariedJournal<T> vary_journal(const CutJointMotion<double, double>& cut, const VariedFrame<T>& b,
+                                                         const VariedFrame<T>& j) {
   const Vec3<double> d = cut.j.p - cut.b.p;
   VariedJournal<T> varied;
   varied.turn = j.turn - b.turn;

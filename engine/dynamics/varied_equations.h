@@ -69,8 +69,8 @@ class VariedEquations {
 
   /// @param coordinates  one a coordinate; qdd of driven ones only
   /// @param time         lane in which time varies, the drives' coordinates with it
-  RPSUP_INLINE void differentiate(const CoordinateVariation<Lanes>* coordinates, const BristleVariation* bristles, int bristle_count, const Lanes& time,
-                                  const DrivenMotion* drives) {
+  RPSUP_INLINE void differentiate(const CoordinateVariation<Lanes>* coordinates, const BristleVariation* bristles, int bristle_count,
+                                  const Lanes& time, const DrivenMotion* drives) {
     coordinates_ = coordinates;
     bristles_ = bristles;
     bristle_count_ = bristle_count;
@@ -333,7 +333,8 @@ class VariedEquations {
   RPSUP_INLINE void vary_drive_rows(const Lanes& time, const DrivenMotion* drives) {
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const CoordinateVariation<Lanes>& varies = coordinates_[model_.drives[k]];
-      lambda_[static_cast<std::size_t>(model_.first_drive_row) + k] = drives[k].qddd * time - 2.0 * model_.alpha * (varies.qd - drives[k].qdd * time) -
+      lambda_[static_cast<std::size_t>(model_.first_drive_row) + k] = drives[k].qddd * time -
+                                                                      2.0 * model_.alpha * (varies.qd - drives[k].qdd * time) -
                                                                       (model_.beta * model_.beta) * (varies.q - drives[k].qd * time);
     }
   }

@@ -88,8 +88,8 @@ namespace engine {
   linkage.gravity_W = {0.0, -9.81, 0.0};
   linkage.bodies = {make_body("carriage", 1.0, {0.0, 0.01, 0.0}, {1e-3, 2e-3, 3e-3}), make_body("crank", 0.2, {0.05, 0.01, 0.0}, {1e-4, 2e-4, 2e-4}),
                     make_body("rocker", 0.4, {0.15, 0.0, 0.01}, {1e-4, 3e-3, 3e-3}), make_body("arm", 0.2, {0.1, 0.0, 0.0}, {1e-4, 1e-3, 1e-3})};
-  linkage.bodies.push_back({.name = "rod", .beam = UniformBeam{.length = 0.4, .mass = 0.2, .I_x = 2e-6, .EI_y = 50.0, .EI_z = 40.0, .GJ = 30.0, .damping_ratio = 0.02},
-                            .elements = 3});
+  const UniformBeam rod{.length = 0.4, .mass = 0.2, .I_x = 2e-6, .EI_y = 50.0, .EI_z = 40.0, .GJ = 30.0, .damping_ratio = 0.02};
+  linkage.bodies.push_back({.name = "rod", .beam = rod, .elements = 3});
   linkage.joints = {
       {.name = "slide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "carriage", .placement = {}, .axes = {Axis::kX, Axis::kY},
        .freedoms = {{.name = "x", .guess = 0.05, .stiffness = 50.0, .damping = 2.0}}},
