@@ -81,17 +81,19 @@ namespace engine {
   return linkage;
 }
 
-/// A tree of all sorts whose two loops are closed by joints with clearance: a sprung carriage that slides along x with a driven crank on it, which a
-/// flexible rod joins to a rocker; on this an arm, with a pin in the ground. Coordinates: carriage 0, rocker 2.
+/// A tree of all sorts whose two loops are closed by joints with clearance: a sprung carriage that slides along a rail, which turns, with a driven
+/// crank on it, which a flexible rod joins to a rocker; on this an arm, with a pin in the ground. Coordinates: rail 0, carriage 1, rocker 3.
 [[nodiscard]] inline Linkage make_loose_loops(const ClearanceParameters& clearance) {
   Linkage linkage;
   linkage.gravity_W = {0.0, -9.81, 0.0};
-  linkage.bodies = {make_body("carriage", 1.0, {0.0, 0.01, 0.0}, {1e-3, 2e-3, 3e-3}), make_body("crank", 0.2, {0.05, 0.01, 0.0}, {1e-4, 2e-4, 2e-4}),
+  linkage.bodies = {make_body("rail", 0.7, {0.1, 0.02, 0.0}, {1e-3, 4e-3, 4e-3}),
+                    make_body("carriage", 1.0, {0.0, 0.01, 0.0}, {1e-3, 2e-3, 3e-3}), make_body("crank", 0.2, {0.05, 0.01, 0.0}, {1e-4, 2e-4, 2e-4}),
                     make_body("rocker", 0.4, {0.15, 0.0, 0.01}, {1e-4, 3e-3, 3e-3}), make_body("arm", 0.2, {0.1, 0.0, 0.0}, {1e-4, 1e-3, 1e-3})};
   const UniformBeam rod{.length = 0.4, .mass = 0.2, .I_x = 2e-6, .EI_y = 50.0, .EI_z = 40.0, .GJ = 30.0, .damping_ratio = 0.02};
   linkage.bodies.push_back({.name = "rod", .beam = rod, .elements = 3});
   linkage.joints = {
-      {.name = "slide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "carriage", .placement = {}, .axes = {Axis::kX, Axis::kY},
+      {.name = "rail", .from = kGroundName, .to = "rail", .placement = {.p = {0.01, 0.0, 0.0}}, .freedoms = {{.name = "rail", .start = 0.05}}},
+      {.name = "slide", .kind = JointKind::kPrismatic, .from = "rail", .to = "carriage", .placement = {}, .axes = {Axis::kX, Axis::kY},
        .freedoms = {{.name = "x", .guess = 0.05, .stiffness = 50.0, .damping = 2.0}}},
       {.name = "crank", .from = "carriage", .to = "crank", .placement = {.p = {0.0, 0.02, 0.01}},
        .freedoms = {{.name = "crank", .drive = Harmonic{0.1, 0.3, 5.0, 0.4}}}},
