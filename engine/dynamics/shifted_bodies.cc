@@ -12,9 +12,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 
 namespace {
 
-/// The last of a frame's nine numbers and a joint's three u, side by side.
-using Rest = LaneBlock<4>;
-constexpr int kOwn = 1;  ///< the first of u
+constexpr int kOwn = 1;  ///< the first of u in the rest
 
 /// The nine numbers that forces follow.
 template <typename T>
@@ -54,9 +52,9 @@ RPSUP_INLINE void add_answer(const double (&answer)[6][9], const VariedFrame<T>&
   f.vd = {Lanes::unit(6), Lanes::unit(7), Lanes{}};
   return f;
 }
-[[nodiscard]] VariedFrame<Rest> make_last_input() {
-  VariedFrame<Rest> f;
-  f.vd.z = Rest::unit(0);
+[[nodiscard]] VariedFrame<LaneBlock<4>> make_last_input() {
+  VariedFrame<LaneBlock<4>> f;
+  f.vd.z = LaneBlock<4>::unit(0);
   return f;
 }
 
@@ -153,39 +151,43 @@ bool ShiftedBodies::factor(double shift) {
   return regular && factor_contacts();
 }
 
-/// Of a joint its u: how they follow the parent's variation, and what force comes of that.
+/// Of a joint its u, and what is left goes to its parent.
 bool ShiftedBodies::eliminate(std::size_t i) {
   const TreeJoint& joint = model_.joints[i];
   Body& body = bodies_[i];
   if (!joint.moves) return true;
+  const int count = joint.driven ? 0 : joint.count();
   CoordinateVariation<Rest> own[3];
-  for (int k = 0; k < joint.count() && !joint.driven; ++k) {
+  for (int k = 0; k < count; ++k) {
     const Rest unit = Rest::unit(kOwn + k);
     own[k] = {true, inverse_shift_ * unit, unit, shift_ * unit};
   }
-  const Passed<Rest> rest = respond(i, make_last_input(), own);
-  const int count = joint.driven ? 0 : joint.count();
+  Passed<Rest> rest = respond(i, make_last_input(), own);
   double lacks[3][3];
   for (int k = 0; k < count; ++k)
     for (int m = 0; m < count; ++m) lacks[k][m] = rest.lacks[k][kOwn + m];
   const bool regular = joint.driven || invert_small(count, lacks, body.inverse);
-  SpatialForce<Rest> rest_force = rest.to_parent;
-  const ForceRows<Rest> rest_rows(rest_force);
+  const ForceRows<Rest> rows(rest.to_parent);
   for (int row = 0; row < kForces; ++row)
-    for (int k = 0; k < count; ++k) body.by_own[row][k] = (*rest_rows.of[row])[kOwn + k];
-  if (!joint.parent_moves) return regular;
+    for (int k = 0; k < count; ++k) body.by_own[row][k] = (*rows.of[row])[kOwn + k];
+  if (joint.parent_moves) carry(i, count, rest);
+  return regular;
+}
 
+/// How a joint's u follow the parent's variation, and what force that asks of the parent.
+/// @param count  of u  @param rest  what comes of the last of the nine numbers
+void ShiftedBodies::carry(std::size_t i, int count, Passed<Rest> rest) {
+  const TreeJoint& joint = model_.joints[i];
+  Body& body = bodies_[i];
   const CoordinateVariation<Lanes> none[3];
   Passed<Lanes> most = respond(i, make_inputs(), none);
-  Lanes by_most[3];
-  double by_last[3] = {};
-  for (int k = 0; k < count; ++k) {
-    by_most[k] = Lanes{};
+  Lanes by_most[3]{};
+  double by_last[3]{};
+  for (int k = 0; k < count; ++k)
     for (int m = 0; m < count; ++m) {
       by_most[k] -= body.inverse[k][m] * most.lacks[m];
       by_last[k] -= body.inverse[k][m] * rest.lacks[m][0];
     }
-  }
   if (joint.driven) {
     by_most[0] = most.lacks[0];
     by_last[0] = rest.lacks[0][0];
@@ -195,6 +197,7 @@ bool ShiftedBodies::eliminate(std::size_t i) {
     body.by_parent[k][kInputs - 1] = by_last[k];
   }
   const ForceRows<Lanes> most_rows(most.to_parent);
+  const ForceRows<Rest> rest_rows(rest.to_parent);
   Body& parent = bodies_[at(joint.parent)];
   for (int row = 0; row < kForces; ++row) {
     Lanes answer = Lanes::load(parent.answer[row]) + *most_rows.of[row];
@@ -206,7 +209,6 @@ bool ShiftedBodies::eliminate(std::size_t i) {
     answer.store(parent.answer[row]);
     parent.answer[row][kInputs - 1] = last;
   }
-  return regular;
 }
 
 /// @param f    the parent's variation

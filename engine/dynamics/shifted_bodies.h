@@ -61,6 +61,8 @@ class ShiftedBodies {
   static constexpr int kForces = 6;             ///< force and moment
   static constexpr std::size_t kJournal = ShiftedContact::kJournal;
 
+  using Rest = LaneBlock<4>;                    ///< the last of the nine numbers and a joint's three u, side by side
+
   /// A body and the joint that carries it.
   struct Body {
     // Of the solution
@@ -103,6 +105,7 @@ class ShiftedBodies {
   };
 
   [[nodiscard]] bool eliminate(std::size_t i);
+  void carry(std::size_t i, int count, Passed<Rest> rest);
   template <typename T>
   [[nodiscard]] Passed<T> respond(std::size_t i, VariedFrame<T> f, const CoordinateVariation<T>* own) const;
   template <typename T>
