@@ -56,13 +56,25 @@ class Axis {
       for (int e = from; e <= to; e += stride) values.push_back(std::pow(10.0, e));
       return values;
     }
-    const double interval = find_interval((most_ - least_) / 5.0);
-    for (double k = std::ceil(least_ / interval - 1e-9); k * interval <= most_ + 1e-9 * interval; k += 1.0)
-      values.push_back(k == 0.0 ? 0.0 : k * interval);  // no minus zero
+    const double interval = find_interval((most_ - least_) / kIntervals);
+    const double first = std::ceil(least_ / interval - 1e-9), last = std::floor(most_ / interval + 1e-9);
+    const bool told_apart = std::max(std::abs(first), std::abs(last)) < 1.0 / std::numeric_limits<double>::epsilon();
+    for (double k = first; told_apart && k <= last; k += 1.0) values.push_back(k == 0.0 ? 0.0 : k * interval);  // no minus zero
     return values;
   }
 
+  /// With as many digits as tell it from its neighbours.
+  [[nodiscard]] std::string label(double tick) const {
+    const double size = std::max(std::abs(least_), std::abs(most_));
+    const double digits = scale_ == Scale::kLog ? 4.0 : 1.0 + std::ceil(std::log10(kIntervals * size / (most_ - least_)));
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*g", static_cast<int>(std::clamp(digits, 4.0, 17.0)), tick);
+    return text;
+  }
+
  private:
+  static constexpr double kIntervals = 5.0;  // between ticks, about
+
   [[nodiscard]] double transform(double value) const { return scale_ == Scale::kLog ? std::log10(value) : value; }
 
   /// 1, 2 or 5 times a power of ten.
@@ -77,13 +89,16 @@ class Axis {
   double least_, most_, first_, last_;
 };
 
+constexpr double kLargestDrawn = 1e300;  // with larger ones the arithmetic here would overflow
+constexpr double kLeastSpan = 1e-9;      // of the values' size; what lies closer differs by rounding, and is drawn as one
+
 struct Range {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 
   void take(const std::vector<double>& values, Scale scale) {
     for (const double value : values) {
-      if (!std::isfinite(value) || (scale == Scale::kLog && !(value > 0.0))) continue;
+      if (!(std::abs(value) < kLargestDrawn) || (scale == Scale::kLog && !(value > 0.0))) continue;
       least = std::min(least, value);
       most = std::max(most, value);
     }
@@ -97,7 +112,9 @@ Range limits(double least, double most, Scale scale, const std::vector<const std
   for (const auto* values : data) range.take(*values, scale);
   if (!(range.least <= range.most)) return {1.0, 2.0};
   if (scale == Scale::kLog) return {range.least / 1.6, range.most * 1.6};
-  const double room = range.most > range.least ? 0.04 * (range.most - range.least) : 1.0;
+  const double size = std::max(std::abs(range.least), std::abs(range.most));
+  const double span = range.most - range.least;
+  const double room = span > kLeastSpan * size ? 0.04 * span : std::max(1.0, 0.01 * size);
   return {range.least - room, range.most + room};
 }
 
@@ -140,12 +157,12 @@ class ChartDrawing {
     for (const double tick : x_.ticks()) {
       const double x = x_.pixel_of(tick);
       svg += "<path d=\"M" + pixel(x) + " " + pixel(box_.top) + "V" + pixel(box_.bottom) + "\" stroke=\"#e4e4e4\"/>\n";
-      svg += draw_text({x, box_.bottom + 15.0}, "middle", label(tick));
+      svg += draw_text({x, box_.bottom + 15.0}, "middle", x_.label(tick));
     }
     for (const double tick : y_.ticks()) {
       const double y = y_.pixel_of(tick);
       svg += "<path d=\"M" + pixel(box_.left) + " " + pixel(y) + "H" + pixel(right) + "\" stroke=\"#e4e4e4\"/>\n";
-      svg += draw_text({box_.left - 5.0, y + 4.0}, "end", label(tick));
+      svg += draw_text({box_.left - 5.0, y + 4.0}, "end", y_.label(tick));
     }
     svg += "<path d=\"M" + pixel(box_.left) + " " + pixel(box_.top) + "V" + pixel(box_.bottom) + "H" + pixel(right) + "\" stroke=\"#888\" fill=\"none\"/>\n";
     svg += draw_text({0.5 * (box_.left + right), box_.bottom + 32.0}, "middle", chart_.x_label);
@@ -153,8 +170,6 @@ class ChartDrawing {
                      " transform=\"rotate(-90 " + pixel(box_.left - 50.0) + " " + pixel(middle_y) + ")\"");
     return svg;
   }
-
-  static std::string label(double tick) { return format("%.4g", tick); }
 
   /// Points outside the axes are left out, and break the line.
   [[nodiscard]] std::string draw_series(const Series& series) const {

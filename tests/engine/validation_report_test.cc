@@ -1,8 +1,11 @@
 // The report itself: what it writes, what it lets pass as the same, and its charts.
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -117,6 +120,50 @@ TEST(Chart, BreaksALineWhereThereIsNoNumber) {
   const Chart chart{.x_min = 0.0, .x_max = 4.0, .y_min = 0.0, .y_max = 1.0, .series = {{.x = {0.0, 1.0, 2.0, 3.0}, .y = {0.5, none, 0.5, 0.5}}}};
   const std::string svg = draw({chart}, 1, 400, 300);
   EXPECT_NE(svg.find("M62.0 144.0M224.0 144.0L305.0 144.0"), std::string::npos) << svg;
+}
+
+/// A chart of values from `least` to `most`, and nothing asked of its axes.
+std::string draw_between(double least, double most, Scale scale = Scale::kLinear) {
+  return draw({{.y_scale = scale, .series = {{.x = {0.0, 1.0, 2.0}, .y = {least, most, least}}}}}, 1, 400, 300);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t times = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++times;
+  return times;
+}
+
+TEST(Chart, HasFewTicksHoweverCloseAndHoweverFarItsValuesLie) {
+  constexpr double kLeastNumber = std::numeric_limits<double>::denorm_min(), kLargest = std::numeric_limits<double>::max();
+  const std::size_t of_x = 5;  // 0, 0.5, 1, 1.5, 2
+  for (const double value : {1.0, -3.7, 772.62, 1e5, 1e17, -1e200, 0.1 + 0.2, 1e-30}) {
+    for (const double relative : {0.0, 2.3e-16, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0}) {
+      const std::string svg = draw_between(value, value * (1.0 + relative));
+      const std::size_t ticks = count(svg, "#e4e4e4") - of_x;
+      EXPECT_TRUE(ticks >= 2 && ticks <= 11) << ticks << " ticks from " << value << " on over " << relative << " of it";
+      EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0U) << svg;
+    }
+  }
+  for (const Scale scale : {Scale::kLinear, Scale::kLog}) {
+    for (const auto& [least, most] : {std::pair{-kLargest, kLargest}, {0.0, kLeastNumber}, {kLeastNumber, 3.0 * kLeastNumber},
+                                      {kLeastNumber, 1e306}, {-9e299, 9e299}}) {
+      const std::string svg = draw_between(least, most, scale);
+      EXPECT_LE(count(svg, "#e4e4e4"), of_x + 11) << least << " to " << most;
+      EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0U) << svg;
+    }
+  }
+}
+
+TEST(Chart, HasNoTicksBetweenLimitsThatNumbersCannotDivide) {
+  const double next = std::nextafter(1e5, 2e5);
+  const std::string svg = draw({{.y_min = 1e5, .y_max = next, .series = {{.x = {0.0, 1.0, 2.0}, .y = {1e5, next, 1e5}}}}}, 1, 400, 300);
+  EXPECT_LE(count(svg, "#e4e4e4"), 5U + 1U) << svg;
+}
+
+TEST(Chart, TellsTicksFromTheirNeighbours) {
+  const std::string svg = draw_between(772.620, 772.621);
+  EXPECT_NE(svg.find(">772.62<"), std::string::npos) << svg;
+  EXPECT_NE(svg.find(">772.6205<"), std::string::npos) << svg;
 }
 
 }  // namespace
