@@ -165,6 +165,18 @@ constexpr auto kPack = [] {
 
 constexpr std::size_t kHeadSize = 1 + sizeof(std::uint32_t);
 
+/// Of a column that repeats its first value, what packing its blocks would give.
+void pack_constant(double value, std::size_t blocks, std::string& packed) {
+  const std::uint32_t first = ordered(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+  packed.assign(kHeadSize + blocks, '\0');  // blocks without bits
+  packed[0] = first == 0 ? 0 : 1;           // the least order whose differences are 0
+  std::memcpy(packed.data() + 1, &first, sizeof first);
+}
+
+bool is_constant(std::span<const double> column) {
+  return std::memcmp(column.data(), column.data() + 1, (column.size() - 1) * sizeof(double)) == 0;  // each equals the next
+}
+
 }  // namespace
 
 std::size_t largest_packed_size(std::size_t samples) { return kHeadSize + count_blocks(samples) * (1 + sizeof(Block)); }
@@ -172,6 +184,10 @@ std::size_t largest_packed_size(std::size_t samples) { return kHeadSize + count_
 std::string_view SinglePacker::pack(std::span<const double> column) {
   if (column.empty()) return {};
   const std::size_t blocks = count_blocks(column.size());
+  if (is_constant(column)) {
+    pack_constant(column.front(), blocks, packed_);
+    return packed_;
+  }
   put_ordered(column, values_);
   const std::size_t order = find_best_order(values_, blocks);
   packed_.resize(largest_packed_size(column.size()));

@@ -73,16 +73,32 @@ Block encode_column(const engine::QuantityInfo& channel, const std::vector<doubl
   return {Encoding::kDouble, shuffle(bytes_of(column), sizeof(double))};
 }
 
-/// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a copy of it.
+/// The first channel before the i-th that has the same numbers and is kept as precisely; i if there is none.
+std::size_t find_original(const engine::Trajectory& trajectory, std::size_t i) {
+  std::size_t k = 0;
+  while (k < i && (trajectory.channels[k].single_precision != trajectory.channels[i].single_precision ||
+                   !same_bits(trajectory.columns[k], trajectory.columns[i]))) {
+    ++k;
+  }
+  return k;
+}
+
+/// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a copy of it; numbers that
+/// are the same when rounded are seen by their bytes.
 std::vector<Block> encode_columns(const engine::Trajectory& trajectory) {
   SinglePacker packer;
   std::vector<Block> blocks;
   blocks.reserve(trajectory.columns.size());
+  const auto copy_of = [](std::size_t original) { return Block{Encoding::kCopy, {}, original}; };
   for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
+    if (const std::size_t original = find_original(trajectory, i); original < i) {
+      blocks.push_back(copy_of(original));
+      continue;
+    }
     Block block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
     const auto is_same = [&](const Block& other) { return other.encoding == block.encoding && other.bytes == block.bytes; };
     const auto same = std::ranges::find_if(blocks, is_same);
-    if (same != blocks.end()) block = {Encoding::kCopy, {}, static_cast<std::size_t>(same - blocks.begin())};
+    if (same != blocks.end()) block = copy_of(static_cast<std::size_t>(same - blocks.begin()));
     blocks.push_back(std::move(block));
   }
   return blocks;

@@ -101,6 +101,19 @@ TEST(TrajectoryCodec, GivesBackSmoothSinglesOfEveryOrder) {
   }
 }
 
+TEST(TrajectoryCodec, GivesBackSinglesThatNeverChange) {
+  for (const double value : {0.0, -0.0, 1.0 / 3.0, -2e-300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    for (const std::size_t samples : {1U, 2U, 16U, 17U, 5001U}) {
+      engine::Trajectory run;
+      run.channels = {{.key = "x", .help = "", .single_precision = true}};
+      run.columns = {std::vector<double>(samples, value)};
+      const std::string blob = jobs::encode_trajectory(run);
+      EXPECT_EQ(bits_of(jobs::decode_trajectory(bytes_of(blob), {}).columns[0]), bits_of(jobs::rounded_to_stored(run).columns[0])) << value << ' ' << samples;
+      EXPECT_LT(blob.size(), 200U) << value << ' ' << samples;
+    }
+  }
+}
+
 TEST(TrajectoryCodec, StoresASmoothColumnInLessThanTwoBytesASample) {
   engine::Trajectory run;
   run.channels = {{.key = "t_s", .help = ""}, {.key = "x", .help = "", .single_precision = true}};
@@ -130,6 +143,22 @@ TEST(TrajectoryCodec, StoresAColumnThatIsAnotherOnesOnlyOnce) {
   EXPECT_EQ(back.channels[0].key, "c3");
   EXPECT_EQ(back.columns[0], of(4).columns[3]);
   EXPECT_EQ(back.columns[1], jobs::rounded_to_stored(of(4)).columns[2]);
+}
+
+TEST(TrajectoryCodec, StoresWhatIsTheSameWhenRoundedOnlyOnce) {
+  engine::Trajectory run;
+  run.columns.resize(3);
+  for (int k = 0; k < 1000; ++k) {
+    const double x = static_cast<double>(static_cast<float>(std::sin(0.37 * k * k)));
+    run.columns[0].push_back(x);
+    for (std::size_t i = 1; i < 3; ++i) run.columns[i].push_back(x * (1.0 + 1e-12));  // the third is a copy of a copy
+  }
+  for (const char* key : {"a", "b", "c"}) run.channels.push_back({.key = key, .help = "", .single_precision = true});
+  const std::string blob = jobs::encode_trajectory(run);
+  EXPECT_EQ(jobs::decode_trajectory(bytes_of(blob), {}).columns, jobs::rounded_to_stored(run).columns);
+  run.channels.resize(1);
+  run.columns.resize(1);
+  EXPECT_LT(blob.size(), jobs::encode_trajectory(run).size() + 100U);
 }
 
 // What a store of the first version of the program holds.
