@@ -17,6 +17,12 @@ std::string format(const char* pattern, double value) {
   return text;
 }
 
+std::string format_digits(double value, int digits) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
 /// A pixel coordinate: a tenth is finer than the eye.
 std::string pixel(double value) {
   std::string text = format("%.1f", value);
@@ -67,9 +73,13 @@ class Axis {
   [[nodiscard]] std::string label(double tick) const {
     const double size = std::max(std::abs(least_), std::abs(most_));
     const double digits = scale_ == Scale::kLog ? 4.0 : 1.0 + std::ceil(std::log10(kIntervals * size / (most_ - least_)));
-    char text[48];
-    std::snprintf(text, sizeof text, "%.*g", static_cast<int>(std::clamp(digits, 4.0, 17.0)), tick);
-    return text;
+    return format_digits(tick, static_cast<int>(std::min(std::max(4.0, digits), 17.0)));
+  }
+
+  [[nodiscard]] std::size_t longest_label() const {
+    std::size_t longest = 0;
+    for (const double tick : ticks()) longest = std::max(longest, label(tick).size());
+    return longest;
   }
 
  private:
@@ -92,22 +102,24 @@ class Axis {
 constexpr double kLargestDrawn = 1e300;  // with larger ones the arithmetic here would overflow
 constexpr double kLeastSpan = 1e-9;      // of the values' size; what lies closer differs by rounding, and is drawn as one
 
+bool can_be_drawn(double value, Scale scale) { return std::abs(value) < kLargestDrawn && (scale == Scale::kLinear || value > 0.0); }
+
 struct Range {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 
   void take(const std::vector<double>& values, Scale scale) {
     for (const double value : values) {
-      if (!(std::abs(value) < kLargestDrawn) || (scale == Scale::kLog && !(value > 0.0))) continue;
+      if (!can_be_drawn(value, scale)) continue;
       least = std::min(least, value);
       most = std::max(most, value);
     }
   }
 };
 
-/// The limits asked for, or those of the data with room around them.
+/// The limits asked for, where an axis can have them, or those of the data with room around them.
 Range limits(double least, double most, Scale scale, const std::vector<const std::vector<double>*>& data) {
-  if (least < most) return {least, most};
+  if (least < most && can_be_drawn(least, scale) && can_be_drawn(most, scale)) return {least, most};
   Range range;
   for (const auto* values : data) range.take(*values, scale);
   if (!(range.least <= range.most)) return {1.0, 2.0};
@@ -118,10 +130,28 @@ Range limits(double least, double most, Scale scale, const std::vector<const std
   return {range.least - room, range.most + room};
 }
 
+Range find_y_range(const Chart& chart) {
+  std::vector<const std::vector<double>*> data;
+  for (const Series& s : chart.series) data.push_back(&s.y);
+  return limits(chart.y_min, chart.y_max, chart.y_scale, data);
+}
+
+/// Room for the ticks' labels at the left, and for the axis' own, which stands upright.
+double calc_left_margin(const Chart& chart) {
+  constexpr double kCharacter = 7.0, kLeast = 62.0;
+  const Range range = find_y_range(chart);
+  const auto longest = static_cast<double>(Axis(chart.y_scale, range.least, range.most, 0.0, 1.0).longest_label());
+  return std::max(kLeast, kCharacter * longest + (chart.y_label.empty() ? 8.0 : 22.0));
+}
+
 class ChartDrawing {
  public:
   ChartDrawing(const Chart& chart, double left, double top, double width, double height)
-      : chart_(chart), box_{left + 62.0, top + 28.0, left + width - 14.0, top + height - 40.0}, x_(make_x()), y_(make_y()) {}
+      : chart_(chart),
+        left_(left),
+        box_{left + calc_left_margin(chart), top + 28.0, left + width - 14.0, top + height - 40.0},
+        x_(make_x()),
+        y_(make_y()) {}
 
   [[nodiscard]] std::string draw() const {
     std::string svg = draw_frame();
@@ -143,9 +173,7 @@ class ChartDrawing {
   }
 
   [[nodiscard]] Axis make_y() const {
-    std::vector<const std::vector<double>*> data;
-    for (const Series& s : chart_.series) data.push_back(&s.y);
-    const Range range = limits(chart_.y_min, chart_.y_max, chart_.y_scale, data);
+    const Range range = find_y_range(chart_);
     const double height = chart_.equal_axes ? std::min(box_.right - box_.left, box_.bottom - box_.top) : box_.bottom - box_.top;
     return {chart_.y_scale, range.least, range.most, box_.top + height, box_.top};
   }
@@ -166,8 +194,8 @@ class ChartDrawing {
     }
     svg += "<path d=\"M" + pixel(box_.left) + " " + pixel(box_.top) + "V" + pixel(box_.bottom) + "H" + pixel(right) + "\" stroke=\"#888\" fill=\"none\"/>\n";
     svg += draw_text({0.5 * (box_.left + right), box_.bottom + 32.0}, "middle", chart_.x_label);
-    svg += draw_text({box_.left - 50.0, middle_y}, "middle", chart_.y_label,
-                     " transform=\"rotate(-90 " + pixel(box_.left - 50.0) + " " + pixel(middle_y) + ")\"");
+    const double label_x = left_ + 12.0;
+    svg += draw_text({label_x, middle_y}, "middle", chart_.y_label, " transform=\"rotate(-90 " + pixel(label_x) + " " + pixel(middle_y) + ")\"");
     return svg;
   }
 
@@ -210,6 +238,7 @@ class ChartDrawing {
   }
 
   const Chart& chart_;
+  double left_;
   Box box_;
   Axis x_, y_;
 };

@@ -154,16 +154,39 @@ TEST(Chart, HasFewTicksHoweverCloseAndHoweverFarItsValuesLie) {
   }
 }
 
+/// A chart of a line from 1e5 to 2e5, with limits asked for.
+std::string draw_within(double y_min, double y_max, Scale scale = Scale::kLinear) {
+  return draw({{.y_scale = scale, .y_min = y_min, .y_max = y_max, .series = {{.x = {0.0, 1.0, 2.0}, .y = {1e5, 2e5, 1e5}}}}}, 1, 400, 300);
+}
+
 TEST(Chart, HasNoTicksBetweenLimitsThatNumbersCannotDivide) {
-  const double next = std::nextafter(1e5, 2e5);
-  const std::string svg = draw({{.y_min = 1e5, .y_max = next, .series = {{.x = {0.0, 1.0, 2.0}, .y = {1e5, next, 1e5}}}}}, 1, 400, 300);
-  EXPECT_LE(count(svg, "#e4e4e4"), 5U + 1U) << svg;
+  EXPECT_EQ(count(draw_within(1e5, std::nextafter(1e5, 2e5)), "#e4e4e4"), 5U);  // those of x
+}
+
+TEST(Chart, TakesLimitsThatAnAxisCannotHaveFromTheData) {
+  EXPECT_EQ(draw_within(0.0, 1e6, Scale::kLog), draw_within(0.0, 0.0, Scale::kLog));
+  EXPECT_EQ(draw_within(-1.0, 1e6, Scale::kLog), draw_within(0.0, 0.0, Scale::kLog));
+  EXPECT_EQ(draw_within(-1e308, 1e308), draw_within(0.0, 0.0));
+  EXPECT_NE(draw_within(0.0, 1e6), draw_within(0.0, 0.0));
+}
+
+TEST(Chart, DrawsWhatDiffersByRoundingAsOne) {
+  EXPECT_EQ(count(draw_between(772.62, 772.62 * (1.0 + 1e-10)), ">772.62<"), 0U);  // ticks are further apart
+  EXPECT_EQ(count(draw_between(772.62, 772.62 * (1.0 + 1e-8)), ">772.62<"), 1U);
 }
 
 TEST(Chart, TellsTicksFromTheirNeighbours) {
   const std::string svg = draw_between(772.620, 772.621);
   EXPECT_NE(svg.find(">772.62<"), std::string::npos) << svg;
   EXPECT_NE(svg.find(">772.6205<"), std::string::npos) << svg;
+  const std::string finer = draw_between(1000.0, 1000.005);
+  for (const char* label : {">1000<", ">1000.002<", ">1000.004<"})
+    EXPECT_NE(finer.find(label), std::string::npos) << label << '\n' << finer;
+}
+
+TEST(Chart, HasRoomForLongLabels) {
+  const std::string svg = draw_between(1000.0, 1000.005);
+  EXPECT_NE(svg.find("<text x=\"59.0\" y=\"255.4\" text-anchor=\"end\">1000<"), std::string::npos) << svg;  // eight characters of 7 pixels, and 3
 }
 
 }  // namespace

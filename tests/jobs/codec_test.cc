@@ -145,6 +145,16 @@ TEST(TrajectoryCodec, StoresAColumnThatIsAnotherOnesOnlyOnce) {
   EXPECT_EQ(back.columns[1], jobs::rounded_to_stored(of(4)).columns[2]);
 }
 
+TEST(TrajectoryCodec, StoresWhatRepeatsTheTimeOnlyOnce) {
+  engine::Trajectory run = sampled_run();
+  const std::size_t alone = jobs::encode_trajectory(run).size();
+  run.channels.push_back({.key = "clock_s", .help = ""});
+  run.columns.push_back(run.columns[0]);
+  const std::string blob = jobs::encode_trajectory(run);
+  EXPECT_LT(blob.size(), alone + 50U);
+  EXPECT_EQ(bits_of(jobs::decode_trajectory(bytes_of(blob), {}).columns[4]), bits_of(run.columns[0]));
+}
+
 TEST(TrajectoryCodec, StoresWhatIsTheSameWhenRoundedOnlyOnce) {
   engine::Trajectory run;
   run.columns.resize(3);
