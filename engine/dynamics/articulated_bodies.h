@@ -52,8 +52,10 @@ class ArticulatedBodies {
   /// Room for solve().
   template <typename T>
   struct Scratch {
-    explicit Scratch(const TreeModel& model) : forces(model.joints.size()), own(model.joints.size()), accelerations(model.joints.size()) {}
+    explicit Scratch(const TreeModel& model)
+        : forces(model.joints.size()), levers(model.joints.size()), own(model.joints.size()), accelerations(model.joints.size()) {}
     JointRoom<SpatialForce<T>> forces;                ///< in: needed to move each joint's body as it is, less loads; out: what each joint transmits
+    JointRoom<Vec3<T>> levers;                        ///< of a rod: the moment of what it carries is x x lever
     JointRoom<Vec3<T>> own;                           ///< its answer before its parent moves, a rod's in its own frame
     JointRoom<SpatialAcceleration<T>> accelerations;  ///< of each joint's body
   };
@@ -61,16 +63,30 @@ class ArticulatedBodies {
   /// Solves for the free coordinates' accelerations with the matrices of factor().
   /// @param tau  generalised force on each coordinate
   /// @param qdd  one a coordinate; only free ones are written
-  /// @param rods  one a joint: motion of rods whose angular acceleration is counted from zero; null: theirs, too, adds to that of their frames
+  /// @param rods  one a joint: motion of rods whose angular acceleration is counted from zero, and whose forces lack the moments x x lever; null:
+  ///              their accelerations, too, add to those of their frames, and their forces are whole
   template <typename T>
   RPSUP_INLINE void solve(const JointAxes* axes, const T* tau, Scratch<T>& scratch, T* qdd, const RodMotion* rods = nullptr) const {
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       SpatialForce<T>& force = scratch.forces[i];
-      if (!joint.driven) transmit(joint, axes[i], eliminated_[i], tau + joint.first, scratch.own[i], force);
+      if (joint.is_rod) {
+        Vec3<T> lever;
+        if (joint.carries_moving) lever = scratch.levers[i];
+        if (rods) lever = lever + rods[i].lever;
+        transmit_rod(axes[i], eliminated_[i].rod, tau + joint.first, lever, scratch.own[i], force);
+      } else if (!joint.driven) {
+        transmit(joint, axes[i], eliminated_[i], tau + joint.first, scratch.own[i], force);
+      }
       if (joint.parent < 0) return;
-      SpatialForce<T>& parent = scratch.forces[static_cast<std::size_t>(joint.parent)];
+      const auto p = static_cast<std::size_t>(joint.parent);
+      SpatialForce<T>& parent = scratch.forces[p];
       parent.force += force.force;
-      if (joint.parent_turns) parent.moment += force.moment + cross(axes[i].r, force.force);
+      if (joint.parent_is_rod) {
+        scratch.levers[p] = joint.numbers().placement.p[0] * force.force;
+        parent.moment += force.moment;
+      } else if (joint.parent_turns) {
+        parent.moment += force.moment + cross(axes[i].r, force.force);
+      }
     });
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.moves) accelerate(joint, i, axes[i], scratch, qdd + joint.first, rods);
@@ -145,57 +161,68 @@ class ArticulatedBodies {
     return true;
   }
 
-  /// With A_c of what the rod carries at l x:  C y = -mc z - l A_c z,  C z = mc y + l A_c y,
-  /// J_yy = I_y + l^2 z A_c z,  J_zz = I_y + l^2 y A_c y,  J_yz = -l^2 z A_c y.
+  /// @returns whether its moments of inertia are positive definite
   template <typename Joint>
   RPSUP_INLINE bool eliminate_rod(const Joint& joint, const Mat3<double>& R, Answer& answer, RodAnswer& rod) const {
-    const double mc = joint.numbers().mc[0], I_y = joint.numbers().I[4];
     rod.R = R;
     rod.I_x_inverse = 1.0 / joint.numbers().I[0];
-    Vec3<double> C_y = -mc * R.z, C_z = mc * R.y;
-    double determinant;
-    if (joint.carries_moving) {
-      const double l = answer.reach;
-      const Vec3<double> y = l * (answer.carried * R.y), z = l * (answer.carried * R.z);
-      const double J_yy = I_y + l * dot(R.z, z), J_zz = I_y + l * dot(R.y, y), J_yz = -l * dot(R.z, y);
-      determinant = J_yy * J_zz - J_yz * J_yz;
-      const double inverse = 1.0 / determinant;
-      rod.a = inverse * J_zz;
-      rod.b = -inverse * J_yz;
-      rod.d = inverse * J_yy;
-      C_y -= z;
-      C_z += y;
-      rod.C_J_y = rod.a * C_y + rod.b * C_z;
-      rod.C_J_z = rod.b * C_y + rod.d * C_z;
-      if (joint.parent_moves) {
-        subtract_outer(rod.C_J_y, C_y, answer.A);
-        subtract_outer(rod.C_J_z, C_z, answer.A);
-      }
-    } else {
-      determinant = I_y;
-      rod.a = rod.d = 1.0 / I_y;
-      rod.b = 0.0;
-      rod.C_J_y = rod.a * C_y;
-      rod.C_J_z = rod.a * C_z;
-      if (joint.parent_moves) {  // y y^T + z z^T = 1 - x x^T
-        const double across = mc * mc * rod.a;
-        answer.A.xx -= across;
-        answer.A.yy -= across;
-        answer.A.zz -= across;
-        add_outer(answer.A, across, R.x);
-      }
-    }
+    const double determinant = joint.carries_moving ? eliminate_carrying_rod(joint, R, answer, rod) : eliminate_last_rod(joint, R, answer, rod);
     return determinant > 0.0 && joint.numbers().I[0] > 0.0;
   }
 
-  /// A <- A - u v^T, of which the upper half counts.
-  RPSUP_INLINE static void subtract_outer(const Vec3<double>& u, const Vec3<double>& v, Sym3<double>& A) {
-    A.xx -= u.x * v.x;
-    A.yy -= u.y * v.y;
-    A.zz -= u.z * v.z;
-    A.xy -= u.x * v.y;
-    A.xz -= u.x * v.z;
-    A.yz -= u.y * v.z;
+  /// With A_c of what the rod carries at l x, and B = mc + l A_c:  C y = -B z,  C z = B y,
+  /// J_yy = I_y - l mc + l z B z,  J_zz = I_y - l mc + l y B y,  J_yz = -l z B y.
+  template <typename Joint>
+  RPSUP_INLINE double eliminate_carrying_rod(const Joint& joint, const Mat3<double>& R, Answer& answer, RodAnswer& rod) const {
+    const double mc = joint.numbers().mc[0], l = answer.reach;
+    Sym3<double> B = l * answer.carried;
+    B.xx += mc;
+    B.yy += mc;
+    B.zz += mc;
+    const Vec3<double> B_y = B * R.y, B_z = B * R.z;
+    const double beyond_B = joint.numbers().I[4] - l * mc;
+    const double J_yy = beyond_B + l * dot(R.z, B_z), J_zz = beyond_B + l * dot(R.y, B_y), minus_J_yz = l * dot(R.z, B_y);
+    const double determinant = J_yy * J_zz - minus_J_yz * minus_J_yz;
+    const double inverse = 1.0 / determinant;
+    rod.a = inverse * J_zz;
+    rod.b = inverse * minus_J_yz;
+    rod.d = inverse * J_yy;
+    rod.C_J_y = rod.b * B_y - rod.a * B_z;
+    rod.C_J_z = rod.d * B_y - rod.b * B_z;
+    if (joint.parent_moves) {
+      add_half_outer(rod.C_J_y, B_z, answer.A);
+      add_half_outer(-rod.C_J_z, B_y, answer.A);
+    }
+    return determinant;
+  }
+
+  /// A rod that carries nothing: C y = -mc z,  C z = mc y,  J_yy = J_zz = I_y.
+  template <typename Joint>
+  RPSUP_INLINE double eliminate_last_rod(const Joint& joint, const Mat3<double>& R, Answer& answer, RodAnswer& rod) const {
+    const double mc = joint.numbers().mc[0], I_y = joint.numbers().I[4];
+    rod.a = rod.d = 1.0 / I_y;
+    rod.b = 0.0;
+    const double scaled = mc * rod.a;
+    rod.C_J_y = -scaled * R.z;
+    rod.C_J_z = scaled * R.y;
+    if (joint.parent_moves) {  // y y^T + z z^T = 1 - x x^T
+      const double across = mc * scaled;
+      answer.A.xx -= across;
+      answer.A.yy -= across;
+      answer.A.zz -= across;
+      add_outer(answer.A, across, R.x);
+    }
+    return I_y;
+  }
+
+  /// A <- A + u v^T, of which the upper half counts.
+  RPSUP_INLINE static void add_half_outer(const Vec3<double>& u, const Vec3<double>& v, Sym3<double>& A) {
+    A.xx += u.x * v.x;
+    A.yy += u.y * v.y;
+    A.zz += u.z * v.z;
+    A.xy += u.x * v.y;
+    A.xz += u.x * v.z;
+    A.yz += u.y * v.z;
   }
 
   /// A <- A - C J^-1 C^T: all three rotations at once, whatever their axes.
@@ -283,19 +310,25 @@ class ArticulatedBodies {
     J.yz += z.y + y.z;
   }
 
+  /// @param lever  the force needed has the moment x x lever beside its own
+  template <typename T>
+  RPSUP_INLINE void transmit_rod(const JointAxes& axes, const RodAnswer& rod, const T* tau, const Vec3<T>& lever, Vec3<T>& own,
+                                 SpatialForce<T>& force) const {
+    const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
+    Vec3<T> n = transpose_times(rod.R, moment - force.moment);
+    n.y += dot(rod.R.z, lever);
+    n.z -= dot(rod.R.y, lever);
+    own = {rod.I_x_inverse * n.x, rod.a * n.y + rod.b * n.z, rod.b * n.y + rod.d * n.z};
+    force.force += n.y * rod.C_J_y + n.z * rod.C_J_z;
+    force.moment = moment;
+  }
+
   /// The force and moment that a joint passes on before its parent accelerates.
   template <typename Joint, typename T>
   RPSUP_INLINE void transmit(const Joint& joint, const JointAxes& axes, const Eliminated& e, const T* tau, Vec3<T>& own,
                              SpatialForce<T>& force) const {
     if (joint.kind == JointShape::Kind::kSpherical) {
       const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
-      if (joint.is_rod) {
-        const Vec3<T> n = transpose_times(e.rod.R, moment - force.moment);
-        own = {e.rod.I_x_inverse * n.x, e.rod.a * n.y + e.rod.b * n.z, e.rod.b * n.y + e.rod.d * n.z};
-        force.force += n.y * e.rod.C_J_y + n.z * e.rod.C_J_z;
-        force.moment = moment;
-        return;
-      }
       own = e.J_inverse * (moment - force.moment);
       force.force += e.C * own;
       force.moment = moment;

@@ -50,7 +50,7 @@ RPSUP_INLINE void place_parts(const Joint& joint, const Frame<P, V>& bearing_bod
   const Mat3<P>& R = cut.b.R;
   cut.journal.R = {transpose_times(R, cut.j.R.x), transpose_times(R, cut.j.R.y), transpose_times(R, cut.j.R.z)};
   cut.journal.p = transpose_times(R, offset);
-  cut.journal.v = transpose_times(R, cut.j.v - cut.b.v - cross(cut.b.w, offset));
+  cut.journal.v = transpose_times(R, cut.j.v - bearing_body.v - cross(bearing_body.w, cut.j.p - bearing_body.p));
   cut.journal.w = transpose_times(R, cut.j.w - cut.b.w);
 }
 

@@ -316,12 +316,12 @@ class EquationsOfMotion {
   }
 
   [[nodiscard]] RPSUP_INLINE bool is_finite() const {
-    bool finite = is_number(losses.impact + losses.friction + losses.structural);
+    double sums[3] = {losses.impact, losses.friction, losses.structural};  // what is not finite stays in a sum
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.driven) return;
-      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA { finite = finite && is_number(qdd[static_cast<std::size_t>(joint.first + k)]); });
+      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA { sums[k] += qdd[static_cast<std::size_t>(joint.first + k)]; });
     });
-    return finite;
+    return is_number(sums[0] + sums[1] + sums[2]);
   }
 
  private:

@@ -14,6 +14,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// made up for in the accelerations of the joint's angles, from wd - wd_parent - w_parent x w and the axes' turning against each other.
 struct RodMotion {
   Vec3<double> x_d, x_dd;      ///< rate of its axis, w x x, and its derivative by time, w x (w x x)
+  Vec3<double> lever;          ///< mc vd: its motion needs the moment x x lever
   Vec3<double> wd_carried;     ///< w_parent x w, and wd of a parent that is no rod
   double qdd_turning[3];       ///< what the axes' turning against each other adds to the accelerations of the angles
 };
@@ -44,16 +45,17 @@ RPSUP_INLINE void calc_rod_frame(const Joint& joint, const RodMotion* parent, co
   rod.qdd_turning[0] = inverse * (zy * sines[1] + yx);
   rod.qdd_turning[1] = -(qd[0] * qd[2]) * cosines[1];
   rod.qdd_turning[2] = inverse * (zy + yx * sines[1]);
+  rod.lever = joint.numbers().mc[0] * f.vd;
   rod.x_d = cross(f.w, f.R.x);
   rod.x_dd = cross(f.w, rod.x_d);
 }
 
-/// Newton and Euler for a rod, as calc_body_force() has them for any body.
+/// Newton and Euler for a rod, as calc_body_force() has them for any body, but for the moment x x lever.
 template <typename Joint>
 [[nodiscard]] RPSUP_INLINE SpatialForce<double> calc_rod_force(const Joint& joint, const Frame<double, double>& f, const RodMotion& rod) {
   const double mc = joint.numbers().mc[0];
   const double more = joint.numbers().I[0] - joint.numbers().I[4];
-  return {joint.numbers().mass * f.vd + mc * rod.x_dd, mc * cross(f.R.x, f.vd) + (more * dot(f.R.x, f.w)) * rod.x_d};
+  return {joint.numbers().mass * f.vd + mc * rod.x_dd, (more * dot(f.R.x, f.w)) * rod.x_d};
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

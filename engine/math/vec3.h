@@ -117,6 +117,10 @@ RPSUP_INLINE Sym3<A>& operator+=(Sym3<A>& a, const Sym3<B>& b) {
   a.yz += b.yz;
   return a;
 }
+template <typename T>
+[[nodiscard]] RPSUP_INLINE Sym3<T> operator*(const T& x, const Sym3<T>& s) {
+  return {x * s.xx, x * s.yy, x * s.zz, x * s.xy, x * s.xz, x * s.yz};
+}
 template <typename A, typename B>
 [[nodiscard]] RPSUP_INLINE Vec3<Mixed<A, B>> operator*(const Sym3<A>& s, const Vec3<B>& v) {
   return {s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z, s.xz * v.x + s.yz * v.y + s.zz * v.z};
