@@ -190,8 +190,8 @@ class ArticulatedBodies {
     rod.C_J_y = rod.b * B_y - rod.a * B_z;
     rod.C_J_z = rod.d * B_y - rod.b * B_z;
     if (joint.parent_moves) {
-      add_half_outer(rod.C_J_y, B_z, answer.A);
-      add_half_outer(-rod.C_J_z, B_y, answer.A);
+      add_half_outer(answer.A, rod.C_J_y, B_z);
+      add_half_outer(answer.A, -rod.C_J_z, B_y);
     }
     return determinant;
   }
@@ -213,16 +213,6 @@ class ArticulatedBodies {
       add_outer(answer.A, across, R.x);
     }
     return I_y;
-  }
-
-  /// A <- A + u v^T, of which the upper half counts.
-  RPSUP_INLINE static void add_half_outer(const Vec3<double>& u, const Vec3<double>& v, Sym3<double>& A) {
-    A.xx += u.x * v.x;
-    A.yy += u.y * v.y;
-    A.zz += u.z * v.z;
-    A.xy += u.x * v.y;
-    A.xz += u.x * v.z;
-    A.yz += u.y * v.z;
   }
 
   /// A <- A - C J^-1 C^T: all three rotations at once, whatever their axes.

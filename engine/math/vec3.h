@@ -125,16 +125,20 @@ template <typename A, typename B>
 [[nodiscard]] RPSUP_INLINE Vec3<Mixed<A, B>> operator*(const Sym3<A>& s, const Vec3<B>& v) {
   return {s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z, s.xz * v.x + s.yz * v.y + s.zz * v.z};
 }
+/// a += u v^T, of which the upper half counts
+template <typename A, typename U, typename V>
+RPSUP_INLINE void add_half_outer(Sym3<A>& a, const Vec3<U>& u, const Vec3<V>& v) {
+  a.xx += u.x * v.x;
+  a.yy += u.y * v.y;
+  a.zz += u.z * v.z;
+  a.xy += u.x * v.y;
+  a.xz += u.x * v.z;
+  a.yz += u.y * v.z;
+}
 /// a += s u u^T
 template <typename A, typename S, typename U>
 RPSUP_INLINE void add_outer(Sym3<A>& a, const S& s, const Vec3<U>& u) {
-  const Vec3<Mixed<S, U>> su = s * u;
-  a.xx += su.x * u.x;
-  a.yy += su.y * u.y;
-  a.zz += su.z * u.z;
-  a.xy += su.x * u.y;
-  a.xz += su.x * u.z;
-  a.yz += su.y * u.z;
+  add_half_outer(a, s * u, u);
 }
 /// Inverse of a positive definite one; `determinant` says if it is.
 template <typename T>
