@@ -4,6 +4,7 @@
 
 #include "engine/clearance/friction_parameters.h"
 #include "engine/math/dual.h"
+#include "engine/math/exponential.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -19,10 +20,10 @@ template <typename V>
   return join(calc_stribeck_at(p, squared[0]), calc_stribeck_at(p, squared[1]));
 }
 [[nodiscard]] RPSUP_INLINE Lanes calc_stribeck_at(const FrictionParameters& p, const Lanes& squared) {
-  Lanes curve = Lanes::all(p.mu_k);
-  if (all_below(choose_greater(squared, Lanes::all(40.0), Lanes{}, Lanes::all(1.0)), 0.5)) return curve;
-  for (int lane = 0; lane < Lanes::kCount; ++lane) curve.set(lane, calc_stribeck_at(p, squared[lane]));
-  return curve;
+  const Lanes most = Lanes::all(40.0), slid = Lanes::all(p.mu_k);
+  if (all_below(choose_greater(squared, most, Lanes{}, Lanes::all(1.0)), 0.5)) return slid;
+  const Lanes curve = p.mu_k + (p.mu_s - p.mu_k) * calc_exponentials(-choose_greater(squared, most, most, squared));
+  return choose_greater(squared, most, slid, curve);
 }
 
 template <typename V>
