@@ -21,6 +21,10 @@ int ClearanceJoint::bristle_count() const {
   return std::visit([](const auto& radial) { return radial.bristle_count(); }, radial_);
 }
 
+int ClearanceJoint::ring_count() const {
+  return std::visit([](const auto& radial) { return radial.parameters().n_r; }, radial_);
+}
+
 bool ClearanceJoint::calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const {
   const RelativeMotion<double, double> motion = to_relative_motion(journal);
   JointLoad<double> sum;

@@ -16,6 +16,7 @@ class ClearanceJoint {
  public:
   explicit ClearanceJoint(const ClearanceParameters& joint);
 
+  [[nodiscard]] int ring_count() const;
   [[nodiscard]] int bristle_count() const;
 
   // For the laws, which the right-hand side takes with its own kind of numbers.

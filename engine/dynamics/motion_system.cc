@@ -29,6 +29,7 @@ void MotionSystem::make_room() {
   equations_ = make_equations(instruction_set_, model_, clearance_joints_);
   drives_time_ = std::numeric_limits<double>::quiet_NaN();
   solved_ = false;
+  set_error_shares();
   const Eigen::Index size = controlled_size() + static_cast<Eigen::Index>(drives_.size()) + 3;
   solved_y_.resize(size);
   dydt_.resize(size);
@@ -38,6 +39,16 @@ void MotionSystem::make_room() {
   jacobian_ = StateJacobian(free, bristles, drives);
   have_matrices_ = false;
   elimination_ = Elimination::kMatrix;
+}
+
+/// All bristles of a ring together count as much as the two that a continuum has there.
+void MotionSystem::set_error_shares() {
+  error_shares_.setOnes(controlled_size());
+  Eigen::Index first = 2 * free_count();
+  for (const ClearanceJoint& joint : clearance_joints_) {
+    error_shares_.segment(first, joint.bristle_count()).setConstant(2.0 * joint.ring_count() / joint.bristle_count());
+    first += joint.bristle_count();
+  }
 }
 
 /// What only the matrix needs: of many bristles it takes much room.

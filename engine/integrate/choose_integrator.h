@@ -12,4 +12,9 @@ namespace engine {
 /// instead, and elastic links carry them on: there it is rodas5, whose steps are shorter.
 [[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted);
 
+/// The tolerance with which an integrator has peaks as right in one mechanism as in another. rodas5 and rodas4 are given a smaller one than is
+/// wanted where contacts change inside of their steps all the time: those of elements, each of which begins and ends for itself, and those with
+/// friction of other than slow bristles.
+[[nodiscard]] double choose_tolerance(const Mechanism& mechanism, Integrator integrator, double wanted);
+
 }  // namespace engine

@@ -30,6 +30,8 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
 
 RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   options.integrator = choose_integrator(mechanism, options.integrator);
+  for (double* tolerance : {&options.relative_tolerance, &options.absolute_tolerance})
+    *tolerance = choose_tolerance(mechanism, options.integrator, *tolerance);
   return options;
 }
 
@@ -48,8 +50,8 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       options_(with_integrator(mechanism, options)),
       observer_(observer),
       system_(mechanism),
-      tolerance_(options.relative_tolerance, options.absolute_tolerance),
-      energy_control_(options),
+      tolerance_(options_.relative_tolerance, options_.absolute_tolerance),
+      energy_control_(options_),
       dopri5_(tolerance_),
       rodas4_(tolerance_),
       rodas5_(tolerance_),

@@ -29,7 +29,7 @@ void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages
 Trial Radau5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
   make_room(system, start.y);
-  tolerance_.calc_weights(start.y, weights_);
+  tolerance_.calc_weights(start.y, system.error_shares(), weights_);
   tried_dt_ = 0.0;
   Newton newton = solve_stages(system, start, dt, trial);
   if (newton == Newton::kTooSlow && !fresh_) {
@@ -158,11 +158,10 @@ double Radau5::correct_stages(MotionSystem& system, double dt) {
   W_complex_ += complex_change_;
   for (std::size_t i = 0; i < K::kStages; ++i)
     Z_[i] = K::T[i][0] * W_ + K::T[i][1] * W_complex_.real() + K::T[i][2] * W_complex_.imag();
-  const Eigen::Index controlled = weights_.size();
-  if (controlled == 0) return 0.0;  // the drives decide the motion, and work and losses are integrals over it
+  const Eigen::Index controlled = weights_.size();  // 0: the drives decide the motion, and work and losses are integrals over it
   const double squares = change_.head(controlled).cwiseProduct(weights_).squaredNorm() +
                          complex_change_.head(controlled).cwiseAbs2().dot(weights_.cwiseAbs2());
-  return std::sqrt(squares / static_cast<double>(K::kStages * controlled));
+  return std::sqrt(squares / static_cast<double>(K::kStages));
 }
 
 double Radau5::estimate_error(MotionSystem& system, const StepEnd& start, double dt) {
@@ -170,7 +169,7 @@ double Radau5::estimate_error(MotionSystem& system, const StepEnd& start, double
   change_ += start.f;
   system.solve_in_place(change_);
   stage_ = start.y + Z_[2];
-  return tolerance_.measure(change_, start.y, stage_, weights_.size());
+  return tolerance_.measure(change_, start.y, stage_, system.error_shares());
 }
 
 }  // namespace engine

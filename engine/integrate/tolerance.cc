@@ -42,27 +42,28 @@ void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameInd
       radii_[static_cast<Eigen::Index>(k)] = calc_radius(mechanism, free[k], frames);
 }
 
-double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const {
-  if (controlled == 0) return 0.0;
+double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, const Eigen::VectorXd& shares) const {
+  if (shares.size() == 0) return 0.0;
   double sum = 0.0;
   const auto add = [&](Eigen::Index i, double radius) {
     const double ratio = radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
-    sum += ratio * ratio;
+    sum += shares[i] * ratio * ratio;
   };
   const Eigen::Index n = radii_.size();
   for (Eigen::Index i = 0; i < n; ++i) {
     add(i, radii_[i]);
     add(n + i, radii_[i]);
   }
-  for (Eigen::Index i = 2 * n; i < controlled; ++i) add(i, 1.0);
-  return std::sqrt(sum / static_cast<double>(controlled));
+  for (Eigen::Index i = 2 * n; i < shares.size(); ++i) add(i, 1.0);
+  return std::sqrt(sum / shares.sum());
 }
 
-void Tolerance::calc_weights(const Eigen::VectorXd& y, Eigen::VectorXd& weights) const {
+void Tolerance::calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& shares, Eigen::VectorXd& weights) const {
   const Eigen::Index n = radii_.size();
-  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+  const double all = shares.sum();
+  for (Eigen::Index i = 0; i < shares.size(); ++i) {
     const double radius = i < n ? radii_[i] : i < 2 * n ? radii_[i - n] : 1.0;
-    weights[i] = radius / (absolute_ + relative_ * radius * std::abs(y[i]));
+    weights[i] = std::sqrt(shares[i] / all) * radius / (absolute_ + relative_ * radius * std::abs(y[i]));
   }
 }
 

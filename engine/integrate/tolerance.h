@@ -19,11 +19,13 @@ class Tolerance {
   /// Sets the radii of gyration, from the mechanism in one position. Until then each is 1.
   void set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free, const std::vector<FrameMotion>& frames);
 
-  /// Root mean square over the first `controlled` entries of an error of the state, each in units of its tolerance; of none 0.
-  [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, Eigen::Index controlled) const;
+  /// Root mean square over the first entries of an error of the state, each in units of its tolerance; of none 0.
+  /// @param shares  of these entries in the mean, see MotionSystem::error_shares()
+  [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1,
+                               const Eigen::VectorXd& shares) const;
 
-  /// What each of the first entries of an error is to be multiplied by to be in units of its tolerance; as many as `weights` has.
-  void calc_weights(const Eigen::VectorXd& y, Eigen::VectorXd& weights) const;
+  /// What each of these entries is to be multiplied by, so that the root of the sum of squares is what measure() would give.
+  void calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& shares, Eigen::VectorXd& weights) const;
 
  private:
   double relative_, absolute_;

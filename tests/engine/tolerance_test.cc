@@ -7,6 +7,7 @@
 #include "engine/dynamics/motion_system.h"
 #include "engine/integrate/energy_control.h"
 #include "engine/model/mechanism.h"
+#include "engine/model/rpsup.h"
 
 namespace engine {
 namespace {
@@ -28,9 +29,32 @@ TEST(Tolerance, MeasuresARotationAtTheRadiusOfGyrationOfWhatItCarries) {
   ASSERT_EQ(system.calc_derivative(0.0, y, f, at), EvaluationStatus::kOk);
   Tolerance tolerance(1e-3, 1e-6);
   const Eigen::VectorXd error = Eigen::VectorXd::Constant(y.size(), 1e-5);
-  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.controlled_size()), 10.0, 1e-12);
+  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_shares()), 10.0, 1e-12);
   tolerance.set_radii(rod, system.free_coordinates(), at.frames);
-  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.controlled_size()), 5.0, 1e-12);
+  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_shares()), 5.0, 1e-12);
+}
+
+TEST(Tolerance, AllowsCoordinatesNoMoreWhereThereAreMoreContactElements) {
+  RpsupParameters parameters;
+  const auto measure = [](MotionSystem& system, const Eigen::VectorXd& y) {
+    Eigen::VectorXd error = Eigen::VectorXd::Zero(y.size());
+    error.head(2 * system.free_count()).setConstant(1e-5);
+    return Tolerance(1e-3, 1e-6).measure(error, 0.0 * y, 0.0 * y, system.error_shares());
+  };
+  const auto make_state = [](const MotionSystem& system) { return system.make_state(system.make_evaluation().q, system.make_evaluation().qd); };
+  const Mechanism plain = build_rpsup(parameters).mechanism;
+  MotionSystem continuum(plain);
+  const double expected = measure(continuum, make_state(continuum));
+  parameters.contact = ContactForm::kElements;
+  for (const int count : {36, 720}) {
+    parameters.radial_elements = count;
+    const Mechanism mechanism = build_rpsup(parameters).mechanism;
+    MotionSystem elements(mechanism);
+    Eigen::VectorXd y = make_state(elements);
+    EXPECT_NEAR(measure(elements, y), expected, 1e-12) << count;
+    elements.widen_bristles(y);
+    EXPECT_NEAR(measure(elements, y), expected, 1e-12) << count << ", widened";
+  }
 }
 
 EnergyAccount account(double kinetic, double work) {

@@ -16,6 +16,8 @@ namespace engine::validation {
 [[nodiscard]] Findings compute_peaks_wide();
 /// Both integrators give the same peaks: flexible coupler, at the speed at which it converges.
 [[nodiscard]] Findings compute_peaks_flexible();
+/// Peaks by the default with contact elements and other friction.
+[[nodiscard]] Findings compute_peaks_of_other_contacts();
 /// What a digit of the peak costs with either integrator.
 [[nodiscard]] Findings compute_work_and_precision();
 

@@ -56,7 +56,56 @@ Findings compare_peaks(const std::vector<PeakCase>& cases) {
   return findings;
 }
 
+struct OtherContact {
+  std::string name;
+  RpsupParameters parameters;
+};
+
+RpsupParameters contact_of(Coupler coupler, double c_r, double crank_velocity) {
+  RpsupParameters parameters;
+  parameters.coupler = coupler;
+  parameters.c_r = c_r;
+  parameters.crank_velocity = crank_velocity;
+  return parameters;
+}
+
+OtherContact with_elements(int count, Coupler coupler, double c_r, double crank_velocity) {
+  RpsupParameters parameters = contact_of(coupler, c_r, crank_velocity);
+  parameters.contact = ContactForm::kElements;
+  parameters.radial_elements = count;
+  return {std::to_string(count) + " elements", parameters};
+}
+
+OtherContact with_friction(const char* name, FrictionLaw law, double c_r, double crank_velocity) {
+  RpsupParameters parameters = contact_of(Coupler::kRigid, c_r, crank_velocity);
+  parameters.friction = law;
+  return {name, parameters};
+}
+
 }  // namespace
+
+Findings compute_peaks_of_other_contacts() {
+  const std::vector<OtherContact> cases{with_elements(180, Coupler::kRigid, 0.25e-3, 5.0),
+                                        with_elements(180, Coupler::kRigid, 0.5e-3, 8.0),
+                                        with_elements(720, Coupler::kRigid, 0.5e-3, 15.0),
+                                        with_elements(720, Coupler::kFlexible, 0.1e-3, 3.0),
+                                        with_friction("elasto-plastic bristles", FrictionLaw::kElastoPlastic, 0.25e-3, 5.0),
+                                        with_friction("smoothed Coulomb friction", FrictionLaw::kCoulomb, 0.25e-3, 8.0),
+                                        with_friction("Ambrosio's friction", FrictionLaw::kAmbrosio, 0.5e-3, 15.0)};
+  Findings findings;
+  for (const OtherContact& c : cases) {
+    const RunResult tight = run_rpsup(c.parameters, {.duration = 4.0, .output_rate = 10.0, .integrator = Integrator::kDopri5,
+                                                      .relative_tolerance = 1e-8, .absolute_tolerance = 1e-8});
+    const RunResult automatic = run_rpsup(c.parameters, {.duration = 4.0, .output_rate = 10.0});
+    const double peak = metric(tight, "peak_slider_acceleration_m_s2");
+    const std::string name = c.name + (c.parameters.coupler == Coupler::kRigid ? ", rigid, " : ", flexible, ") + number(1e3 * c.parameters.c_r) + " mm, " +
+                             number(c.parameters.crank_velocity) + " rad/s, 4 s";
+    findings.checks.push_back(compare(name + ": peak acceleration of the slider by the default integrator", "dopri5 at a tolerance of 1e-8",
+                                      metric(automatic, "peak_slider_acceleration_m_s2"), peak, 1e-3 * peak, "m/s²",
+                                      "a thousandth: what the default tolerance is chosen for"));
+  }
+  return findings;
+}
 
 // At 10 rad/s the narrow clearance is the case of work and precision.
 Findings compute_peaks_narrow() {
