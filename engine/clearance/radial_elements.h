@@ -47,7 +47,7 @@ class RadialElements {
   /// Moves the windows to where the journal will be after dt. Elements in contact stay inside. @returns true if any window moved
   bool follow(const JournalMotion& journal, double dt, double* bristles);
 
-  /// Doubles the windows. @returns the bristles in their new places
+  /// Makes the windows half as large again. @returns the bristles in their new places
   [[nodiscard]] Eigen::VectorXd widen(const double* bristles);
 
  private:

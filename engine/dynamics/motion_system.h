@@ -73,7 +73,7 @@ class MotionSystem {
   [[nodiscard]] bool prepare_step(const Evaluation& at, double dt, Eigen::VectorXd& y);
   /// Takes note of the contacts that began or ended in a step; f is another one if any did.
   [[nodiscard]] ContactChange accept_step(const Evaluation& start, const Evaluation& end, Eigen::VectorXd& y);
-  /// Doubles the room for bristles in y.
+  /// Makes room for half as many bristles again in y.
   void widen_bristles(Eigen::VectorXd& y);
 
  private:
