@@ -11,8 +11,8 @@ namespace engine {
 
 namespace {
 
-/// A window that holds contacts of 10 micrometres depth, with two elements to spare. Few runs go deeper, and they widen it; a larger one from the
-/// start would have every step carry bristles that nothing touches.
+/// A window that holds contacts of 10 micrometres depth where it is centred, with two elements to spare. Few runs go deeper, and they widen it; a
+/// larger one from the start would have every step carry bristles that nothing touches.
 int calc_first_window(const ClearanceParameters& joint) {
   const double distance = joint.c_r + 10e-6;
   const double half = calc_half_arc(joint, distance * distance, distance) * joint.n_ce / (2.0 * std::numbers::pi);

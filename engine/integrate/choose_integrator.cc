@@ -1,6 +1,7 @@
 #include "engine/integrate/choose_integrator.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace engine {
 
@@ -9,10 +10,9 @@ namespace {
 /// Against dopri5 at 1e-6, radau5 has peaks within 0.02 % from 10 to 1000 1/m, and misses one at 3000 1/m.
 constexpr double kSlowBristles = 300.0;  // stiffness, [1/m]
 
-// What rodas5 divides its tolerances by. With 1.5e-5 undivided, it misses a third of the peaks that converge by 0.1 % to several percent.
+// What tolerances are divided by. With 1.5e-5 undivided, rodas5 misses a third of the peaks that converge by 0.1 % to several percent.
 constexpr double kForChangingContacts = 7.5;
 constexpr double kForJumpingFriction = 30.0;  // across a band of velocities that a step may leap
-constexpr double kFinest = 1e-10;             // there, all that changes is resolved
 
 constexpr auto is_elastic = [](const auto& spring) { return spring.stiffness > 0.0; };
 
@@ -40,13 +40,14 @@ Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted) {
   return ideal || (!elastic && has_only_slow_friction(mechanism)) ? Integrator::kRadau5 : Integrator::kRodas5;
 }
 
-double choose_tolerance(const Mechanism& mechanism, Integrator integrator, double wanted) {
-  const bool is_rosenbrock = integrator == Integrator::kRodas5 || integrator == Integrator::kRodas4;
-  if (!is_rosenbrock) return wanted;
+double choose_tolerance(const Mechanism& mechanism, double wanted) {
   double refinement = 1.0;
   for (const CutJoint& joint : mechanism.cut_joints)
     if (joint.clearance) refinement = std::max(refinement, choose_refinement(*joint.clearance));
-  return std::min(wanted, std::max(wanted / refinement, kFinest));
+  // Less and less of it towards tolerances that resolve all that changes: a smaller tolerance is a smaller one everywhere.
+  constexpr double kNoneFrom = 1e-10, kAllFrom = 1e-7;
+  const double part = std::clamp(std::log(wanted / kNoneFrom) / std::log(kAllFrom / kNoneFrom), 0.0, 1.0);
+  return wanted / std::pow(refinement, part);
 }
 
 }  // namespace engine

@@ -12,9 +12,9 @@ namespace engine {
 /// instead, and elastic links carry them on: there it is rodas5, whose steps are shorter.
 [[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted);
 
-/// The tolerance with which an integrator has peaks as right in one mechanism as in another. rodas5 and rodas4 are given a smaller one than is
-/// wanted where contacts change inside of their steps all the time: those of elements, each of which begins and ends for itself, and those with
-/// friction of other than slow bristles.
-[[nodiscard]] double choose_tolerance(const Mechanism& mechanism, Integrator integrator, double wanted);
+/// The tolerance that Integrator::kAuto takes for the one that is wanted, for the steps' errors and the energy account, so that its peaks are as
+/// right in one mechanism as in another. It is smaller where contacts change inside of steps all the time: those of elements, each of which begins and
+/// ends for itself, those in worn bores, and those with friction of other than slow bristles.
+[[nodiscard]] double choose_tolerance(const Mechanism& mechanism, double wanted);
 
 }  // namespace engine

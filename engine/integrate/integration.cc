@@ -29,9 +29,10 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
 }
 
 RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
+  if (options.integrator != Integrator::kAuto) return options;
   options.integrator = choose_integrator(mechanism, options.integrator);
-  for (double* tolerance : {&options.relative_tolerance, &options.absolute_tolerance})
-    *tolerance = choose_tolerance(mechanism, options.integrator, *tolerance);
+  options.relative_tolerance = choose_tolerance(mechanism, options.relative_tolerance);
+  options.absolute_tolerance = choose_tolerance(mechanism, options.absolute_tolerance);
   return options;
 }
 

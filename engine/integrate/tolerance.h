@@ -24,7 +24,7 @@ class Tolerance {
   [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1,
                                const Eigen::VectorXd& shares) const;
 
-  /// What each of these entries is to be multiplied by, so that the root of the sum of squares is what measure() would give.
+  /// What each of these entries is to be multiplied by, so that the root of the sum of squares is what measure() would give at y.
   void calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& shares, Eigen::VectorXd& weights) const;
 
  private:

@@ -18,8 +18,8 @@ struct RunOptions {
   double output_rate = 1000.0;              ///< samples of the trajectory, [Hz]
   Integrator integrator = Integrator::kAuto;
   double step = 1e-5;                       ///< of rk4, [s]
-  double relative_tolerance = 1.5e-5;       ///< of the error-controlled integrators, [1]
-  double absolute_tolerance = 1.5e-5;       ///< of the error-controlled integrators, in m and m/s; rotations by what they carry: Tolerance
+  double relative_tolerance = 1.5e-5;       ///< of the error-controlled integrators, [1]; kAuto: choose_tolerance()
+  double absolute_tolerance = 1.5e-5;       ///< of the error-controlled integrators, likewise, in m and m/s; rotations by what they carry: Tolerance
   long step_limit = 100'000'000;            ///< steps after which the run ends with kStepLimit
 };
 

@@ -82,6 +82,12 @@ OtherContact with_friction(const char* name, FrictionLaw law, double c_r, double
   return {name, parameters};
 }
 
+OtherContact with_bristles(double sigma_0, double c_r, double crank_velocity) {
+  RpsupParameters parameters = contact_of(Coupler::kRigid, c_r, crank_velocity);
+  parameters.sigma_0 = sigma_0;
+  return {"bristles of " + number(sigma_0) + " 1/m", parameters};
+}
+
 }  // namespace
 
 Findings compute_peaks_of_other_contacts() {
@@ -89,6 +95,7 @@ Findings compute_peaks_of_other_contacts() {
                                         with_elements(180, Coupler::kRigid, 0.5e-3, 8.0),
                                         with_elements(720, Coupler::kRigid, 0.5e-3, 15.0),
                                         with_elements(720, Coupler::kFlexible, 0.1e-3, 3.0),
+                                        with_bristles(3000.0, 0.25e-3, 5.0),
                                         with_friction("elasto-plastic bristles", FrictionLaw::kElastoPlastic, 0.25e-3, 5.0),
                                         with_friction("smoothed Coulomb friction", FrictionLaw::kCoulomb, 0.25e-3, 8.0),
                                         with_friction("Ambrosio's friction", FrictionLaw::kAmbrosio, 0.5e-3, 15.0)};
@@ -98,8 +105,8 @@ Findings compute_peaks_of_other_contacts() {
                                                       .relative_tolerance = 1e-8, .absolute_tolerance = 1e-8});
     const RunResult automatic = run_rpsup(c.parameters, {.duration = 4.0, .output_rate = 10.0});
     const double peak = metric(tight, "peak_slider_acceleration_m_s2");
-    const std::string name = c.name + (c.parameters.coupler == Coupler::kRigid ? ", rigid, " : ", flexible, ") + number(1e3 * c.parameters.c_r) + " mm, " +
-                             number(c.parameters.crank_velocity) + " rad/s, 4 s";
+    const std::string name = c.name + (c.parameters.coupler == Coupler::kRigid ? ", rigid, " : ", flexible, ") + number(1e3 * c.parameters.c_r) +
+                             " mm, " + number(c.parameters.crank_velocity) + " rad/s, 4 s";
     findings.checks.push_back(compare(name + ": peak acceleration of the slider by the default integrator", "dopri5 at a tolerance of 1e-8",
                                       metric(automatic, "peak_slider_acceleration_m_s2"), peak, 1e-3 * peak, "m/s²",
                                       "a thousandth: what the default tolerance is chosen for"));
