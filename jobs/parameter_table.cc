@@ -105,7 +105,8 @@ void add_run_rows(Rows& rows) {
        {"dopri5", engine::Integrator::kDopri5},
        {"rk4", engine::Integrator::kRk4}}));
   rows.push_back(number({"step_s", "step", "s", kChosen, "Step of rk4"}, between(1e-8, 1e-3), &O::step));
-  rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen, "Of the error-controlled integrators; auto takes less where contacts change inside steps"},
+  rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen,
+                         "Of the error-controlled integrators; auto takes less where contacts change inside steps"},
                         between(1e-13, 1e-2), &O::relative_tolerance));
   rows.push_back(number({"absolute_tolerance", "absolute_tolerance", "", kChosen,
                          "Of the error-controlled integrators, in m, rad and their rates; of the L-stable ones in m and m/s, rotations by the radius of gyration of what they carry"},

@@ -18,16 +18,21 @@ struct PeakCase {
   double c_r, crank_velocity;
 };
 
+RpsupParameters contact_of(Coupler coupler, double c_r, double crank_velocity) {
+  RpsupParameters parameters;
+  parameters.coupler = coupler;
+  parameters.c_r = c_r;
+  parameters.crank_velocity = crank_velocity;
+  return parameters;
+}
+
 Findings compare_peaks(const std::vector<PeakCase>& cases) {
   Findings findings;
   Table table{.caption = "Largest slider acceleration in [2 s, 3 s] by three methods that share neither formula nor step.",
               .head = {"case", "dopri5, 1e-6 [m/s²]", "at [s]", "rk4, 5 us [m/s²]", "at [s]", "default [m/s²]", "at [s]"},
               .reproducible_to = 1e-3};
   for (const PeakCase& c : cases) {
-    RpsupParameters parameters;
-    parameters.coupler = c.coupler;
-    parameters.c_r = c.c_r;
-    parameters.crank_velocity = c.crank_velocity;
+    const RpsupParameters parameters = contact_of(c.coupler, c.c_r, c.crank_velocity);
     const RunResult dopri5 = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kDopri5,
                                                      .relative_tolerance = 1e-6, .absolute_tolerance = 1e-7});
     const RunResult rk4 = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kRk4, .step = kStep});
@@ -60,14 +65,6 @@ struct OtherContact {
   std::string name;
   RpsupParameters parameters;
 };
-
-RpsupParameters contact_of(Coupler coupler, double c_r, double crank_velocity) {
-  RpsupParameters parameters;
-  parameters.coupler = coupler;
-  parameters.c_r = c_r;
-  parameters.crank_velocity = crank_velocity;
-  return parameters;
-}
 
 OtherContact with_elements(int count, Coupler coupler, double c_r, double crank_velocity) {
   RpsupParameters parameters = contact_of(coupler, c_r, crank_velocity);
