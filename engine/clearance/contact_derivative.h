@@ -76,17 +76,7 @@ class ContactDerivative {
 
   /// What comes of a variation of the journal's motion, the bristles held.
   [[nodiscard]] RPSUP_INLINE LoadVariation<Lanes> apply(const JournalVariation<Lanes>& varies) const { return rows_.apply(varies); }
-  [[nodiscard]] RPSUP_INLINE Lanes apply_to_bristle(int bristle, const JournalVariation<Lanes>& varies) const {
-    return rate_rows_[static_cast<std::size_t>(bristle)].apply(varies);
-  }
 
-  /// Adds what comes of a bristle that varies by `lanes`.
-  RPSUP_INLINE void add_bristle(int bristle, const Lanes& lanes, LoadVariation<Lanes>& load) const {
-    const double* by = load_by_bristle(bristle);
-    load.force += Vec3<Lanes>{by[0] * lanes, by[1] * lanes, by[2] * lanes};
-    load.moment += Vec3<Lanes>{by[3] * lanes, by[4] * lanes, by[5] * lanes};
-    load.friction_power += by[ContactRows::kFrictionPower] * lanes;
-  }
   /// Of a bristle's rate, by one of the two that its touch reads.
   [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
     return by / 2 == bristle / 2 ? rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2] : 0.0;

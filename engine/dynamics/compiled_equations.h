@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "engine/dynamics/equations_of_motion.h"
+#include "engine/dynamics/bristle_derivatives.h"
 #include "engine/dynamics/direction_plan.h"
+#include "engine/dynamics/equations_of_motion.h"
 #include "engine/dynamics/shifted_bodies.h"
 #include "engine/dynamics/varied_equations.h"
 
@@ -24,7 +25,8 @@ class CompiledEquations final : public Equations {
         bristle_rates_(bristles),
         kept_(model, joints),
         varied_(model, joints, bristles, kept_),
-        plan_(model, bristles),
+        plan_(model, BristleDerivatives::kMostLoads * joints.size()),
+        bristle_derivatives_(joints, plan_.moving_groups()),
         bodies_(ShiftedBodies::fit(model) ? std::make_unique<ShiftedBodies>(model, joints) : nullptr) {
     kept_.drive_force.fill(0.0);  // to be read if the first evaluation fails
   }
@@ -52,25 +54,28 @@ class CompiledEquations final : public Equations {
 
   void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) override {
     find_acting_bristles(y, result);
-    varied_.hold(y + 2 * free_, result.bristles, result.bristle_count);
-    plan_.start(drives, result.bristles, result.bristle_count);
+    varied_.hold(y + 2 * free_, result.bristles, 2 * result.pairs);
+    bristle_derivatives_.find_loads(varied_.contacts(), varied_.acting());
+    plan_.start(drives, bristle_derivatives_.loads(), bristle_derivatives_.load_count());
     for (int group = 0; group < plan_.groups(); ++group) {
-      const int bristle = plan_.first_bristle(group);
-      varied_.differentiate(plan_.coordinates(group), plan_.bristles() + bristle, plan_.end_bristle(group) - bristle, plan_.time(group), drives);
-      take_outputs(group, result);
+      const int load = plan_.first_load(group);
+      varied_.differentiate(plan_.coordinates(group), plan_.loads() + load, plan_.end_load(group) - load, plan_.time(group), drives);
+      take_outputs(group);
     }
     plan_.sort(result);
+    bristle_derivatives_.write(plan_, varied_.contacts(), varied_.acting(), free_, drives_, result);
   }
 
   bool can_solve_by_bodies() const override { return bodies_ != nullptr; }
 
   void linearise_bodies(const double* y, const DrivenMotion* drives, Linearisation& result) override {
     find_acting_bristles(y, result);
-    varied_.hold(y + 2 * free_, result.bristles, result.bristle_count);
+    varied_.hold(y + 2 * free_, result.bristles, 2 * result.pairs);
     plan_.start(drives, nullptr, 0);
     varied_.differentiate(plan_.coordinates(0), nullptr, 0, plan_.time(0), drives);
-    take_outputs(0, result);
+    take_outputs(0);
     plan_.sort_time(result);
+    bristle_derivatives_.write_by_time(varied_.contacts(), varied_.acting(), result);
     bodies_->take_up({kept_.frames.data(), kept_.axes.data(), varied_.held(), varied_.held_coordinates(), kept_.cuts.data(), varied_.contacts(),
                       varied_.acting(), kept_.qd.data()});
   }
@@ -130,14 +135,13 @@ class CompiledEquations final : public Equations {
       result.bristles[count++] = b;
       result.bristles[count++] = b + 1;
     }
-    result.bristle_count = count;
-    result.outputs = free_ + count + drives_ + 3;
+    result.pairs = count / 2;
   }
 
-  void take_outputs(int group, const Linearisation& result) {
+  void take_outputs(int group) {
+    if (group < plan_.moving_groups()) bristle_derivatives_.take_journals(group, varied_.journals.data());
     int row = 0;
     for (const int i : model_.free) plan_.output(row++, group) = varied_.qdd[static_cast<std::size_t>(i)];
-    for (int b = 0; b < result.bristle_count; ++b) plan_.output(row++, group) = varied_.bristle_rates[static_cast<std::size_t>(result.bristles[b])];
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const int drive = model_.drives[k];
       plan_.output(row++, group) = kept_.qd[static_cast<std::size_t>(drive)] * varied_.drive_force[k] +
@@ -155,6 +159,7 @@ class CompiledEquations final : public Equations {
   EquationsOfMotion<Shapes> kept_;
   VariedEquations<Shapes> varied_;
   DirectionPlan plan_;
+  BristleDerivatives bristle_derivatives_;
   std::unique_ptr<ShiftedBodies> bodies_;       ///< null: the tree is none for them
 };
 

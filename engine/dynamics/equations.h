@@ -22,16 +22,23 @@ enum class EvaluationStatus {
   kNonFinite,       ///< no number, or a mass matrix that is not positive definite
 };
 
-/// Derivatives of the outputs (accelerations of the free coordinates, rates of the acting bristles, rates of work and loss) by the free
-/// coordinates, their rates, time and the acting bristles. Matrices row after row; an owner gives the room.
+/// Derivatives of the outputs (accelerations of the free coordinates, rates of work and loss) and of the rates of the acting bristles, by the free
+/// coordinates, their rates, time and the acting bristles. Of a pair of bristles, which are those of one touch, both rates depend on both bristles
+/// and on none of another pair. An owner gives the room, which is zero at first.
 struct Linearisation {
   int outputs = 0;
-  int bristle_count = 0;         ///< bristles that act
-  int* bristles = nullptr;       ///< which ones, by their place among all
-  double* by_q = nullptr;        ///< outputs x free coordinates
-  double* by_v = nullptr;        ///< outputs x free coordinates
+  int pairs = 0;                 ///< pairs of bristles that act
+  int stride = 0;                ///< even, with room for one pair more than there are
+  int* bristles = nullptr;       ///< which ones, by their place among all: those of the first pair, then the others
   double* by_t = nullptr;        ///< outputs
-  double* by_bristle = nullptr;  ///< outputs x all bristles, of which the first bristle_count columns are set
+  double* by_q = nullptr;        ///< outputs x free coordinates, row after row
+  double* by_v = nullptr;        ///< the same
+  double* by_bristle = nullptr;  ///< outputs x 2 x stride: by the first bristle of each pair, then by the second
+  // Of the bristles' rates, pair by pair: first those of the first bristle of each pair, then of the second
+  double* rates_by_t = nullptr;    ///< 2 x stride
+  double* rates_by_q = nullptr;    ///< free coordinates x 2 x stride
+  double* rates_by_v = nullptr;    ///< the same
+  double* rates_by_own = nullptr;  ///< 2 x 2 x stride: of the first by the first, of the first by the second, of the second ...
 };
 
 /// The equations of motion, compiled for one instruction set: one call evaluates everything.

@@ -49,6 +49,7 @@ void MotionSystem::set_error_shares() {
     error_shares_.segment(first, joint.bristle_count()).setConstant(2.0 * joint.ring_count() / joint.bristle_count());
     first += joint.bristle_count();
   }
+  error_shares_ = (error_shares_ / error_shares_.sum()).cwiseSqrt().eval();
 }
 
 /// What only the matrix needs: of many bristles it takes much room.
@@ -124,10 +125,10 @@ EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Eli
   if (status != EvaluationStatus::kOk) return status;
   elimination_ = elimination;
   if (elimination == Elimination::kBodies) {
-    equations_->linearise_bodies(y.data(), drives_.data(), jacobian_.linearisation());
+    equations_->linearise_bodies(y.data(), drives_.data(), jacobian_.derivatives());
   } else {
     if (!have_matrices_) make_matrices();
-    equations_->linearise(y.data(), drives_.data(), jacobian_.linearisation());
+    equations_->linearise(y.data(), drives_.data(), jacobian_.derivatives());
   }
   jacobian_.calc_time_derivative(time_derivative_);
   return EvaluationStatus::kOk;
@@ -135,10 +136,9 @@ EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Eli
 
 Elimination MotionSystem::choose_elimination() const {
   // Measured with one joint, both take as long there; each joint that touches costs the bodies about as much.
-  constexpr Eigen::Index kManyCoordinates = 26, kManyBristles = 300;
+  constexpr Eigen::Index kManyCoordinates = 26;
   const auto joints = static_cast<Eigen::Index>(std::max<std::size_t>(1, clearance_joints_.size()));
-  const bool many = free_count() >= kManyCoordinates * joints || bristles_ >= kManyBristles * joints;
-  return many && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;
+  return free_count() >= kManyCoordinates * joints && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;
 }
 
 bool MotionSystem::factor(double shift) {
@@ -153,7 +153,7 @@ void MotionSystem::solve_in_place(Eigen::VectorXd& x) {
   if (elimination_ == Elimination::kBodies)
     equations_->solve_bodies(x.data());
   else
-    shifted_.solve_in_place(jacobian_, x.data());
+    shifted_.solve_in_place(jacobian_, {x.data()});
 }
 
 void MotionSystem::calc_energies(Evaluation& at) const {

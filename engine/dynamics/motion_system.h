@@ -54,15 +54,16 @@ class MotionSystem {
   [[nodiscard]] bool factor(std::complex<double> shift);
   /// x <- (shift 1 - J)^-1 x after factor() of such a shift.
   void solve_in_place(Eigen::VectorXd& x);
-  void solve_in_place(Eigen::VectorXcd& x) { complex_shifted_.solve_in_place(jacobian_, x.data()); }
+  /// The same of a complex x, by its parts.
+  void solve_in_place(Eigen::VectorXd& real, Eigen::VectorXd& imag) { complex_shifted_.solve_in_place(jacobian_, {real.data(), imag.data()}); }
 
   /// Kinetic and potential energy of an evaluation.
   void calc_energies(Evaluation& at) const;
 
   /// Entries of y that error control looks at: all but work and losses.
   [[nodiscard]] Eigen::Index controlled_size() const { return 2 * free_count() + bristles_; }
-  /// How much each of them counts in a mean over all: a bristle of a contact element less than one of a continuum. Elements that are more, or
-  /// stand ready for more contact, would else make room for larger errors of the coordinates.
+  /// Roots of how much each of them counts in a mean over all: a bristle of a contact element less than one of a continuum. Elements that are
+  /// more, or stand ready for more contact, would else make room for larger errors of the coordinates.
   [[nodiscard]] const Eigen::VectorXd& error_shares() const { return error_shares_; }
   [[nodiscard]] Eigen::Index free_count() const { return static_cast<Eigen::Index>(model_.free.size()); }
   [[nodiscard]] const std::vector<FrameIndex>& free_coordinates() const { return model_.free; }

@@ -11,10 +11,11 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A bristle that varies: by one in one lane.
-struct BristleVariation {
-  int bristle;
-  Lanes lanes;
+/// A load on a journal in one of the directions.
+struct LoadDirection {
+  std::size_t joint;   ///< of those with clearance
+  const double* load;  ///< force, and moment about the journal's centre, in {b}
+  Lanes lanes;         ///< one where it acts
 };
 
 /// How the solution of the equations of motion varies with the state, in eight directions at once, exact to rounding.
@@ -30,8 +31,8 @@ class VariedEquations {
   VariedEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles,
                   const EquationsOfMotion<Shapes>& solved)
       : qdd(static_cast<std::size_t>(model.coordinates)),
-        bristle_rates(bristles),
         drive_force(model.drives.size()),
+        journals(joints.size()),
         model_(model),
         joints_(joints),
         solved_(solved),
@@ -53,7 +54,7 @@ class VariedEquations {
   }
 
   /// Takes up the solution: what all directions share.
-  /// @param acting  the bristles that touch or are bent, in pairs and in their order: rates of the others are not set
+  /// @param acting  the bristles that touch or are bent, in pairs and in their order
   RPSUP_INLINE void hold(const double* bristles, const int* acting, int acting_count) {
     find_acting(acting, acting_count);
     hold_motion();
@@ -69,11 +70,11 @@ class VariedEquations {
 
   /// @param coordinates  one a coordinate; qdd of driven ones only
   /// @param time         lane in which time varies, the drives' coordinates with it
-  RPSUP_INLINE void differentiate(const CoordinateVariation<Lanes>* coordinates, const BristleVariation* bristles, int bristle_count,
-                                  const Lanes& time, const DrivenMotion* drives) {
+  RPSUP_INLINE void differentiate(const CoordinateVariation<Lanes>* coordinates, const LoadDirection* loads, int load_count, const Lanes& time,
+                                  const DrivenMotion* drives) {
     coordinates_ = coordinates;
-    bristles_ = bristles;
-    bristle_count_ = bristle_count;
+    loads_ = loads;
+    load_count_ = load_count;
     vary_frames();
     vary_loads();
     carry_forces();
@@ -93,8 +94,8 @@ class VariedEquations {
 
   // Out
   Buffer<Lanes> qdd;                        ///< of free coordinates
-  Buffer<Lanes> bristle_rates;              ///< of those that act
   Buffer<Lanes> drive_force;
+  Buffer<JournalVariation<Lanes>> journals; ///< of each joint with clearance
   LossPowers<Lanes> losses;
 
  private:
@@ -204,31 +205,29 @@ class VariedEquations {
   /// All in W as an observer sees it who turns with the bearing, until the journal's own is needed.
   RPSUP_INLINE void vary_contact(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut) {
     const ContactDerivative& contact = *contacts_[static_cast<std::size_t>(joint.clearance)];
-    const ActingBristles& acting = acting_[static_cast<std::size_t>(joint.clearance)];
-    Lanes* rates = bristle_rates.data() + acting.first;
+    JournalVariation<Lanes>& varies = journals[static_cast<std::size_t>(joint.clearance)];
     LoadVariation<Lanes> load;
     VariedJournal<Lanes> journal;
-    const bool still = is_still(joint.bearing_joint) && is_still(joint.journal_joint);
-    if (!still) {
-      journal = vary_journal(cut, see_at(joint.bearing_joint, cut.b.p), see_at(joint.journal_joint, cut.j.p));
-      const JournalVariation<Lanes> varies = see_from_bearing(cut.b.R, journal);
-      load = contact.apply(varies);
-      for (int i = 0; i < acting.count; ++i) rates[acting.own[i]] = contact.apply_to_bristle(acting.own[i], varies);
+    if (is_still(joint.bearing_joint) && is_still(joint.journal_joint)) {
+      varies = {};
     } else {
-      for (int i = 0; i < acting.count; ++i) rates[acting.own[i]] = {};
+      journal = vary_journal(cut, see_at(joint.bearing_joint, cut.b.p), see_at(joint.journal_joint, cut.j.p));
+      varies = see_from_bearing(cut.b.R, journal);
+      load = contact.apply(varies);
     }
-    for (int i = 0; i < bristle_count_; ++i) {
-      const int own = bristles_[i].bristle - acting.first;
-      if (own < 0 || own >= joints_[static_cast<std::size_t>(joint.clearance)].bristle_count()) continue;
-      contact.add_bristle(own, bristles_[i].lanes, load);
-      for (const int other : {own & ~1, own | 1}) rates[other] += contact.rate_by_bristle(other, own) * bristles_[i].lanes;
-    }
+    for (int i = 0; i < load_count_; ++i)
+      if (loads_[i].joint == static_cast<std::size_t>(joint.clearance)) add_load(loads_[i], load);
     losses.impact += load.impact_power;
     losses.friction += load.friction_power;
     const VariedNeed<Lanes> need =
         vary_need(cut, journal.turn, journal.offset, load, arm_of(joint.bearing_joint, cut.j.p), arm_of(joint.journal_joint, cut.j.p));
     if (joint.bearing_joint >= 0) forces_[static_cast<std::size_t>(joint.bearing_joint)] += need.of_bearing;
     if (joint.journal_joint >= 0) forces_[static_cast<std::size_t>(joint.journal_joint)] += need.of_journal;
+  }
+
+  RPSUP_INLINE static void add_load(const LoadDirection& of, LoadVariation<Lanes>& load) {
+    load.force += Vec3<Lanes>{of.load[0] * of.lanes, of.load[1] * of.lanes, of.load[2] * of.lanes};
+    load.moment += Vec3<Lanes>{of.load[3] * of.lanes, of.load[4] * of.lanes, of.load[5] * of.lanes};
   }
 
   /// From the origin of a joint's body to p.
@@ -378,8 +377,8 @@ class VariedEquations {
   Buffer<int> own_bristles_;                ///< theirs
   // Of the directions at hand
   const CoordinateVariation<Lanes>* coordinates_ = nullptr;
-  const BristleVariation* bristles_ = nullptr;
-  int bristle_count_ = 0;
+  const LoadDirection* loads_ = nullptr;
+  int load_count_ = 0;
   const VariedFrame<Lanes> at_rest_{};
   Buffer<VariedFrame<Lanes>> frames_;
   Buffer<Vec3<Lanes>> own_turns_;           ///< of each joint against its parent

@@ -13,8 +13,8 @@ namespace engine {
 [[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted);
 
 /// The tolerance that Integrator::kAuto takes for the one that is wanted, for the steps' errors and the energy account, so that its peaks are
-/// nearly as right in one mechanism as in another. It is smaller where contacts change inside of steps all the time: those of elements, each of which begins and
-/// ends for itself, those in worn bores, and those with friction of other than slow bristles.
+/// nearly as right in one mechanism as in another. It is smaller where contacts change inside of steps all the time: those of elements, each of
+/// which begins and ends for itself, those in worn bores, and those with friction of other than slow bristles.
 [[nodiscard]] double choose_tolerance(const Mechanism& mechanism, double wanted);
 
 }  // namespace engine

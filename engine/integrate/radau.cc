@@ -19,8 +19,7 @@ constexpr double kClose = 3e-4;      // what may be left of the iteration: more 
 constexpr double kNoStep = 40.0;     // error of a step whose iteration does not converge: the next try takes about two fifths of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
-template <typename Vector>
-void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of, Vector&& to) {
+void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of, Eigen::VectorXd& to) {
   to = factors[0] * of[0] + factors[1] * of[1] + factors[2] * of[2];
 }
 
@@ -71,8 +70,7 @@ void Radau5::make_room(const MotionSystem& system, const Eigen::VectorXd& y) {
     Z_[i].resize(size);
     f_[i].resize(size);
   }
-  for (Eigen::VectorXd* each : {&W_, &change_, &stage_}) each->resize(size);
-  for (Eigen::VectorXcd* each : {&W_complex_, &complex_change_}) each->resize(size);
+  for (Eigen::VectorXd* each : {&W_, &W_real_, &W_imag_, &change_, &change_real_, &change_imag_, &stage_}) each->resize(size);
 }
 
 /// From the polynomial of the step before, gone on; from the accelerations at the start if there is none.
@@ -86,8 +84,8 @@ void Radau5::guess_stages(const StepEnd& start, Eigen::Index free, double dt) {
       Z_[i].head(free) += 0.5 * until * until * start.f.segment(free, free);
     }
   combine(K::T_inverse[0], Z_, W_);
-  combine(K::T_inverse[1], Z_, W_complex_.real());
-  combine(K::T_inverse[2], Z_, W_complex_.imag());
+  combine(K::T_inverse[1], Z_, W_real_);
+  combine(K::T_inverse[2], Z_, W_imag_);
 }
 
 /// @param ratio  of the step to the one before
@@ -147,21 +145,50 @@ Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, doubl
 
 /// One iteration. @returns its change, in units of the tolerance
 double Radau5::correct_stages(MotionSystem& system, double dt) {
-  combine(K::T_inverse[0], f_, change_);
-  combine(K::T_inverse[1], f_, complex_change_.real());
-  combine(K::T_inverse[2], f_, complex_change_.imag());
-  change_ -= K::shift / dt * W_;
-  complex_change_ -= K::complex_shift / dt * W_complex_;
+  find_defects(dt);
   system.solve_in_place(change_);
-  system.solve_in_place(complex_change_);
-  W_ += change_;
-  W_complex_ += complex_change_;
-  for (std::size_t i = 0; i < K::kStages; ++i)
-    Z_[i] = K::T[i][0] * W_ + K::T[i][1] * W_complex_.real() + K::T[i][2] * W_complex_.imag();
+  system.solve_in_place(change_real_, change_imag_);
+  add_changes();
   const Eigen::Index controlled = weights_.size();  // 0: the drives decide the motion, and work and losses are integrals over it
-  const double squares = change_.head(controlled).cwiseProduct(weights_).squaredNorm() +
-                         complex_change_.head(controlled).cwiseAbs2().dot(weights_.cwiseAbs2());
+  double squares = 0.0;
+  for (const Eigen::VectorXd* each : {&change_, &change_real_, &change_imag_})
+    squares += each->head(controlled).cwiseProduct(weights_).squaredNorm();
   return std::sqrt(squares / static_cast<double>(K::kStages));
+}
+
+/// By how much the stages do not follow their derivatives: T^-1 f - shift / dt W, all in one pass.
+void Radau5::find_defects(double dt) {
+  const double shift = K::shift / dt, shift_real = K::complex_shift.real() / dt, shift_imag = K::complex_shift.imag() / dt;
+  const auto& T = K::T_inverse;
+  const double *f0 = f_[0].data(), *f1 = f_[1].data(), *f2 = f_[2].data();
+  const double *W = W_.data(), *W_real = W_real_.data(), *W_imag = W_imag_.data();
+  double *own = change_.data(), *real = change_real_.data(), *imag = change_imag_.data();
+  const Eigen::Index size = change_.size();
+#pragma GCC ivdep
+  for (Eigen::Index k = 0; k < size; ++k) {
+    own[k] = T[0][0] * f0[k] + T[0][1] * f1[k] + T[0][2] * f2[k] - shift * W[k];
+    real[k] = T[1][0] * f0[k] + T[1][1] * f1[k] + T[1][2] * f2[k] - (shift_real * W_real[k] - shift_imag * W_imag[k]);
+    imag[k] = T[2][0] * f0[k] + T[2][1] * f1[k] + T[2][2] * f2[k] - (shift_real * W_imag[k] + shift_imag * W_real[k]);
+  }
+}
+
+/// W <- W + change, Z = T W, all in one pass.
+void Radau5::add_changes() {
+  const auto& T = K::T;
+  const double *own = change_.data(), *real = change_real_.data(), *imag = change_imag_.data();
+  double *W = W_.data(), *W_real = W_real_.data(), *W_imag = W_imag_.data();
+  double *Z0 = Z_[0].data(), *Z1 = Z_[1].data(), *Z2 = Z_[2].data();
+  const Eigen::Index size = change_.size();
+#pragma GCC ivdep
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const double a = W[k] + own[k], b = W_real[k] + real[k], c = W_imag[k] + imag[k];
+    W[k] = a;
+    W_real[k] = b;
+    W_imag[k] = c;
+    Z0[k] = T[0][0] * a + T[0][1] * b + T[0][2] * c;
+    Z1[k] = T[1][0] * a + T[1][1] * b + T[1][2] * c;
+    Z2[k] = T[2][0] * a + T[2][1] * b + T[2][2] * c;
+  }
 }
 
 double Radau5::estimate_error(MotionSystem& system, const StepEnd& start, double dt) {

@@ -36,6 +36,8 @@ class Radau5 {
   [[nodiscard]] Newton solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
   [[nodiscard]] Newton iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
   [[nodiscard]] double correct_stages(MotionSystem& system, double dt);
+  void find_defects(double dt);
+  void add_changes();
   [[nodiscard]] double estimate_error(MotionSystem& system, const StepEnd& start, double dt);
 
   const Tolerance& tolerance_;
@@ -44,9 +46,9 @@ class Radau5 {
   Stages Z_;                   ///< the stages' differences from the start
   Stages f_;                   ///< derivatives there
   Eigen::VectorXd W_;          ///< Z in the variables in which J couples no stages: the real one ...
-  Eigen::VectorXcd W_complex_; ///< ... and the pair
-  Eigen::VectorXd change_, stage_;
-  Eigen::VectorXcd complex_change_;
+  Eigen::VectorXd W_real_, W_imag_;  ///< ... and one of the conjugate two
+  Eigen::VectorXd change_, change_real_, change_imag_;
+  Eigen::VectorXd stage_;
 
   Stages last_Z_;              ///< of the step that ends at the start of this one
   double last_dt_ = 0.0;       ///< 0: none

@@ -43,11 +43,10 @@ void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameInd
 }
 
 double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, const Eigen::VectorXd& shares) const {
-  if (shares.size() == 0) return 0.0;
   double sum = 0.0;
   const auto add = [&](Eigen::Index i, double radius) {
-    const double ratio = radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
-    sum += shares[i] * ratio * ratio;
+    const double part = shares[i] * radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
+    sum += part * part;
   };
   const Eigen::Index n = radii_.size();
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -55,16 +54,16 @@ double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y
     add(n + i, radii_[i]);
   }
   for (Eigen::Index i = 2 * n; i < shares.size(); ++i) add(i, 1.0);
-  return std::sqrt(sum / shares.sum());
+  return std::sqrt(sum);
 }
 
 void Tolerance::calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& shares, Eigen::VectorXd& weights) const {
   const Eigen::Index n = radii_.size();
-  const double all = shares.sum();
-  for (Eigen::Index i = 0; i < shares.size(); ++i) {
-    const double radius = i < n ? radii_[i] : i < 2 * n ? radii_[i - n] : 1.0;
-    weights[i] = std::sqrt(shares[i] / all) * radius / (absolute_ + relative_ * radius * std::abs(y[i]));
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    const double radius = radii_[i % n];
+    weights[i] = shares[i] * radius / (absolute_ + relative_ * radius * std::abs(y[i]));
   }
+  for (Eigen::Index i = 2 * n; i < shares.size(); ++i) weights[i] = shares[i] / (absolute_ + relative_ * std::abs(y[i]));
 }
 
 }  // namespace engine

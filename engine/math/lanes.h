@@ -192,6 +192,13 @@ template <int count>
 using Lanes = LaneBlock<8>;
 using LanePair = LaneBlock<2>;
 
+/// A number of a row of lanes, which are numbers side by side.
+[[nodiscard]] RPSUP_INLINE double read_number(const Lanes* row, int i) {
+  double value;
+  __builtin_memcpy(&value, reinterpret_cast<const char*>(row) + sizeof(double) * static_cast<unsigned>(i), sizeof value);
+  return value;
+}
+
 [[nodiscard]] RPSUP_INLINE LanePair join(double a, double b) {
   LanePair pair;
   pair.part[0] = LanePair::Part{a, b};

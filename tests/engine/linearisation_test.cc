@@ -131,7 +131,7 @@ class Moving {
       f.setZero(y.size());
     }
     for (Eigen::Index b = 2 * system_.free_count(); b < system_.controlled_size(); ++b)
-      if (f[b] != 0.0) y[b] = 1e-4 * static_cast<double>(1 + b % 3);  // only what touches has a bristle
+      if (f[b] != 0.0) y[b] = std::copysign(1e-4 * static_cast<double>(1 + b % 3), f[b]);  // only what touches has one; bent by its sliding
     evaluate(kTime, y, f);
   }
 
@@ -185,6 +185,30 @@ TEST_P(Linearisation, IsTheDerivativeInEveryDirection) {
       x[j] -= 1.0;
       EXPECT_LT(x.cwiseAbs().maxCoeff(), 2e-6 * std::max(1.0, scale)) << "column " << j;
     }
+  }
+}
+
+/// The same of a complex shift: (shift 1 - J) (x + i y) with x = 1 in one place and y = 1 in the next one.
+TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
+  Moving moving(GetParam(), {});
+  MotionSystem& system = moving.system_;
+  const auto column = [&](Eigen::Index j) {
+    return moving.differ(j, j < system.free_count() ? GetParam().step : j < 2 * system.free_count() ? 1e-5 : 1e-7);
+  };
+  constexpr std::complex<double> kShift(2e4, 3e4);
+  for (Eigen::Index j = 0; j + 1 < moving.y.size(); ++j) {
+    Eigen::VectorXd real = -column(j), imag = -column(j + 1);
+    real[j] += kShift.real();
+    real[j + 1] -= kShift.imag();
+    imag[j] += kShift.imag();
+    imag[j + 1] += kShift.real();
+    const double scale = std::max(real.cwiseAbs().maxCoeff(), imag.cwiseAbs().maxCoeff()) / std::abs(kShift);
+    ASSERT_EQ(system.linearise(Moving::kTime, moving.y), EvaluationStatus::kOk);
+    ASSERT_TRUE(system.factor(kShift));
+    system.solve_in_place(real, imag);
+    real[j] -= 1.0;
+    imag[j + 1] -= 1.0;
+    EXPECT_LT(real.cwiseAbs().maxCoeff() + imag.cwiseAbs().maxCoeff(), 4e-6 * std::max(1.0, scale)) << "column " << j;
   }
 }
 

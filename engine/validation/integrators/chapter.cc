@@ -20,9 +20,10 @@ and 4). The default is `radau5` without clearance and between rigid links with f
 Cost is counted in evaluations of the equations of motion: the same on every machine. Run time is proportional to it; what `radau5` solves
 beside them costs about half as much again, and the Jacobian that `rodas5` and `rodas4` make at each step about as much again. The default
 tolerance is chosen so that all cases that converge have their peaks within a thousandth. With contact elements, in worn bores and
-with friction of other than slow bristles that takes a smaller one, with which nearly all are: there the default divides the tolerances that are asked for by 7.5, and by 30 with Coulomb's and Ambrosio's
-friction, which have no bristles. (With these two, peaks at 10 rad/s still change by percents where tolerances go from 1e-7 to 1e-8; with Dahl's, or
-with none, they do so at 5 rad/s.) `radau5` damps vibrations of which a step holds several periods.
+with friction of other than slow bristles that takes a smaller one, with which nearly all are: there the default divides the tolerances
+that are asked for by 7.5 (by 3.75 where it is `radau5`), and by 30 with Coulomb's and Ambrosio's friction, which have no bristles.
+(With these two, peaks at 10 rad/s still change by percents where tolerances go from 1e-7 to 1e-8; with Dahl's, or with none, they do so
+at 5 rad/s.) `radau5` damps vibrations of which a step holds several periods.
 Where friction feeds these (stiff bristles, a force that jumps with the velocity), or elastic links carry them, its peaks
 differ: there the default is `rodas5`.
 `dopri5` at 1e-6, with 1e-7 absolute, is at the loosest of the decades at which both cases of the last table are
