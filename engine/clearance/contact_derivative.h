@@ -79,7 +79,7 @@ class ContactDerivative {
 
   /// Of a bristle's rate, by one of the two that its touch reads.
   [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
-    return by / 2 == bristle / 2 ? rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2] : 0.0;
+    return rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2];
   }
 
   /// Whether the load varies at all.

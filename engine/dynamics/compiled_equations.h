@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <memory>
 
 #include "engine/dynamics/bristle_derivatives.h"

@@ -20,7 +20,6 @@ class DirectionPlan {
       : model_(model),
         n_(static_cast<std::size_t>(model.coordinates)),
         column_of_q_(model.free.size()),
-        loads_(most_loads),
         coordinates_((model.free.size() + 2) * n_) {
     int column = 1;
     int free = 0;
@@ -41,15 +40,12 @@ class DirectionPlan {
   }
 
   /// Sets the drives' variation in time and the loads.
-  /// @param loads  each of its own direction: their lanes are set here
-  void start(const DrivenMotion* drives, const LoadDirection* loads, int count) {
+  /// @param loads  each of its own direction: their lanes are set here, where they stay
+  void start(const DrivenMotion* drives, LoadDirection* loads, int count) {
+    loads_ = loads;
     load_count_ = count;
     groups_ = group_of(first_load_column_ + count - 1) + 1;
-    for (int i = 0; i < count; ++i) {
-      LoadDirection& load = loads_[static_cast<std::size_t>(i)];
-      load = loads[i];
-      load.lanes = Lanes::unit((first_load_column_ + i) % Lanes::kCount);
-    }
+    for (int i = 0; i < count; ++i) loads[i].lanes = Lanes::unit((first_load_column_ + i) % Lanes::kCount);
     if (model_.drive_rows) return;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       CoordinateVariation<Lanes>& driven = variation(0, model_.drives[k]);
@@ -68,7 +64,7 @@ class DirectionPlan {
   /// Loads of a group.
   [[nodiscard]] int first_load(int group) const { return clamp(group * Lanes::kCount - first_load_column_); }
   [[nodiscard]] int end_load(int group) const { return clamp((group + 1) * Lanes::kCount - first_load_column_); }
-  [[nodiscard]] const LoadDirection* loads() const { return loads_.data(); }
+  [[nodiscard]] const LoadDirection* loads() const { return loads_; }
 
   // Columns: one a direction, eight a group
   static constexpr int kTime = 0;
@@ -113,7 +109,7 @@ class DirectionPlan {
   Buffer<int> column_of_q_;                  ///< of each free coordinate; its rate follows
   int first_load_column_ = 0, moving_groups_ = 0;
   int load_count_ = 0, groups_ = 0;
-  Buffer<LoadDirection> loads_;
+  const LoadDirection* loads_ = nullptr;
   Buffer<CoordinateVariation<Lanes>> coordinates_;  ///< group after group, one a coordinate; those left over stand still
   std::unique_ptr<Buffer<Lanes>> outputs_;   ///< row after row, one a group
 };

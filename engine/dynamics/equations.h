@@ -41,6 +41,9 @@ struct Linearisation {
   double* rates_by_own = nullptr;  ///< 2 x 2 x stride: of the first by the first, of the first by the second, of the second ...
 };
 
+/// Linearisation::stride for so many bristles.
+[[nodiscard]] constexpr int calc_pair_stride(int bristles) { return 2 * (bristles / 4 + 1); }
+
 /// The equations of motion, compiled for one instruction set: one call evaluates everything.
 class Equations {
  public:

@@ -29,7 +29,7 @@ void MotionSystem::make_room() {
   equations_ = make_equations(instruction_set_, model_, clearance_joints_);
   drives_time_ = std::numeric_limits<double>::quiet_NaN();
   solved_ = false;
-  set_error_shares();
+  set_error_weights();
   const Eigen::Index size = controlled_size() + static_cast<Eigen::Index>(drives_.size()) + 3;
   solved_y_.resize(size);
   dydt_.resize(size);
@@ -41,18 +41,18 @@ void MotionSystem::make_room() {
   elimination_ = Elimination::kMatrix;
 }
 
-/// All bristles of a ring together count as much as the two that a continuum has there.
-void MotionSystem::set_error_shares() {
-  error_shares_.setOnes(controlled_size());
+/// All bristles of a ring together count as much as the two that a continuum has there: at first by shares, of which the roots are taken.
+void MotionSystem::set_error_weights() {
+  error_weights_.setOnes(controlled_size());
   Eigen::Index first = 2 * free_count();
   for (const ClearanceJoint& joint : clearance_joints_) {
-    error_shares_.segment(first, joint.bristle_count()).setConstant(2.0 * joint.ring_count() / joint.bristle_count());
+    error_weights_.segment(first, joint.bristle_count()).setConstant(2.0 * joint.ring_count() / joint.bristle_count());
     first += joint.bristle_count();
   }
-  error_shares_ = (error_shares_ / error_shares_.sum()).cwiseSqrt().eval();
+  error_weights_ = (error_weights_ / error_weights_.sum()).cwiseSqrt().eval();
 }
 
-/// What only the matrix needs: of many bristles it takes much room.
+/// What only the matrix needs: of many coordinates it takes much room.
 void MotionSystem::make_matrices() {
   const auto free = static_cast<int>(free_count());
   const auto bristles = static_cast<int>(bristles_);
@@ -135,7 +135,7 @@ EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Eli
 }
 
 Elimination MotionSystem::choose_elimination() const {
-  // Measured with one joint, both take as long there; each joint that touches costs the bodies about as much.
+  // Measured with one joint and the continuum, both take as long there; each joint that touches costs the bodies about as much.
   constexpr Eigen::Index kManyCoordinates = 26;
   const auto joints = static_cast<Eigen::Index>(std::max<std::size_t>(1, clearance_joints_.size()));
   return free_count() >= kManyCoordinates * joints && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;

@@ -62,9 +62,9 @@ class MotionSystem {
 
   /// Entries of y that error control looks at: all but work and losses.
   [[nodiscard]] Eigen::Index controlled_size() const { return 2 * free_count() + bristles_; }
-  /// Roots of how much each of them counts in a mean over all: a bristle of a contact element less than one of a continuum. Elements that are
-  /// more, or stand ready for more contact, would else make room for larger errors of the coordinates.
-  [[nodiscard]] const Eigen::VectorXd& error_shares() const { return error_shares_; }
+  /// What their errors are multiplied by for a root mean square over all; their squares sum to 1. A bristle of a contact element counts less than
+  /// one of a continuum: elements that are more, or stand ready for more contact, would else make room for larger errors of the coordinates.
+  [[nodiscard]] const Eigen::VectorXd& error_weights() const { return error_weights_; }
   [[nodiscard]] Eigen::Index free_count() const { return static_cast<Eigen::Index>(model_.free.size()); }
   [[nodiscard]] const std::vector<FrameIndex>& free_coordinates() const { return model_.free; }
 
@@ -82,7 +82,7 @@ class MotionSystem {
   /// Computes dy/dt and keeps the equations' solution.
   [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
   void make_room();
-  void set_error_shares();
+  void set_error_weights();
   void make_matrices();
 
   const Mechanism& mechanism_;
@@ -91,7 +91,7 @@ class MotionSystem {
   std::vector<ClearanceJoint> clearance_joints_;
   std::vector<std::size_t> clearance_joint_of_;  ///< index into cut_joints
   Eigen::Index bristles_ = 0;
-  Eigen::VectorXd error_shares_;
+  Eigen::VectorXd error_weights_;
 
   double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
   std::vector<DrivenMotion> drives_;

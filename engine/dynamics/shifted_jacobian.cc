@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/math/instruction_set.h"
+
 namespace engine {
 
 namespace {
@@ -30,12 +32,12 @@ RPSUP_INLINE Pair add_products(Pair sum, const double* a, const double* b, int n
   if (j < n) sum += Pair{a[j], 0.0} * Pair{b[j], 0.0};
   return sum;
 }
+
 /// Two complex numbers side by side.
 struct ComplexPair {
   Pair real, imag;
 };
 RPSUP_INLINE ComplexPair operator+(ComplexPair a, ComplexPair b) { return {a.real + b.real, a.imag + b.imag}; }
-RPSUP_INLINE ComplexPair operator-(ComplexPair a, ComplexPair b) { return {a.real - b.real, a.imag - b.imag}; }
 RPSUP_INLINE ComplexPair operator+(Pair a, ComplexPair b) { return {a + b.real, b.imag}; }
 RPSUP_INLINE ComplexPair operator-(ComplexPair a, Pair b) { return {a.real - b, a.imag}; }
 RPSUP_INLINE ComplexPair operator-(Complex a, Pair b) { return {a.real() - b, a.imag() - Pair{}}; }
@@ -134,18 +136,17 @@ NumbersAt<Scalar> ShiftedJacobian<Scalar>::Rows::row(int i) {
 template <typename Scalar>
 ShiftedJacobian<Scalar>::ShiftedJacobian(int free_coordinates, int bristles, int drives) : free_(free_coordinates), bristles_(bristles) {
   const int outputs = free_ + drives + 3;
-  const int pairs = 2 * (bristles / 4 + 1);
+  const int stride = calc_pair_stride(bristles);
   K_.resize(area(outputs, free_));
-  bristle_inverse_.resize(4, pairs);
-  response_.resize(2 * free_, pairs);
+  bristle_inverse_.resize(4, stride);
+  response_.resize(2 * free_, stride);
   lu_.resize(area(whole_pairs(free_), whole_pairs(free_)));
   inverse_pivot_.resize(area(free_, 1));
   order_.resize(area(free_, 1));
   scaled_q_.resize(area(whole_pairs(free_), 1));
   solution_.resize(area(whole_pairs(free_), 1));
   known_.resize(area(free_, 1));
-  known_bristle_.resize(2, pairs);
-  bristle_.resize(2, pairs);
+  bristle_.resize(2, stride);
 }
 
 template <typename Scalar>
@@ -211,7 +212,8 @@ void ShiftedJacobian<Scalar>::reduce(const Linearisation& J, Scalar shift) {
   Scalar* lu = lu_.data();
   for_each<N>(n, [&](int j) RPSUP_INLINE_LAMBDA {
     find_response(J, j);
-    for (int i = 0; i < n; ++i) lu[j * stride + i] = -add_up(add_effects(begin_sum(K[i * n + j]), J, i, response_.row(2 * j), response_.row(2 * j + 1)));
+    const NumbersAt<Scalar> firsts = response_.row(2 * j), seconds = response_.row(2 * j + 1);
+    for (int i = 0; i < n; ++i) lu[j * stride + i] = -add_up(add_effects(begin_sum(K[i * n + j]), J, i, firsts, seconds));
     lu[j * stride + j] += shift;
   });
 }

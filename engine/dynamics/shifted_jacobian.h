@@ -8,7 +8,7 @@
 
 namespace engine {
 
-/// A vector of numbers: complex ones as two, so that several stand side by side.
+/// Where a vector of numbers stands: complex ones as two, so that several of them stand side by side.
 template <typename Scalar>
 struct NumbersAt;
 template <>
@@ -53,7 +53,7 @@ class ShiftedJacobian {
   void solve_in_place(const StateJacobian& J, NumbersAt<Scalar> x);
 
  private:
-  /// Rows of numbers, one a column.
+  /// Rows of numbers; of complex ones all real parts, then all imaginary ones.
   class Rows {
    public:
     void resize(int rows, int columns);
@@ -91,7 +91,7 @@ class ShiftedJacobian {
   std::vector<Scalar> inverse_pivot_;
   std::vector<int> order_;                        ///< of the rows, as pivoting has exchanged them
   std::vector<Scalar> scaled_q_, solution_, known_;  ///< parts of a solution
-  Rows known_bristle_, bristle_;                  ///< of first bristles, of second ones
+  Rows bristle_;                                  ///< first bristles, second ones
 };
 
 }  // namespace engine

@@ -16,20 +16,20 @@ void make_room(std::vector<double>& room, int rows, int columns, double*& at) {
 StateJacobian::StateJacobian(int free_coordinates, int bristles, int drives)
     : free_(free_coordinates), bristles_(bristles), acting_(static_cast<std::size_t>(bristles)) {
   derivatives_.outputs = free_ + drives + 3;
-  derivatives_.stride = 2 * (bristles_ / 4 + 1);
+  derivatives_.stride = calc_pair_stride(bristles_);
   derivatives_.bristles = acting_.data();
   make_room(by_t_, derivatives_.outputs, 1, derivatives_.by_t);
   make_room(rates_by_t_, 2, derivatives_.stride, derivatives_.rates_by_t);
 }
 
 void StateJacobian::make_matrices() {
-  const int pairs = derivatives_.stride;
+  const int stride = derivatives_.stride;
   make_room(by_q_, derivatives_.outputs, free_, derivatives_.by_q);
   make_room(by_v_, derivatives_.outputs, free_, derivatives_.by_v);
-  make_room(by_bristle_, derivatives_.outputs, 2 * pairs, derivatives_.by_bristle);
-  make_room(rates_by_q_, free_, 2 * pairs, derivatives_.rates_by_q);
-  make_room(rates_by_v_, free_, 2 * pairs, derivatives_.rates_by_v);
-  make_room(rates_by_own_, 4, pairs, derivatives_.rates_by_own);
+  make_room(by_bristle_, derivatives_.outputs, 2 * stride, derivatives_.by_bristle);
+  make_room(rates_by_q_, free_, 2 * stride, derivatives_.rates_by_q);
+  make_room(rates_by_v_, free_, 2 * stride, derivatives_.rates_by_v);
+  make_room(rates_by_own_, 4, stride, derivatives_.rates_by_own);
 }
 
 void StateJacobian::calc_time_derivative(Eigen::VectorXd& by_t) const {

@@ -7,7 +7,7 @@ namespace engine {
 
 namespace {
 
-/// Against dopri5 at 1e-6, radau5 has peaks within 0.02 % from 10 to 1000 1/m, and misses one at 3000 1/m.
+/// Against dopri5 at 1e-6, radau5 has peaks of the continuum within 0.02 % from 10 to 1000 1/m, and misses one at 3000 1/m.
 constexpr double kSlowBristles = 300.0;  // stiffness, [1/m]
 
 // What tolerances are divided by. With 1.5e-5 undivided, rodas5 misses a third of the peaks that converge by 0.1 % to several percent, radau5 with

@@ -7,9 +7,9 @@ namespace engine {
 
 /// What Integrator::kAuto stands for in a mechanism; any other stays what it is.
 ///
-/// radau5 where its long steps miss nothing: without clearance, and between rigid links with the friction of slow bristles. It damps
-/// vibrations of which a step holds several periods. Bristles that follow them, or friction that jumps with the velocity, may feed them
-/// instead, and elastic links carry them on: there it is rodas5, whose steps are shorter.
+/// radau5 where its long steps miss nothing: without clearance, and between rigid links in bores that are not worn, with the friction of slow
+/// bristles. It damps vibrations of which a step holds several periods. Bristles that follow them, or friction that jumps with the velocity, may
+/// feed them instead, and elastic links carry them on: there it is rodas5, whose steps are shorter.
 [[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted);
 
 /// The tolerance that Integrator::kAuto takes for the one that is wanted, for the steps' errors and the energy account, so that its peaks are

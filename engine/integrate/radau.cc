@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "engine/integrate/radau_coefficients.h"
 
@@ -28,7 +29,7 @@ void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages
 Trial Radau5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
   make_room(system, start.y);
-  tolerance_.calc_weights(start.y, system.error_shares(), weights_);
+  tolerance_.calc_weights(start.y, system.error_weights(), weights_);
   tried_dt_ = 0.0;
   Newton newton = solve_stages(system, start, dt, trial);
   if (newton == Newton::kTooSlow && !fresh_) {
@@ -196,7 +197,7 @@ double Radau5::estimate_error(MotionSystem& system, const StepEnd& start, double
   change_ += start.f;
   system.solve_in_place(change_);
   stage_ = start.y + Z_[2];
-  return tolerance_.measure(change_, start.y, stage_, system.error_shares());
+  return tolerance_.measure(change_, start.y, stage_, system.error_weights());
 }
 
 }  // namespace engine

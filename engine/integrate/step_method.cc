@@ -78,7 +78,7 @@ Trial Dopri5::try_step(MotionSystem& system, const StepEnd& start, double dt, St
   end.t = start.t + dt;
   local_error_.resize(start.y.size());
   stepper_.do_step(std::ref(rhs), start.y, start.f, start.t, end.y, end.f, dt, local_error_);
-  if (trial.status == EvaluationStatus::kOk) trial.error = tolerance_.measure(local_error_, start.y, end.y, system.error_shares());
+  if (trial.status == EvaluationStatus::kOk) trial.error = tolerance_.measure(local_error_, start.y, end.y, system.error_weights());
   return trial;
 }
 
@@ -90,7 +90,7 @@ Trial Rodas<Stepper>::try_step(MotionSystem& system, const StepEnd& start, doubl
   end.f.resize(start.y.size());
   stepper_.do_step(std::ref(rhs), start.y, start.f, start.t, end.y, dt, local_error_);
   if (trial.status != EvaluationStatus::kOk) return trial;
-  trial.error = tolerance_.measure(local_error_, start.y, end.y, system.error_shares());
+  trial.error = tolerance_.measure(local_error_, start.y, end.y, system.error_weights());
   if (trial.error <= 1.0) evaluate_end(system, end, trial);
   return trial;
 }

@@ -42,10 +42,11 @@ void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameInd
       radii_[static_cast<Eigen::Index>(k)] = calc_radius(mechanism, free[k], frames);
 }
 
-double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1, const Eigen::VectorXd& shares) const {
+double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1,
+                          const Eigen::VectorXd& error_weights) const {
   double sum = 0.0;
   const auto add = [&](Eigen::Index i, double radius) {
-    const double part = shares[i] * radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
+    const double part = error_weights[i] * radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
     sum += part * part;
   };
   const Eigen::Index n = radii_.size();
@@ -53,17 +54,17 @@ double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y
     add(i, radii_[i]);
     add(n + i, radii_[i]);
   }
-  for (Eigen::Index i = 2 * n; i < shares.size(); ++i) add(i, 1.0);
+  for (Eigen::Index i = 2 * n; i < error_weights.size(); ++i) add(i, 1.0);
   return std::sqrt(sum);
 }
 
-void Tolerance::calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& shares, Eigen::VectorXd& weights) const {
+void Tolerance::calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& error_weights, Eigen::VectorXd& weights) const {
   const Eigen::Index n = radii_.size();
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const double radius = radii_[i % n];
-    weights[i] = shares[i] * radius / (absolute_ + relative_ * radius * std::abs(y[i]));
+    weights[i] = error_weights[i] * radius / (absolute_ + relative_ * radius * std::abs(y[i]));
   }
-  for (Eigen::Index i = 2 * n; i < shares.size(); ++i) weights[i] = shares[i] / (absolute_ + relative_ * std::abs(y[i]));
+  for (Eigen::Index i = 2 * n; i < error_weights.size(); ++i) weights[i] = error_weights[i] / (absolute_ + relative_ * std::abs(y[i]));
 }
 
 }  // namespace engine

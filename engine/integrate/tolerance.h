@@ -20,12 +20,12 @@ class Tolerance {
   void set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free, const std::vector<FrameMotion>& frames);
 
   /// Root mean square over the first entries of an error of the state, each in units of its tolerance; of none 0.
-  /// @param shares  of these entries in the mean, see MotionSystem::error_shares()
+  /// @param error_weights  of these entries, whose squares sum to 1: see MotionSystem::error_weights()
   [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1,
-                               const Eigen::VectorXd& shares) const;
+                               const Eigen::VectorXd& error_weights) const;
 
   /// What each of these entries is to be multiplied by, so that the root of the sum of squares is what measure() would give at y.
-  void calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& shares, Eigen::VectorXd& weights) const;
+  void calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& error_weights, Eigen::VectorXd& weights) const;
 
  private:
   double relative_, absolute_;

@@ -192,6 +192,15 @@ template <int count>
 using Lanes = LaneBlock<8>;
 using LanePair = LaneBlock<2>;
 
+/// Stores the first half of the lanes, and the second one elsewhere.
+template <int count>
+RPSUP_INLINE void store_halves(const LaneBlock<count>& a, double* first, double* second) {
+  double numbers[count];
+  a.store(numbers);
+  LaneBlock<count / 2>::load(numbers).store(first);
+  LaneBlock<count / 2>::load(numbers + count / 2).store(second);
+}
+
 /// A number of a row of lanes, which are numbers side by side.
 [[nodiscard]] RPSUP_INLINE double read_number(const Lanes* row, int i) {
   double value;

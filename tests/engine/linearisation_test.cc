@@ -93,6 +93,14 @@ std::vector<Case> all_cases() {
   };
   const Linkage loose = make_loose_loops(*build_rpsup(rigid).mechanism.cut_joints[0].clearance);
   const Linkage loose_elements = make_loose_loops(*build_rpsup(elements).mechanism.cut_joints[0].clearance);
+  constexpr double kPressing = -1.0;  // journals that come nearer: the normal force of those that leave so fast is none
+  const auto with_rings = [&](const std::vector<int>& rings) {  // each with a bristle pair: pairs are solved two by two, across joints
+    Mechanism mechanism = build_linkage(loose).mechanism;
+    std::size_t next = 0;
+    for (CutJoint& joint : mechanism.cut_joints)
+      if (joint.clearance) joint.clearance->n_r = rings.at(next++);
+    return mechanism;
+  };
   return {of_rpsup("rigid", rigid, kPressed, kFine), of_rpsup("flexible", flexible, kPressed, kFine), of_rpsup("apart", apart, 0.0, 0.1 * kCoarse),
           of_rpsup("elements", elements, kPressed, kFine), of_rpsup("elasto_plastic", plastic, kPressed, kFine),
           of_rpsup("ambrosio", no_bristles, kPressed, kFine), of_rpsup("coulomb", smooth, kPressed, kFine),
@@ -102,6 +110,8 @@ std::vector<Case> all_cases() {
           of_rpsup("flexible_links", links, kPressed, kFine), of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
           {"loose_loops", build_linkage(loose).mechanism, 1, 3e-4, kFine}, {"loose_rocker", build_linkage(loose).mechanism, 3, 2e-3, kFine},
           {"loose_elements", build_linkage(loose_elements).mechanism, 3, 2e-3, kFine},
+          {"odd_rings", with_rings({3, 2}), 3, 2e-3, kFine, kPressing}, {"odd_rings_apart", with_rings({3, 2}), 1, 3e-4, kFine, kPressing},
+          {"odd_rings_both", with_rings({5, 3}), 3, 2e-3, kFine, kPressing},
           of_linkage("cut_ball", make_spatial_slider_crank(JointKind::kSpherical), 1e-5, 1.0),
           of_linkage("cut_cross", make_spatial_slider_crank(JointKind::kUniversal), 1e-5, 1.0),
           of_linkage("cut_slide", make_spatial_slider_crank(JointKind::kPrismatic), 1e-5, 1.0),
@@ -196,20 +206,36 @@ TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
     return moving.differ(j, j < system.free_count() ? GetParam().step : j < 2 * system.free_count() ? 1e-5 : 1e-7);
   };
   constexpr std::complex<double> kShift(2e4, 3e4);
+  std::vector<Eigen::VectorXd> columns;
+  for (Eigen::Index j = 0; j < moving.y.size(); ++j) columns.push_back(column(j));
+  ASSERT_EQ(system.linearise(Moving::kTime, moving.y), EvaluationStatus::kOk);
+  ASSERT_TRUE(system.factor(kShift));
   for (Eigen::Index j = 0; j + 1 < moving.y.size(); ++j) {
-    Eigen::VectorXd real = -column(j), imag = -column(j + 1);
+    Eigen::VectorXd real = -columns[static_cast<std::size_t>(j)], imag = -columns[static_cast<std::size_t>(j) + 1];
     real[j] += kShift.real();
     real[j + 1] -= kShift.imag();
     imag[j] += kShift.imag();
     imag[j + 1] += kShift.real();
     const double scale = std::max(real.cwiseAbs().maxCoeff(), imag.cwiseAbs().maxCoeff()) / std::abs(kShift);
-    ASSERT_EQ(system.linearise(Moving::kTime, moving.y), EvaluationStatus::kOk);
-    ASSERT_TRUE(system.factor(kShift));
     system.solve_in_place(real, imag);
     real[j] -= 1.0;
     imag[j + 1] -= 1.0;
     EXPECT_LT(real.cwiseAbs().maxCoeff() + imag.cwiseAbs().maxCoeff(), 4e-6 * std::max(1.0, scale)) << "column " << j;
   }
+}
+
+TEST(LinearisationAfterAnother, LeavesNothingOfTheOneBeforeBehind) {
+  std::vector<Case> odd_rings = all_cases();
+  std::erase_if(odd_rings, [](const Case& c) { return c.name != "odd_rings" && c.name != "odd_rings_apart"; });
+  ASSERT_EQ(odd_rings.size(), 2u);
+  Moving many(odd_rings[0], {}), few(odd_rings[1], {});  // of one mechanism
+  for (const Eigen::VectorXd* y : {&many.y, &few.y}) ASSERT_EQ(many.system_.linearise(Moving::kTime, *y), EvaluationStatus::kOk);
+  ASSERT_EQ(few.system_.linearise(Moving::kTime, few.y), EvaluationStatus::kOk);
+  ASSERT_TRUE(many.system_.factor(3e4) && few.system_.factor(3e4));
+  Eigen::VectorXd after_another = few.f, alone = few.f;
+  many.system_.solve_in_place(after_another);
+  few.system_.solve_in_place(alone);
+  EXPECT_EQ(after_another, alone);
 }
 
 class OpenChains : public testing::TestWithParam<Case> {};

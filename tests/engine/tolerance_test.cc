@@ -29,9 +29,9 @@ TEST(Tolerance, MeasuresARotationAtTheRadiusOfGyrationOfWhatItCarries) {
   ASSERT_EQ(system.calc_derivative(0.0, y, f, at), EvaluationStatus::kOk);
   Tolerance tolerance(1e-3, 1e-6);
   const Eigen::VectorXd error = Eigen::VectorXd::Constant(y.size(), 1e-5);
-  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_shares()), 10.0, 1e-12);
+  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_weights()), 10.0, 1e-12);
   tolerance.set_radii(rod, system.free_coordinates(), at.frames);
-  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_shares()), 5.0, 1e-12);
+  EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_weights()), 5.0, 1e-12);
 }
 
 TEST(Tolerance, AllowsCoordinatesNoMoreWhereThereAreMoreContactElements) {
@@ -39,7 +39,7 @@ TEST(Tolerance, AllowsCoordinatesNoMoreWhereThereAreMoreContactElements) {
   const auto measure = [](MotionSystem& system, const Eigen::VectorXd& y) {
     Eigen::VectorXd error = Eigen::VectorXd::Zero(y.size());
     error.head(2 * system.free_count()).setConstant(1e-5);
-    return Tolerance(1e-3, 1e-6).measure(error, 0.0 * y, 0.0 * y, system.error_shares());
+    return Tolerance(1e-3, 1e-6).measure(error, 0.0 * y, 0.0 * y, system.error_weights());
   };
   const auto make_state = [](const MotionSystem& system) { return system.make_state(system.make_evaluation().q, system.make_evaluation().qd); };
   const Mechanism plain = build_rpsup(parameters).mechanism;
