@@ -266,6 +266,39 @@ void ShiftedJacobian<Scalar>::solve_reduced(const Scalar* known, Scalar* x) cons
   for (int k = 0; k < n; ++k) x[k] *= inverse_pivot_.data()[k];
 }
 
+/// own_z^-1 known_z, two pairs at once; the last one stands for one that is missing.
+template <typename Scalar>
+template <int N>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::start_bristles(const Linearisation& J, NumbersAt<Scalar> z, const Scalar* q, NumbersAt<Scalar> firsts,
+                                                          NumbersAt<Scalar> seconds) {
+  for (int p = 0; p < J.pairs; p += 2) {
+    const int* own = J.bristles + 2 * p;
+    const int* next = p + 1 < J.pairs ? own + 2 : own;
+    auto first = put_together(z[own[0]], z[next[0]]), second = put_together(z[own[1]], z[next[1]]);
+    for_each<N>(size<N>(), [&](int j) RPSUP_INLINE_LAMBDA {
+      const double* by_q = J.rates_by_q + 2 * j * J.stride + p;
+      first = first + pair(by_q) * q[j];
+      second = second + pair(by_q + J.stride) * q[j];
+    });
+    answer(p, first, second, firsts, seconds);
+  }
+}
+
+/// Adds the bristles' response to the free rates.
+template <typename Scalar>
+template <int N>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::add_response(int pairs, const Scalar* v, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds) {
+  for (int p = 0; p < pairs; p += 2) {
+    auto first = pair_at(firsts, p), second = pair_at(seconds, p);
+    for_each<N>(size<N>(), [&](int j) RPSUP_INLINE_LAMBDA {
+      first = first + pair_at(response_.row(2 * j), p) * v[j];
+      second = second + pair_at(response_.row(2 * j + 1), p) * v[j];
+    });
+    set_pair(firsts, p, first);
+    set_pair(seconds, p, second);
+  }
+}
+
 template <typename Scalar>
 template <int N>
 void ShiftedJacobian<Scalar>::solve_sized(const Linearisation& J, NumbersAt<Scalar> state) {
@@ -280,28 +313,10 @@ void ShiftedJacobian<Scalar>::solve_sized(const Linearisation& J, NumbersAt<Scal
   Scalar* known = known_.data();
 
   for (int i = 0; i < n; ++i) q[i] = inverse_shift * state[i];
-  for (int p = 0; p < J.pairs; p += 2) {
-    const int* own = J.bristles + 2 * p;
-    const int* next = p + 1 < J.pairs ? own + 2 : own;
-    auto first = put_together(z[own[0]], z[next[0]]), second = put_together(z[own[1]], z[next[1]]);
-    for_each<N>(n, [&](int j) RPSUP_INLINE_LAMBDA {
-      const double* by_q = J.rates_by_q + 2 * j * J.stride + p;
-      first = first + pair(by_q) * q[j];
-      second = second + pair(by_q + J.stride) * q[j];
-    });
-    answer(p, first, second, firsts, seconds);
-  }
+  start_bristles<N>(J, z, q, firsts, seconds);
   for (int i = 0; i < n; ++i) known[i] = add_up(add_effects(add_products(begin_sum(state[n + i]), J.by_q + i * n, q, n), J, i, firsts, seconds));
   solve_reduced<N>(known, v);
-  for (int p = 0; p < J.pairs; p += 2) {
-    auto first = pair_at(firsts, p), second = pair_at(seconds, p);
-    for_each<N>(n, [&](int j) RPSUP_INLINE_LAMBDA {
-      first = first + pair_at(response_.row(2 * j), p) * v[j];
-      second = second + pair_at(response_.row(2 * j + 1), p) * v[j];
-    });
-    set_pair(firsts, p, first);
-    set_pair(seconds, p, second);
-  }
+  add_response<N>(J.pairs, v, firsts, seconds);
   for (int k = n; k < J.outputs; ++k) {
     const auto by_free = add_products(add_products(begin_sum(work[k - n]), J.by_q + k * n, q, n), K_.data() + k * n, v, n);
     work.set(k - n, inverse_shift * add_up(add_effects(by_free, J, k, firsts, seconds)));

@@ -74,6 +74,10 @@ class ShiftedJacobian {
   template <int N>
   bool factor_reduced();
   template <int N>
+  void start_bristles(const Linearisation& J, NumbersAt<Scalar> z, const Scalar* q, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds);
+  template <int N>
+  void add_response(int pairs, const Scalar* v, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds);
+  template <int N>
   void solve_sized(const Linearisation& J, NumbersAt<Scalar> state);
   template <int N>
   void solve_reduced(const Scalar* known, Scalar* x) const;
