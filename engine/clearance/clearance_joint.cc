@@ -49,7 +49,7 @@ bool ClearanceJoint::follow(const JournalMotion& journal, double dt, double* bri
 
 ContactChange ClearanceJoint::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
   ContactChange change = std::visit([&](auto& radial) { return radial.advance(start, end, dt, bristles); }, radial_);
-  change.any |= faces_.advance(start, end, dt);
+  if (faces_.advance(start, end, dt)) change.any = change.abrupt = true;
   return change;
 }
 

@@ -42,6 +42,7 @@ ContactChange RadialContinuum::advance(const JournalMotion& start, const Journal
     const Penetration at_end = calc_penetration(motion_end, i);
     if ((at_end.delta > 0.0) != latch.in_contact()) {
       change.any |= latch.advance(calc_penetration(to_relative_motion(start), i), at_end, dt, joint_.minimum_onset_rate);
+      change.abrupt = change.any;
       change.ring_onsets += latch.in_contact() ? 1 : 0;
     }
     if (!latch.in_contact()) bristles[2 * i] = bristles[2 * i + 1] = 0.0;

@@ -62,22 +62,26 @@ ContactChange RadialElements::advance(const JournalMotion& start, const JournalM
   const RelativeMotion<double, double> motion_end = to_relative_motion(end);
   ContactChange change;
   for (int i = 0; i < joint_.n_r; ++i) {
-    const ElementArc arc = find_arc(*this, motion_end, calc_ring_position(joint_, i) * motion_end.R.z);
+    const Vec3<double> axial = calc_ring_position(joint_, i) * motion_end.R.z;
+    const ElementArc arc = find_arc(*this, motion_end, axial);
     bool was_on = false;
     bool is_on = false;
+    int k = element_of(i, 0);
+    int from_low = wrap(k - arc.low);  // how far k is into the arc
     for (int slot = 0; slot < window_; ++slot) {
-      const int k = element_of(i, slot);
       OnsetLatch& onset = latch(i, k);
       double* bristle = bristles + 2 * (i * window_ + slot);
-      if (onset.in_contact() || wrap(k - arc.low) <= arc.high - arc.low) {
+      if (onset.in_contact() || from_low <= arc.high - arc.low) {
         was_on = was_on || onset.in_contact();
-        const Penetration at_end = calc_penetration(motion_end, i, k);
-        if ((at_end.delta > 0.0) != onset.in_contact())
-          change.any |= onset.advance(calc_penetration(motion_start, i, k), at_end, dt, joint_.minimum_onset_rate);
+        if ((place_element(*this, motion_end, axial, k).delta > 0.0) != onset.in_contact())
+          change.any |= onset.advance(calc_penetration(motion_start, i, k), calc_penetration(motion_end, i, k), dt, joint_.minimum_onset_rate);
         is_on = is_on || onset.in_contact();
       }
       if (!onset.in_contact()) bristle[0] = bristle[1] = 0.0;
+      k = k + 1 < joint_.n_ce ? k + 1 : 0;
+      from_low = from_low + 1 < joint_.n_ce ? from_low + 1 : 0;
     }
+    change.abrupt |= is_on != was_on;
     change.ring_onsets += is_on && !was_on ? 1 : 0;
   }
   return change;

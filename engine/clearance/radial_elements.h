@@ -23,7 +23,10 @@ class RadialElements {
   [[nodiscard]] double spacing() const { return spacing_; }                      ///< angle between elements, [rad]
   [[nodiscard]] const double* cosines() const { return cosine_.data(); }         ///< of each element's angle in {j}
   [[nodiscard]] const double* sines() const { return sine_.data(); }
-  [[nodiscard]] int wrap(int k) const { return ((k % joint_.n_ce) + joint_.n_ce) % joint_.n_ce; }
+  [[nodiscard]] int wrap(int k) const {
+    const int rest = k % joint_.n_ce;
+    return rest < 0 ? rest + joint_.n_ce : rest;
+  }
   [[nodiscard]] const OnsetLatch& latch(int ring, int k) const { return latches_.data()[ring * joint_.n_ce + k]; }
   [[nodiscard]] int bristle_count() const { return 2 * joint_.n_r * window_; }
   /// Place of an element's bristle among them, -1 if it has none.

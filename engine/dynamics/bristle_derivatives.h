@@ -78,9 +78,9 @@ class BristleDerivatives {
                                                                 {0, 0, 0, 1, 0, 0}, {0, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 0, 1}};
 
   /// Pairs of a joint's bristles: their first bristles, one a lane, then their second ones; the last pair twice if they are fewer.
-  template <typename Lanes>
+  template <typename Wide>
   struct Block {
-    static constexpr int kPairs = Lanes::kCount / 2;
+    static constexpr int kPairs = Wide::kCount / 2;
 
     std::size_t joint;
     const ContactDerivative& contact;
@@ -95,25 +95,25 @@ class BristleDerivatives {
     }
     /// A number of each bristle. @param number  (bristle) -> double
     template <typename Number>
-    [[nodiscard]] RPSUP_INLINE Lanes collect(const Number& number) const {
-      Lanes numbers;
-      for (int lane = 0; lane < Lanes::kCount; ++lane) numbers.set(lane, number(bristle(lane)));
+    [[nodiscard]] RPSUP_INLINE Wide collect(const Number& number) const {
+      Wide numbers;
+      for (int lane = 0; lane < Wide::kCount; ++lane) numbers.set(lane, number(bristle(lane)));
       return numbers;
     }
     /// @param to  where those of the first bristles of all pairs go; those of the second ones stand a stride behind
-    RPSUP_INLINE void store(const Lanes& numbers, double* to, int stride) const { store_halves(numbers, to + pair, to + stride + pair); }
+    RPSUP_INLINE void store(const Wide& numbers, double* to, int stride) const { store_halves(numbers, to + pair, to + stride + pair); }
   };
 
   /// ContactRow of several bristles side by side.
-  template <typename Lanes>
+  template <typename Wide>
   struct RateRows {
-    [[nodiscard]] RPSUP_INLINE Lanes apply(const JournalVariation<double>& varies) const {
+    [[nodiscard]] RPSUP_INLINE Wide apply(const JournalVariation<double>& varies) const {
       return dot3(0, varies.turn) + dot3(3, varies.p) + dot3(6, varies.v) + dot3(9, varies.w);
     }
-    [[nodiscard]] RPSUP_INLINE Lanes dot3(int first, const Vec3<double>& v) const {
+    [[nodiscard]] RPSUP_INLINE Wide dot3(int first, const Vec3<double>& v) const {
       return by[first] * v.x + by[first + 1] * v.y + by[first + 2] * v.z;
     }
-    Lanes by[kJournal];
+    Wide by[kJournal];
   };
 
   [[nodiscard]] static bool has_few(const ActingBristles& acting) { return acting.count <= kMostLoads; }
@@ -137,9 +137,9 @@ class BristleDerivatives {
     }
   }
 
-  template <typename Lanes>
-  [[nodiscard]] RPSUP_INLINE RateRows<Lanes> find_rates(const Block<Lanes>& block) const {
-    RateRows<Lanes> rates;
+  template <typename Wide>
+  [[nodiscard]] RPSUP_INLINE RateRows<Wide> find_rates(const Block<Wide>& block) const {
+    RateRows<Wide> rates;
     for (int i = 0; i < 6; ++i) {
       rates.by[i] = block.collect([&](int b) RPSUP_INLINE_LAMBDA { return block.contact.rate_row(b).by_position[i]; });
       rates.by[i + 6] = block.collect([&](int b) RPSUP_INLINE_LAMBDA { return block.contact.rate_row(b).by_rate[i]; });
@@ -156,15 +156,15 @@ class BristleDerivatives {
     return {vector(0), vector(3), vector(6), vector(9)};
   }
 
-  template <typename Lanes>
-  RPSUP_INLINE void write_column(const RateRows<Lanes>& rates, const Block<Lanes>& block, int column, double* to, int stride) const {
+  template <typename Wide>
+  RPSUP_INLINE void write_column(const RateRows<Wide>& rates, const Block<Wide>& block, int column, double* to, int stride) const {
     block.store(rates.apply(read_journal(block.joint, column)), to, stride);
   }
 
-  template <typename Lanes>
-  RPSUP_INLINE void write_rates(const DirectionPlan& plan, const Block<Lanes>& block, int free, Linearisation& result) const {
+  template <typename Wide>
+  RPSUP_INLINE void write_rates(const DirectionPlan& plan, const Block<Wide>& block, int free, Linearisation& result) const {
     const int stride = result.stride;
-    const RateRows<Lanes> rates = find_rates(block);
+    const RateRows<Wide> rates = find_rates(block);
     write_column(rates, block, DirectionPlan::kTime, result.rates_by_t, stride);
     for (int a = 0; a < free; ++a) {
       write_column(rates, block, plan.column_of_q(a), result.rates_by_q + 2 * a * stride, stride);
@@ -178,8 +178,8 @@ class BristleDerivatives {
 
   /// On accelerations and drive forces by the load, and on the rate of friction loss. Those of the other losses do not depend on bristles: their
   /// rows stay zero, as their owner gave them.
-  template <typename Lanes>
-  RPSUP_INLINE void write_effects(const DirectionPlan& plan, const Block<Lanes>& block, int rows_by_load, Linearisation& result) const {
+  template <typename Wide>
+  RPSUP_INLINE void write_effects(const DirectionPlan& plan, const Block<Wide>& block, int rows_by_load, Linearisation& result) const {
     const int stride = result.stride;
     const int friction_row = rows_by_load + 1;
     const auto by_bristle = [&](int number) RPSUP_INLINE_LAMBDA {
@@ -187,17 +187,17 @@ class BristleDerivatives {
     };
     block.store(by_bristle(ContactRows::kFrictionPower), result.by_bristle + 2 * friction_row * stride, stride);
     if (has_few(block.acting)) {
-      const int pairs = block.acting.count / 2 - block.first < Block<Lanes>::kPairs ? block.acting.count / 2 - block.first : Block<Lanes>::kPairs;
+      const int pairs = block.acting.count / 2 - block.first < Block<Wide>::kPairs ? block.acting.count / 2 - block.first : Block<Wide>::kPairs;
       for (int row = 0; row < rows_by_load; ++row)
         for (int i = 0; i < 2 * pairs; ++i)
           result.by_bristle[(2 * row + i % 2) * stride + block.pair + i / 2] =
               plan.output_of_column(row, plan.column_of_load(block.first_load + 2 * block.first + i));
       return;
     }
-    Lanes load[kMostLoads];
+    Wide load[kMostLoads];
     for (int i = 0; i < kMostLoads; ++i) load[i] = by_bristle(i);
     for (int row = 0; row < rows_by_load; ++row) {
-      Lanes effect{};
+      Wide effect{};
       for (int i = 0; i < kMostLoads; ++i) effect += plan.output_of_column(row, plan.column_of_load(block.first_load + i)) * load[i];
       block.store(effect, result.by_bristle + 2 * row * stride, stride);
     }

@@ -186,6 +186,7 @@ ContactChange MotionSystem::accept_step(const Evaluation& start, const Evaluatio
     const ContactChange change =
         clearance_joints_[k].advance(start.joints[joint].journal, end.joints[joint].journal, end.t - start.t, bristles);
     sum.any |= change.any;
+    sum.abrupt |= change.abrupt;
     sum.ring_onsets += change.ring_onsets;
     bristles += clearance_joints_[k].bristle_count();
   }

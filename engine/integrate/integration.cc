@@ -100,11 +100,12 @@ bool Integration::start(const Evaluation& assembled) {
 
 /// Bristles follow their contacts; their rates are then those of other elements.
 void Integration::prepare(double dt) {
-  if (system_.prepare_step(start_.at, dt, start_.y)) evaluate_again(start_);
+  if (!system_.prepare_step(start_.at, dt, start_.y)) return;
+  forget_equations();
+  evaluate_again(start_);
 }
 
 void Integration::evaluate_again(StepEnd& end) {
-  forget_equations();
   ++run_end_.evaluations;
   (void)system_.calc_derivative(end.t, end.y, end.f, end.at);  // where it could be evaluated before, it can be now
   system_.calc_energies(end.at);
@@ -121,6 +122,7 @@ void Integration::widen_bristles() {
   start_.f.setZero(start_.y.size());
   end_.f.setZero(start_.y.size());
   sample_.f.setZero(start_.y.size());
+  forget_equations();
   evaluate_again(start_);
 }
 
@@ -240,6 +242,8 @@ void Integration::accept() {
   radau5_.accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
+  // With an element more or less in a lasting contact, the Jacobian and the course of the state are nearly what they were.
+  if (change.abrupt) forget_equations();
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
   std::swap(rings_start_, rings_end_);

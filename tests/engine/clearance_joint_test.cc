@@ -216,6 +216,44 @@ TEST(RadialElements, BristlesFollowTheContactAroundTheJournal) {
   EXPECT_LT(most, 45 * 4.75e-6);
 }
 
+// Of contacts that begin and end, only single elements of a lasting contact leave the equations of motion nearly as they were.
+TEST(ClearanceJoint, TellsElementsOfALastingContactFromAbruptChanges) {
+  ClearanceParameters parameters = joint_of_elements(360);
+  parameters.c_a = 10e-6;
+  ClearanceJoint joint(parameters);
+  const auto c_r = parameters.c_r;
+  std::vector<double> bristles(static_cast<std::size_t>(joint.bristle_count()));
+  JournalMotion last = journal_at(0.0, 0.0);
+  const auto move_to = [&](const JournalMotion& next) {
+    (void)joint.follow(next, 0.0, bristles.data());
+    return joint.advance(std::exchange(last, next), next, 1e-5, bristles.data());
+  };
+  const auto expect = [](const ContactChange& change, bool any, bool abrupt, int ring_onsets) {
+    EXPECT_EQ(change.any, any);
+    EXPECT_EQ(change.abrupt, abrupt);
+    EXPECT_EQ(change.ring_onsets, ring_onsets);
+  };
+  expect(move_to(journal_at(c_r - 1e-6, 0.0)), false, false, 0);
+  expect(move_to(journal_at(c_r + 2e-6, 0.0)), true, true, parameters.n_r);
+  expect(move_to(journal_at(c_r + 2e-6, 0.0)), false, false, 0);
+  expect(move_to(journal_at(c_r + 4e-6, 0.0)), true, false, 0);          // elements more
+  expect(move_to(journal_at(c_r + 1e-6, 0.0)), true, false, 0);          // fewer
+  expect(move_to(journal_at(c_r + 1e-6, 0.0, 11e-6)), true, true, 0);    // a face
+  expect(move_to(journal_at(c_r + 1e-6, 0.0)), true, true, 0);
+  expect(move_to(journal_at(c_r - 1e-6, 0.0)), true, true, 0);           // contact lost
+}
+
+TEST(ClearanceJoint, AllChangesOfAContinuumAreAbrupt) {
+  ClearanceJoint joint(joint_without_friction());
+  std::vector<double> bristles(static_cast<std::size_t>(joint.bristle_count()));
+  const double c_r = joint_without_friction().c_r;
+  for (const auto& [from, to] : {std::pair{-1e-6, 1e-6}, {1e-6, -1e-6}}) {
+    const ContactChange change = joint.advance(journal_at(c_r + from, 0.0), journal_at(c_r + to, 0.0), 1e-5, bristles.data());
+    EXPECT_TRUE(change.any);
+    EXPECT_TRUE(change.abrupt);
+  }
+}
+
 TEST(RadialElements, AWiderWindowHoldsTheSameBristles) {
   const ClearanceParameters joint = joint_of_elements(360);
   RadialElements radial(joint);

@@ -1,11 +1,12 @@
 // How many times the jobs of one thread two threads do, by turns in some rounds, of which the median counts. The ratio of passing times is
-// only right on a quiet machine, so what it is made of is printed, too: how much dearer a job is beside another one, and how long threads wait
-// for each other.
+// only right on a quiet machine, so what it is made of is printed, too: how much dearer a job is beside another one, how long threads wait
+// for each other, and what the machine gives to two threads that do nothing but simulate, without queue or store.
 //
 // usage: bench_thread_scaling [jobs] [parameters as JSON]
 
 #include <algorithm>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "tests/bench/path/measure.h"
@@ -15,7 +16,7 @@ namespace {
 using namespace path_bench;
 
 constexpr double kBound = 1.95;
-constexpr int kRounds = 7;
+constexpr int kRounds = 5;
 
 struct Sweep {
   double elapsed_s = 0.0;
@@ -50,23 +51,43 @@ Sweep measure(int threads, std::size_t jobs, const nlohmann::json& parameters) {
   return sweep;
 }
 
+/// Time that as many simulations take in bare threads.
+double measure_alone(int threads, std::size_t jobs, const nlohmann::json& parameters) {
+  const double elapsed = wall_s();
+  {
+    std::vector<std::jthread> running;
+    for (int i = 0; i < threads; ++i)
+      running.emplace_back([&] {
+        for (std::size_t k = 0; k < jobs / static_cast<std::size_t>(threads); ++k) (void)simulate(parameters);
+      });
+  }
+  return wall_s() - elapsed;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + kRounds / 2);
+  return values[kRounds / 2];
+}
+
 double median(const std::vector<Sweep>& sweeps, double Sweep::*part) {
   std::vector<double> values;
   for (const Sweep& sweep : sweeps) values.push_back(sweep.*part);
-  std::ranges::nth_element(values, values.begin() + kRounds / 2);
-  return values[kRounds / 2];
+  return median(values);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::size_t jobs = count_argument(argc, argv, 1, 200);
+  const std::size_t jobs = count_argument(argc, argv, 1, 500);
   const auto parameters = nlohmann::json::parse(argc > 2 ? argv[2] : R"({"coupler": "rigid", "clearance_mm": 0})");
   measure(2, std::min<std::size_t>(jobs, 8), parameters);  // warms up
   std::vector<Sweep> one, two;
+  std::vector<double> one_alone, two_alone;
   for (int round = 0; round < kRounds; ++round) {
     one.push_back(measure(1, jobs, parameters));
     two.push_back(measure(2, jobs, parameters));
+    one_alone.push_back(measure_alone(1, jobs, parameters));
+    two_alone.push_back(measure_alone(2, jobs, parameters));
   }
   const double n = static_cast<double>(jobs);
   print_figure("simulation, CPU a job, 1 thread", 1e3 * median(one, &Sweep::run_cpu_s) / n, "ms");
@@ -75,5 +96,6 @@ int main(int argc, char** argv) {
   print_figure("all, CPU a job, 2 threads", 1e3 * median(two, &Sweep::cpu_s) / n, "ms");
   const double in_simulations = median(two, &Sweep::run_elapsed_s) / (2.0 * median(two, &Sweep::elapsed_s));
   print_figure("2 threads, share of their time outside of simulations", 100.0 * (1.0 - in_simulations), "%");
+  print_figure("2 threads, bare simulations against 1, by passing time", median(one_alone) / median(two_alone), "times");
   print_ratio("2 threads, jobs against 1, by passing time", median(one, &Sweep::elapsed_s) / median(two, &Sweep::elapsed_s), kBound);
 }
