@@ -11,7 +11,7 @@ struct Penetration {
 /// What became of a joint's contacts in a step.
 struct ContactChange {
   bool any = false;     ///< some contact began or ended
-  bool abrupt = false;  ///< and it was not only single elements of rings that had contact before and have some still
+  bool abrupt = false;  ///< and more than single elements of rings that had contact before and have some still
   int ring_onsets = 0;  ///< rings that had no contact and now have one
 };
 

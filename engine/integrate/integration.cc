@@ -242,8 +242,12 @@ void Integration::accept() {
   radau5_.accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
-  // With an element more or less in a lasting contact, the Jacobian and the course of the state are nearly what they were.
-  if (change.abrupt) forget_equations();
+  // With an element more or less in a lasting contact, the Jacobian and the course of the state are nearly what they were; Newton's method
+  // makes good what is not.
+  if (change.abrupt)
+    forget_equations();
+  else if (change.any)
+    radau5_.doubt();
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
   std::swap(rings_start_, rings_end_);

@@ -24,6 +24,8 @@ class Radau5 {
   void accept();
   /// The equations of motion are others than in the last try: nothing that was learned in it holds.
   void forget();
+  /// They are nearly the same: the Jacobian and the polynomial go on to serve, but how well is to be seen anew.
+  void doubt() { contraction_ = kUnknownContraction; }
 
  private:
   using Stages = std::array<Eigen::VectorXd, 3>;

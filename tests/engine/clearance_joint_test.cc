@@ -272,6 +272,45 @@ TEST(RadialElements, AWiderWindowHoldsTheSameBristles) {
   EXPECT_EQ(before.force, after.force);
 }
 
+TEST(MotionSystem, TellsElementsOfALastingContactFromAbruptChanges) {
+  RpsupParameters parameters;
+  parameters.contact = ContactForm::kElements;
+  parameters.radial_elements = 720;
+  parameters.c_a = 1e-3;  // faces stay apart
+  const Mechanism mechanism = build_rpsup(parameters).mechanism;
+  MotionSystem system(mechanism);
+  Evaluation assembled = system.make_evaluation();
+  ASSERT_TRUE(LoopClosure(mechanism).assemble(0.0, assembled));
+  Eigen::VectorXd y, f;
+  const auto evaluate = [&](double lift) {
+    Eigen::VectorXd q = assembled.q;
+    q[2] += lift;
+    y = system.make_state(q, assembled.qd);
+    f.setZero(y.size());
+    Evaluation at = system.make_evaluation();
+    for (const bool again : {false, true}) {  // where the bristles have followed
+      if (again) (void)system.prepare_step(at, 0.0, y);
+      const EvaluationStatus status = system.calc_derivative(0.0, y, f, at);
+      EXPECT_TRUE(!again || status == EvaluationStatus::kOk);
+    }
+    return at;
+  };
+  Evaluation last = evaluate(0.0);
+  const auto move_to = [&](double lift) {
+    Evaluation next = evaluate(lift);
+    next.t = last.t + 1e-5;
+    const ContactChange change = system.accept_step(last, next, y);
+    last = std::move(next);
+    return change;
+  };
+  EXPECT_FALSE(move_to(0.53e-3).any);
+  EXPECT_TRUE(move_to(0.545e-3).abrupt);                   // one ring, 2 um deep
+  const ContactChange deeper = move_to(0.548e-3);          // 3 um
+  EXPECT_TRUE(deeper.any);
+  EXPECT_FALSE(deeper.abrupt);
+  EXPECT_TRUE(move_to(0.556e-3).abrupt);                   // the other ring, too
+}
+
 // What a missed element leaves behind must not reach the next evaluation.
 TEST(RadialElements, AMissLeavesTheNextEvaluationAlone) {
   RpsupParameters parameters;
@@ -288,8 +327,8 @@ TEST(RadialElements, AMissLeavesTheNextEvaluationAlone) {
     qd[2] = 0.1;
     return system.make_state(q, qd);
   };
-  const Eigen::VectorXd shallow = state(0.51e-3);  // 5 um deep
-  const Eigen::VectorXd deep = state(1e-3);        // 0.25 mm deep: half of the journal is outside
+  const Eigen::VectorXd shallow = state(0.555e-3);  // 7 um deep
+  const Eigen::VectorXd deep = state(1e-3);         // 0.2 mm deep: nearly half of the journal is outside
   Evaluation scratch = system.make_evaluation();
   Eigen::VectorXd f = Eigen::VectorXd::Zero(shallow.size());
   (void)system.calc_derivative(0.0, shallow, f, scratch);
