@@ -35,7 +35,7 @@ RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer&
   }
   bool ideal = mechanism.drive_rows == DriveRows::kEliminated && options.integrator != Integrator::kRk4;
   for (const CutJoint& joint : mechanism.cut_joints) ideal = ideal && !joint.clearance;
-  if (ideal && closure.is_determined()) return run_kinematics(mechanism, closure, options, observer, assembled);
+  if (ideal && closure.is_determined() && closure.redundant() == 0) return run_kinematics(mechanism, closure, options, observer, assembled);
   if (closure.redundant() == 0) return Integration(mechanism, options, observer).run(assembled);
   Mechanism dependent = mechanism;
   dependent.least_multipliers = true;

@@ -42,10 +42,10 @@ void Constraints::calc(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, cons
   calc_coupling_rows(model_, q.data(), qd.data(), qdd.data(), rows_);
 }
 
-Eigen::Vector3d Constraints::calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const {
+JointReaction<double> Constraints::calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const {
   const TreeCutJoint& cut = model_.cut_joints[joint];
   const Frame<double, double> b = calc_end(mechanism_, mechanism_.cut_joints[joint].bearing_frame, mechanism_.cut_joints[joint].bearing, frames);
-  return to_eigen(calc_joint_reaction(cut.rows, violations_[joint], b.R, lambda.data() + cut.first_row).force);
+  return calc_joint_reaction(cut.rows, violations_[joint], b.R, lambda.data() + cut.first_row);
 }
 
 }  // namespace engine

@@ -31,8 +31,8 @@ class Constraints {
   /// Computes all rows from the coordinates and the frames' motions. Bias is Phi's second derivative with the accelerations given.
   void calc(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, const std::vector<FrameMotion>& frames);
 
-  /// After calc(): the force that these multipliers are on the journal of an ideal cut joint, in W, [N]
-  [[nodiscard]] Eigen::Vector3d calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const;
+  /// After calc(): what these multipliers are on the journal of an ideal cut joint
+  [[nodiscard]] JointReaction<double> calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const;
 
   const Eigen::Map<const Eigen::VectorXd> Phi;    ///< [m] and [1]
   const Eigen::Map<const Eigen::VectorXd> Phi_d;  ///< first derivative by time

@@ -5,6 +5,8 @@
 
 #include <Eigen/QR>
 
+#include "engine/kinematics/plain_frame.h"
+
 namespace engine {
 
 namespace {
@@ -43,6 +45,9 @@ Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::M
   decomposition.compute(J);
   return decomposition;
 }
+
+/// How many rows of J do not follow from the others.
+Eigen::Index rank_of(const Eigen::MatrixXd& J) { return J.size() == 0 ? 0 : decompose(J).rank(); }
 
 }  // namespace
 
@@ -107,7 +112,7 @@ bool LoopClosure::assemble_rates(Evaluation& at) {
   constexpr double kFits = 1e-9;  // of what the given rates do to the rows, [m/s] and [1/s]
   if (constraints_.count() == 0) return true;
   const auto rigid = static_cast<Eigen::Index>(rigid_rows_.size());
-  if (rigid > 0) redundant_ = rigid - decompose(calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all)).rank();
+  redundant_ = rigid - rank_of(calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all));
   const std::vector<FrameIndex> open = find_coordinates(ideal_, is_rate_found_by_loops);
   const double given = constraints_.Phi_d.cwiseAbs().maxCoeff();
   if (!open.empty()) {
@@ -195,7 +200,11 @@ void LoopClosure::solve_forces(Evaluation& at) {
   J_lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(step_);
   Eigen::VectorXd& lambda = lambda_;
   lambda.noalias() = J_lu_.permutationP().transpose() * step_;
-  for (std::size_t k = 0; k < at.joints.size(); ++k) at.joints[k].reaction_W = constraints_.calc_reaction(k, lambda, at.frames);
+  for (std::size_t k = 0; k < at.joints.size(); ++k) {
+    const auto [force, moment] = constraints_.calc_reaction(k, lambda, at.frames);
+    at.joints[k].reaction_W = to_eigen(force);
+    at.joints[k].moment_W = to_eigen(moment);
+  }
   for (std::size_t k = 0; k < ideal_.drives.size(); ++k) {
     const FrameIndex d = ideal_.drives[k].coordinate;
     at.drive_force[static_cast<Eigen::Index>(k)] = forces[d] - constraints_.Phi_q.col(d).dot(lambda);

@@ -26,9 +26,18 @@ Cycloid calc_cycloid(double u) {
 /// A corner found before, but for rounding, is not the next one.
 double beyond(double t) { return t + 1e-12 * std::abs(t); }
 
-/// Time in which a motion goes on by one.
-double scale_of(const DrivenMotion& motion) {
-  return 1.0 / std::max({std::abs(motion.qd), std::sqrt(std::abs(motion.qdd)), std::cbrt(std::abs(motion.qddd))});
+/// By Horner's scheme, [rad/s^order] or [m/s^order].
+double calc_derivative(const Polynomial& law, std::size_t order, double t) {
+  const std::size_t count = law.coefficients.size();
+  if (count <= order) return 0.0;
+  double factor = 1.0;  // k! / (k - order)!
+  for (std::size_t i = 0; i < order; ++i) factor *= static_cast<double>(count - 1 - i);
+  double derivative = 0.0;
+  for (std::size_t k = count; k-- > order;) {
+    derivative = derivative * t + factor * law.coefficients[k];
+    if (k > order) factor *= static_cast<double>(k - order) / static_cast<double>(k);
+  }
+  return derivative;
 }
 
 }  // namespace
@@ -125,7 +134,14 @@ double calc_time_scale(const CycloidalRise& law, double t) {
 
 double calc_time_scale(const Harmonic& law, double) { return law.amplitude == 0.0 ? kNever : 1.0 / std::abs(law.omega); }
 
-double calc_time_scale(const Polynomial& law, double t) { return scale_of(calc_driven_motion(law, t)); }
+/// By derivatives beyond those of the motion, too: where it starts without a jolt, the first three vanish.
+double calc_time_scale(const Polynomial& law, double t) {
+  constexpr std::size_t kOrders = 32;
+  double fastest = 0.0;  // [1/s]
+  for (std::size_t order = 1; order <= std::min(kOrders, law.coefficients.size()); ++order)
+    fastest = std::max(fastest, std::pow(std::abs(calc_derivative(law, order, t)), 1.0 / static_cast<double>(order)));
+  return 1.0 / fastest;
+}
 
 double calc_time_scale(const DriveLaw& law, double t) {
   return std::visit([t](const auto& l) { return calc_time_scale(l, t); }, law);
