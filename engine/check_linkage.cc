@@ -84,6 +84,16 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
                          ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
 }
 
+/// Nor must that of several which move together.
+void check_motion(const Mechanism& mechanism, const Evaluation& assembled) {
+  MotionSystem system(mechanism);
+  const Eigen::VectorXd y = system.make_state(assembled.q, assembled.qd);
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(y.size());
+  if (system.calc_derivative(0.0, y, rates) == EvaluationStatus::kNonFinite)
+    throw InvalidInput("joints", "are free to move together in a way in which nothing that they move has mass (one behind the other about the same "
+                                 "axis, say): give the bodies that they carry some, or drive them");
+}
+
 /// The cut joint whose parts stand furthest apart.
 std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& at) {
   const auto place_of = [&](FrameIndex frame, const Placement& placement) -> Eigen::Vector3d {
@@ -120,8 +130,12 @@ BuiltLinkage check_linkage(const Linkage& linkage) {
                                   " m (or between right angles); other lengths, or a guess or start of a coordinate nearer to the closed "
                                   "position, may help");
   }
+  if (!closure.lets_drives_begin())
+    throw InvalidInput("joints", "cannot follow their drives: these move against each other, or against joints that close loops; let one of the "
+                                 "drives go, or a joint that closes a loop allow the motion");
   check_masses(linkage, built, assembled, system.free_coordinates());
   settle_springs(linkage, built, assembled);
+  check_motion(built.mechanism, assembled);
   return built;
 }
 

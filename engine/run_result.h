@@ -19,7 +19,7 @@ struct RunResult {
   Trajectory trajectory;
 };
 
-/// Asked now and then (some hundred times a second of computing) with the simulated time; true ends the run with kStopped.
+/// Asked now and then (every 256 steps) with the simulated time; true ends the run with kStopped.
 using StopQuery = std::function<bool(double t)>;
 
 }  // namespace engine

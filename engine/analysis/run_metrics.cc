@@ -22,7 +22,7 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   take_loads(start, end);
   take_energy(last_energy_, end.energy);
   last_energy_ = end.energy;
-  // Steps end just beyond an onset or a parting, so what holds at the start of a step holds in all of it.
+  // Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a step holds in all of it.
   for (std::size_t k = 0; k < contact_times_.size(); ++k)
     if (start.joints[measured_.contacts[k]].load.max_penetration > 0.0) contact_times_[k] += end.t - start.t;
 }

@@ -3,35 +3,47 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/clearance/contact_law.h"
+#include "engine/model/rpsup.h"
+
 namespace engine {
 
 namespace {
 
-SlidingWork::Touch calc_touch(const RpsupParameters& parameters, const WornBore* worn, const JournalMotion& journal, int ring) {
-  const int rings = parameters.radial_levels;
-  const double position = rings == 1 ? 0.0 : parameters.bearing_length * (static_cast<double>(ring) / (rings - 1) - 0.5);
-  const Eigen::Vector3d axial = position * journal.R_bj.col(2);
+/// Without clearance nothing is read of it but the number of rings.
+ClearanceParameters joint_of(const RpsupParameters& parameters) {
+  if (parameters.c_r > 0.0) return make_clearance(parameters);
+  ClearanceParameters none;
+  none.n_r = parameters.radial_levels;
+  return none;
+}
+
+/// In proportion to the elastic force of a ring; that of contact elements on an arc falls like Hertz's.
+double calc_share(const ClearanceParameters& joint, double delta) {
+  return joint.cylinders.law == StiffnessLaw::kHertz ? delta * std::sqrt(delta) : joint.cylinders.calc(delta).force;
+}
+
+SlidingWork::Touch calc_touch(const ClearanceParameters& joint, const JournalMotion& journal, int ring) {
+  const Eigen::Vector3d axial = calc_ring_position(joint, ring) * journal.R_bj.col(2);
   const Eigen::Vector2d offset = (journal.p_bj + axial).head<2>();
   const double distance = offset.norm();
-  if (distance <= parameters.c_r) return {};
-  const double delta = distance - parameters.c_r - (worn ? worn->calc_reach(ring, std::atan2(offset[1], offset[0])).value : 0.0);
+  if (distance <= joint.c_r) return {};
+  const double delta = distance - joint.c_r - (joint.worn ? joint.worn->calc_reach(ring, std::atan2(offset[1], offset[0])).value : 0.0);
   if (delta <= 0.0) return {};
   const Eigen::Vector3d normal(offset[0] / distance, offset[1] / distance, 0.0);
-  const Eigen::Vector3d velocity = journal.calc_velocity(axial + (parameters.bearing_radius - parameters.c_r) * normal);
-  return {delta, delta * std::sqrt(delta), normal[0], normal[1], (velocity - velocity.dot(normal) * normal).norm()};
+  const Eigen::Vector3d velocity = journal.calc_velocity(axial + joint.r_j() * normal);
+  return {delta, calc_share(joint, delta), normal[0], normal[1], (velocity - velocity.dot(normal) * normal).norm()};
 }
 
 }  // namespace
 
 SlidingWork::SlidingWork(const RpsupParameters& parameters)
-    : parameters_(parameters),
-      worn_(parameters.wear_depth.empty() ? nullptr : std::make_shared<const WornBore>(parameters.c_r, parameters.wear_depth)),
-      before_(static_cast<std::size_t>(parameters.radial_levels)), after_(before_), touches_(before_.size()) {}
+    : joint_(joint_of(parameters)), before_(static_cast<std::size_t>(joint_.n_r)), after_(before_), touches_(before_.size()) {}
 
 void SlidingWork::find_touches(const JointState& joint) {
   const bool touches = joint.load.radial_normal_sum > 0.0;
   for (std::size_t i = 0; i < touches_.size(); ++i)
-    touches_[i] = touches ? calc_touch(parameters_, worn_.get(), joint.journal, static_cast<int>(i)) : Touch{};
+    touches_[i] = touches ? calc_touch(joint_, joint.journal, static_cast<int>(i)) : Touch{};
 }
 
 void SlidingWork::add(const JointState& joint, double time) {

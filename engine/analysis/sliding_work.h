@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
+#include "engine/clearance/clearance_parameters.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/model/rpsup_parameters.h"
 
@@ -16,7 +16,7 @@ namespace engine {
 ///
 /// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the bore presses then follows from it and
 /// from the penetration.
-/// A ring's share of the sum of normal forces is that of its elastic force, delta^1.5. Trapezoids over the steps, which end where a ring meets or
+/// A ring's share of the sum of normal forces is that of its elastic force. Trapezoids over the steps, which end where a ring meets or
 /// leaves the bore.
 class SlidingWork {
  public:
@@ -30,7 +30,7 @@ class SlidingWork {
   /// Where a ring touches, or would.
   struct Touch {
     double delta = 0.0;            ///< [m]
-    double share = 0.0;            ///< delta^1.5, as that in the normal force, [m^1.5]
+    double share = 0.0;            ///< in proportion to its elastic force
     double n_x = 0.0, n_y = 0.0;
     double speed = 0.0;            ///< of sliding, [m/s]
   };
@@ -51,8 +51,7 @@ class SlidingWork {
   /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring. @param joint  as find_touches() had it
   void add(const JointState& joint, double time);
 
-  const RpsupParameters& parameters_;
-  std::shared_ptr<const WornBore> worn_;  ///< null: the bore is round
+  const ClearanceParameters joint_;
   std::vector<Ring> before_, after_;  ///< at the ends of the last step
   double start_ = 0.0, end_ = -1.0;   ///< of it, [s]; the other way round if there is none
   std::vector<Touch> touches_;        ///< of each ring at the end of the last step

@@ -10,8 +10,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// How the journal's motion as seen from the bearing varies, all in {b}. @tparam T  a number, or one for each of several directions
 template <typename T>
 struct JournalVariation {
-  Vec3<T> turn, p;  ///< of {j}; of the journal's centre
-  Vec3<T> v, w;
+  Vec3<T> turn, p;  ///< of {j}, [rad]; of the journal's centre, [m]
+  Vec3<T> v, w;     ///< of the journal's velocity, [m/s], and angular velocity, [rad/s]
 };
 
 /// How what the contacts of a joint do varies.

@@ -7,6 +7,7 @@
 #include "engine/clearance/radial_continuum.h"
 #include "engine/clearance/ring.h"
 #include "engine/clearance/two_rings.h"
+#include "engine/math/finite.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -62,7 +63,8 @@ template <typename P, typename V>
 [[nodiscard]] RPSUP_INLINE WornPlace<P> place_on_worn_bore(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int ring) {
   const ClearanceParameters& joint = contact.parameters();
   RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
-  if (!(value_of(offset.distance) > 1e-12)) return {offset, offset.distance - joint.c_r, P(1.0)};  // no direction
+  const double distance = value_of(offset.distance);
+  if (!is_number(distance) || !(distance > 1e-12)) return {offset, offset.distance - joint.c_r, P(1.0)};  // no direction
   const P theta = atan2(offset.n_y, offset.n_x);
   const PeriodicSpline::Point reach = joint.worn->calc_reach(ring, value_of(theta));
   const P delta = offset.distance - joint.c_r - chain(theta, reach.value, reach.slope);
@@ -102,8 +104,8 @@ RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<
 
 /// Kept out of the code of round bores, which most are. (static: see add_elements.)
 template <typename P, typename V, typename Load>
-[[gnu::noinline]] static void add_worn_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
-                                          Load& load) {
+[[gnu::noinline]] static void add_worn_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles,
+                                                 V* bristle_rates, Load& load) {
   for (int i = 0; i < contact.parameters().n_r; ++i)
     add_ring(contact, journal, i, place_on_worn_bore(contact, journal, i), bristles, bristle_rates, load);
 }

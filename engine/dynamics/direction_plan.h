@@ -20,21 +20,14 @@ class DirectionPlan {
       : model_(model),
         n_(static_cast<std::size_t>(model.coordinates)),
         column_of_q_(model.free.size()),
-        coordinates_((model.free.size() + 2) * n_) {
-    int column = 1;
-    int free = 0;
-    for (const TreeJoint& joint : model.joints) {
-      if (joint.driven) continue;
-      const int count = joint.count();
-      if (column % Lanes::kCount + 2 * count > Lanes::kCount) column = group_of(column + Lanes::kCount - 1) * Lanes::kCount;
-      for (int k = 0; k < count; ++k, ++free, column += 2) {
-        column_of_q_[static_cast<std::size_t>(free)] = column;
-        variation(column, joint.first + k).q = Lanes::unit(column % Lanes::kCount);
-        variation(column + 1, joint.first + k).qd = Lanes::unit((column + 1) % Lanes::kCount);
-      }
+        first_load_column_(place_columns(model, column_of_q_)),
+        moving_groups_(group_of(first_load_column_ - 1) + 1),
+        coordinates_((static_cast<std::size_t>(moving_groups_) + 1) * n_) {
+    for (std::size_t free = 0; free < model.free.size(); ++free) {
+      const int column = column_of_q_[free];
+      variation(column, model.free[free]).q = Lanes::unit(column % Lanes::kCount);
+      variation(column + 1, model.free[free]).qd = Lanes::unit((column + 1) % Lanes::kCount);
     }
-    first_load_column_ = column;
-    moving_groups_ = group_of(column - 1) + 1;
     const auto most_groups = static_cast<std::size_t>(moving_groups_) + (most_loads + Lanes::kCount - 1) / Lanes::kCount;
     outputs_ = std::make_unique<Buffer<Lanes>>(most_groups * (model.free.size() + model.drives.size() + 3));
   }
@@ -96,6 +89,18 @@ class DirectionPlan {
   }
 
  private:
+  /// Coordinates and rates of a joint share a group. @returns the column behind the last
+  [[nodiscard]] static int place_columns(const TreeModel& model, Buffer<int>& column_of_q) {
+    int column = 1;
+    std::size_t free = 0;
+    for (const TreeJoint& joint : model.joints) {
+      if (joint.driven) continue;
+      const int count = joint.count();
+      if (column % Lanes::kCount + 2 * count > Lanes::kCount) column = group_of(column + Lanes::kCount - 1) * Lanes::kCount;
+      for (int k = 0; k < count; ++k, column += 2) column_of_q[free++] = column;
+    }
+    return column;
+  }
   [[nodiscard]] static int group_of(int column) { return static_cast<int>(static_cast<unsigned>(column) / Lanes::kCount); }
   [[nodiscard]] int clamp(int load) const { return load < 0 ? 0 : load > load_count_ ? load_count_ : load; }
   CoordinateVariation<Lanes>& variation(int column, int coordinate) {
@@ -107,7 +112,7 @@ class DirectionPlan {
   const TreeModel& model_;
   std::size_t n_;                            ///< coordinates
   Buffer<int> column_of_q_;                  ///< of each free coordinate; its rate follows
-  int first_load_column_ = 0, moving_groups_ = 0;
+  int first_load_column_, moving_groups_;
   int load_count_ = 0, groups_ = 0;
   const LoadDirection* loads_ = nullptr;
   Buffer<CoordinateVariation<Lanes>> coordinates_;  ///< group after group, one a coordinate; those left over stand still

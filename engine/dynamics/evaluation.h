@@ -41,7 +41,7 @@ struct EnergyAccount {
 
 /// All that is known of the mechanism at one instant.
 struct Evaluation {
-  double t = 0.0;
+  double t = 0.0;                                           ///< [s]
   Eigen::VectorXd q, qd, qdd;                               ///< every coordinate
   Eigen::VectorXd drive_force;                              ///< one a drive, [N] or [N m]
   std::vector<FrameMotion> frames;                          ///< one a coordinate; accelerations are not set

@@ -25,10 +25,9 @@ class InverseDynamics {
   /// External forces for the next calc(); cleared by it.
   void add_load(FrameIndex frame, const Wrench& about_origin);
 
-  /// Computes the forces from the frames' motions, accelerations with them, and the loads added since. Allocates nothing.
+  /// Computes the forces, one a coordinate, [N] or [N m], from the frames' motions, accelerations with them, and the loads added since.
+  /// Allocates nothing.
   const Eigen::VectorXd& calc(const std::vector<FrameMotion>& frames);
-  /// What calc() found last, one a coordinate, [N] or [N m].
-  [[nodiscard]] const Eigen::VectorXd& forces() const { return forces_; }
   /// What calc() found to pass from a coordinate's joint to its frame, about the frame's origin.
   [[nodiscard]] const Wrench& transmitted(FrameIndex frame) const { return needed_[static_cast<std::size_t>(frame)]; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 #include <Eigen/QR>
 
@@ -44,6 +45,16 @@ Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::M
   decomposition.setThreshold(kDependent);
   decomposition.compute(J);
   return decomposition;
+}
+
+/// How far each driven coordinate has come when the first of them has gone a little way; zero if none ever moves.
+Eigen::VectorXd calc_first_way(const Mechanism& mechanism) {
+  constexpr double kLittleWay = 1e-4;           // [rad] or [m]
+  constexpr double kFirst = 1e-9, kLast = 1e4;  // [s]
+  Eigen::VectorXd way = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size()));
+  for (double t = kFirst; t < kLast && way.cwiseAbs().maxCoeff() < kLittleWay; t *= 1.2)
+    for (const Drive& drive : mechanism.drives) way[drive.coordinate] = calc_driven_motion(drive.law, t).q - calc_driven_motion(drive.law, 0.0).q;
+  return way;
 }
 
 /// How many rows of J do not follow from the others.
@@ -107,21 +118,42 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
   return false;
 }
 
-/// Rates that are not given follow from the rows; where those leave them free, the least ones.
 bool LoopClosure::assemble_rates(Evaluation& at) {
-  constexpr double kFits = 1e-9;  // of what the given rates do to the rows, [m/s] and [1/s]
   if (constraints_.count() == 0) return true;
   const auto rigid = static_cast<Eigen::Index>(rigid_rows_.size());
   redundant_ = rigid - rank_of(calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all));
+  std::vector<Eigen::Index> all_rows(static_cast<std::size_t>(constraints_.count()));
+  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
+  // A journal that has clearance may also move in its bearing from the start.
+  rates_fit_ = find_rates(all_rows, at) || find_rates(rigid_rows_, at);
+  return rates_fit_;
+}
+
+/// Rates that are not given follow from the rows; where those leave them free, the least ones. False if the given ones tear the rows apart.
+bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at) {
+  constexpr double kFits = 1e-9;  // of what the given rates do to the rows, [m/s] and [1/s]
   const std::vector<FrameIndex> open = find_coordinates(ideal_, is_rate_found_by_loops);
-  const double given = constraints_.Phi_d.cwiseAbs().maxCoeff();
+  for (const FrameIndex i : open) at.qd[i] = 0.0;
+  calc_rows(at);
+  if (rows.empty()) return true;
+  const double given = constraints_.Phi_d(rows).cwiseAbs().maxCoeff();
   if (!open.empty()) {
-    const Eigen::VectorXd rates = -decompose(calc_columns(open)).solve(constraints_.Phi_d);
+    const Eigen::VectorXd rates = -decompose(calc_columns(open)(rows, Eigen::all)).solve(constraints_.Phi_d(rows));
     for (std::size_t k = 0; k < open.size(); ++k) at.qd[open[k]] = rates[static_cast<Eigen::Index>(k)];
     calc_rows(at);
   }
-  rates_fit_ = constraints_.Phi_d.cwiseAbs().maxCoeff() <= kFits * std::max(1.0, given);
-  return rates_fit_;
+  return constraints_.Phi_d(rows).cwiseAbs().maxCoeff() <= kFits * std::max(1.0, given);
+}
+
+bool LoopClosure::lets_drives_begin() const {
+  constexpr double kTorn = 1e-2;  // of what each drive does to the rows: far more than they bend in the first bit of the way
+  if (rigid_rows_.empty() || ideal_.drives.empty()) return true;
+  const Eigen::MatrixXd Phi_q = constraints_.Phi_q(rigid_rows_, Eigen::all);
+  const Eigen::VectorXd way = calc_first_way(ideal_);
+  Eigen::VectorXd left = Phi_q * way;
+  const Eigen::MatrixXd J = calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all);
+  if (J.cols() > 0) left -= J * decompose(J).solve(left);
+  return left.norm() <= kTorn * (Phi_q.cwiseAbs() * way.cwiseAbs()).norm();
 }
 
 Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordinates) const {

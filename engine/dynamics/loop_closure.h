@@ -30,6 +30,8 @@ class LoopClosure {
 
   /// After assemble(): whether the velocities given for the start go with the loops.
   [[nodiscard]] bool rates_fit() const { return rates_fit_; }
+  /// After assemble(): whether the loops let the drives begin as they do. They do not if the drives move against each other, or against a joint.
+  [[nodiscard]] bool lets_drives_begin() const;
   /// After assemble(): how many of the constraint rows (joints with clearance have none) follow from the others.
   [[nodiscard]] Eigen::Index redundant() const { return redundant_; }
 
@@ -52,6 +54,7 @@ class LoopClosure {
 
  private:
   [[nodiscard]] bool assemble_rates(Evaluation& at);
+  [[nodiscard]] bool find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at);
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;

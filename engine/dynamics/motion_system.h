@@ -30,6 +30,8 @@ class MotionSystem {
  public:
   /// @param instruction_set  one of instruction_sets(), the best one if empty; results are the same to the last bit
   explicit MotionSystem(const Mechanism& mechanism, std::string_view instruction_set = {});
+  MotionSystem(const MotionSystem&) = delete;
+  MotionSystem& operator=(const MotionSystem&) = delete;
 
   /// State at t = 0 for given coordinates (of all the mechanism).
   [[nodiscard]] Eigen::VectorXd make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const;

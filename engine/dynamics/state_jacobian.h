@@ -14,6 +14,8 @@ class StateJacobian {
  public:
   /// With room for df/dt alone.
   StateJacobian(int free_coordinates, int bristles, int drives);
+  StateJacobian(StateJacobian&&) = default;  // its derivatives lie in the vectors, which move with it
+  StateJacobian& operator=(StateJacobian&&) = default;
   /// With room for all.
   void make_matrices();
 

@@ -143,7 +143,9 @@ void Integration::fail(RunStatus status, std::string detail) {
 
 /// Step k ends at (k + 1) step, whatever rounding; the last one at the end of the run.
 bool Integration::try_fixed_step() {
-  const double t_end = std::min(static_cast<double>(fixed_steps_ + 1) * options_.step, options_.duration);
+  constexpr double kSliver = 1e-9;  // of a step: so short a rest is rounding, and would be divided by
+  double t_end = static_cast<double>(fixed_steps_ + 1) * options_.step;
+  if (options_.duration - t_end < kSliver * options_.step) t_end = options_.duration;
   prepare(t_end - start_.t);
   const Trial trial = rk4_.try_step(system_, start_, t_end - start_.t, end_);
   run_end_.evaluations += trial.evaluations;
@@ -233,8 +235,7 @@ void Integration::accept() {
   energy_control_.accept(start_.at.energy, end_.at.energy);
   observer_.on_step(start_.at, end_.at);
   if (observer_.wants_middle()) {
-    evaluate_inside(0.5 * (start_.t + end_.t));
-    observer_.on_middle(sample_.at);
+    if (evaluate_inside(0.5 * (start_.t + end_.t)) == EvaluationStatus::kOk) observer_.on_middle(sample_.at);
   }
   take_samples();
   rodas4_.begin_step();
@@ -256,20 +257,21 @@ void Integration::accept() {
 /// Samples up to the end of the step, with the contacts as they were in it.
 void Integration::take_samples() {
   while (!samples_.all_taken() && samples_.next() <= end_.t) {
-    evaluate_inside(samples_.next());
+    const EvaluationStatus status = evaluate_inside(samples_.next());
+    if (status != EvaluationStatus::kOk) return fail(status);
     system_.calc_energies(sample_.at);
     observer_.on_sample(sample_.at);
     samples_.take();
   }
 }
 
-/// Evaluates the last step at one time into sample_.
-void Integration::evaluate_inside(double t) {
+/// Evaluates the last step at one time into sample_. What lies between two states that could be evaluated nearly always can be, too.
+EvaluationStatus Integration::evaluate_inside(double t) {
   if (t < end_.t)
     interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / (end_.t - start_.t), sample_.y);
   else
     sample_.y = end_.y;
-  (void)system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);  // between two states that could be evaluated
+  return system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
 }
 
 }  // namespace engine

@@ -17,6 +17,8 @@ namespace engine {
 class Integration {
  public:
   Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer);
+  Integration(const Integration&) = delete;
+  Integration& operator=(const Integration&) = delete;
 
   /// @param assembled  position and rates of all coordinates at t = 0
   [[nodiscard]] RunEnd run(const Evaluation& assembled);
@@ -31,7 +33,7 @@ class Integration {
   [[nodiscard]] bool land_on_event(double dt);
   void accept();
   void take_samples();
-  void evaluate_inside(double t);
+  [[nodiscard]] EvaluationStatus evaluate_inside(double t);
   void prepare(double dt);
   void forget_equations();
   void evaluate_again(StepEnd& end);

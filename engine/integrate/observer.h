@@ -12,6 +12,7 @@ class Observer {
   /// After each accepted step, with everything known at its two ends.
   virtual void on_step(const Evaluation& start, const Evaluation& end) = 0;
   /// Asked after on_step(): whether what is in the step's middle should be told too, by on_middle(). Costs an evaluation.
+  /// Left out where an interpolated state cannot be evaluated.
   [[nodiscard]] virtual bool wants_middle() { return false; }
   virtual void on_middle(const Evaluation&) {}
   /// At t = 0, at each multiple of the sample interval and at the end. Samples inside a step follow its on_step().

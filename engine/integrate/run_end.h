@@ -9,7 +9,7 @@ namespace engine {
 /// How a run ended, and what it took.
 struct RunEnd {
   RunStatus status = RunStatus::kSucceeded;
-  double t = 0.0;
+  double t = 0.0;        ///< reached, [s]
   std::string detail;    ///< of a failure, for the user
   int redundant_constraints = 0;  ///< rows that follow from others: of the multipliers that do, the least were taken
   long steps = 0;        ///< accepted

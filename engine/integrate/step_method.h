@@ -17,7 +17,7 @@ namespace engine {
 
 /// One end of a step: state, its derivative and what was evaluated with it.
 struct StepEnd {
-  double t = 0.0;
+  double t = 0.0;  ///< [s]
   Eigen::VectorXd y;
   Eigen::VectorXd f;
   Evaluation at;

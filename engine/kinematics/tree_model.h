@@ -22,7 +22,7 @@ struct TreePlacement {
 /// A joint and the body that it carries, with their numbers.
 struct TreeJoint : JointShape {
   TreePlacement placement;            ///< in the parent's frame
-  std::array<double, 3> stiffness{}, damping{};  ///< of its coordinates
+  std::array<double, 3> stiffness{}, damping{};  ///< of its coordinates, [N/m] or [N m/rad], and the same times [s]
   double mass = 0.0;                  ///< [kg]
   std::array<double, 3> mc{};         ///< mass times centre of mass, [kg m]
   std::array<double, 9> I{};          ///< about the frame's origin, [kg m^2]
@@ -57,7 +57,8 @@ struct TreeCutJoint {
 struct TreeSpring {
   int from_joint = -1, to_joint = -1;
   TreePlacement from, to;
-  double stiffness = 0.0, damping = 0.0, free_length = 0.0;
+  double stiffness = 0.0, damping = 0.0;  ///< [N/m], [N s/m]
+  double free_length = 0.0;               ///< [m]
 };
 
 /// A mechanism made ready for evaluation.

@@ -95,11 +95,6 @@ RPSUP_INLINE Mat3<A>& operator+=(Mat3<A>& a, const Mat3<B>& b) {
   a.z += b.z;
   return a;
 }
-/// [r]x m: the cross product with every column.
-template <typename A, typename B>
-[[nodiscard]] RPSUP_INLINE Mat3<Mixed<A, B>> cross(const Vec3<A>& r, const Mat3<B>& m) {
-  return {cross(r, m.x), cross(r, m.y), cross(r, m.z)};
-}
 
 /// A symmetric matrix.
 template <typename T>

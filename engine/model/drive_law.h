@@ -8,8 +8,8 @@ namespace engine {
 
 /// A driven coordinate at one instant.
 struct DrivenMotion {
-  double q = 0.0;
-  double qd = 0.0;
+  double q = 0.0;     ///< [rad] or [m]
+  double qd = 0.0;    ///< its derivatives by time
   double qdd = 0.0;
   double qddd = 0.0;  ///< what linearising by time needs
 };

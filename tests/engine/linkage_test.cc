@@ -102,6 +102,16 @@ TEST(Linkage, ASpringOfTheUsersYieldsWhereTheLoopCloses) {
   EXPECT_GT(run.column("potential_energy_j").front(), 0.5 * 5.0 * rocker * rocker);
 }
 
+TEST(Linkage, AJournalMayMoveInItsClearanceFromTheStart) {
+  Linkage linkage;
+  linkage.bodies = {make_body("journal", 1.0, {0.0, 0.0, 0.0}, {0.01, 0.01, 0.01})};
+  linkage.joints = {{.name = "float", .kind = JointKind::kPlanar, .from = kGroundName, .to = "journal", .placement = {},
+                     .freedoms = {{.name = "x", .start_rate = 0.1}, {.name = "y"}, {.name = "angle"}}},
+                    {.name = "bearing", .from = kGroundName, .to = "journal", .placement = {}, .cut = true, .clearance = ClearanceParameters{}}};
+  const LinkageRun run(linkage, accurate(2e-3));
+  EXPECT_NEAR(run.last("x_m"), 2e-4, 1e-12);  // of the 0.25 mm that it has
+}
+
 TEST(Linkage, AWeldedBodyIsPartOfWhatCarriesIt) {
   Linkage whole;
   whole.gravity_W = {0.0, -9.81, 0.0};
@@ -138,6 +148,24 @@ TEST(LinkageRefusal, NamesWhatIsAtFault) {
   massless.bodies.push_back({.name = "nothing"});
   massless.joints.push_back({.name = "loose", .from = "coupler", .to = "nothing", .placement = {}, .freedoms = {{.name = "loose"}}});
   EXPECT_EQ(refused_field(massless), "joints.loose");
+  // Each of two turns about one axis moves what is behind it; turned against each other they move nothing.
+  Linkage idle;
+  idle.bodies = {{.name = "ring"}, make_body("bar", 1.0, {0.5, 0.0, 0.0}, {0.01, 0.01, 0.01})};
+  idle.joints = {{.name = "outer", .from = kGroundName, .to = "ring", .placement = {}, .freedoms = {{.name = "outer"}}},
+                 {.name = "inner", .from = "ring", .to = "bar", .placement = {}, .freedoms = {{.name = "inner"}}}};
+  EXPECT_EQ(refused_field(idle), "joints");
+  // A second bearing across the axis about which the drive turns.
+  Linkage wedged = make_screw();
+  wedged.joints = {{.name = "along", .from = kGroundName, .to = "nut", .placement = {},
+                    .freedoms = {{.name = "turn", .drive = RunUp{.omega = 1.0, .run_up = 1.0}}}},
+                   {.name = "across", .from = kGroundName, .to = "nut", .placement = {.R = z_to_x()}, .cut = true, .to_placement = {.R = z_to_x()}}};
+  EXPECT_EQ(refused_field(wedged), "joints");
+  Linkage jammed = make_screw();
+  jammed.joints[0].freedoms[0].drive = Polynomial{{0.0}};
+  jammed.joints[0].freedoms[1].drive = Polynomial{{0.0, 0.0, 5.0}};
+  EXPECT_EQ(refused_field(jammed), "joints");
+  jammed.joints[0].freedoms[0].drive = Polynomial{{0.0, 0.0, 5.0 * jammed.joints[0].lead}};  // now both drives say the same
+  EXPECT_EQ(refused_field(jammed), "");
   Linkage impossible = make_four_bar(JointKind::kRevolute);
   impossible.bodies[1].inertia(2, 2) *= 3.0;
   EXPECT_EQ(refused_field(impossible), "bodies.coupler.inertia");

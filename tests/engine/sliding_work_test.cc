@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/model/rpsup.h"
 #include "engine/simulate_rpsup.h"
 #include "engine/validation/support/runs.h"
 
@@ -51,6 +52,22 @@ TEST(SlidingWork, IsOfTheRingThatPresses) {
   work.take_step(start, end);
   EXPECT_EQ(work.at(0, 1.0).work, 0.0);
   EXPECT_GT(work.at(1, 1.0).work, 4.0);
+}
+
+// A line contact's force grows nearly in proportion: three times as deep a ring has not 5.2 times the share, as by Hertz's law.
+TEST(SlidingWork, IsSharedByTheStiffnessLaw) {
+  RpsupParameters parameters;
+  parameters.stiffness_law = StiffnessLaw::kJohnson;
+  SlidingWork work(parameters);
+  Evaluation start = pressing(0.0, 50.0, 0.0, 20.0);
+  start.joints[0].journal.R_bj = Eigen::AngleAxisd(1e-4, Eigen::Vector3d::UnitY()).toRotationMatrix();  // 1 um out at one end, in at the other
+  Evaluation end = start;
+  end.t = 1.0;
+  work.take_step(start, end);
+  const ClearanceParameters joint = make_clearance(parameters);
+  const double forces = joint.cylinders.calc(3e-6).force / joint.cylinders.calc(1e-6).force;
+  const double speeds = (joint.r_j() + 1e-6) / (joint.r_j() - 1e-6);  // about the axis, which the outer point is farther from
+  EXPECT_NEAR(work.at(1, 1.0).work / work.at(0, 1.0).work / (forces * speeds), 1.0, 1e-7);
 }
 
 // With one coefficient at all speeds friction takes mu of it, once a bristle has bent by mu / sigma_0: here a micrometre.

@@ -10,15 +10,15 @@ namespace engine::validation {
 [[nodiscard]] Findings compute_order_on_the_linkage();
 /// When a contact begins and ends, and how close to that the steps end.
 [[nodiscard]] Findings compute_contact_instants();
-/// Both integrators give the same peaks: rigid coupler, 0.25 mm.
+/// All integrators give the same peaks: rigid coupler, 0.25 mm.
 [[nodiscard]] Findings compute_peaks_narrow();
-/// Both integrators give the same peaks: rigid coupler, 0.5 mm.
+/// The same at 0.5 mm.
 [[nodiscard]] Findings compute_peaks_wide();
-/// Both integrators give the same peaks: flexible coupler, at the speed at which it converges.
+/// The same with the flexible coupler, at the speed at which it converges.
 [[nodiscard]] Findings compute_peaks_flexible();
 /// Peaks by the default with contact elements and other friction.
 [[nodiscard]] Findings compute_peaks_of_other_contacts();
-/// What a digit of the peak costs with either integrator.
+/// What a digit of the peak costs with each integrator.
 [[nodiscard]] Findings compute_work_and_precision();
 
 }  // namespace engine::validation
