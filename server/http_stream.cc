@@ -99,9 +99,7 @@ void HttpStream::close_gently() {
 
 bool HttpStream::is_readable() const { return consumed_ < buffer_.size() || wait_for(POLLIN, read_deadline_); }
 
-bool HttpStream::is_writable() const {
-  return wait_for(POLLOUT, std::min(stall_deadline(), write_deadline_.value_or(Clock::now() + limits_.response_time)));
-}
+bool HttpStream::is_writable() const { return wait_for(POLLOUT, write_deadline()); }
 
 ssize_t HttpStream::read(char* to, std::size_t size) {
   if (consumed_ < buffer_.size()) {
@@ -123,8 +121,8 @@ ssize_t HttpStream::read(char* to, std::size_t size) {
 
 ssize_t HttpStream::write(const char* from, std::size_t size) {
   const auto start = Clock::now();
-  if (!write_deadline_) write_deadline_ = start + limits_.response_time;
-  const auto deadline = std::min(*write_deadline_, stall_deadline());
+  if (!write_start_) write_start_ = start;
+  const auto deadline = write_deadline();
   while (wait_for(POLLOUT, deadline)) {
     const ssize_t sent = ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
     if (sent >= 0) {
@@ -162,9 +160,11 @@ bool HttpStream::wait_for(short events, Clock::time_point deadline) const {
   }
 }
 
-HttpStream::Clock::time_point HttpStream::stall_deadline() const {
-  const auto earned = std::chrono::milliseconds(1000 * sent_bytes_ / limits_.least_bytes_per_s);
-  return Clock::now() + limits_.stall_time + earned - waited_;
+HttpStream::Clock::time_point HttpStream::write_deadline() const {
+  const auto now = Clock::now();
+  const auto earned = [this](std::size_t bytes_per_s) { return std::chrono::milliseconds(1000 * sent_bytes_ / bytes_per_s); };
+  return std::min(write_start_.value_or(now) + limits_.response_time + earned(limits_.response_bytes_per_s),
+                  now + limits_.stall_time + earned(limits_.least_bytes_per_s) - waited_);
 }
 
 ssize_t HttpStream::receive(char* to, std::size_t size, Clock::time_point deadline) const {

@@ -21,6 +21,7 @@ struct HttpLimits {
   std::chrono::milliseconds head_time{5'000};
   std::chrono::milliseconds body_time{10'000};
   std::chrono::milliseconds response_time{60'000};
+  std::size_t response_bytes_per_s = 256 * 1024;   ///< what the client takes buys it more of that time: a copy of the store has gigabytes
   std::chrono::milliseconds stall_time{10'000};    ///< waiting, all in all, until the client takes more of the answer
   std::size_t least_bytes_per_s = 1024;            ///< what the client takes buys it more of that time
   std::chrono::milliseconds linger_time{2'000};    ///< waiting for the client to close its end
@@ -69,8 +70,8 @@ class HttpStream final : public httplib::Stream {
 
   /// Waits until the socket has one of these poll events. False when the deadline passes first.
   bool wait_for(short events, Clock::time_point deadline) const;
-  /// When a client that takes nothing now has been waited for long enough.
-  [[nodiscard]] Clock::time_point stall_deadline() const;
+  /// When a client that takes nothing now has been waited for long enough, or is too slow by now.
+  [[nodiscard]] Clock::time_point write_deadline() const;
   /// Like recv(), after waiting. 0: closed by the client; negative: deadline or error.
   ssize_t receive(char* to, std::size_t size, Clock::time_point deadline) const;
 
@@ -85,7 +86,7 @@ class HttpStream final : public httplib::Stream {
   std::size_t raw_body_bytes_ = 0;
   Clock::time_point read_deadline_;
   Clock::time_point crowded_deadline_;  ///< of reads, while others wait for a thread
-  std::optional<Clock::time_point> write_deadline_;  ///< set by the first write
+  std::optional<Clock::time_point> write_start_;  ///< of the first write
   std::size_t sent_bytes_ = 0;
   Clock::duration waited_{};  ///< for the client to take what it was sent
 };

@@ -28,7 +28,8 @@ struct Request {
 class FileBody {
  public:
   /// @param descriptor  of a file that has no name any more; becomes this object's
-  explicit FileBody(int descriptor) : descriptor_(descriptor) {}
+  /// @param permit      let go once the file is gone
+  explicit FileBody(int descriptor, std::shared_ptr<const void> permit) : permit_(std::move(permit)), descriptor_(descriptor) {}
   ~FileBody();
   FileBody(const FileBody&) = delete;
   FileBody& operator=(const FileBody&) = delete;
@@ -38,6 +39,7 @@ class FileBody {
   [[nodiscard]] std::size_t read(std::size_t offset, char* to, std::size_t size) const;
 
  private:
+  std::shared_ptr<const void> permit_;
   int descriptor_;
 };
 

@@ -14,6 +14,7 @@
 #include "server/problem.h"
 #include "server/route_table.h"
 #include "server/safe_log.h"
+#include "server/store_route.h"
 
 namespace server {
 
@@ -42,6 +43,10 @@ Response make_wrong_method(const std::string& allowed) {
 
 }  // namespace
 
+Routes::Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics) : service_(service), metrics_(std::move(metrics)) {
+  remove_left_over_copy(service.store_file());
+}
+
 Response Routes::answer(const Request& request) const {
   const auto start = std::chrono::steady_clock::now();
   std::string_view pattern;
@@ -69,7 +74,7 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
     pattern = route.pattern;
     if (route.method == method) {
       if (draining_ && changes_something(method)) return make_retry_later(503, "the service is shutting down");
-      return route.handler({service_, request, std::move(*id), draining_, *metrics_, waiting_room_, copying_});
+      return route.handler({service_, request, std::move(*id), draining_, *metrics_, waiting_room_, copy_room_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }

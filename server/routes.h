@@ -2,12 +2,11 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "jobs/service.h"
+#include "server/copy_room.h"
 #include "server/message.h"
 #include "server/metrics.h"
 #include "server/preference.h"
@@ -19,8 +18,7 @@ namespace server {
 class Routes {
  public:
   /// @param metrics  counts the requests
-  explicit Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>())
-      : service_(service), metrics_(std::move(metrics)) {}
+  explicit Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
 
   /// Whatever goes wrong becomes an answer of type application/problem+json.
   /// @throws std::bad_alloc only, if there is no memory even for that
@@ -37,7 +35,7 @@ class Routes {
   std::shared_ptr<Metrics> metrics_;
   std::atomic<bool> draining_ = false;
   mutable WaitingRoom waiting_room_;
-  mutable std::mutex copying_;
+  mutable CopyRoom copy_room_;
 };
 
 /// What a route is called with.
@@ -48,7 +46,7 @@ struct Call {
   bool draining;
   const Metrics& metrics;
   WaitingRoom& waiting_room;
-  std::mutex& copying;  ///< held by the one request that copies the store
+  CopyRoom& copy_room;
 };
 
 /// True for a text that may be an id: 1 to 64 letters, digits, '-' or '_'.

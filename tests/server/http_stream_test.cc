@@ -91,6 +91,30 @@ TEST(HttpStream, ServesAClientThatIsSlowButSteady) {
   EXPECT_GT(Clock::now() - start, 300ms) << "the client was not slow";
 }
 
+TEST(HttpStream, GivesALargeAnswerMoreTimeThanASmallOne) {
+  HttpLimits limits = limits_of(20s, 1024);
+  limits.response_time = 250ms;
+  limits.response_bytes_per_s = 100'000;
+  const Pair pair;
+  HttpStream stream({.socket = pair.server()}, limits, kNotDraining, kNobodyWaits);
+  const auto reader = slow_reader(pair, 4000, 10ms);  // some 400 kB/s
+  const auto start = Clock::now();
+  EXPECT_TRUE(stream.send_all(std::string(300'000, 'a')));
+  EXPECT_GT(Clock::now() - start, 300ms) << "the client was not slow";
+}
+
+TEST(HttpStream, GivesUpAClientThatIsSteadyButTooSlow) {
+  HttpLimits limits = limits_of(20s, 1024);
+  limits.response_time = 250ms;
+  limits.response_bytes_per_s = 1024 * 1024;
+  const Pair pair;
+  HttpStream stream({.socket = pair.server()}, limits, kNotDraining, kNobodyWaits);
+  const auto reader = slow_reader(pair, 1000, 10ms);
+  const auto start = Clock::now();
+  EXPECT_FALSE(stream.send_all(std::string(1'000'000, 'a')));
+  EXPECT_LT(Clock::now() - start, 5s);
+}
+
 TEST(HttpStream, HurriesAClientThatTakesNothingOnceOthersWait) {
   HttpLimits limits = limits_of(20s, 1024);
   limits.crowded_time = 200ms;

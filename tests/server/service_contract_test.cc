@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -207,6 +208,25 @@ TEST(GetStore, IsAFileThatNobodyElseSees) {
   EXPECT_EQ(start, std::string("SQLite format 3") + '\0');
   EXPECT_FALSE(std::filesystem::exists(bench.service().store_file().string() + ".copy"));
   EXPECT_EQ(bench.call("GET", "/v1/store", "", {{"format", "csv"}}).status, 422);
+}
+
+TEST(GetStore, HasOneCopyOnTheDiskAtATime) {
+  Bench bench;
+  auto copy = bench.call("GET", "/v1/store");
+  ASSERT_EQ(copy.status, 200);
+  const auto second = bench.call("GET", "/v1/store");
+  EXPECT_EQ(second.status, 503) << "while the first is being sent";
+  EXPECT_NE(header(second, "Retry-After"), "");
+  copy.file.reset();
+  EXPECT_EQ(bench.call("GET", "/v1/store").status, 200);
+}
+
+TEST(GetStore, LeavesNoCopyOfAProcessThatDied) {
+  Bench bench;
+  const std::filesystem::path left = bench.service().store_file().string() + ".copy";
+  std::ofstream(left) << "half of it";
+  const server::Routes next_process(bench.service());
+  EXPECT_FALSE(std::filesystem::exists(left));
 }
 
 }  // namespace
