@@ -60,6 +60,26 @@ test("a request is used again whole", async () => {
   await leave(page, /422/);
 });
 
+test("the form counts the jobs that the service makes", async () => {
+  const ends = { clearance_mm: { from: 0.1, to: 0.4 }, restitution: { from: 0.7, to: 0.9 } };
+  const page = await visit("#/new");
+  for (const [design, jobs] of [
+    [{ type: "sobol", count: 4, over: ends }, 4],
+    [{ type: "latin_hypercube", count: 5, over: ends }, 5],
+    [{ type: "morris", trajectories: 2, over: ends }, 2 * (2 + 1)],
+    [{ type: "saltelli", count: 4, over: ends }, 4 * (2 + 2)],
+    [{ type: "zip", over: { clearance_mm: [0.1, 0.2], restitution: [0.7, 0.8] } }, 2],
+    [{ type: "one_at_a_time", over: { clearance_mm: [0.1, 0.2], restitution: [0.75] } }, 1 + 2 + 1],
+  ]) {
+    await page.getByText("Replicates, cases, designs and order").click();
+    await page.getByLabel(/^Design:/).fill(JSON.stringify(design));
+    await page.getByText(`${jobs} jobs`, { exact: true }).waitFor({ timeout: 5000 });
+    assert.equal((await runSweep({ parameters: short, design })).counts.total, jobs, design.type);
+    await page.getByText("Replicates, cases, designs and order").click();
+  }
+  await leave(page);
+});
+
 test("a sweep shows its metrics, and what is selected in its table is selected everywhere", async () => {
   const sweep = await runSweep({ name: "axes", parameters: short, sweep: { clearance_mm: [0.1, 0.2, 0.3], coupler: ["rigid", "flexible"] } });
   const page = await visit(`#/sweeps/${sweep.id}`);

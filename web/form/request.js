@@ -123,6 +123,9 @@ const sizeOf = (axis) => (Array.isArray(axis) ? axis.length : axis.count);
 /// Of a design; the service has the last word.
 function countPoints(design) {
   if (!design) return 1;
+  const dimensions = Object.keys(design.over).length;
+  if (design.type === "morris") return design.trajectories * (dimensions + 1);
+  if (design.type === "saltelli") return design.count * (dimensions + 2);
   if (design.count !== undefined) return design.count;
   const sizes = Object.values(design.over).map(sizeOf);
   return design.type === "zip" ? sizes[0] : 1 + sizes.reduce((sum, size) => sum + size, 0);
