@@ -143,7 +143,8 @@ test("another linkage is taken, swept over a number inside it, and seen in motio
   await page.getByRole("button", { name: "Submit" }).click();
   await page.waitForURL(/#\/sweeps\/swp_/);
   await page.getByText("2 succeeded of 2 jobs").waitFor();
-  const rows = await resultsOf({ id: page.url().split("/").at(-1) });
+  const sweep = { id: page.url().split("/").at(-1) };
+  const rows = await resultsOf(sweep);
   assert.deepEqual(rows.map((row) => row["linkage.joints.crank_pin.clearance.clearance_mm"]), [0.05, 0.1]);
   assert.ok(rows.every((row) => row.peak_crank_pin_contact_force_n > 0 && row.peak_slider_pin_contact_force_n > 0));
   await page.goto(`${url}/#/jobs/${rows[0].job_id}`);
@@ -153,6 +154,9 @@ test("another linkage is taken, swept over a number inside it, and seen in motio
   await page.locator(".uplot").nth(4).waitFor();
   await expectAccessible(page);
   await picture(page, "described", { fullPage: true });
+  await page.goto(`${url}/#/analyses/${sweep.id}`);
+  await page.getByText(/points are too few for a surrogate/).waitFor();
+  assert.equal(await page.getByRole("heading", { name: "Bifurcation diagram" }).count(), 0);
   await page.goto(`${url}/#/new?linkage=bricard`);
   await page.getByText("1 job").waitFor();
   await leave(page);
