@@ -211,6 +211,27 @@ test("a sweep is cancelled and retried in the list", async () => {
   await leave(page);
 });
 
+test("a sweep is followed once, however often its jobs are retried", async () => {
+  const sweep = await ask("/v1/sweeps", { name: "again", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
+  const page = await visit("");
+  let followed = 0;
+  page.on("request", (request) => { followed += request.url().endsWith(`${sweep.id}/events`) ? 1 : 0; });
+  await page.goto(`${url}/#/sweeps/${sweep.id}`);
+  const last = (await resultsOf(sweep)).at(-1).job_id;
+  for (let time = 0; time < 3; time += 1) {
+    await ask(`/v1/jobs/${last}/cancel`, {});
+    await page.getByRole("button", { name: "Retry" }).click();
+    await page.getByRole("button", { name: "Retry" }).waitFor({ state: "detached" });
+  }
+  assert.equal(followed, 1);
+  await page.getByRole("button", { name: "Cancel" }).click();
+  await page.getByText("cancelled: 3 cancelled of 3 jobs").waitFor();
+  await page.getByRole("button", { name: "Retry" }).click();
+  await page.getByRole("button", { name: "Cancel" }).click();
+  await page.getByText("cancelled: 3 cancelled of 3 jobs").waitFor();
+  await leave(page);
+});
+
 test("a search is begun in its form, draws its limits and is deleted", async () => {
   const page = await visit("#/searches");
   await page.getByText("No search has been begun yet").waitFor();

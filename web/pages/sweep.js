@@ -82,10 +82,22 @@ class SweepPage {
     }
   }
 
+  /// Once at a time: a browser opens few connections to one service.
   followIt() {
+    if (this.isFollowed) return;
+    this.isFollowed = true;
     // A large sweep is fetched seldom: what it takes is a small part of the time.
     const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
-    follow(this.sweep.id, { progress: (news) => { Object.assign(this.sweep, { ...news, id: this.sweep.id }); this.drawHead(); reload(); }, done: () => this.reload() }, this.signal);
+    follow(this.sweep.id, {
+      progress: (news) => { Object.assign(this.sweep, { ...news, id: this.sweep.id }); this.drawHead(); reload(); },
+      job: reload,  // after a retry the counts may be those that were told before
+      done: () => { this.isFollowed = false; this.update(); },
+    }, this.signal);
+  }
+
+  async update() {
+    await this.reload();
+    if (!this.signal.aborted && isUnderWay(this.sweep)) this.followIt();
   }
 
   async reload() {
@@ -118,7 +130,7 @@ class SweepPage {
     const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0).map(([state, count]) => `${count.toLocaleString("en")} ${state}`);
     const left = isUnderWay(this.sweep) && eta !== null ? `; about ${span(eta)} left` : "";
     this.status.textContent = `${this.sweep.state}: ${parts.join(", ")} of ${plural(counts.total, "job")}${left}`;
-    const act = (text, run) => h("button", { onclick: () => run(this.sweep.id).then(() => this.reload()).then(() => isUnderWay(this.sweep) && this.followIt()).catch((error) => notify(error.message, "trouble")) }, text);
+    const act = (text, run) => h("button", { onclick: () => run(this.sweep.id).then(() => this.update()).catch((error) => notify(error.message, "trouble")) }, text);
     this.buttons.replaceChildren(...[
       h("a", { class: "button", href: resultsUrl(this.sweep.id, { format: "csv" }), download: `${this.sweep.name || this.sweep.id}.csv` }, "CSV"),
       h("a", { class: "button", href: routeTo("analyses", this.sweep.id) }, "What it says"),
