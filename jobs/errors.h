@@ -34,6 +34,12 @@ class WrongState : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The service has been stopped: the next one may take it.
+class Stopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// There are so many jobs waiting that no more are taken; later there may be room.
 class QueueFull : public WrongState {
  public:

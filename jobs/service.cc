@@ -325,7 +325,7 @@ class Service::Impl {
   }
 
   void check_open() const {
-    if (stopped_) throw WrongState("the service has been stopped and takes nothing new");
+    if (stopped_) throw Stopped("the service is shutting down");
   }
 
   void wake() {

@@ -116,7 +116,7 @@ enum class Study { kLimit, kWear };
 /// Every JSON it returns is the resource as the HTTP interface and the command line show it.
 /// All members may be called from any thread.
 /// What throws: InvalidRequest (a faulty request; of a query "/limit", "/state", "/cursor", "/fields/0", "/order_by/0",
-/// "/clearance_mm_gt", "/channels/0", "/from", "/to", "/points" are the pointers), WrongState, StorageError.
+/// "/clearance_mm_gt", "/channels/0", "/from", "/to", "/points" are the pointers), WrongState, StorageError, Stopped (of new work, after stop()).
 class Service {
  public:
   /// Opens the store (its lock is held until destruction), queues again what a former process left running, and starts the pool if

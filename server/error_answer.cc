@@ -38,6 +38,8 @@ Response make_error_answer(const std::exception_ptr& error, const std::string& r
     return make_retry_later(429, queue_full.what());
   } catch (const jobs::WrongState& wrong_state) {
     return make_problem(409, wrong_state.what());
+  } catch (const jobs::Stopped& stopped) {
+    return make_retry_later(503, stopped.what());
   } catch (const jobs::StoreLimitReached& limit) {
     return make_problem(507, limit.what());
   } catch (const jobs::StorageError& storage_error) {

@@ -11,7 +11,7 @@ namespace server {
 /// the request.
 ///
 ///     HttpError its own, BadJson 400, InvalidRequest 422 with every fault, QueueFull 429, WrongState 409,
-///     StorageError 507 when the disk is full and 503 otherwise, std::bad_alloc 503, anything else 500 without its text
+///     Stopped 503, StorageError 507 when the disk is full and 503 otherwise, std::bad_alloc 503, anything else 500 without its text
 [[nodiscard]] Response make_error_answer(const std::exception_ptr& error, const std::string& request_id);
 
 /// A problem that a later try may not meet: with Retry-After.

@@ -262,8 +262,8 @@ TEST(Service, PutsRunningJobsBackWhenItStopsAndGoesOnWhenItStarts) {
     engine.await_running(2);
     service.stop();
     EXPECT_EQ(service.find_sweep(id).value().at("counts").at("queued"), 3);
-    EXPECT_THROW((void)service.submit_sweep(request_of("{}")), jobs::WrongState);
-    EXPECT_THROW((void)service.submit_job(json::object()), jobs::WrongState);
+    EXPECT_THROW((void)service.submit_sweep(request_of("{}")), jobs::Stopped);
+    EXPECT_THROW((void)service.submit_job(json::object()), jobs::Stopped);
   }
   engine.release();
   const jobs::Service service(options_of(store, engine, 2));

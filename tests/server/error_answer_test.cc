@@ -48,6 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
         ErrorCase{"Invalid", std::make_exception_ptr(jobs::InvalidRequest(std::vector<jobs::Fault>{{"/a", "secret"}})), 422, true},
         ErrorCase{"QueueFull", std::make_exception_ptr(jobs::QueueFull("secret")), 429, true},
         ErrorCase{"WrongState", std::make_exception_ptr(jobs::WrongState("secret")), 409, true},
+        ErrorCase{"Stopped", std::make_exception_ptr(jobs::Stopped("secret")), 503, true},
         ErrorCase{"NoMemory", std::make_exception_ptr(std::bad_alloc()), 503, false},
         ErrorCase{"StoreLimit", std::make_exception_ptr(jobs::StoreLimitReached("secret")), 507, true},
         ErrorCase{"DiskFull", std::make_exception_ptr(jobs::StorageError("secret", 13, true)), 507, false},

@@ -95,4 +95,14 @@ TEST(Routes, TakeNothingNewWhileDraining) {
   EXPECT_EQ(bench.call("GET", "/healthz").status, 200);
 }
 
+// What was let in before the service began to end, and is looked at after it has.
+TEST(Routes, TakeNothingNewOnceTheServiceIsStopped) {
+  Bench bench;
+  bench.service().stop();
+  for (const auto& response : {bench.call("POST", "/v1/sweeps", "{}"), bench.call("POST", "/v1/jobs", "{}")}) {
+    EXPECT_EQ(response.status, 503);
+    EXPECT_FALSE(header(response, "Retry-After").empty());
+  }
+}
+
 }  // namespace
