@@ -146,7 +146,9 @@ std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_t
   };
   const auto stopped = [&](double) { return stop.stop_requested() || job_stop.stop_requested(); };
   try {
-    return run_and_record(spec, read_and_run, stopped, limits_.wall_time_s);
+    RunRecord record = run_and_record(spec, read_and_run, stopped, limits_.wall_time_s);
+    if (source_.ran) source_.ran(spec, record);
+    return record;
   } catch (const std::bad_alloc& error) {
     tell("the end of a job could not be noted, so it is to be computed again", job.id, error);
     return std::nullopt;

@@ -25,6 +25,7 @@ struct JobSource {
   /// May claim the next job at once, if there is somebody to take it, or do nothing at all; if it hands over none, claim() is asked.
   std::function<void(const ClaimedJob&, const RunRecord&, const Taken&)> record;
   std::function<void(const ClaimedJob&)> give_back;
+  RunListener ran{};  ///< before the record is left; empty: nobody is told
 };
 
 /// Computes jobs on threads of this process, as many at a time as it has threads. Threads sleep while there is nothing to do.

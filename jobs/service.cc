@@ -60,7 +60,8 @@ class Service::Impl {
     executors_.push_back(std::make_unique<LocalPool>(JobSource{.claim = [this](const Taken& taken) { claim(taken); },
                                                                .record = [this](const ClaimedJob& job, const RunRecord& run,
                                                                                 const Taken& next) { record(job, run, next); },
-                                                               .give_back = [this](const ClaimedJob& job) { store_.give_back(job); }},
+                                                               .give_back = [this](const ClaimedJob& job) { store_.give_back(job); },
+                                                               .ran = options_.ran},
                                                      options_.runner, options_.threads, options_.log, options_.job_limits));
     if (has_cluster()) {
       executors_.push_back(std::make_unique<cluster::SlurmExecutor>(

@@ -31,6 +31,11 @@ struct JobSpec {
 /// Computes one job; tests put their own in the place of engine::simulate_rpsup.
 using Runner = std::function<engine::RunResult(const JobSpec&, const engine::StopQuery&)>;
 
+struct RunRecord;
+
+/// Told what a run of a job left. Must not throw.
+using RunListener = std::function<void(const JobSpec&, const RunRecord&)>;
+
 /// When a service begins to compute.
 enum class Start { kAtOnce, kWhenTold };
 
@@ -47,6 +52,7 @@ struct ServiceOptions {
   Runner runner;                ///< empty: the engine
   /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not throw.
   std::function<void(const std::string&)> log;
+  RunListener ran{};            ///< told, from any thread, of each run on this machine before it is recorded; empty: nobody
 };
 
 /// A page of a listing.

@@ -1,8 +1,8 @@
 #include "server/metrics.h"
 
-#include <chrono>
+#include <algorithm>
 #include <mutex>
-#include <utility>
+#include <new>
 
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
@@ -11,19 +11,20 @@
 #include <prometheus/text_serializer.h>
 
 #include "jobs/program_info.h"
+#include "jobs/run_record.h"
+#include "server/safe_log.h"
 
 namespace server {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 const prometheus::Histogram::BucketBoundaries kJobSeconds{0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000, 3600};
 const prometheus::Histogram::BucketBoundaries kRequestSeconds{0.001, 0.003, 0.01, 0.03, 0.1, 0.25, 1, 3, 10};
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 const char* kind_of(const jobs::JobSpec& spec) {
+  if (spec.linkage) {
+    return std::ranges::any_of(spec.linkage->bodies, [](const auto& body) { return body.beam.has_value(); }) ? "flexible" : "rigid";
+  }
   const engine::RpsupParameters& p = spec.parameters;
   for (const engine::LinkModel link : {p.coupler, p.crank.model, p.rod.model, p.cross.model})
     if (link == engine::LinkModel::kFlexible) return "flexible";
@@ -51,16 +52,16 @@ class Metrics::Impl {
         .Set(1);
     // Series that may come are there from the beginning: a rate needs the zero before the first.
     for (const char* const kind : {"rigid", "flexible"}) job_seconds_.Add({{"kind", kind}}, kJobSeconds);
-    failures_.Add({{"reason", "internal"}});
+    for (const char* const reason : {"internal", "time_limit", "memory_limit"}) failures_.Add({{"reason", reason}});
   }
 
-  void add_run(const jobs::JobSpec& spec, const engine::RunResult& result, double seconds) {
-    if (result.status == engine::RunStatus::kStopped) return;
-    job_seconds_.Add({{"kind", kind_of(spec)}}, kJobSeconds).Observe(seconds);
-    if (result.status != engine::RunStatus::kSucceeded) add_failure(std::string(engine::status_name(result.status)));
+  void add_run(const jobs::JobSpec& spec, const jobs::RunRecord& run) {
+    if (run.end == jobs::RunRecord::End::kStopped) return;
+    const bool failed = run.end == jobs::RunRecord::End::kFailed;
+    if (failed) failures_.Add({{"reason", run.error_reason}}).Increment();
+    const bool began = !failed || run.error_t_s;
+    if (began) job_seconds_.Add({{"kind", kind_of(spec)}}, kJobSeconds).Observe(run.wall_time_s);
   }
-
-  void add_failure(const std::string& reason) { failures_.Add({{"reason", reason}}).Increment(); }
 
   void add_request(const std::string& method, std::string_view route, int status, double seconds) {
     request_seconds_
@@ -101,10 +102,14 @@ class Metrics::Impl {
   prometheus::Family<prometheus::Gauge>& problems_ = add_gauges("rpsup_executor_problems", "What somebody should look at; /v1/executors says what");
   prometheus::Family<prometheus::Histogram>& job_seconds_ = prometheus::BuildHistogram()
                                                                 .Name("rpsup_job_duration_seconds")
-                                                                .Help("Time that jobs took which were computed to their end, by kind of links: rigid, or with a flexible one")
+                                                                .Help("Time that jobs took on this machine, by kind of links: rigid, or with "
+                                                                      "a flexible one")
                                                                 .Register(registry_);
   prometheus::Family<prometheus::Counter>& failures_ =
-      prometheus::BuildCounter().Name("rpsup_job_failures_total").Help("Runs of jobs that failed since the program began, by reason").Register(registry_);
+      prometheus::BuildCounter()
+          .Name("rpsup_job_failures_total")
+          .Help("Runs of jobs on this machine that failed since the program began, by reason")
+          .Register(registry_);
   prometheus::Family<prometheus::Histogram>& request_seconds_ = prometheus::BuildHistogram()
                                                                     .Name("rpsup_http_request_duration_seconds")
                                                                     .Help("Time in which requests were answered, from their last byte on")
@@ -114,18 +119,12 @@ class Metrics::Impl {
 Metrics::Metrics() : impl_(std::make_unique<Impl>()) {}
 Metrics::~Metrics() = default;
 
-jobs::Runner Metrics::measured(jobs::Runner runner) {
-  return [this, runner = std::move(runner)](const jobs::JobSpec& spec, const engine::StopQuery& stop_requested) {
-    const auto start = Clock::now();
-    try {
-      engine::RunResult result = runner(spec, stop_requested);
-      impl_->add_run(spec, result, seconds_since(start));
-      return result;
-    } catch (...) {
-      impl_->add_failure("internal");
-      throw;
-    }
-  };
+void Metrics::add_run(const jobs::JobSpec& spec, const jobs::RunRecord& run) noexcept {
+  try {
+    impl_->add_run(spec, run);
+  } catch (const std::bad_alloc&) {  // the job has its result all the same
+    log_error("a run is missing in the metrics: no memory");
+  }
 }
 
 void Metrics::add_request(const std::string& method, std::string_view route, int status, double seconds) {

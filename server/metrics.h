@@ -16,10 +16,8 @@ class Metrics {
   Metrics(const Metrics&) = delete;
   Metrics& operator=(const Metrics&) = delete;
 
-  /// A runner that also counts what the runs of another one take, by kind of links, and why they fail. Runs that were asked to stop
-  /// are no jobs that have ended.
-  /// @param runner  computes; this outlives what is returned
-  [[nodiscard]] jobs::Runner measured(jobs::Runner runner);
+  /// Counts a run: what it took, by kind of links, and why it failed. One that was asked to stop is no job that has ended.
+  void add_run(const jobs::JobSpec& spec, const jobs::RunRecord& run) noexcept;
 
   /// Counts a request that has been answered.
   /// @param route  pattern of the path, so that there are not as many as ids; empty: no route

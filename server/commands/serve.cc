@@ -14,7 +14,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include "jobs/run_record.h"
 #include "jobs/service.h"
 #include "server/commands/command.h"
 #include "server/commands/log.h"
@@ -129,7 +128,7 @@ int serve(const ServeOptions& options) {
   service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
   const auto metrics = std::make_shared<Metrics>();
-  service_options.runner = metrics->measured(jobs::engine_runner());
+  service_options.ran = [metrics](const jobs::JobSpec& spec, const jobs::RunRecord& run) { metrics->add_run(spec, run); };
   jobs::Service service(service_options);
   Routes routes(service, metrics);
   HttpServer http(routes, {.address = address, .port = options.port, .cors_origins = cors_origins, .names = names, .token = token});

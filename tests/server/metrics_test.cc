@@ -1,10 +1,14 @@
 #include "server/metrics.h"
 
+#include <chrono>
+#include <new>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "jobs/run_record.h"
 #include "tests/server/service_fixture.h"
 
 namespace {
@@ -15,36 +19,68 @@ using server_tests::Bench;
 /// Whether a line of the text is this.
 bool has_line(const std::string& text, const std::string& line) { return ("\n" + text).find("\n" + line + "\n") != std::string::npos; }
 
-TEST(Metrics, CountRunsByKindAndFailuresByReason) {
+TEST(Metrics, CountRunsByKind) {
   Metrics metrics;
-  enum class What { kSucceeds, kFails, kThrows, kIsStopped } what = What::kSucceeds;
-  const auto runner = metrics.measured([&](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
-    if (what == What::kThrows) throw std::runtime_error("thrown");
-    engine::RunResult result = server_tests::known_run(spec, stop);
-    if (what == What::kFails) result.status = engine::RunStatus::kNonFinite;
-    if (what == What::kIsStopped) result.status = engine::RunStatus::kStopped;
-    return result;
-  });
-  const auto never = [](double) { return false; };
+  jobs::RunRecord failed;
+  failed.end = jobs::RunRecord::End::kFailed;
+  failed.error_reason = "non_finite";
+  failed.error_t_s = 0.1;
+  jobs::RunRecord stopped;
+  stopped.end = jobs::RunRecord::End::kStopped;
   jobs::JobSpec flexible;
   flexible.parameters.coupler = engine::Coupler::kFlexible;
-  static_cast<void>(runner(flexible, never));
   jobs::JobSpec bent;
   bent.parameters.rod.model = engine::LinkModel::kFlexible;
-  static_cast<void>(runner(bent, never));
-  static_cast<void>(runner({}, never));
-  what = What::kFails;
-  EXPECT_EQ(runner({}, never).status, engine::RunStatus::kNonFinite);
-  what = What::kIsStopped;
-  static_cast<void>(runner({}, never));
-  what = What::kThrows;
-  EXPECT_THROW(static_cast<void>(runner({}, never)), std::runtime_error);
+  jobs::JobSpec described = flexible;  // of which a described linkage has nothing
+  described.linkage.emplace().bodies.emplace_back();
+  jobs::JobSpec described_beam;
+  described_beam.linkage.emplace().bodies.emplace_back().beam.emplace();
+  for (const jobs::JobSpec& spec : {flexible, bent, described, described_beam, described_beam, jobs::JobSpec{}}) metrics.add_run(spec, {});
+  metrics.add_run({}, failed);
+  metrics.add_run({}, stopped);
   const std::string text = metrics.text({});
-  EXPECT_TRUE(has_line(text, "rpsup_job_duration_seconds_count{kind=\"flexible\"} 2")) << text;
-  EXPECT_TRUE(has_line(text, "rpsup_job_duration_seconds_count{kind=\"rigid\"} 2")) << text;
+  EXPECT_TRUE(has_line(text, "rpsup_job_duration_seconds_count{kind=\"flexible\"} 4")) << text;
+  EXPECT_TRUE(has_line(text, "rpsup_job_duration_seconds_count{kind=\"rigid\"} 3")) << text;
   EXPECT_TRUE(has_line(text, "rpsup_job_failures_total{reason=\"non_finite\"} 1")) << text;
-  EXPECT_TRUE(has_line(text, "rpsup_job_failures_total{reason=\"internal\"} 1")) << text;
 }
+
+struct FailureCase {
+  std::string name;
+  jobs::Runner runner;
+  jobs::JobLimits limits;
+  std::string reason;
+};
+void PrintTo(const FailureCase& c, std::ostream* out) { *out << c.name; }
+
+class Failures : public testing::TestWithParam<FailureCase> {};
+
+TEST_P(Failures, AreCountedByTheReasonThatTheJobHas) {
+  const server_tests::TemporaryFolder folder;
+  Metrics metrics;
+  jobs::ServiceOptions options;
+  options.store = folder / "store.db";
+  options.runner = GetParam().runner;
+  options.job_limits = GetParam().limits;
+  options.ran = [&](const jobs::JobSpec& spec, const jobs::RunRecord& run) { metrics.add_run(spec, run); };
+  jobs::Service service(options);
+  const std::string id = service.submit_sweep(nlohmann::ordered_json::parse(R"({"sweep": {"clearance_mm": [0.1]}})")).at("id");
+  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(20)));
+  EXPECT_EQ(service.list_jobs({}).at("items").at(0).at("error").at("reason"), GetParam().reason);
+  const std::string text = metrics.text({});
+  EXPECT_TRUE(has_line(text, "rpsup_job_failures_total{reason=\"" + GetParam().reason + "\"} 1")) << text;
+}
+
+jobs::Runner throwing(const auto& error) {
+  return [error](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw error; };
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Failures,
+    testing::Values(FailureCase{"TimeLimit", server_tests::endless_run, {.wall_time_s = 0.05}, "time_limit"},
+                    FailureCase{"TooLarge", server_tests::known_run, {.memory_bytes = 1000}, "memory_limit"},
+                    FailureCase{"NoMemory", throwing(std::bad_alloc()), {}, "memory_limit"},
+                    FailureCase{"Internal", throwing(std::runtime_error("thrown")), {}, "internal"}),
+    [](const auto& case_info) { return case_info.param.name; });
 
 TEST(Metrics, SayTheLoadAsItIsNow) {
   Metrics metrics;
