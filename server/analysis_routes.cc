@@ -8,6 +8,7 @@
 
 #include "jobs/errors.h"
 #include "jobs/flexibility/flexibility.h"
+#include "jobs/linkage_json.h"
 #include "jobs/motion/lyapunov.h"
 #include "jobs/motion/poincare.h"
 #include "jobs/motion/spectrum.h"
@@ -76,9 +77,23 @@ Response make_rows(const Call& call, TableFormat format, const jobs::ResultTable
 /// The metric that a query asks for, of those that the study's linkages have.
 std::string metric_of(const Query& query, const Study& study) { return jobs::choose_metric(study.results, query.text("metric").value_or("")); }
 
-jobs::FindTrajectory finder(const Call& call) {
-  return [&service = call.service](const std::string& job, const jobs::TrajectoryQuery& query) { return service.find_trajectory(job, query); };
+/// A part of the trajectory of a job, for what is worked out of RPSUP's own channels. @param what  that jobs of RPSUP have
+std::optional<engine::Trajectory> find_rpsup_run(const Call& call, const std::string& id, const jobs::TrajectoryQuery& part, const char* what) {
+  try {
+    return call.service.find_trajectory(id, part);
+  } catch (const jobs::InvalidRequest& invalid) {
+    const bool known = !invalid.faults().front().pointer.starts_with("/channels");
+    const auto job = known ? std::nullopt : call.service.find_job(id);
+    if (!job || !jobs::describes_linkage(job->at("parameters"))) throw;
+    throw jobs::WrongState(std::string("only jobs of the RPSUP linkage have ") + what + "; job " + id + " describes its own linkage");
+  }
 }
+
+jobs::FindTrajectory finder(const Call& call, const char* what) {
+  return [&call, what](const std::string& job, const jobs::TrajectoryQuery& query) { return find_rpsup_run(call, job, query, what); };
+}
+
+constexpr const char* kSection = "crank_angle_rad, whose turns are counted here";
 
 /// Why a job has no columns to work with.
 HttpError no_columns(const Call& call) {
@@ -102,7 +117,7 @@ auto with_one_channel(const Ask& ask) {
 /// What a wear map is made of; a job of a program that kept less has not all of it.
 std::optional<engine::Trajectory> find_wear_run(const Call& call, const jobs::TrajectoryQuery& part) {
   try {
-    return call.service.find_trajectory(call.id, part);
+    return find_rpsup_run(call, call.id, part, "a map of the bore's wear");
   } catch (const jobs::InvalidRequest& invalid) {
     const bool kept = !invalid.faults().front().pointer.starts_with("/channels");
     if (!kept) throw jobs::WrongState("the job was computed by a program that did not keep its sliding work");
@@ -176,7 +191,7 @@ Response get_bifurcation(const Call& call) {
   wanted.phase = query.number("phase_rad").value_or(wanted.phase);
   wanted.from = query.number("from");
   const auto table = work_out(call, query, find_study_with_run_up, [&](const Study& study) {
-    return with_one_channel([&] { return make_bifurcation(study.sweep.at("axes"), study.results, wanted, finder(call)); });
+    return with_one_channel([&] { return make_bifurcation(study.sweep.at("axes"), study.results, wanted, finder(call, kSection)); });
   });
   return make_rows(call, format, table, "bifurcation");
 }
@@ -184,8 +199,9 @@ Response get_bifurcation(const Call& call) {
 Response get_lyapunov(const Call& call) {
   Query query(call.request, {"format"});
   const TableFormat format = find_row_format(call.request, query);
-  const auto table = work_out(call, query, find_whole_study,
-                              [&](const Study& study) { return make_lyapunov(study.sweep.at("axes"), study.results, finder(call)); });
+  const auto table = work_out(call, query, find_whole_study, [&](const Study& study) {
+    return make_lyapunov(study.sweep.at("axes"), study.results, finder(call, "the journal that this is measured by"));
+  });
   return make_rows(call, format, table, "lyapunov");
 }
 
@@ -225,7 +241,7 @@ Response get_poincare(const Call& call) {
   wanted.from = query.number("from");
   wanted.to = query.number("to");
   const double phase = query.number("phase_rad").value_or(0.0);
-  const auto run = query.check_and([&] { return call.service.find_trajectory(call.id, wanted); });
+  const auto run = query.check_and([&] { return find_rpsup_run(call, call.id, wanted, kSection); });
   if (!run) throw no_columns(call);
   return make_columns(call, format, jobs::take_section(*run, phase), "poincare");
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "jobs/run_record.h"
 #include "server/report/report.h"
 #include "tests/server/service_fixture.h"
 
@@ -174,6 +175,20 @@ TEST(Analyses, LeaveJobsOfAnotherLinkageApart) {
   EXPECT_EQ(surrogate.at("surfaces").at(0).at("points"), 2);
   EXPECT_EQ(surrogate.at("surfaces").at(1).at("points"), 0);
   for (const char* const analysis : {"/report", "/results"}) EXPECT_EQ(bench.call("GET", path + analysis).status, 200) << analysis;
+}
+
+TEST(Analyses, SayWhichOnlyRpsupHas) {
+  Bench bench(jobs::engine_runner());
+  const std::string sweep = "/v1/sweeps/" + bench.run(R"({"parameters": {"duration_s": 0.05, "run_up_s": 0.01, "linkage":
+    {"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}}, "joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob"}}}},
+    "sweep": {"linkage.bodies.bob.mass_kg": [1, 2]}, "replicates": {"count": 2}})");
+  const std::string job = "/v1/jobs/" + json::parse(bench.call("GET", sweep + "/results").body).at(0).at("job_id").get<std::string>();
+  for (const std::string& path : {sweep + "/bifurcation", sweep + "/lyapunov", job + "/poincare", job + "/wear"}) {
+    const auto response = bench.call("GET", path);
+    EXPECT_EQ(response.status, 409) << path;
+    EXPECT_NE(response.body.find("only jobs of the RPSUP linkage have"), std::string::npos) << response.body;
+  }
+  EXPECT_EQ(json::parse(bench.call("GET", job + "/spectrum", "", {{"channel", "x"}}).body).at("errors").at(0).at("pointer"), "/channel");
 }
 
 TEST(Analyses, AreOfWhatIsThere) {
