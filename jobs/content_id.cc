@@ -38,9 +38,9 @@ std::string canonical_text(const nlohmann::json& completed) { return completed.d
 
 std::string content_id(std::string_view canonical_parameters, std::string_view engine_version) {
   // The line feed cannot stand in canonical text, so no two pairs run together into one.
-  return hex_of(sha256(canonical_parameters, "\n" + std::string(engine_version)));
+  return sha256_hex(canonical_parameters, "\n" + std::string(engine_version));
 }
 
-std::string sha256_hex(std::string_view text) { return hex_of(sha256(text, "")); }
+std::string sha256_hex(std::string_view text, std::string_view rest) { return hex_of(sha256(text, rest)); }
 
 }  // namespace jobs

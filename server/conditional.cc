@@ -27,7 +27,7 @@ bool has_tag(std::string_view list, std::string_view tag) {
 }  // namespace
 
 Response with_etag(const Request& request, Response response) {
-  const std::string tag = "\"" + jobs::sha256_hex(response.content_type + "\n" + response.body).substr(0, 32) + "\"";
+  const std::string tag = "\"" + jobs::sha256_hex(response.content_type + "\n", response.body).substr(0, 32) + "\"";
   response.headers.emplace_back("ETag", tag);
   response.headers.emplace_back("Cache-Control", "private, no-cache");
   if (!has_tag(request.if_none_match, tag)) return response;

@@ -116,7 +116,7 @@ TableFormat find_column_format(const Request& request, Query& query) {
   return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNpz}, {"csv", "json", "npz"});
 }
 
-std::string to_json_rows(const jobs::ResultTable& table) { return "[" + joined_rows(table, "\n", ",\n") + "\n]\n"; }
+std::string to_json_rows(const jobs::ResultTable& table) { return table.rows.empty() ? "[\n]\n" : joined_rows(table, "[\n", ",\n") + "\n]\n"; }
 
 std::string to_json_lines(const jobs::ResultTable& table) {
   return table.rows.empty() ? "" : joined_rows(table, "", "\n") + "\n";
@@ -128,22 +128,24 @@ std::string to_text(const jobs::ResultTable& table, TableFormat format) {
 }
 
 std::string to_json_columns(const engine::Trajectory& trajectory) {
-  std::string channels;
-  std::string columns;
+  std::string text = "{\"channels\":[";
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
-    const char* const separator = c == 0 ? "" : ",";
-    channels += separator;
-    append_string_to(channels, trajectory.channels[c].key);
-    columns += separator + std::string("\n");
-    append_string_to(columns, trajectory.channels[c].key);
-    columns += ":[";
-    for (std::size_t i = 0; i < trajectory.columns[c].size(); ++i) {
-      if (i > 0) columns += ',';
-      append_number_to(columns, trajectory.columns[c][i]);
-    }
-    columns += ']';
+    if (c > 0) text += ',';
+    append_string_to(text, trajectory.channels[c].key);
   }
-  return "{\"channels\":[" + channels + "],\n\"columns\":{" + columns + "\n}}\n";
+  text += "],\n\"columns\":{";
+  for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
+    text += c == 0 ? "\n" : ",\n";
+    append_string_to(text, trajectory.channels[c].key);
+    text += ":[";
+    for (std::size_t i = 0; i < trajectory.columns[c].size(); ++i) {
+      if (i > 0) text += ',';
+      append_number_to(text, trajectory.columns[c][i]);
+    }
+    text += ']';
+  }
+  text += "\n}}\n";
+  return text;
 }
 
 Response make_table(TableFormat format, std::string text, const std::string& file_stem) {

@@ -197,6 +197,7 @@ TEST(ToJobSpec, ConvertsMillimetresAndWords) {
 TEST(ContentId, IsSha256OfTextAndVersion) {
   // printf 'abc\n0.1' | sha256sum
   EXPECT_EQ(jobs::content_id("abc", "0.1"), "5fb98a8be7c2ac87cc286d0b06e5efc852a687ace2ba983e3e824e538038992b");
+  EXPECT_EQ(jobs::sha256_hex("ab", "c\n0.1"), jobs::content_id("abc", "0.1")) << "a text in two parts";
   EXPECT_NE(jobs::content_id("abc", "0.2"), jobs::content_id("abc", "0.1"));
 }
 
