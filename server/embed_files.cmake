@@ -1,5 +1,5 @@
 # Writes a source file that holds files as they are now, by the paths under which they are served.
-#   cmake -DOUTPUT=web_files.cc -DFILES=/index.html=web/index.html,/app.js=web/app.js -DIMPORTS=three=/lib/three.js -P embed_files.cmake
+#   cmake -DOUTPUT=web_files.cc -DFOLDER=web -DFILES=/index.html=index.html,/app.js=app.js -DIMPORTS=three=/lib/three.js -P embed_files.cmake
 # In modules, what is imported by a NAME of IMPORTS (NAME=PATH) is imported from the PATH: a browser does not know where packages are.
 set(types_html "text/html; charset=utf-8")
 set(types_css "text/css; charset=utf-8")
@@ -21,7 +21,7 @@ foreach(entry IN LISTS FILES)
   if(NOT DEFINED types_${extension})
     message(FATAL_ERROR "${file}: no content type is known for .${extension}")
   endif()
-  file(READ "${file}" bytes HEX)
+  file(READ "${FOLDER}/${file}" bytes HEX)
   foreach(import IN LISTS IMPORTS)
     string(REGEX MATCH "^([^=]+)=(.+)$" matched "${import}")
     string(HEX "from '${CMAKE_MATCH_1}'" by_name)
