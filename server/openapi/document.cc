@@ -44,7 +44,7 @@ Json make_headers() {
           {"Preference-Applied", {{"description", "The wait that was done; without it there was none"}, {"schema", {{"type", "string"}, {"pattern", "^wait=[0-9]+$"}}}}},
           {"Content-Disposition", {{"description", "A name for the file, in forms that are saved rather than read"}, {"schema", text}}},
           {"Retry-After", {{"description", "Seconds after which to try again"}, {"schema", {{"type", "integer"}}}}},
-          {"X-Request-Id", {{"description", "What the log calls the request; not on what is refused before it is looked at"}, {"schema", text}}}};
+          {"X-Request-Id", {{"description", "What the log calls the request"}, {"schema", text}}}};
 }
 
 void add_header_to(Json& answer, const std::string& name) { answer["headers"][name] = {{"$ref", "#/components/headers/" + name}}; }

@@ -31,7 +31,6 @@ Json make_range() {
   return range;
 }
 
-/// An object with a key a parameter, each of which has a list of values, or what stands for one.
 /// The keys of a parameter each, and of numbers inside a described linkage.
 Json by_paths(Json properties, Json of_linkage) {
   Json schema = options_of(std::move(properties));
@@ -39,6 +38,7 @@ Json by_paths(Json properties, Json of_linkage) {
   return schema;
 }
 
+/// An object with a key a parameter, each of which has a list of values, or what stands for one.
 /// @param instead  the schema that numbers may have in the place of a list
 Json make_lists(std::string_view instead) {
   Json properties = Json::object();
