@@ -1,7 +1,5 @@
 #include "server/commands/completion.h"
 
-#include <algorithm>
-
 namespace server::commands {
 
 namespace {

@@ -12,11 +12,6 @@ const Json kNumber{{"type", "number"}};
 const Json kNumberOrNull{{"type", {"number", "null"}}};
 const Json kCount{{"type", "integer"}, {"minimum", 0}};
 
-Json described(Json schema, std::string_view description) {
-  schema["description"] = description;
-  return schema;
-}
-
 /// Rows that have what is swept beside these.
 Json rows_of(Json properties) {
   for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);

@@ -12,11 +12,6 @@ const Json kText{{"type", "string"}};
 const Json kNumber{{"type", "number"}};
 const Json kCount{{"type", "integer"}, {"minimum", 0}};
 
-Json described(Json schema, std::string_view description) {
-  schema["description"] = description;
-  return schema;
-}
-
 Json make_verdict() {
   Json names = Json::array();
   for (int i = 0; i <= static_cast<int>(jobs::Verdict::kLost); ++i) names.push_back(jobs::verdict_name(static_cast<jobs::Verdict>(i)));

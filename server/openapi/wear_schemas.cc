@@ -2,7 +2,6 @@
 
 #include "jobs/store.h"
 #include "jobs/wear/wear_depth.h"
-#include "jobs/wear/wear_picture.h"
 #include "jobs/wear/wear_request.h"
 
 namespace server::openapi {

@@ -38,11 +38,6 @@ export function titleOf(column, unit = unitOf(column)) {
   return unit ? `${nameOf(column)} [${unit}]` : nameOf(column);
 }
 
-export function withUnit(column, value) {
-  const unit = typeof value === "number" ? unitOf(column) : "";
-  return unit ? `${number(value)} ${unit}` : number(value);
-}
-
 /// A value of an axis, short: "10 rad/s", "rigid", "rigid elements 4".
 export function pointOf(axis, value) {
   const unit = unitOf(axis);
