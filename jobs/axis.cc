@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 
 #include "jobs/linkage_json.h"
@@ -46,7 +45,7 @@ class SpanValues {
     const auto a = static_cast<double>(count_ - 1 - k);
     const auto b = static_cast<double>(k);
     const auto n = static_cast<double>(count_ - 1);
-    return ends_.logarithmic ? ends_.from * std::pow(ends_.to / ends_.from, b / n) : (ends_.from * a + ends_.to * b) / n;
+    return ends_.logarithmic ? geometric_between(ends_.from, ends_.to, b / n) : (ends_.from * a + ends_.to * b) / n;
   }
 
   /// They rise or fall, so that a billion of them need not be looked at.

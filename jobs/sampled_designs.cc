@@ -73,7 +73,7 @@ class Dimension {
  private:
   /// Rounding could lead beyond the end, by one bit.
   [[nodiscard]] double number_at(double u, double end) const {
-    return std::min(span_.logarithmic ? span_.from * std::pow(end / span_.from, u) : std::lerp(span_.from, end, u), end);
+    return std::min(span_.logarithmic ? geometric_between(span_.from, end, u) : std::lerp(span_.from, end, u), end);
   }
 
   [[nodiscard]] double integer_at(double u) const { return std::min(std::floor(number_at(u, span_.to + 1.0)), span_.to); }

@@ -1,6 +1,7 @@
 #include "jobs/span.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "jobs/parameter_value.h"
 
@@ -18,6 +19,8 @@ std::string describe_end_fault(const json& span, const char* end, bool logarithm
 
 }  // namespace
 
+double geometric_between(double from, double to, double part) { return from * std::pow(to / from, part); }
+
 std::optional<Span> read_span(const json& span, std::span<const std::string_view> other_keys, const std::string& pointer, std::vector<Fault>& faults) {
   std::vector<std::string_view> keys{"from", "to", "scale"};
   keys.insert(keys.end(), other_keys.begin(), other_keys.end());
@@ -32,7 +35,12 @@ std::optional<Span> read_span(const json& span, std::span<const std::string_view
     if (!detail.empty()) faults.push_back({pointer + "/" + end, std::move(detail)});
   }
   if (faults.size() != before) return std::nullopt;
-  return Span{.from = span.at("from").get<double>(), .to = span.at("to").get<double>(), .logarithmic = scale == "log"};
+  const Span read{.from = span.at("from").get<double>(), .to = span.at("to").get<double>(), .logarithmic = scale == "log"};
+  if (read.logarithmic && !std::isnormal(read.to / read.from)) {
+    faults.push_back({pointer + "/to", "must be 1e-307 to 1e308 times from, as the scale is \"log\""});
+    return std::nullopt;
+  }
+  return read;
 }
 
 }  // namespace jobs

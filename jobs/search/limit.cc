@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "jobs/span.h"
+
 namespace jobs {
 namespace {
 
@@ -11,14 +13,14 @@ namespace {
 bool comes_before(const SearchPath& path, double a, double b) { return path.from <= path.to ? a < b : a > b; }
 
 double value_between(const SearchPath& path, double a, double b, double part) {
-  const double x = path.logarithmic ? a * std::pow(b / a, part) : std::lerp(a, b, part);
+  const double x = path.logarithmic ? geometric_between(a, b, part) : std::lerp(a, b, part);
   return path.integer ? std::round(x) : x;
 }
 
 bool is_narrow(const SearchPath& path, double a, double b) {
   if (std::abs(b - a) <= path.tolerance) return true;
   const double middle = value_between(path, a, b, 0.5);
-  return middle == a || middle == b;  // nothing lies between, of integers or of doubles
+  return !(comes_before(path, a, middle) && comes_before(path, middle, b));  // nothing lies between, of integers or of doubles
 }
 
 /// An evaluation that has ended, as the rule sees it.

@@ -45,6 +45,8 @@ constexpr FaultCase kFaultCases[] = {
     {"to_below_from", R"({"design": {"type": "sobol", "count": 2, "over": {"clearance_mm": {"from": 1, "to": 0.5}}}})", "/design/over/clearance_mm/to", "more than from"},
     {"to_equal_from", R"({"design": {"type": "sobol", "count": 2, "over": {"clearance_mm": {"from": 1, "to": 1}}}})", "/design/over/clearance_mm/to", "more than from"},
     {"log_from_zero", R"({"design": {"type": "sobol", "count": 2, "over": {"clearance_mm": {"from": 0, "to": 1, "scale": "log"}}}})", "/design/over/clearance_mm/from", "above 0"},
+    {"log_too_wide", R"({"design": {"type": "sobol", "count": 2, "over": {"bristle_stiffness_1_m": {"from": 1e-310, "to": 1e9, "scale": "log"}}}})",
+     "/design/over/bristle_stiffness_1_m/to", "times from"},
     {"broken_integer", R"({"design": {"type": "sobol", "count": 2, "over": {"rigid_elements": {"from": 2, "to": 8.5}}}})", "/design/over/rigid_elements/to", "integer"},
     {"range_of_words", R"({"design": {"type": "sobol", "count": 2, "over": {"coupler": {"from": 1, "to": 2}}}})", "/design/over/coupler", "must be a list"},
     {"scalar", R"({"design": {"type": "sobol", "count": 2, "over": {"clearance_mm": 1}}})", "/design/over/clearance_mm", "or a list"},

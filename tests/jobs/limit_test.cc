@@ -51,6 +51,12 @@ TEST(FindLimit, FindsTheLimitOfAMonotoneMetricWithTheExpectedNumberOfEvaluations
   }
 }
 
+// Between 1e-310 and 1e300 no ratio is a double: nothing says where their middle is.
+TEST(FindLimit, EndsWhereNothingLiesBetween) {
+  EXPECT_EQ(jobs::most_evaluations({.from = 1e-310, .to = 1e300, .logarithmic = true, .tolerance = 1.0, .first = 2}), 2U);
+  EXPECT_EQ(jobs::most_evaluations({.from = 1.0, .to = std::nextafter(1.0, 2.0), .logarithmic = true, .tolerance = 1e-300, .first = 2}), 2U);
+}
+
 TEST(FindLimit, GoesTheOtherWayIfThePathDoes) {
   const Found found = search({.from = 8.0, .to = 2.0, .tolerance = 0.1, .first = 3}, {.bound = -4.2}, [](double x) { return std::vector{-x}; });
   EXPECT_EQ(found.limit.verdict, Verdict::kFound);

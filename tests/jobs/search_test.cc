@@ -227,6 +227,8 @@ TEST(Search, IsRefusedWithEveryFault) {
   // The clearance is less than the bearing's radius, which only both together show.
   request = {{"over", {{"clearance_mm", {{"from", 1}, {"to", 6}}}}}, {"metric", engine::metric_table()[0].key}, {"bound", 1}};
   EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/clearance_mm"});
+  request["over"] = {{"bristle_stiffness_1_m", {{"from", 1e-310}, {"to", 1e9}, {"scale", "log"}}}};
+  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/bristle_stiffness_1_m/to"});
   EXPECT_TRUE(list(service, "").empty());
 }
 
