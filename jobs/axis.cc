@@ -17,6 +17,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t kLongestLinkagePath = 200;  ///< bytes; the names of bodies, joints and springs have at most 32
+
 /// Adds the faults of {"from", "to", "count", "scale"}. Returns whether there are none.
 bool check_span(const json& axis, const std::string& pointer, std::vector<Fault>& faults) {
   constexpr std::array<std::string_view, 1> kCount{"count"};
@@ -95,8 +97,11 @@ void find_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, std
 
 bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults) {
   const auto& known = known_paths();
-  if (std::find(known.begin(), known.end(), path) != known.end() || is_linkage_path(path)) return true;
-  if (path == kLinkageKey) {
+  const bool in_linkage = is_linkage_path(path);
+  if (std::find(known.begin(), known.end(), path) != known.end() || (in_linkage && path.size() <= kLongestLinkagePath)) return true;
+  if (in_linkage) {
+    faults.push_back({pointer, "is longer than any place in a linkage: at most " + std::to_string(kLongestLinkagePath) + " bytes"});
+  } else if (path == kLinkageKey) {
     faults.push_back({pointer, "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole linkages are cases"});
   } else if (path == kWearKey) {
     faults.push_back({pointer, "worn bores are cases, each with its lists"});

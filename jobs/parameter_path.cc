@@ -5,8 +5,10 @@
 #include "jobs/link_parameters.h"
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
+#include "jobs/linkage_json.h"
 
 namespace jobs {
+#include "jobs/wear/wear_depth.h"
 namespace {
 
 std::vector<std::string> make_known_paths() {
@@ -28,12 +30,13 @@ const std::vector<std::string>& known_paths() {
 std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
   std::vector<std::string> paths;
   for (const auto& [key, value] : parameters.items()) {
-    if (key != "links") {
-      paths.push_back(key);
-      continue;
-    }
+    if (find_parameter(key) != nullptr || key == kLinkageKey || key == kWearKey) paths.push_back(key);
+    if (key != "links" || !value.is_object()) continue;
     for (const auto& [link, parts] : value.items()) {
-      for (const auto& [part, ignored] : parts.items()) paths.push_back(key + "." + link + "." + part);
+      if (std::ranges::find(kLinkNames, link) == kLinkNames.end() || !parts.is_object()) continue;
+      for (const auto& [part, ignored] : parts.items()) {
+        if (part == kMassKey || part == kInertiaKey) paths.push_back(key + "." + link + "." + part);
+      }
     }
   }
   return paths;

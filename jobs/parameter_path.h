@@ -13,7 +13,7 @@ namespace jobs {
 /// Every path that an axis may have.
 [[nodiscard]] const std::vector<std::string>& known_paths();
 
-/// The paths that a parameter set without faults gives values to, in its order.
+/// The paths that a parameter set gives values to, in its order. What is no parameter has none.
 [[nodiscard]] std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters);
 
 /// Whether a path names a number inside a described linkage: "linkage.bodies.rod.mass_kg".

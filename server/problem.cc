@@ -1,5 +1,8 @@
 #include "server/problem.h"
 
+#include <algorithm>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "server/json_text.h"
@@ -36,8 +39,12 @@ std::string_view status_phrase(int status) {
 Response make_problem(int status, const std::string& detail, const std::vector<jobs::Fault>& faults) {
   nlohmann::ordered_json problem = {
       {"type", "about:blank"}, {"title", status_phrase(status)}, {"status", status}, {"detail", detail}};
-  for (const jobs::Fault& fault : faults) {
-    problem["errors"].push_back({{"pointer", fault.pointer}, {"detail", fault.detail}});
+  constexpr std::size_t kMostFaults = 100;  // a request of 8 MiB may have a million of them
+  for (std::size_t i = 0; i < std::min(faults.size(), kMostFaults); ++i) {
+    problem["errors"].push_back({{"pointer", faults[i].pointer}, {"detail", faults[i].detail}});
+  }
+  if (faults.size() > kMostFaults) {
+    problem["errors"].push_back({{"pointer", ""}, {"detail", std::to_string(faults.size() - kMostFaults) + " more faults are left out here"}});
   }
   return {.status = status, .content_type = "application/problem+json", .body = to_text(problem) + "\n", .headers = {}};
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/expand.h"
+#include "jobs/parameter_path.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {
@@ -103,6 +104,16 @@ TEST(SweepFaults, AreAllThereWhenPlacesClash) {
 TEST(SweepFaults, AreNamedBesideASizeThatIsTooLarge) {
   const auto faults = faults_of([] { (void)jobs::plan_sweep(request_of(R"({"name": 1, "replicates": {"count": 10001}})"), 10'000); });
   EXPECT_EQ(pointers_of(faults), (std::vector<std::string>{"/name", "/replicates/count"}));
+}
+
+// What may be many has no long names in it, which every place below would repeat.
+TEST(SweepFaults, ComeFromKnownPlacesOnly) {
+  EXPECT_EQ(jobs::paths_of(request_of(R"({"x": 1, "clearance_mm": 1, "wear_depth_um": [],
+                                          "links": {"9,9": {"mass_kg": 1}, "1,3": {"mass_kg": 1, "mas": 2}, "2,1": 3}})")),
+            (std::vector<std::string>{"clearance_mm", "wear_depth_um", "links.1,3.mass_kg"}));
+  const std::string path = "linkage." + std::string(1000, 'x');
+  const auto faults = faults_of([&] { (void)jobs::plan_sweep({{"sweep", {{path, {{"a", 1}, {"b", 2}}}}}}, 10'000); });
+  EXPECT_EQ(pointers_of(faults), std::vector<std::string>{"/sweep/" + path});
 }
 
 struct SizeCase {

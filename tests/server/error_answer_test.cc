@@ -64,6 +64,17 @@ TEST(InvalidRequestAnswer, HoldsEveryFault) {
             nlohmann::json::parse(R"([{"pointer": "/a/0", "detail": "too small"}, {"pointer": "/b", "detail": "unknown"}])"));
 }
 
+TEST(InvalidRequestAnswer, SaysHowManyFaultsItLeavesOut) {
+  const auto errors_of = [](std::size_t count) {
+    const std::vector<jobs::Fault> faults(count, {"/a", "unknown"});
+    return nlohmann::json::parse(make_error_answer(std::make_exception_ptr(jobs::InvalidRequest(faults)), "r").body).at("errors");
+  };
+  EXPECT_EQ(errors_of(100).size(), 100U);
+  EXPECT_EQ(errors_of(100).back().at("detail"), "unknown");
+  ASSERT_EQ(errors_of(1234).size(), 101U);
+  EXPECT_EQ(errors_of(1234).back(), nlohmann::json::parse(R"({"pointer": "", "detail": "1134 more faults are left out here"})"));
+}
+
 TEST(RetryLater, SaysWhen) {
   const auto response = server::make_retry_later(503, "later");
   ASSERT_EQ(response.headers.size(), 1U);
