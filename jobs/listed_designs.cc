@@ -85,8 +85,15 @@ std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parame
   if (faults.size() != before) return 0;
   const auto centre = centre_of(design, parameters);
   std::size_t next = 0;
-  for (const auto& [path, axis] : design.at("over").items()) count -= axis_contains(path, axis, centre[next++]) ? 1 : 0;
-  return count;
+  for (const auto& [path, axis] : design.at("over").items()) {
+    const json& value = centre[next++];
+    if (value.is_null() || (is_linkage_path(path) && !value.is_number())) {
+      faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
+    } else {
+      count -= axis_contains(path, axis, value) ? 1 : 0;
+    }
+  }
+  return faults.size() == before ? count : 0;
 }
 
 DesignPoints make_one_at_a_time(const ordered_json& design, const json& parameters, std::vector<Fault>& faults) {

@@ -28,6 +28,7 @@ namespace jobs {
 /// The path of the value at or around that pointer: "/links/1,3/inertia_kg_m2/0" -> "links.1,3.inertia_kg_m2".
 [[nodiscard]] std::string path_of_pointer(std::string_view pointer);
 
+/// Writes a value; objects around it are made where there are none. @param path  of lists only places that they have
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value);
 
 /// @param completed  all parameters  @returns null if the linkage of the set has no such value

@@ -62,6 +62,7 @@ class Parser {
     const std::string pointer = "/over" + pointer_token(path);
     if (!is_known_path(path, pointer, faults_)) return;
     if (!is_numeric(path)) return fault(pointer, "must be a parameter whose values are numbers");
+    if (is_linkage_path(path)) return fault(pointer, "must be a parameter of the job: the metrics are those of the linkage \"rpsup\"");
     search_.parameter = path;
     const json given = request_.at("over").begin().value();
     if (!given.is_object()) return fault(pointer, "must be an object of from, to, scale, tolerance and first");

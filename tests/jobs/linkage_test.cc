@@ -265,6 +265,29 @@ TEST(LinkageSweep, RefusesWhatIsNoPlaceOrNoValueOfTheDescription) {
   EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, "heavy"}}}, parameters), std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg/1"});
   EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, -1}}}, parameters), std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg"});
   EXPECT_EQ(pointers({{"linkage", {"rpsup"}}}, json::object()), std::vector<std::string>{"/sweep/linkage"});
+  json with_centre = parameters;
+  with_centre["linkage"]["bodies"]["rod"] = {{"mass_kg", 0.2}, {"centre_of_mass_m", {0.1, 0, 0}}, {"inertia_kg_m2", {1e-5, 1e-3, 1e-3}}};
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.centre_of_mass_m.0", {0.1, 0.2}}}, with_centre), std::vector<std::string>{});
+  for (const std::string place : {"3", "00", "-", "x", "123456789012345678901", ""}) {
+    const std::string path = "linkage.bodies.rod.centre_of_mass_m." + place;
+    EXPECT_EQ(pointers({{path, {1, 2}}}, with_centre), std::vector<std::string>{"/sweep/" + path});
+  }
+}
+
+// Where the description has no value of its own, or none that is a number, the design has no centre.
+TEST(LinkageSweep, NeedsACentreForOneAtATime) {
+  const auto pointers = [](const std::string& path, const json& centre) {
+    const json span{{"from", 0.1}, {"to", 0.2}, {"count", 2}};
+    nlohmann::ordered_json request{{"parameters", example("slider_crank")}, {"design", {{"type", "one_at_a_time"}, {"over", {{path, span}}}}}};
+    if (!centre.is_null()) request["design"]["centre"] = {{path, centre}};
+    return pointers_of(faults_of([&] { (void)jobs::plan_sweep(request, 100); }));
+  };
+  EXPECT_EQ(pointers("linkage.bodies.rod.mass_kg", nullptr), std::vector<std::string>{});
+  EXPECT_EQ(pointers("linkage.joints.slider_pin.clearance.restitution", nullptr), std::vector<std::string>{"/design/centre"});
+  EXPECT_EQ(pointers("linkage.joints.slider_pin.clearance.restitution", 0.8), std::vector<std::string>{});
+  EXPECT_EQ(pointers("crank_length_m", nullptr), std::vector<std::string>{"/design/centre"}) << "a described linkage has no such parameter";
+  EXPECT_EQ(pointers("linkage.bodies.rod", nullptr), std::vector<std::string>{"/design/centre"});
+  EXPECT_EQ(pointers("linkage.bodies.rod.mass_kg.123456789012345678901", nullptr), std::vector<std::string>{"/design/centre"});
 }
 
 }  // namespace

@@ -232,6 +232,21 @@ TEST(Search, IsRefusedWithEveryFault) {
   EXPECT_TRUE(list(service, "").empty());
 }
 
+// The metrics are those of the linkage "rpsup". A token of digits is no place in a list of that length.
+TEST(Search, IsRefusedOverNumbersOfADescribedLinkage) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  for (const std::string path : {"linkage.bodies.rod.mass_kg", "linkage.01", "linkage.3000", "linkage.-", "linkage.123456789012345678901"}) {
+    ordered_json request = request_for(5.3);
+    request["over"] = {{path, {{"from", 0}, {"to", 1}}}};
+    EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/" + path});
+    request = request_for(5.3);
+    request["sweep"] = {{path, {1, 2}}};
+    EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/sweep/" + path});
+  }
+}
+
 TEST(Search, IsListedByItsState) {
   const TemporaryStore store;
   FakeEngine engine;
