@@ -263,8 +263,14 @@ class Service::Impl {
   bool delete_sweep(const std::string& id) {
     const DeleteOutcome outcome = store_.delete_sweep(id);
     if (outcome == DeleteOutcome::kNotEnded) throw WrongState("the sweep has not ended; cancel it first");
-    if (outcome == DeleteOutcome::kDone) tell_change();
-    return outcome == DeleteOutcome::kDone;
+    if (outcome == DeleteOutcome::kMissing) return false;
+    tell_change();
+    try {
+      store_.release_free_pages();
+    } catch (const std::exception& error) {  // the store's errors, or no memory
+      options_.log("sweep " + id + " is deleted, but the file could not be made smaller yet: " + error.what());
+    }
+    return true;
   }
 
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const {

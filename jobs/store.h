@@ -230,6 +230,8 @@ class Store {
   [[nodiscard]] Cancellation cancel_sweep(const std::string& id);
   [[nodiscard]] Cancellation cancel_job(const std::string& id);
   [[nodiscard]] DeleteOutcome delete_sweep(const std::string& id);
+  /// Makes the file smaller by what deleting has freed, which needs room on the disk for a while. What has not been released is used again.
+  void release_free_pages() { writer_.release_free_pages(); }
 
   [[nodiscard]] std::optional<SweepRow> find_sweep(const std::string& id) const;
   /// Whether no job of the sweep is left to compute; empty if there is no such sweep. Costs the same for sweeps of any size.

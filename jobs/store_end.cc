@@ -109,7 +109,7 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
 }
 
 DeleteOutcome Store::delete_sweep(const std::string& id) {
-  const auto outcome = writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return DeleteOutcome::kMissing;
     if (any_in_state(database, "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id)) return DeleteOutcome::kNotEnded;
@@ -117,8 +117,6 @@ DeleteOutcome Store::delete_sweep(const std::string& id) {
     served_.erase(*sweep);
     return DeleteOutcome::kDone;
   });
-  if (outcome == DeleteOutcome::kDone) writer_.release_free_pages();
-  return outcome;
 }
 
 }  // namespace jobs

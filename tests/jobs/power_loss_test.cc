@@ -61,6 +61,7 @@ class PowerLoss : public testing::TestWithParam<unsigned> {
       now_.cancelled.erase(now_.cancelled.begin());
       std::erase(now_.acknowledged, id);  // from here on it may be there, and may not
       static_cast<void>(store.delete_sweep(id));
+      store.release_free_pages();
       now_.deleted.push_back(id);
     }
   }

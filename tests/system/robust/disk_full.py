@@ -5,8 +5,8 @@ enospc      every write to the store fails as on a full disk; needs Debian's fiu
 quota       the same as beyond a user's quota
 size_limit  no file may grow beyond what it is (RLIMIT_FSIZE, as systemd's LimitFSIZE)
 
-While it lasts: new sweeps are refused with a 507 problem document, reads are answered as before,
-no job fails. Afterwards, without a new start: everything is computed, byte for byte as if nothing had been.
+While it lasts: new sweeps are refused with a 507 problem document, deleting a sweep is done or refused so, reads are
+answered as before, no job fails. Afterwards, without a new start: everything is computed, byte for byte as if nothing had been.
 """
 
 import errno
@@ -110,6 +110,15 @@ def check_reads(service, sweep_id, table):
         check(service.ask("GET", path)[0] == 200, f"{path} while the disk is full")
 
 
+def check_deleting(service, sweep_id):
+    """Returns whether it is gone."""
+    status = service.ask("DELETE", f"/v1/sweeps/{sweep_id}")[0]
+    check(status in (204, 507), f"deleting on a full disk: {status}")
+    left = service.ask("GET", f"/v1/sweeps/{sweep_id}")[0]
+    check(left == (404 if status == 204 else 200), f"deleting was answered with {status}, and the sweep with {left}")
+    return status == 204
+
+
 def main():
     program, way = sys.argv[1:]
     folder = temporary_folder()
@@ -122,6 +131,8 @@ def main():
     done = service.submit(small_sweep(1))
     check(service.wait_for_end(done) == "succeeded", "the first sweep")
     table = service.results(done)
+    old = service.submit(small_sweep(4))
+    check(service.wait_for_end(old) == "succeeded", "the sweep that is to be deleted")
     busy = service.submit(busy_sweep(1))
     disk.fill()
     accepted, status = 0, 201
@@ -132,6 +143,7 @@ def main():
     check(headers["Content-Type"] == "application/problem+json", "the form of the refusal")
     time.sleep(1.2)  # jobs end meanwhile and cannot be stored
     check_reads(service, done, table)
+    gone = check_deleting(service, old)
     row = service.get(f"/v1/sweeps/{busy}")
     check(row["counts"]["failed"] == 0, "a job has failed")
     check(row["state"] in ("queued", "running"), "the disk was not full while jobs ran")
@@ -141,7 +153,7 @@ def main():
     check([service.wait_for_end(i) for i in (busy, after)] == ["succeeded", "succeeded"], "the sweeps after the full disk")
     check(service.results(busy) == undisturbed.results(twin), "other results than without a full disk")
     listed = service.get("/v1/sweeps?limit=10000")["items"]
-    check(len(listed) == 3 + accepted, "a refused sweep was stored")
+    check(len(listed) == 4 + accepted - gone, "a refused sweep was stored")
     code, _ = service.terminate()
     check(code == 0, f"exit code {code}")
     disk.check_store()
