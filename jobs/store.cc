@@ -60,7 +60,7 @@ void Store::begin() {
     database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
     release_batches_of_other_engines(database);
     rename_queued_contents(database);
-    changes_ = database.execAndGet("SELECT coalesce(max(change), 0) FROM jobs WHERE change IS NOT NULL").getInt64();
+    changes_ = database.execAndGet("SELECT coalesce(max(abs(change)), 0) FROM jobs WHERE change IS NOT NULL").getInt64();
   });
 }
 

@@ -87,8 +87,9 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return false;
+    // The number of the former end is kept below 0: there it is none of an end, but never given again.
     SQLite::Statement queue(database,
-                            "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = NULL, started_ms = NULL, ended_ms = NULL "
+                            "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = -change, started_ms = NULL, ended_ms = NULL "
                             "WHERE sweep = ? AND state IN ('failed', 'cancelled')");
     queue.bind(1, *sweep);
     if (queue.exec() == 0) return true;

@@ -96,7 +96,7 @@ JobRow job_row(SQLite::Statement& found) {
 /// @param parameters  SQL of what stands in their column
 std::string result_columns(const std::string& parameters) {
   return "SELECT j.id, j.state, j.swept, j.replicate, r.metrics, " + parameters +
-         ", coalesce(j.change, 0) FROM jobs j LEFT JOIN results r ON r.seq = j.result";
+         ", max(coalesce(j.change, 0), 0) FROM jobs j LEFT JOIN results r ON r.seq = j.result";
 }
 
 constexpr const char* kOfSweep = " WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?)";

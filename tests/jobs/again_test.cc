@@ -91,6 +91,27 @@ TEST(Retry, ComputesWithTheEngineOfToday) {
   EXPECT_EQ(query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"), name);
 }
 
+// Who has been told of the last end, and asks from there on after a restart, is told of the next one.
+TEST(Retry, ForgetsNoNumberOfAnEnd) {
+  const TemporaryStore temporary;
+  std::string id;
+  std::int64_t last = 0;
+  {
+    jobs::Store store(temporary.file());
+    id = store.add_sweep(jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
+    for (int times = 0; times < 3; ++times) {
+      static_cast<void>(store.cancel_sweep(id));
+      last = store.find_changes(id, 0)->ended.at(0).change;
+      EXPECT_TRUE(store.retry_sweep(id, 10));
+    }
+    EXPECT_TRUE(store.find_changes(id, 0)->ended.empty());
+    EXPECT_EQ(store.find_results(id, false)->rows.at(0).change, 0);
+  }
+  jobs::Store store(temporary.file());
+  static_cast<void>(store.cancel_sweep(id));
+  EXPECT_EQ(store.find_changes(id, last)->ended.size(), 1U);
+}
+
 TEST(Retry, StopsTheAttemptThatRunsWhenAnEarlierOneHasNotEnded) {
   const TemporaryStore temporary;
   FakeEngine engine;
