@@ -39,7 +39,9 @@ struct CostOfKind {
 };
 
 struct SweepRow {
-  std::string id, name, request, swept;
+  std::string id, name;
+  std::string request;                               ///< empty in listings and changes
+  std::string swept;
   bool replicated = false;
   std::int64_t priority = 0;
   std::string executor;                              ///< empty: it named none

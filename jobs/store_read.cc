@@ -40,7 +40,10 @@ void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& 
   }
 }
 
-constexpr const char* kSweepColumns = "SELECT seq, id, name, request, swept, replicated, priority, created_ms, coalesce(executor, '') FROM sweeps";
+/// @param request  SQL of what stands in its column
+std::string sweep_columns(const std::string& request) {
+  return "SELECT seq, id, name, " + request + ", swept, replicated, priority, created_ms, coalesce(executor, '') FROM sweeps";
+}
 
 SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   SweepRow row;
@@ -56,6 +59,12 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   read_counts(database, seq, row);
   if (!has_ended(row.counts)) read_costs(database, seq, row);
   return row;
+}
+
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id, const std::string& request) {
+  SQLite::Statement find(database, sweep_columns(request) + " WHERE id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(sweep_row(database, find)) : std::nullopt;
 }
 
 /// @param parameters, metrics  SQL of what stands in their columns
@@ -109,11 +118,7 @@ ResultRow result_row(SQLite::Statement& found) {
 
 }  // namespace
 
-std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) {
-  SQLite::Statement find(database, std::string(kSweepColumns) + " WHERE id = ?");
-  find.bind(1, id);
-  return find.executeStep() ? std::optional(sweep_row(database, find)) : std::nullopt;
-}
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) { return read_sweep(database, id, "request"); }
 
 std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id) {
   SQLite::Statement find(database, job_columns("c.parameters", "r.metrics") + " WHERE j.id = ?");
@@ -136,7 +141,7 @@ std::optional<bool> Store::has_sweep_ended(const std::string& id) const {
 
 std::vector<SweepRow> Store::list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const {
   return readers_.read([&](const SQLite::Database& database) {
-    SQLite::Statement list(database, std::string(kSweepColumns) + " WHERE ?1 = '' OR id < ?1 ORDER BY id DESC");
+    SQLite::Statement list(database, sweep_columns("''") + " WHERE ?1 = '' OR id < ?1 ORDER BY id DESC");
     list.bind(1, before);
     std::vector<SweepRow> rows;
     // A sweep's state is made of its jobs', so it cannot be asked for in SQL without counting them for every sweep.
@@ -192,7 +197,7 @@ std::vector<ResultRow> Store::find_ended(const std::string& sweep_id, std::int64
 
 std::optional<SweepChanges> Store::find_changes(const std::string& sweep_id, std::int64_t after) const {
   return readers_.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
-    auto sweep = read_sweep(database, sweep_id);
+    auto sweep = read_sweep(database, sweep_id, "''");
     if (!sweep) return std::nullopt;
     SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
     SQLite::Statement list(database,

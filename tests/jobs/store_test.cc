@@ -421,6 +421,17 @@ TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
   EXPECT_EQ(costs.at("flexible, clearance").queued, 3);
 }
 
+// It may have megabytes, which nobody looks at there.
+TEST(Store, LeavesTheRequestOutOfListingsAndChanges) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string sweep = add_sweep(store, kThreeJobs);
+  EXPECT_EQ(store.list_sweeps("", "", 1).at(0).request, "");
+  EXPECT_EQ(store.find_changes(sweep, 0)->sweep.request, "");
+  EXPECT_EQ(store.find_sweep(sweep)->request, kThreeJobs);
+  EXPECT_EQ(store.find_results(sweep, false)->sweep.request, kThreeJobs);
+}
+
 TEST(Store, KnowsWhetherASweepHasEnded) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
