@@ -116,10 +116,7 @@ class Service::Impl {
   std::optional<json> retry_sweep(const std::string& id) {
     check_open();
     bool found = false;
-    change_sweep(id, [&] {
-      found = store_.retry_sweep(id, options_.max_queued_jobs);
-      if (found) store_.reopen_search_of(id);
-    });
+    change_sweep(id, [&] { found = store_.retry_sweep(id, options_.max_queued_jobs); });
     if (!found) return std::nullopt;
     wake();
     tell_change();

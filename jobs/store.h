@@ -193,7 +193,8 @@ class Store {
                     std::size_t max_queued);
   /// Adds cases to the request of a sweep that has some, and their jobs. False, and nothing is stored, if there is no such sweep.
   bool add_cases(const std::string& id, const nlohmann::ordered_json& cases, const std::vector<PlannedJob>& jobs);
-  /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at once. False if there is none.
+  /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at once. Its search, if it has one,
+  /// goes on. False if there is no such sweep.
   bool retry_sweep(const std::string& id, std::size_t max_queued);
 
   /// Takes a job: of the sweeps of the highest priority the one that was served least recently, of that the first whose content
@@ -257,8 +258,6 @@ class Store {
   [[nodiscard]] std::vector<SearchRow> list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const;
   /// Gives a search another state. False, and nothing is stored, if it is not in the former one.
   bool set_search_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error = {});
-  /// Lets the search of a sweep, if it has one that has ended, go on.
-  void reopen_search_of(const std::string& sweep_id);
 
   [[nodiscard]] Load find_load() const;
   /// The packed trajectory of a job that has one.

@@ -87,6 +87,7 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return false;
+    run_for_each(database, "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = ?", {*sweep});
     // The number of the former end is kept below 0: there it is none of an end, but never given again.
     SQLite::Statement queue(database,
                             "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = -change, started_ms = NULL, ended_ms = NULL "

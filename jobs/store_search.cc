@@ -90,13 +90,4 @@ bool Store::set_search_state(const std::string& id, const std::string& former, c
   });
 }
 
-void Store::reopen_search_of(const std::string& sweep_id) {
-  writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    SQLite::Statement open(database,
-        "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = (SELECT seq FROM sweeps WHERE id = ?)");
-    open.bind(1, sweep_id);
-    open.exec();
-  });
-}
-
 }  // namespace jobs

@@ -72,7 +72,6 @@ bool StudyDesk::retry(const std::string& id, const std::function<void(const std:
   if (row->state == "running") return true;
   under_way_.erase(id);
   retry_sweep(row->sweep_id);
-  store_.reopen_search_of(row->sweep_id);
   ++begun_;
   return true;
 }

@@ -95,7 +95,7 @@ class StudyDesk {
   /// Ends a study that is under way; `cancel_sweep` is called with its sweep then.
   /// @returns false if there is none  @throws WrongState if it has ended otherwise
   bool cancel(const std::string& id, const std::function<void(const std::string&)>& cancel_sweep);
-  /// Lets a study that has ended go on; `retry_sweep` is called with its sweep. False if there is none.
+  /// Lets a study that has ended go on: `retry_sweep` is called with its sweep, and does so. False if there is none.
   bool retry(const std::string& id, const std::function<void(const std::string&)>& retry_sweep);
   /// The sweep of a study that has ended. @throws WrongState if it has not
   [[nodiscard]] std::optional<std::string> find_ended_sweep(const std::string& id) const;
