@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "jobs/content_id.h"
@@ -64,22 +65,50 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
-/// What stands for a value in a line: of a described linkage its name, of a worn bore the largest depth.
-json shown_value(const json& completed, const std::string& path) {
-  const json& value = value_at_path(completed, path);
-  if (path == kWearKey && !value.is_null()) return deepest_wear(value);
-  return value.is_object() ? json(value.value("name", std::string("described"))) : value;
-}
+/// What stands for values in a line: of a described linkage its name, of a worn bore the largest depth; with a number where another value of
+/// the sweep is shown so already. Of these only cases have several.
+class ShownValues {
+ public:
+  explicit ShownValues(const SweepRequest& sweep) {
+    for (const std::string_view key : {kLinkageKey, kWearKey}) {
+      std::map<json, json> shown;  // by value, as the cases give it: numbers inside it may be swept beside it
+      std::set<json> taken;
+      if (key == kLinkageKey) taken.insert(shown.try_emplace(json(kRpsupName), kRpsupName).first->second);
+      for (const json& given : sweep.cases) {
+        const json value = given.value(std::string(key), key == kLinkageKey ? json(kRpsupName) : json());
+        const auto [known, is_new] = shown.try_emplace(value, usual(value));
+        for (int number = 2; is_new && !taken.insert(known->second).second; ++number) {
+          const json text = usual(value);
+          known->second = (text.is_string() ? text.get<std::string>() : text.dump()) + " #" + std::to_string(number);
+        }
+        of_cases_[std::string(key)].push_back(known->second);
+      }
+    }
+  }
+
+  [[nodiscard]] const json& at(const json& completed, const std::string& path, std::size_t case_index) const {
+    const auto found = of_cases_.find(path);
+    return found == of_cases_.end() ? value_at_path(completed, path) : found->second[case_index];
+  }
+
+ private:
+  static json usual(const json& value) {
+    if (value.is_array()) return deepest_wear(value);
+    return value.is_object() ? json(value.value("name", std::string("described"))) : value;
+  }
+
+  std::map<std::string, std::vector<json>> of_cases_;
+};
 
 /// Gathers the faults of points: one entry for each place in the request, however many points share it.
 class PointFaults {
  public:
-  explicit PointFaults(const SweepRequest& sweep) : sweep_(sweep) {}
+  PointFaults(const SweepRequest& sweep, const ShownValues& shown) : sweep_(sweep), shown_(shown) {}
 
   void add(const Fault& fault, const Position& position, const json& completed) {
     const std::string pointer = pointer_in_request(fault.pointer, position);
     const auto [entry, is_new] = entries_.try_emplace(pointer);
-    if (is_new) entry->second.detail = fault.detail + point_text(completed);
+    if (is_new) entry->second.detail = fault.detail + point_text(completed, position);
     ++entry->second.points;
   }
 
@@ -112,24 +141,18 @@ class PointFaults {
     return "/parameters" + pointer;
   }
 
-  [[nodiscard]] std::string point_text(const json& completed) const {
+  [[nodiscard]] std::string point_text(const json& completed, const Position& position) const {
     std::string text;
     for (const std::string& path : sweep_.swept) {
-      text += (text.empty() ? " (at " : ", ") + path + " = " + shown_value(completed, path).dump();
+      text += (text.empty() ? " (at " : ", ") + path + " = " + shown_.at(completed, path, position.case_index).dump();
     }
     return text.empty() ? "" : text + ")";
   }
 
   const SweepRequest& sweep_;
+  const ShownValues& shown_;
   std::map<std::string, Entry> entries_;
 };
-
-/// The values of what is swept, at a point.
-std::string swept_text(const json& completed, const std::vector<std::string>& swept) {
-  json values = json::array();
-  for (const std::string& path : swept) values.push_back(shown_value(completed, path));
-  return values.dump();
-}
 
 /// Ideal joints cost a small part of what contact does, and rigid links of flexible ones.
 std::string kind_of(const json& completed) {
@@ -151,9 +174,8 @@ PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicat
 }
 
 /// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the point's checks hold for them.
-void add_jobs(const json& completed, const SweepRequest& sweep, SweepPlan& plan) {
-  // The point's values in all of them, the stiffness too where it is swept: their rows are told apart by `replicate` alone.
-  const std::string swept = swept_text(completed, plan.swept);
+/// @param swept  the point's values in all of them, the stiffness too where it is swept: their rows are told apart by `replicate` alone
+void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, SweepPlan& plan) {
   json replicate = completed;
   for (std::uint64_t k = 0; k < sweep.replicates.count; ++k) {
     const double scale = completed.at(kStiffnessKey).get<double>() * replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
@@ -161,7 +183,7 @@ void add_jobs(const json& completed, const SweepRequest& sweep, SweepPlan& plan)
     if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty()) {
       throw InvalidRequest(std::vector<Fault>{{"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
     }
-    plan.jobs.push_back(make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept));
+    plan.jobs.push_back(make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept.dump()));
   }
 }
 
@@ -177,7 +199,8 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
   const SweepRequest sweep = parse_sweep_request(request, max_jobs);
   SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse,
                  .priority = sweep.priority, .executor = sweep.executor, .jobs = {}};
-  PointFaults faults(sweep);
+  const ShownValues shown(sweep);
+  PointFaults faults(sweep, shown);
   PlanBudget budget(max_jobs);
   Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
   do {
@@ -185,7 +208,9 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
     if (position.is_first_of_case()) budget.take(completed, points_of_a_case(sweep), sweep.replicates.count);
     const auto found = find_combination_faults(completed);
     for (const Fault& fault : found) faults.add(fault, position, completed);
-    if (found.empty()) add_jobs(completed, sweep, plan);
+    json swept = json::array();
+    for (const std::string& path : plan.swept) swept.push_back(shown.at(completed, path, position.case_index));
+    if (found.empty()) add_jobs(completed, sweep, swept, plan);
   } while (position.advance(sweep));
   faults.throw_if_any();
   return plan;

@@ -229,6 +229,29 @@ TEST(LinkageSweep, GoesOverNumbersInsideADescription) {
   EXPECT_EQ(plan.jobs[1].swept, "[0.05,0.3,0.8]");
 }
 
+// Rows of one point are known by the values that they show.
+TEST(LinkageSweep, ShowsDifferentLinkagesDifferently) {
+  json light = example("slider_crank").at("linkage");
+  light.erase("name");
+  json heavy = light, called = light, namesake = heavy;
+  heavy["bodies"]["rod"]["mass_kg"] = 0.3;
+  called["name"] = "described #2";
+  namesake["name"] = "rpsup";
+  const std::string path = "linkage.bodies.rod.mass_kg";
+  const auto shown = [](const nlohmann::ordered_json& request) {
+    std::vector<std::string> swept;
+    for (const jobs::PlannedJob& job : jobs::plan_sweep(request, 100).jobs) swept.push_back(job.swept);
+    return swept;
+  };
+  const json cases{{{"linkage", light}}, {{"linkage", heavy}}, {{"linkage", light}, {"friction", "none"}}, {{"linkage", called}},
+                   {{"linkage", namesake}}, {{"linkage", "rpsup"}}};
+  EXPECT_EQ(shown({{"cases", cases}}),
+            (std::vector<std::string>{R"(["described","lugre"])", R"(["described #2","lugre"])", R"(["described","none"])",
+                                      R"(["described #2 #2","lugre"])", R"(["rpsup #2","lugre"])", R"(["rpsup","lugre"])"}));
+  EXPECT_EQ(shown({{"cases", {{{"linkage", light}}}}, {"sweep", {{path, {0.2, 0.3}}}}}),
+            (std::vector<std::string>{R"([0.2,"described"])", R"([0.3,"described"])"})) << "one description, with two of its numbers";
+}
+
 TEST(LinkageSweep, IsComputedAndTabulated) {
   const TemporaryStore store;
   jobs::ServiceOptions options;
