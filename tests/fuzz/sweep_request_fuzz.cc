@@ -1,4 +1,4 @@
-// The bodies of POST /v1/sweeps, of its extension and of POST /v1/searches, from their bytes to the jobs that they mean.
+// The bodies of POST /v1/sweeps, of its extension, of POST /v1/searches and of POST /v1/wear-studies, from their bytes to the jobs that they mean.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include "jobs/expand.h"
 #include "jobs/extend_request.h"
 #include "jobs/search/search_request.h"
+#include "jobs/wear/wear_request.h"
 #include "server/json_text.h"
 #include "tests/fuzz/expect.h"
 
@@ -67,6 +68,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   expect_clear_refusal([&] {
     const jobs::SearchRequest search = jobs::parse_search_request(request, kMostJobs);
     (void)jobs::plan_first_sweep(jobs::first_sweep_of(request, search), search, kMostJobs);
+  });
+  expect_clear_refusal([&] {
+    const jobs::WearStudyRequest study = jobs::parse_wear_request(request, kMostJobs);
+    const jobs::SweepPlan plan = jobs::plan_sweep(jobs::first_sweep_of(request, study), kMostJobs);
+    fuzz::expect(plan.jobs.size() == 1, "a wear study begins with one bore");
   });
   return 0;
 }
