@@ -1,7 +1,6 @@
 #include "jobs/design.h"
 
 #include <algorithm>
-#include <span>
 #include <string_view>
 
 #include "jobs/axis.h"

@@ -26,10 +26,8 @@ class Executor {
   virtual void stop_job(const std::string& id) = 0;
   /// Ends the executor's own threads. Returns when that is done.
   virtual void stop() = 0;
-  /// How many jobs it can compute at a time.
-  [[nodiscard]] virtual int slots() const = 0;
-  /// {"name", "slots", "tasks": {"pending", "running"}, "nodes": [...], "problems": [...]}: what it does beside computing jobs, and what
-  /// a human should know.
+  /// {"name", "slots": how many jobs it can compute at a time, "tasks": {"pending", "running"}, "nodes": [...], "waiting": [...],
+  /// "problems": [...]}: what it does beside computing jobs, what its tasks wait for, and what a human should know.
   [[nodiscard]] virtual nlohmann::json status() const = 0;
 };
 

@@ -1,7 +1,6 @@
 #include "jobs/flat_json.h"
 
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <string>
 

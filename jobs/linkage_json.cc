@@ -160,7 +160,7 @@ class LinkageReader {
 
   void check_joints() {
     if (!check_names("joints", kMostJoints)) return;
-    for (const auto& [name, joint] : given_.at("joints").items()) check_joint(name, joint, "/linkage/joints" + pointer_token(name));
+    for (const auto& [name, joint] : given_.at("joints").items()) check_joint(joint, "/linkage/joints" + pointer_token(name));
     std::set<std::string> names;
     for (const auto& [name, joint] : given_.at("joints").items())
       for (const std::string& coordinate : coordinate_names(name, joint))
@@ -204,7 +204,7 @@ class LinkageReader {
     return found != joint.end() && found->is_boolean() && found->get<bool>();
   }
 
-  void check_joint(const std::string&, const json& joint, const std::string& pointer) {
+  void check_joint(const json& joint, const std::string& pointer) {
     const json kind_word = joint.value("kind", json());
     const auto kind = kind_word.is_string() ? kKinds.find(kind_word.get_ref<const std::string&>()) : kKinds.end();
     LinkageFields fields = joint_fields();

@@ -40,7 +40,6 @@ class LocalPool : public Executor {
   void stop_job(const std::string& id) override;
   /// Stops all running jobs and gives them back to the source, too.
   void stop() override;
-  [[nodiscard]] int slots() const override { return slots_; }
   [[nodiscard]] nlohmann::json status() const override;
 
  private:

@@ -1,7 +1,6 @@
 #include "jobs/resource_json.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>

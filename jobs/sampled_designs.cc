@@ -7,7 +7,6 @@
 #include <string>
 
 #include "jobs/axis.h"
-#include "jobs/parameter_path.h"
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"

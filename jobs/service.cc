@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -15,7 +16,6 @@
 #include "jobs/keys_in_use.h"
 #include "jobs/local_pool.h"
 #include "jobs/page.h"
-#include "jobs/parameter_path.h"
 #include "jobs/parameter_value.h"
 #include "jobs/resource_json.h"
 #include "jobs/result_query.h"

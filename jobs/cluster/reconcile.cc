@@ -1,7 +1,6 @@
 #include "jobs/cluster/reconcile.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace jobs::cluster {
 namespace {

@@ -102,8 +102,7 @@ void Slurm::cancel_tasks(const std::string& array_job, const std::vector<int>& i
 std::optional<SlurmLimits> Slurm::find_limits(std::string& problem) const {
   const ProcessOutcome outcome = run({"scontrol", "show", "config"}, site_.query_deadline);
   SlurmLimits limits{.version = find_setting(outcome.out, "SLURM_VERSION"),
-                     .max_array_size = leading_number(find_setting(outcome.out, "MaxArraySize")),
-                     .min_job_age_s = leading_number(find_setting(outcome.out, "MinJobAge"))};
+                     .max_array_size = leading_number(find_setting(outcome.out, "MaxArraySize"))};
   if (outcome.succeeded() && limits.max_array_size > 0) return limits;
   problem = "scontrol show config: " + (outcome.succeeded() ? "it names no MaxArraySize" : outcome.text());
   return std::nullopt;

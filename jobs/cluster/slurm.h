@@ -33,7 +33,6 @@ struct Submission {
 struct SlurmLimits {
   std::string version;    ///< "22.05.8"
   int max_array_size = 0; ///< indices are smaller
-  int min_job_age_s = 0;  ///< for which squeue shows a task that has ended
 };
 
 /// Slurm by its commands sbatch, squeue, scancel and scontrol, whose text has been the same for ten years.

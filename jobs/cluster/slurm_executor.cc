@@ -1,7 +1,6 @@
 #include "jobs/cluster/slurm_executor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <numeric>
 #include <utility>
@@ -63,7 +62,7 @@ void SlurmExecutor::stop() {
 
 nlohmann::json SlurmExecutor::status() const {
   nlohmann::json status = status_.json();
-  status.update({{"name", kSlurmExecutor}, {"slots", slots()}});
+  status.update({{"name", kSlurmExecutor}, {"slots", site_.slots * site_.threads}});
   return status;
 }
 

@@ -36,7 +36,6 @@ class SlurmExecutor : public Executor {
   void wake() override;
   void stop_job(const std::string&) override { wake(); }
   void stop() override;
-  [[nodiscard]] int slots() const override { return site_.slots * site_.threads; }
   [[nodiscard]] nlohmann::json status() const override;
 
  private:

@@ -15,10 +15,9 @@
 
 namespace jobs {
 
-/// What a request may hold, and what stands below the parameter in its "over".
+/// What a request may hold.
 inline constexpr std::array<std::string_view, 10> kSearchRequestKeys{"name", "parameters", "over", "metric", "bound", "quantile", "sweep",
     "replicates", "reuse", "priority"};
-inline constexpr std::array<std::string_view, 5> kSearchPathKeys{"from", "to", "scale", "tolerance", "first"};
 inline constexpr Range kFirstRange{.minimum = 2, .maximum = 1000};
 inline constexpr std::uint64_t kDefaultFirst = 5;
 inline constexpr Range kQuantileRange{.minimum = 0.0, .maximum = 1.0, .lower = Bound::kExclusive};

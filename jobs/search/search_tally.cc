@@ -32,10 +32,6 @@ json metric_of(const ResultRow& job, const std::string& metric) {
 
 }  // namespace
 
-bool SearchPicture::has_ended() const {
-  return std::ranges::all_of(combinations, [](const CombinationPicture& one) { return one.limit.verdict != Verdict::kOpen; });
-}
-
 std::string SearchPicture::end_state() const {
   if (std::ranges::any_of(combinations, &CombinationPicture::cancelled)) return "cancelled";
   const bool lost = std::ranges::any_of(combinations, [](const CombinationPicture& one) { return one.limit.verdict == Verdict::kLost; });

@@ -28,7 +28,6 @@ struct CombinationPicture {
 struct SearchPicture {
   std::vector<CombinationPicture> combinations;
 
-  [[nodiscard]] bool has_ended() const;
   [[nodiscard]] std::string end_state() const;  ///< once it has ended
 };
 

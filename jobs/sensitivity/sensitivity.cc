@@ -1,7 +1,6 @@
 #include "jobs/sensitivity/sensitivity.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "jobs/surrogate/surrogate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>

@@ -5,7 +5,6 @@
 
 #include "jobs/linkage_json.h"
 #include "jobs/parameter_value.h"
-#include "jobs/parameters.h"
 #include "jobs/service.h"
 #include "jobs/wear/wear_depth.h"
 

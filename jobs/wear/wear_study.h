@@ -8,7 +8,7 @@
 namespace jobs {
 
 /// Studies of a bearing that is worn over the hours: the bore after each step is a job, whose wear makes the next step. See parse_wear_request() and
-/// follow_wear().
+/// WearFollower.
 /// @param store  where the trajectories are that tell the wear; outlives what is made
 [[nodiscard]] std::unique_ptr<StudyKind> make_wear_study(const Store& store);
 
