@@ -61,35 +61,46 @@ std::string owner_of(const Linkage& linkage, const BuiltLinkage& built, FrameInd
   return "";
 }
 
-/// Twice the kinetic energy of each free coordinate at unit speed must not vanish.
-void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled, const std::vector<FrameIndex>& free) {
-  constexpr double kNothing = 1e-15;  // [kg m^2] or [kg], of what the heaviest freedom moves
-  const Mechanism& m = built.mechanism;
+/// The mass matrix of some coordinates, from the kinetic energies of unit speeds, alone and by twos.
+Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled, const std::vector<FrameIndex>& coordinates, bool diagonal_alone) {
   Eigen::VectorXd qd = Eigen::VectorXd::Zero(assembled.q.size());
   const Eigen::VectorXd qdd = qd;
   std::vector<FrameMotion> frames(m.coordinates.size());
-  std::vector<double> moved;
-  for (const FrameIndex i : free) {
-    qd[i] = 1.0;
-    calc_frame_motions(m, assembled.q, qd, qdd, frames);
-    moved.push_back(calc_kinetic_energy(m, frames));
-    qd[i] = 0.0;
-  }
-  double most = 0.0;
-  for (const double energy : moved) most = std::max(most, energy);
-  for (std::size_t k = 0; k < free.size(); ++k)
-    if (!(moved[k] > kNothing * most))
-      throw InvalidInput(owner_of(linkage, built, free[k]), "is free to move by its coordinate " +
-                         m.coordinates[static_cast<std::size_t>(free[k])].name +
-                         ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
+  const auto n = static_cast<Eigen::Index>(coordinates.size());
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = diagonal_alone ? i : 0; k <= i; ++k) {
+      qd.setZero();
+      qd[coordinates[static_cast<std::size_t>(i)]] = 1.0;
+      qd[coordinates[static_cast<std::size_t>(k)]] = 1.0;
+      calc_frame_motions(m, assembled.q, qd, qdd, frames);
+      M(i, k) = M(k, i) = calc_kinetic_energy(m, frames);
+    }
+  const Eigen::VectorXd alone = M.diagonal();
+  M.colwise() -= alone;
+  M.rowwise() -= alone.transpose();
+  M.diagonal() = 2.0 * alone;
+  return M;
 }
 
-/// Nor must that of several which move together.
-void check_motion(const Mechanism& mechanism, const Evaluation& assembled) {
-  MotionSystem system(mechanism);
-  const Eigen::VectorXd y = system.make_state(assembled.q, assembled.qd);
-  Eigen::VectorXd rates = Eigen::VectorXd::Zero(y.size());
-  if (system.calc_derivative(0.0, y, rates) == EvaluationStatus::kNonFinite)
+/// No free coordinate may move nothing that has mass, nor may several together.
+void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled, const std::vector<FrameIndex>& free, bool together) {
+  constexpr double kNothing = 1e-15;     // [kg m^2] or [kg], of what the heaviest freedom moves
+  constexpr double kNoneOfThem = 1e-13;  // least eigenvalue of the matrix with its diagonal scaled to 1: rounding
+  constexpr std::size_t kMany = 60;      // whose matrix would take long
+  if (free.empty()) return;
+  together = together && free.size() <= kMany;
+  const Eigen::MatrixXd M = calc_mass_matrix(built.mechanism, assembled, free, !together);
+  const Eigen::VectorXd moved = M.diagonal();
+  for (std::size_t k = 0; k < free.size(); ++k)
+    if (!(moved[static_cast<Eigen::Index>(k)] > kNothing * moved.maxCoeff()))
+      throw InvalidInput(owner_of(linkage, built, free[k]), "is free to move by its coordinate " +
+                         built.mechanism.coordinates[static_cast<std::size_t>(free[k])].name +
+                         ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
+  if (!together) return;
+  const Eigen::VectorXd scale = moved.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
+  if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() > kNoneOfThem))
     throw InvalidInput("joints", "are free to move together in a way in which nothing that they move has mass (one behind the other about the same "
                                  "axis, say): give the bodies that they carry some, or drive them");
 }
@@ -130,12 +141,12 @@ BuiltLinkage check_linkage(const Linkage& linkage) {
                                   " m (or between right angles); other lengths, or a guess or start of a coordinate nearer to the closed "
                                   "position, may help");
   }
-  if (!closure.lets_drives_begin())
+  if (!closure.lets_drives_begin(assembled))
     throw InvalidInput("joints", "cannot follow their drives: these move against each other, or against joints that close loops; let one of the "
                                  "drives go, or a joint that closes a loop allow the motion");
-  check_masses(linkage, built, assembled, system.free_coordinates());
+  const bool solved = closure.is_determined() && closure.redundant() == 0;  // the drives decide the motion, whatever has mass
+  check_masses(linkage, built, assembled, system.free_coordinates(), !solved);
   settle_springs(linkage, built, assembled);
-  check_motion(built.mechanism, assembled);
   return built;
 }
 

@@ -65,39 +65,32 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
-/// What stands for values in a line: of a described linkage its name, of a worn bore the largest depth; with a number where another value of
-/// the sweep is shown so already. Of these only cases have several.
+/// What stands for values in a line: of a worn bore the largest depth, of a described linkage its name, with a number where another linkage of
+/// the sweep has that name already.
 class ShownValues {
  public:
   explicit ShownValues(const SweepRequest& sweep) {
-    for (const std::string_view key : {kLinkageKey, kWearKey}) {
-      std::map<json, json> shown;  // by value, as the cases give it: numbers inside it may be swept beside it
-      std::set<json> taken;
-      if (key == kLinkageKey) taken.insert(shown.try_emplace(json(kRpsupName), kRpsupName).first->second);
-      for (const json& given : sweep.cases) {
-        const json value = given.value(std::string(key), key == kLinkageKey ? json(kRpsupName) : json());
-        const auto [known, is_new] = shown.try_emplace(value, usual(value));
-        for (int number = 2; is_new && !taken.insert(known->second).second; ++number) {
-          const json text = usual(value);
-          known->second = (text.is_string() ? text.get<std::string>() : text.dump()) + " #" + std::to_string(number);
-        }
-        of_cases_[std::string(key)].push_back(known->second);
-      }
+    const std::string rpsup(kRpsupName);
+    std::map<json, std::string> names{{json(rpsup), rpsup}};  // by linkage as the cases give it: numbers inside it may be swept beside it
+    std::set<std::string> taken{rpsup};
+    std::map<std::string, int> namesakes;
+    for (const json& given : sweep.cases) {
+      const json linkage = given.value(std::string(kLinkageKey), json(rpsup));
+      const std::string name = linkage.is_object() ? linkage.value("name", std::string("described")) : rpsup;
+      const auto [shown, is_new] = names.try_emplace(linkage, name);
+      while (is_new && !taken.insert(shown->second).second) shown->second = name + " #" + std::to_string(2 + namesakes[name]++);
+      linkages_.push_back(shown->second);
     }
   }
 
-  [[nodiscard]] const json& at(const json& completed, const std::string& path, std::size_t case_index) const {
-    const auto found = of_cases_.find(path);
-    return found == of_cases_.end() ? value_at_path(completed, path) : found->second[case_index];
+  [[nodiscard]] json at(const json& completed, const std::string& path, std::size_t case_index) const {
+    if (path == kLinkageKey) return linkages_[case_index];  // which only cases vary
+    const json& value = value_at_path(completed, path);
+    return path == kWearKey && !value.is_null() ? json(deepest_wear(value)) : value;
   }
 
  private:
-  static json usual(const json& value) {
-    if (value.is_array()) return deepest_wear(value);
-    return value.is_object() ? json(value.value("name", std::string("described"))) : value;
-  }
-
-  std::map<std::string, std::vector<json>> of_cases_;
+  std::vector<std::string> linkages_;  ///< one a case
 };
 
 /// Gathers the faults of points: one entry for each place in the request, however many points share it.

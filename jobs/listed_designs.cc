@@ -84,11 +84,13 @@ std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parame
   for (const auto& [path, axis] : design.at("over").items()) count += count_axis_values(path, axis, pointer_of(path), faults);
   if (faults.size() != before) return 0;
   const auto centre = centre_of(design, parameters);
+  // Of parameters with faults nothing is known.
+  const bool are_known = std::ranges::none_of(faults, [](const Fault& fault) { return fault.pointer.starts_with("/parameters"); });
   std::size_t next = 0;
   for (const auto& [path, axis] : design.at("over").items()) {
     const json& value = centre[next++];
     if (value.is_null() || (is_linkage_path(path) && !value.is_number())) {
-      faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
+      if (are_known) faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
     } else {
       count -= axis_contains(path, axis, value) ? 1 : 0;
     }

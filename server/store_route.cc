@@ -17,7 +17,7 @@ namespace server {
 namespace {
 
 /// Beside the store, where there is most likely room, and on the same file system.
-std::filesystem::path copy_of(const std::filesystem::path& store) { return store.string() + ".copy"; }
+std::filesystem::path copy_of(const std::filesystem::path& store) { return store.string() + ".rpsup-copy"; }
 
 /// Opens a file and takes its name away: it is gone when it is closed, whatever happens.
 std::shared_ptr<FileBody> open_nameless(const std::filesystem::path& file, std::shared_ptr<const void> permit) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/QR>
 
@@ -47,14 +48,16 @@ Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::M
   return decomposition;
 }
 
-/// How far each driven coordinate has come when the first of them has gone a little way; zero if none ever moves.
+/// How far each driven coordinate has come when the first of them has gone a little way; zero if none does so soon.
 Eigen::VectorXd calc_first_way(const Mechanism& mechanism) {
-  constexpr double kLittleWay = 1e-4;           // [rad] or [m]
-  constexpr double kFirst = 1e-9, kLast = 1e4;  // [s]
+  constexpr double kLittleWay = 1e-4;          // [rad] or [m]
+  constexpr double kFirst = 1e-9, kSoon = 0.2;  // [s]; what begins later finds the linkage elsewhere
   Eigen::VectorXd way = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size()));
-  for (double t = kFirst; t < kLast && way.cwiseAbs().maxCoeff() < kLittleWay; t *= 1.2)
+  for (double t = kFirst; t < kSoon; t *= 1.1) {
     for (const Drive& drive : mechanism.drives) way[drive.coordinate] = calc_driven_motion(drive.law, t).q - calc_driven_motion(drive.law, 0.0).q;
-  return way;
+    if (way.cwiseAbs().maxCoeff() >= kLittleWay) return way;
+  }
+  return Eigen::VectorXd::Zero(way.size());
 }
 
 /// How many rows of J do not follow from the others.
@@ -145,15 +148,51 @@ bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& 
   return constraints_.Phi_d(rows).cwiseAbs().maxCoeff() <= kFits * std::max(1.0, given);
 }
 
-bool LoopClosure::lets_drives_begin() const {
-  constexpr double kTorn = 1e-2;  // of what each drive does to the rows: far more than they bend in the first bit of the way
-  if (rigid_rows_.empty() || ideal_.drives.empty()) return true;
-  const Eigen::MatrixXd Phi_q = constraints_.Phi_q(rigid_rows_, Eigen::all);
+bool LoopClosure::lets_drives_begin(const Evaluation& assembled) {
+  const bool at_rest = assembled.qd.isZero(0.0);  // else the velocities have been seen to fit
+  if (rigid_rows_.empty() || ideal_.drives.empty() || !at_rest) return true;
   const Eigen::VectorXd way = calc_first_way(ideal_);
-  Eigen::VectorXd left = Phi_q * way;
-  const Eigen::MatrixXd J = calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all);
-  if (J.cols() > 0) left -= J * decompose(J).solve(left);
-  return left.norm() <= kTorn * (Phi_q.cwiseAbs() * way.cwiseAbs()).norm();
+  return is_free(way) || closes_beside(assembled.q + way);
+}
+
+/// Whether the other coordinates can follow a little way of the drives, to first order.
+bool LoopClosure::is_free(const Eigen::VectorXd& way) const {
+  constexpr double kTorn = 0.5;  // of what each drive does to the rows: drives that are to go together may differ by some
+  constexpr double kFar = 1e3;   // times the drives' way: so near to a dead position it is one
+  const Eigen::MatrixXd Phi_q = constraints_.Phi_q(rigid_rows_, Eigen::all);
+  const Eigen::VectorXd change = follow(Phi_q * way);
+  const Eigen::VectorXd left = Phi_q * (way + change);
+  return change.norm() <= kFar * way.norm() && left.norm() <= kTorn * (Phi_q.cwiseAbs() * way.cwiseAbs()).norm();
+}
+
+/// Whether the loops close with the drives there, from a position a little beside: in a dead position no little way is free.
+bool LoopClosure::closes_beside(const Eigen::VectorXd& q) {
+  constexpr double kBeside = 0.01;  // [rad] or [m]
+  constexpr double kMeets = 1e-9;   // [m] and [1]
+  Evaluation at;
+  at.q = q;
+  at.qd = at.qdd = Eigen::VectorXd::Zero(q.size());
+  at.frames.resize(ideal_.coordinates.size());
+  double beside = kBeside;
+  for (const FrameIndex i : find_coordinates(ideal_, is_any)) at.q[i] += std::exchange(beside, -beside);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    calc_rows(at);
+    const Eigen::VectorXd gaps = constraints_.Phi(rigid_rows_);
+    if (gaps.cwiseAbs().maxCoeff() < kMeets) return true;
+    const Eigen::VectorXd step = follow(gaps);
+    const double size = step.cwiseAbs().maxCoeff();
+    if (size == 0.0) return false;
+    at.q += std::min(1.0, kMaxStep / size) * step;
+  }
+  return false;
+}
+
+/// The least change of the coordinates that are not driven which closes gaps in the rows of joints without clearance, to first order.
+Eigen::VectorXd LoopClosure::follow(const Eigen::VectorXd& gaps) const {
+  const std::vector<FrameIndex> others = find_coordinates(ideal_, is_any);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ideal_.coordinates.size()));
+  if (!others.empty()) change(others) = -decompose(calc_columns(others)(rigid_rows_, Eigen::all)).solve(gaps);
+  return change;
 }
 
 Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordinates) const {

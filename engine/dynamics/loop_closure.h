@@ -30,8 +30,9 @@ class LoopClosure {
 
   /// After assemble(): whether the velocities given for the start go with the loops.
   [[nodiscard]] bool rates_fit() const { return rates_fit_; }
-  /// After assemble(): whether the loops let the drives begin as they do. They do not if the drives move against each other, or against a joint.
-  [[nodiscard]] bool lets_drives_begin() const;
+  /// Just after assemble(): whether the loops let drives begin that soon move from rest. They do not if the drives move against each other, or
+  /// against a joint.
+  [[nodiscard]] bool lets_drives_begin(const Evaluation& assembled);
   /// After assemble(): how many of the constraint rows (joints with clearance have none) follow from the others.
   [[nodiscard]] Eigen::Index redundant() const { return redundant_; }
 
@@ -55,6 +56,9 @@ class LoopClosure {
  private:
   [[nodiscard]] bool assemble_rates(Evaluation& at);
   [[nodiscard]] bool find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at);
+  [[nodiscard]] bool is_free(const Eigen::VectorXd& way) const;
+  [[nodiscard]] bool closes_beside(const Eigen::VectorXd& q);
+  [[nodiscard]] Eigen::VectorXd follow(const Eigen::VectorXd& gaps) const;
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;

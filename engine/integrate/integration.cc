@@ -271,6 +271,9 @@ EvaluationStatus Integration::evaluate_inside(double t) {
     interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / (end_.t - start_.t), sample_.y);
   else
     sample_.y = end_.y;
+  const EvaluationStatus status = system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
+  if (status != EvaluationStatus::kBristleMissing) return status;
+  sample_.y = end_.y;  // an element touches there that touches at neither end: what is at the end is near by
   return system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
 }
 

@@ -149,11 +149,13 @@ TEST(LinkageRefusal, NamesWhatIsAtFault) {
   massless.joints.push_back({.name = "loose", .from = "coupler", .to = "nothing", .placement = {}, .freedoms = {{.name = "loose"}}});
   EXPECT_EQ(refused_field(massless), "joints.loose");
   // Each of two turns about one axis moves what is behind it; turned against each other they move nothing.
-  Linkage idle;
-  idle.bodies = {{.name = "ring"}, make_body("bar", 1.0, {0.5, 0.0, 0.0}, {0.01, 0.01, 0.01})};
-  idle.joints = {{.name = "outer", .from = kGroundName, .to = "ring", .placement = {}, .freedoms = {{.name = "outer"}}},
-                 {.name = "inner", .from = "ring", .to = "bar", .placement = {}, .freedoms = {{.name = "inner"}}}};
-  EXPECT_EQ(refused_field(idle), "joints");
+  for (const double inertia : {0.01, 0.3, 0.47, 0.7}) {
+    Linkage idle;
+    idle.bodies = {{.name = "ring"}, make_body("bar", 1.0, {0.5, 0.0, 0.0}, {inertia, inertia, inertia})};
+    idle.joints = {{.name = "outer", .from = kGroundName, .to = "ring", .placement = {.R = z_to_x()}, .freedoms = {{.name = "outer"}}},
+                   {.name = "inner", .from = "ring", .to = "bar", .placement = {}, .freedoms = {{.name = "inner"}}}};
+    EXPECT_EQ(refused_field(idle), "joints") << inertia;
+  }
   // A second bearing across the axis about which the drive turns.
   Linkage wedged = make_screw();
   wedged.joints = {{.name = "along", .from = kGroundName, .to = "nut", .placement = {},
@@ -169,6 +171,39 @@ TEST(LinkageRefusal, NamesWhatIsAtFault) {
   Linkage impossible = make_four_bar(JointKind::kRevolute);
   impossible.bodies[1].inertia(2, 2) *= 3.0;
   EXPECT_EQ(refused_field(impossible), "bodies.coupler.inertia");
+}
+
+/// A crank about z whose end, so far from the axis, carries a block that slides in a slot across x: x = radius cos(angle).
+Linkage make_scotch_yoke(double radius, const LinkageFreedom& crank, const LinkageFreedom& slide) {
+  Linkage linkage;
+  linkage.bodies = {make_body("crank", 1.0, {0.0, 0.0, 0.0}, {0.01, 0.01, 0.01}), make_body("yoke", 1.0, {0.0, 0.0, 0.0}, {0.01, 0.01, 0.01}),
+                    make_body("block", 0.1, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3})};
+  linkage.joints = {{.name = "crank", .from = kGroundName, .to = "crank", .placement = {}, .freedoms = {crank}},
+                    {.name = "slide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "yoke", .placement = {}, .axes = {Axis::kX, Axis::kY},
+                     .freedoms = {slide}},
+                    {.name = "slot", .kind = JointKind::kPrismatic, .from = "yoke", .to = "block", .placement = {}, .axes = {Axis::kY, Axis::kX},
+                     .freedoms = {{.name = "y", .guess = 0.5 * radius}}},
+                    {.name = "pin", .from = "crank", .to = "block", .placement = {.p = {radius, 0.0, 0.0}}, .cut = true}};
+  return linkage;
+}
+
+TEST(LinkageRefusal, LetsDrivesBeginThatDoNotJam) {
+  const LinkageFreedom turning{.name = "angle", .start = 0.0, .start_rate = 8.0};
+  // At a dead centre that the crank passes.
+  const LinkageFreedom led{.name = "x", .drive = Harmonic{.amplitude = 0.1, .omega = 8.0, .phase = 0.5 * std::numbers::pi}};
+  EXPECT_EQ(refused_field(make_scotch_yoke(0.1, turning, led)), "");
+  // From a dead centre, where the crank at rest may go either way; but not beyond its reach.
+  const LinkageFreedom resting{.name = "angle", .guess = 0.0};
+  const auto away = [](double rise) { return LinkageFreedom{.name = "x", .drive = CycloidalRise{.from = 0.1, .rise = rise, .time = 0.1}}; };
+  EXPECT_EQ(refused_field(make_scotch_yoke(0.1, resting, away(-0.05))), "");
+  EXPECT_EQ(refused_field(make_scotch_yoke(0.1, resting, away(0.05))), "joints");
+  // What begins later is seen when it comes to it.
+  const LinkageFreedom later{.name = "x", .drive = CycloidalRise{.from = 0.1, .rise = 0.05, .begin = 1.0, .time = 0.1}};
+  EXPECT_EQ(refused_field(make_scotch_yoke(0.1, resting, later)), "");
+  // Two drives that go together round a small circle, of which a tenth of a millimetre is a good part.
+  const DriveLaw swing = Polynomial{{0.7, 0.0, 2.0}};
+  const DriveLaw along = Polynomial{{0.003 * std::cos(0.7), 0.0, -0.003 * 2.0 * std::sin(0.7)}};
+  EXPECT_EQ(refused_field(make_scotch_yoke(0.003, {.name = "angle", .drive = swing}, {.name = "x", .drive = along})), "");
 }
 
 /// A law's derivatives are those of its position, here by differences.

@@ -65,14 +65,14 @@ TEST(InvalidRequestAnswer, HoldsEveryFault) {
 }
 
 TEST(InvalidRequestAnswer, SaysHowManyFaultsItLeavesOut) {
-  const auto errors_of = [](std::size_t count) {
+  const auto problem_of = [](std::size_t count) {
     const std::vector<jobs::Fault> faults(count, {"/a", "unknown"});
-    return nlohmann::json::parse(make_error_answer(std::make_exception_ptr(jobs::InvalidRequest(faults)), "r").body).at("errors");
+    return nlohmann::json::parse(make_error_answer(std::make_exception_ptr(jobs::InvalidRequest(faults)), "r").body);
   };
-  EXPECT_EQ(errors_of(100).size(), 100U);
-  EXPECT_EQ(errors_of(100).back().at("detail"), "unknown");
-  ASSERT_EQ(errors_of(1234).size(), 101U);
-  EXPECT_EQ(errors_of(1234).back(), nlohmann::json::parse(R"({"pointer": "", "detail": "1134 more faults are left out here"})"));
+  EXPECT_EQ(problem_of(100).at("errors").size(), 100U);
+  EXPECT_EQ(problem_of(100).at("detail").get<std::string>().find("left out"), std::string::npos);
+  EXPECT_EQ(problem_of(1234).at("errors").size(), 100U);
+  EXPECT_NE(problem_of(1234).at("detail").get<std::string>().find("; 1134 more are left out here"), std::string::npos);
 }
 
 TEST(RetryLater, SaysWhen) {

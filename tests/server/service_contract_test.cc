@@ -206,7 +206,7 @@ TEST(GetStore, IsAFileThatNobodyElseSees) {
   std::string start(16, '\0');
   EXPECT_EQ(copy.file->read(0, start.data(), start.size()), start.size());
   EXPECT_EQ(start, std::string("SQLite format 3") + '\0');
-  EXPECT_FALSE(std::filesystem::exists(bench.service().store_file().string() + ".copy"));
+  EXPECT_FALSE(std::filesystem::exists(bench.service().store_file().string() + ".rpsup-copy"));
   EXPECT_EQ(bench.call("GET", "/v1/store", "", {{"format", "csv"}}).status, 422);
 }
 
@@ -223,7 +223,7 @@ TEST(GetStore, HasOneCopyOnTheDiskAtATime) {
 
 TEST(GetStore, LeavesNoCopyOfAProcessThatDied) {
   Bench bench;
-  const std::filesystem::path left = bench.service().store_file().string() + ".copy";
+  const std::filesystem::path left = bench.service().store_file().string() + ".rpsup-copy";
   std::ofstream(left) << "half of it";
   const server::Routes next_process(bench.service());
   EXPECT_FALSE(std::filesystem::exists(left));

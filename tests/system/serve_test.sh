@@ -57,7 +57,7 @@ expect_equal "$(sqlite3 beside.db 'SELECT count(*) FROM jobs')" 3 "the copy besi
 expect_code 2 "$rpsup" export --db store.db beside.db
 expect_text err 'exists already'
 expect_code 2 "$rpsup" export --db nowhere.db other-copy.db
-[ ! -e store.db.copy ] || fail "a copy was left behind"
+[ ! -e store.db.rpsup-copy ] || fail "a copy was left behind"
 
 # Repeated parameters are not computed again: the metrics are those of the first job, whatever the new one is called.
 echo '{"name": "again", "parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "sweep": {"clearance_mm": [0, 0.3, 0.4]}}' >again.json
