@@ -9,6 +9,7 @@
 #include "jobs/linkage_json.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_value.h"
+#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -19,7 +20,8 @@ std::vector<std::string_view> metrics_of(const ResultTable& table) {
   const auto& parameters = known_paths();
   std::vector<std::string_view> metrics;
   for (const std::string& column : table.columns) {
-    const bool given = column == kLinkageKey || is_linkage_path(column) || std::ranges::find(parameters, column) != parameters.end();
+    const bool given = column == kLinkageKey || column == kWearKey || is_linkage_path(column) ||
+                       std::ranges::find(parameters, column) != parameters.end();
     if (!given && std::ranges::find(kOfJobs, column) == kOfJobs.end()) metrics.emplace_back(column);
   }
   return metrics;

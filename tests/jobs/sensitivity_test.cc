@@ -131,6 +131,8 @@ TEST(Metrics, AreThoseOfTheStudysLinkages) {
   EXPECT_EQ(jobs::find_metric(described, "steps"), 6U);
   const jobs::ResultTable rpsup{.columns = {"job_id", "state", "amplification", peak()}, .rows = {}};
   EXPECT_EQ(jobs::choose_metric(rpsup, ""), peak());
+  const jobs::ResultTable worn{.columns = {"job_id", "state", "wear_depth_um", "amplification"}, .rows = {}};
+  EXPECT_EQ(jobs::choose_metric(worn, ""), "amplification");
   for (const std::string& none : {std::string("state"), std::string("clearance_mm"), std::string("linkage.bodies.rod.mass_kg"), peak()}) {
     try {
       (void)jobs::choose_metric(described, none);
