@@ -55,7 +55,7 @@ class VariedEquations {
 
   /// Takes up the solution: what all directions share.
   /// @param acting  the bristles that touch or are bent, in pairs and in their order
-  RPSUP_INLINE void hold(const double* bristles, const int* acting, int acting_count) {
+  [[gnu::noinline]] void hold(const double* bristles, const int* acting, int acting_count) {
     find_acting(acting, acting_count);
     hold_motion();
     hold_loads(bristles);
@@ -70,7 +70,7 @@ class VariedEquations {
 
   /// @param coordinates  one a coordinate; qdd of driven ones only
   /// @param time         lane in which time varies, the drives' coordinates with it
-  RPSUP_INLINE void differentiate(const CoordinateVariation<Lanes>* coordinates, const LoadDirection* loads, int load_count, const Lanes& time,
+  [[gnu::noinline]] void differentiate(const CoordinateVariation<Lanes>* coordinates, const LoadDirection* loads, int load_count, const Lanes& time,
                                   const DrivenMotion* drives) {
     coordinates_ = coordinates;
     loads_ = loads;
