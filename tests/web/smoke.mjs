@@ -60,6 +60,23 @@ test("a request is used again whole", async () => {
   await leave(page, /422/);
 });
 
+test("a refusal stays when what earlier jobs have cost is told after it", async () => {
+  await runSweep({ parameters: short });
+  const page = await visit("#/wear");
+  const asked = new Promise((resolve) => { page.route("**/v1/jobs?**", resolve); });
+  await page.goto(`${url}/#/new`);
+  const costs = await asked;
+  await page.locator('[data-path="clearance_mm"]').getByRole("textbox").fill("6");
+  await page.getByText("No time is known yet").waitFor();
+  await page.getByRole("button", { name: "Submit" }).click();
+  const refusal = page.getByRole("alert").getByText("/parameters/clearance_mm:");
+  await refusal.waitFor();
+  await costs.continue();
+  await page.getByText("of computing on one core").waitFor();
+  assert.ok(await refusal.isVisible());
+  await leave(page, /422/);
+});
+
 test("the form counts the jobs that the service makes", async () => {
   const ends = { clearance_mm: { from: 0.1, to: 0.4 }, restitution: { from: 0.7, to: 0.9 } };
   const page = await visit("#/new");
@@ -213,7 +230,7 @@ test("a sweep is cancelled and retried in the list", async () => {
 
 test("a sweep is followed once, however often its jobs are retried", async () => {
   const sweep = await ask("/v1/sweeps", { name: "again", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
-  const page = await visit("");
+  const page = await visit("#/new");  // not the list: it follows the sweep, too
   let followed = 0;
   page.on("request", (request) => { followed += request.url().endsWith(`${sweep.id}/events`) ? 1 : 0; });
   await page.goto(`${url}/#/sweeps/${sweep.id}`);

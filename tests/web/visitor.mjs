@@ -18,6 +18,7 @@ export async function visit(view, options = {}) {
   // As root, as in a container, Chromium does not start in its sandbox; it only ever sees the service under test.
   browser ??= await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
   const context = await browser.newContext({ viewport: { width: 1360, height: 1000 }, acceptDownloads: true, locale: "en-GB", ...options });
+  context.setDefaultTimeout(120_000);  // a machine may be busy
   const page = await context.newPage();
   page.faults = [];
   page.on("console", (message) => message.type() === "error" && page.faults.push(message.text()));
@@ -67,7 +68,7 @@ export async function ask(path, body) {
 }
 
 /** Submits a sweep and waits for its end. */
-export async function runSweep(request, seconds = 60) {
+export async function runSweep(request, seconds = 300) {
   let sweep = await ask("/v1/sweeps", request);
   for (const end = Date.now() + 1000 * seconds; ["queued", "running"].includes(sweep.state); sweep = await ask(`/v1/sweeps/${sweep.id}`)) {
     assert.ok(Date.now() < end, `the sweep has not ended within ${seconds} s`);

@@ -35,7 +35,7 @@ class SweepForm extends RequestForm {
     super(fields, state);
     Object.assign(this, { example, costs: new Map() });
     this.defaults = Object.fromEntries(fields.map((field) => [field.path, field.default]));
-    measureCosts(signal).then((costs) => { this.costs = costs; this.update(); }).catch(() => {});
+    measureCosts(signal).then((costs) => { this.costs = costs; this.drawCount(this.request); }).catch(() => {});
   }
 
   parts() {
