@@ -72,6 +72,7 @@ export class StudyView {
   }
 
   async reload() {
+    if (this.isRemoved) return;
     try {
       this.study = await this.constructor.api.find(this.study.id, this.signal);
       this.draw();
@@ -103,10 +104,12 @@ export class StudyView {
 
   async remove() {
     if (!(await confirmed(`Delete “${this.name}”? Its jobs go with it; results that other sweeps share stay.`, "Delete"))) return;
+    this.isRemoved = true;  // a reload that is still to come would not find it
     try {
       await this.constructor.api.remove(this.study.id);
       location.hash = routeTo(this.constructor.route);
     } catch (error) {
+      this.isRemoved = false;
       notify(error.message, "trouble");
     }
   }
