@@ -53,7 +53,7 @@ class VariedEquations {
       contacts_.push_back(std::make_unique<ContactDerivative>(static_cast<std::size_t>(joint.bristle_count())));
   }
 
-  /// Takes up the solution: what all directions share.
+  /// Takes up the solution: what all directions share. Like differentiate() much code, which two functions call: not inlined into both.
   /// @param acting  the bristles that touch or are bent, in pairs and in their order
   [[gnu::noinline]] void hold(const double* bristles, const int* acting, int acting_count) {
     find_acting(acting, acting_count);
@@ -71,7 +71,7 @@ class VariedEquations {
   /// @param coordinates  one a coordinate; qdd of driven ones only
   /// @param time         lane in which time varies, the drives' coordinates with it
   [[gnu::noinline]] void differentiate(const CoordinateVariation<Lanes>* coordinates, const LoadDirection* loads, int load_count, const Lanes& time,
-                                  const DrivenMotion* drives) {
+                                       const DrivenMotion* drives) {
     coordinates_ = coordinates;
     loads_ = loads;
     load_count_ = load_count;
