@@ -6,7 +6,7 @@
 
 #include "engine/clearance/contact_derivative.h"
 #include "engine/dynamics/direction_plan.h"
-#include "engine/dynamics/equations.h"
+#include "engine/dynamics/state_jacobian.h"
 #include "engine/dynamics/varied_equations.h"
 #include "engine/math/buffer.h"
 
@@ -19,19 +19,28 @@ class BristleDerivatives {
  public:
   static constexpr int kMostLoads = 6;  ///< of a joint
 
-  BristleDerivatives(const std::vector<ClearanceJoint>& joints, int moving_groups)
+  /// @param stride  of the columns of outputs
+  BristleDerivatives(const std::vector<ClearanceJoint>& joints, int moving_groups, std::size_t stride)
       : joint_count_(joints.size()),
         columns_(static_cast<std::size_t>(moving_groups) * Lanes::kCount),
         loads_(joint_count_ * kMostLoads),
+        effects_(joint_count_ * kMostLoads * stride),
         journals_(joint_count_ * kJournal * columns_) {}
 
   /// Of a joint's bristles the loads, or, of more than six, the six of which all loads consist.
-  void find_loads(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting) {
+  void find_loads(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, const StateJacobian& J) {
     load_count_ = 0;
-    for (std::size_t joint = 0; joint < joint_count_; ++joint)
-      for (int i = 0; i < count_loads(acting[joint]); ++i)
-        loads_[static_cast<std::size_t>(load_count_++)] = {
-            joint, has_few(acting[joint]) ? contacts[joint]->load_by_bristle(acting[joint].own[i]) : kUnitLoads[i], {}};
+    double* by_bristle = J.matrices->by_bristle.data();
+    for (std::size_t joint = 0; joint < joint_count_; ++joint) {
+      const ActingBristles& own = acting[joint];
+      for (int i = 0; i < count_loads(own); ++i, ++load_count_) {
+        LoadDirection& load = loads_[static_cast<std::size_t>(load_count_)];
+        load.joint = joint;
+        load.load = has_few(own) ? contacts[joint]->load_by_bristle(own.own[i]) : kUnitLoads[i];
+        load.effect = has_few(own) ? by_bristle + i * J.stride : effects_.data() + load_count_ * J.stride;
+      }
+      by_bristle += own.count * J.stride;
+    }
   }
   [[nodiscard]] LoadDirection* loads() { return loads_.data(); }
   [[nodiscard]] int load_count() const { return load_count_; }
@@ -48,27 +57,16 @@ class BristleDerivatives {
   }
 
   /// Writes the rates' derivatives by time.
-  void write_by_time(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, Linearisation& result) const {
+  void write_by_time(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, StateJacobian& J) const {
     each_block(contacts, acting, [&](const auto& block) {
-      write_column(find_rates(block), block, DirectionPlan::kTime, result.rates_by_t, result.stride);
+      write_column(find_rates(block), block, DirectionPlan::kTime, J.rates_by_t.data(), J.pair_stride);
     });
   }
 
-  /// Writes all. @param plan  with the outputs of every direction
-  void write(const DirectionPlan& plan, const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, int free, int drives,
-             Linearisation& result) const {
-    each_block(contacts, acting, [&](const auto& block) {
-      write_rates(plan, block, free, result);
-      write_effects(plan, block, free + drives, result);
-    });
-    // What stands behind the last pair is read with it if their number is odd, and must do nothing.
-    const auto clear = [&](double* rows, int count) {
-      for (int row = 0; row < count; ++row) rows[row * result.stride + result.pairs] = 0.0;
-    };
-    clear(result.by_bristle, 2 * result.outputs);
-    clear(result.rates_by_own, 4);
-    clear(result.rates_by_q, 2 * free);
-    clear(result.rates_by_v, 2 * free);
+  /// Writes all. @param plan  with the effects of the loads in their columns
+  void write(const DirectionPlan& plan, const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, StateJacobian& J) const {
+    each_block(contacts, acting, [&](const auto& block) { write_rates(plan, block, J); });
+    write_effects(contacts, acting, J);
   }
 
  private:
@@ -85,9 +83,8 @@ class BristleDerivatives {
     std::size_t joint;
     const ContactDerivative& contact;
     const ActingBristles& acting;
-    int first_load;  ///< of the joint's
-    int first;       ///< of the block's pairs among those of the joint
-    int pair;        ///< the same among all
+    int first;  ///< of the block's pairs among those of the joint
+    int pair;   ///< the same among all
 
     [[nodiscard]] RPSUP_INLINE int bristle(int lane) const {
       const int i = 2 * (first + lane % kPairs);
@@ -122,17 +119,15 @@ class BristleDerivatives {
   /// Calls f of blocks that hold all pairs, each joint's in their order.
   template <typename Function>
   RPSUP_INLINE void each_block(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, const Function& f) const {
-    int first_load = 0;
     int pair = 0;
     for (std::size_t joint = 0; joint < joint_count_; ++joint) {
       const ActingBristles& own = acting[joint];
       const int pairs = own.count / 2;
       int first = 0;
       for (; first + Block<Lanes>::kPairs <= pairs; first += Block<Lanes>::kPairs)
-        f(Block<Lanes>{joint, *contacts[joint], own, first_load, first, pair + first});
+        f(Block<Lanes>{joint, *contacts[joint], own, first, pair + first});
       for (; first < pairs; first += Block<FourLanes>::kPairs)
-        f(Block<FourLanes>{joint, *contacts[joint], own, first_load, first, pair + first});
-      first_load += count_loads(own);
+        f(Block<FourLanes>{joint, *contacts[joint], own, first, pair + first});
       pair += pairs;
     }
   }
@@ -162,50 +157,49 @@ class BristleDerivatives {
   }
 
   template <typename Wide>
-  RPSUP_INLINE void write_rates(const DirectionPlan& plan, const Block<Wide>& block, int free, Linearisation& result) const {
-    const int stride = result.stride;
+  RPSUP_INLINE void write_rates(const DirectionPlan& plan, const Block<Wide>& block, StateJacobian& J) const {
+    const int stride = J.pair_stride;
     const RateRows<Wide> rates = find_rates(block);
-    write_column(rates, block, DirectionPlan::kTime, result.rates_by_t, stride);
-    for (int a = 0; a < free; ++a) {
-      write_column(rates, block, plan.column_of_q(a), result.rates_by_q + 2 * a * stride, stride);
-      write_column(rates, block, plan.column_of_v(a), result.rates_by_v + 2 * a * stride, stride);
+    write_column(rates, block, DirectionPlan::kTime, J.rates_by_t.data(), stride);
+    for (int a = 0; a < J.free; ++a) {
+      write_column(rates, block, plan.column_of_q(a), J.matrices->rates_by_q.data() + 2 * a * stride, stride);
+      write_column(rates, block, plan.column_of_v(a), J.matrices->rates_by_v.data() + 2 * a * stride, stride);
     }
     for (int k = 0; k < 2; ++k) {
       const auto by_one_of_pair = [&](int b) RPSUP_INLINE_LAMBDA { return block.contact.rate_by_bristle(b, (b & ~1) + k); };
-      block.store(block.collect(by_one_of_pair), result.rates_by_own + k * stride, 2 * stride);
+      block.store(block.collect(by_one_of_pair), J.matrices->rates_by_own.data() + k * stride, 2 * stride);
     }
   }
 
-  /// On accelerations and drive forces by the load, and on the rate of friction loss. Those of the other losses do not depend on bristles: their
-  /// rows stay zero, as their owner gave them.
-  template <typename Wide>
-  RPSUP_INLINE void write_effects(const DirectionPlan& plan, const Block<Wide>& block, int rows_by_load, Linearisation& result) const {
-    const int stride = result.stride;
-    const int friction_row = rows_by_load + 1;
-    const auto by_bristle = [&](int number) RPSUP_INLINE_LAMBDA {
-      return block.collect([&](int b) RPSUP_INLINE_LAMBDA { return block.contact.load_by_bristle(b)[number]; });
-    };
-    block.store(by_bristle(ContactRows::kFrictionPower), result.by_bristle + 2 * friction_row * stride, stride);
-    if (has_few(block.acting)) {
-      const int pairs = block.acting.count / 2 - block.first < Block<Wide>::kPairs ? block.acting.count / 2 - block.first : Block<Wide>::kPairs;
-      for (int row = 0; row < rows_by_load; ++row)
-        for (int i = 0; i < 2 * pairs; ++i)
-          result.by_bristle[(2 * row + i % 2) * stride + block.pair + i / 2] =
-              plan.output_of_column(row, plan.column_of_load(block.first_load + 2 * block.first + i));
-      return;
+  /// On accelerations and drive forces by the load, and on the rate of friction loss. The other losses do not depend on bristles.
+  RPSUP_INLINE void write_effects(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, StateJacobian& J) const {
+    const int friction_row = J.first_work + J.works - 2;
+    const double* effects = effects_.data();
+    double* column = J.matrices->by_bristle.data();
+    for (std::size_t joint = 0; joint < joint_count_; ++joint) {
+      const ActingBristles& own = acting[joint];
+      for (int i = 0; i < own.count; ++i, column += J.stride) {
+        const double* load = contacts[joint]->load_by_bristle(own.own[i]);
+        if (!has_few(own)) combine_effects(load, effects, J.stride, column);
+        column[friction_row] = load[ContactRows::kFrictionPower];
+      }
+      effects += count_loads(own) * J.stride;
     }
-    Wide load[kMostLoads];
-    for (int i = 0; i < kMostLoads; ++i) load[i] = by_bristle(i);
-    for (int row = 0; row < rows_by_load; ++row) {
-      Wide effect{};
-      for (int i = 0; i < kMostLoads; ++i) effect += plan.output_of_column(row, plan.column_of_load(block.first_load + i)) * load[i];
-      block.store(effect, result.by_bristle + 2 * row * stride, stride);
+  }
+
+  /// column <- effects load
+  RPSUP_INLINE static void combine_effects(const double* load, const double* effects, int stride, double* column) {
+    for (int row = 0; row < stride; row += StateJacobian::kBlock) {
+      LaneBlock<StateJacobian::kBlock> effect{};
+      for (int i = 0; i < kMostLoads; ++i) effect += load[i] * LaneBlock<StateJacobian::kBlock>::load(effects + i * stride + row);
+      effect.store(column + row);
     }
   }
 
   std::size_t joint_count_, columns_;
   Buffer<LoadDirection> loads_;
   int load_count_ = 0;
+  Buffer<double> effects_;   ///< columns of outputs by unit loads
   Buffer<double> journals_;  ///< of each joint the twelve numbers, each a row of columns
 };
 

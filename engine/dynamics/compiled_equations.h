@@ -6,6 +6,8 @@
 #include "engine/dynamics/direction_plan.h"
 #include "engine/dynamics/equations_of_motion.h"
 #include "engine/dynamics/shifted_bodies.h"
+#include "engine/dynamics/shifted_jacobian.h"
+#include "engine/dynamics/state_jacobian.h"
 #include "engine/dynamics/varied_equations.h"
 
 namespace engine {
@@ -24,8 +26,9 @@ class CompiledEquations final : public Equations {
         bristle_rates_(bristles),
         kept_(model, joints),
         varied_(model, joints, bristles, kept_),
-        plan_(model, BristleDerivatives::kMostLoads * joints.size()),
-        bristle_derivatives_(joints, plan_.moving_groups()),
+        jacobian_(free_, bristles_, drives_),
+        plan_(model, BristleDerivatives::kMostLoads * joints.size(), jacobian_.by_t.size()),
+        bristle_derivatives_(joints, plan_.moving_groups(), jacobian_.by_t.size()),
         bodies_(ShiftedBodies::fit(model) ? std::make_unique<ShiftedBodies>(model, joints) : nullptr) {
     kept_.drive_force.fill(0.0);  // to be read if the first evaluation fails
   }
@@ -51,35 +54,30 @@ class CompiledEquations final : public Equations {
 
   void read_out(Evaluation& at) const override;
 
-  void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) override {
-    find_acting_bristles(y, result);
-    varied_.hold(y + 2 * free_, result.bristles, 2 * result.pairs);
-    bristle_derivatives_.find_loads(varied_.contacts(), varied_.acting());
-    plan_.start(drives, bristle_derivatives_.loads(), bristle_derivatives_.load_count());
-    for (int group = 0; group < plan_.groups(); ++group) {
-      const int load = plan_.first_load(group);
-      varied_.differentiate(plan_.coordinates(group), plan_.loads() + load, plan_.end_load(group) - load, plan_.time(group), drives);
-      take_outputs(group);
-    }
-    plan_.sort(result);
-    bristle_derivatives_.write(plan_, varied_.contacts(), varied_.acting(), free_, drives_, result);
-  }
-
   bool can_solve_by_bodies() const override { return bodies_ != nullptr; }
 
-  void linearise_bodies(const double* y, const DrivenMotion* drives, Linearisation& result) override {
-    find_acting_bristles(y, result);
-    varied_.hold(y + 2 * free_, result.bristles, 2 * result.pairs);
-    plan_.start(drives, nullptr, 0);
-    varied_.differentiate(plan_.coordinates(0), nullptr, 0, plan_.time(0), drives);
-    take_outputs(0);
-    plan_.sort_time(result);
-    bristle_derivatives_.write_by_time(varied_.contacts(), varied_.acting(), result);
-    bodies_->take_up({kept_.frames.data(), kept_.axes.data(), varied_.held(), varied_.held_coordinates(), kept_.cuts.data(), varied_.contacts(),
-                      varied_.acting(), kept_.qd.data()});
+  void linearise(const double* y, const DrivenMotion* drives, Elimination elimination, double* by_t) override {
+    elimination_ = elimination;
+    find_acting_bristles(y);
+    varied_.hold(y + 2 * free_, jacobian_.acting.data(), 2 * jacobian_.pairs);
+    if (elimination == Elimination::kBodies)
+      linearise_bodies(drives);
+    else
+      linearise_matrix(drives);
+    jacobian_.write_time_derivative(by_t);
   }
-  bool factor_bodies(double shift) override { return bodies_->factor(shift); }
-  void solve_bodies(double* x) override { bodies_->solve_in_place(x); }
+
+  bool factor(double shift) override { return elimination_ == Elimination::kBodies ? bodies_->factor(shift) : shifted_->real.factor(shift); }
+  bool factor(double real, double imag) override {
+    return elimination_ == Elimination::kMatrix && shifted_->complex.factor({real, imag});
+  }
+  void solve(double* x) override {
+    if (elimination_ == Elimination::kBodies)
+      bodies_->solve_in_place(x);
+    else
+      shifted_->real.solve_in_place({x});
+  }
+  void solve(double* real, double* imag) override { shifted_->complex.solve_in_place({real, imag}); }
 
  private:
   RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, EquationsOfMotion<Shapes>& at, double* dydt) const {
@@ -125,31 +123,65 @@ class CompiledEquations final : public Equations {
   }
 
   /// Bristles whose contacts touch: the others neither move nor act.
-  void find_acting_bristles(const double* y, Linearisation& result) const {
-    int count = 0;
+  void find_acting_bristles(const double* y) {
+    std::size_t count = 0;
     for (int b = 0; b < bristles_; b += 2) {
       const bool acts = bristle_rates_[static_cast<std::size_t>(b)] != 0.0 || bristle_rates_[static_cast<std::size_t>(b + 1)] != 0.0 ||
                         y[2 * free_ + b] != 0.0 || y[2 * free_ + b + 1] != 0.0;
       if (!acts) continue;
-      result.bristles[count++] = b;
-      result.bristles[count++] = b + 1;
+      jacobian_.acting[count++] = b;
+      jacobian_.acting[count++] = b + 1;
     }
-    result.pairs = count / 2;
+    jacobian_.pairs = static_cast<int>(count / 2);
+  }
+
+  void linearise_matrix(const DrivenMotion* drives) {
+    if (!shifted_) {
+      jacobian_.make_matrices();
+      shifted_ = std::make_unique<Shifted>(jacobian_);
+    }
+    bristle_derivatives_.find_loads(varied_.contacts(), varied_.acting(), jacobian_);
+    plan_.start(drives, bristle_derivatives_.loads(), bristle_derivatives_.load_count(), jacobian_);
+    for (int group = 0; group < plan_.groups(); ++group) {
+      const int load = plan_.first_load(group);
+      varied_.differentiate(plan_.coordinates(group), plan_.loads() + load, plan_.end_load(group) - load, plan_.time(group), drives);
+      take_outputs(group);
+    }
+    bristle_derivatives_.write(plan_, varied_.contacts(), varied_.acting(), jacobian_);
+  }
+
+  /// The derivatives by time alone.
+  void linearise_bodies(const DrivenMotion* drives) {
+    plan_.start(drives, nullptr, 0, jacobian_);
+    varied_.differentiate(plan_.coordinates(0), nullptr, 0, plan_.time(0), drives);
+    take_outputs(0);
+    bristle_derivatives_.write_by_time(varied_.contacts(), varied_.acting(), jacobian_);
+    bodies_->take_up({kept_.frames.data(), kept_.axes.data(), varied_.held(), varied_.held_coordinates(), kept_.cuts.data(), varied_.contacts(),
+                      varied_.acting(), kept_.qd.data()});
   }
 
   void take_outputs(int group) {
     if (group < plan_.moving_groups()) bristle_derivatives_.take_journals(group, varied_.journals.data());
     int row = 0;
-    for (const int i : model_.free) plan_.output(row++, group) = varied_.qdd[static_cast<std::size_t>(i)];
+    for (const int i : model_.free) plan_.output(row++) = varied_.qdd[static_cast<std::size_t>(i)];
+    row = jacobian_.first_work;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const int drive = model_.drives[k];
-      plan_.output(row++, group) = kept_.qd[static_cast<std::size_t>(drive)] * varied_.drive_force[k] +
-                                   kept_.drive_force[k] * plan_.coordinates(group)[drive].qd;
+      plan_.output(row++) = kept_.qd[static_cast<std::size_t>(drive)] * varied_.drive_force[k] +
+                            kept_.drive_force[k] * plan_.coordinates(group)[drive].qd;
     }
-    plan_.output(row++, group) = varied_.losses.impact;
-    plan_.output(row++, group) = varied_.losses.friction;
-    plan_.output(row++, group) = varied_.losses.structural;
+    plan_.output(row++) = varied_.losses.impact;
+    plan_.output(row++) = varied_.losses.friction;
+    plan_.output(row++) = varied_.losses.structural;
+    plan_.store(group);
   }
+
+  /// Solves with the Jacobian's matrices.
+  struct Shifted {
+    explicit Shifted(const StateJacobian& J) : real(J), complex(J) {}
+    ShiftedJacobian<double> real;
+    ShiftedJacobian<Complex<double>> complex;
+  };
 
   const TreeModel& model_;
   int free_, drives_, bristles_;
@@ -157,9 +189,12 @@ class CompiledEquations final : public Equations {
   Buffer<double> bristle_rates_;                ///< of the solution that is kept
   EquationsOfMotion<Shapes> kept_;
   VariedEquations<Shapes> varied_;
+  StateJacobian jacobian_;
   DirectionPlan plan_;
   BristleDerivatives bristle_derivatives_;
   std::unique_ptr<ShiftedBodies> bodies_;       ///< null: the tree is none for them
+  std::unique_ptr<Shifted> shifted_;            ///< null until it is needed
+  Elimination elimination_ = Elimination::kMatrix;  ///< of the last linearise()
 };
 
 /// Copies numbers one by one: functions of Eigen would be shared between instruction sets by the linker.

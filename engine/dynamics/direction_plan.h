@@ -1,8 +1,9 @@
 #pragma once
 
-#include <memory>
+#include <cstddef>
+#include <utility>
 
-#include "engine/dynamics/equations.h"
+#include "engine/dynamics/state_jacobian.h"
 #include "engine/dynamics/varied_equations.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
@@ -11,30 +12,33 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Which directions are taken together: time, then joint by joint its coordinates and their rates, so that in most groups most of the
-/// mechanism stands still, then loads on journals.
+/// Which directions are taken together, eight a group: time, then joint by joint its coordinates and their rates, so that in most groups most of the
+/// mechanism stands still, then loads on journals. And where what comes of each of them goes.
 class DirectionPlan {
  public:
   /// @param most_loads  of any start()
-  DirectionPlan(const TreeModel& model, std::size_t most_loads)
+  /// @param stride      of the columns that outputs go to
+  DirectionPlan(const TreeModel& model, std::size_t most_loads, std::size_t stride)
       : model_(model),
         n_(static_cast<std::size_t>(model.coordinates)),
         column_of_q_(model.free.size()),
         first_load_column_(place_columns(model, column_of_q_)),
         moving_groups_(group_of(first_load_column_ - 1) + 1),
-        coordinates_((static_cast<std::size_t>(moving_groups_) + 1) * n_) {
+        coordinates_((static_cast<std::size_t>(moving_groups_) + 1) * n_),
+        columns_((static_cast<std::size_t>(moving_groups_) + 1) * Lanes::kCount + most_loads),
+        outputs_(stride),
+        nowhere_(stride) {
     for (std::size_t free = 0; free < model.free.size(); ++free) {
       const int column = column_of_q_[free];
       variation(column, model.free[free]).q = Lanes::unit(column % Lanes::kCount);
       variation(column + 1, model.free[free]).qd = Lanes::unit((column + 1) % Lanes::kCount);
     }
-    const auto most_groups = static_cast<std::size_t>(moving_groups_) + (most_loads + Lanes::kCount - 1) / Lanes::kCount;
-    outputs_ = std::make_unique<Buffer<Lanes>>(most_groups * (model.free.size() + model.drives.size() + 3));
   }
 
-  /// Sets the drives' variation in time and the loads.
+  /// Sets the drives' variation in time and the loads, and where all goes: without matrices nowhere but by_t.
   /// @param loads  each of its own direction: their lanes are set here, where they stay
-  void start(const DrivenMotion* drives, LoadDirection* loads, int count) {
+  void start(const DrivenMotion* drives, LoadDirection* loads, int count, StateJacobian& J) {
+    direct(loads, count, J);
     loads_ = loads;
     load_count_ = count;
     groups_ = group_of(first_load_column_ + count - 1) + 1;
@@ -66,40 +70,56 @@ class DirectionPlan {
   [[nodiscard]] int column_of_load(int load) const { return first_load_column_ + load; }
   [[nodiscard]] int moving_groups() const { return moving_groups_; }
 
-  /// Where an output of a group goes.
-  [[nodiscard]] RPSUP_INLINE Lanes& output(int row, int group) { return (*outputs_)[static_cast<std::size_t>(row * groups_ + group)]; }
-  [[nodiscard]] RPSUP_INLINE double output_of_column(int row, int column) const {
-    return read_number(outputs_->data() + row * groups_, column);
-  }
-
-  /// Writes the outputs by time.
-  void sort_time(Linearisation& result) const {
-    for (int row = 0; row < result.outputs; ++row) result.by_t[row] = output_of_column(row, kTime);
-  }
-
-  /// Writes the outputs by coordinates, their rates and time.
-  void sort(Linearisation& result) const {
-    sort_time(result);
-    const auto n = static_cast<int>(model_.free.size());
-    for (int row = 0; row < result.outputs; ++row)
-      for (int a = 0; a < n; ++a) {
-        result.by_q[row * n + a] = output_of_column(row, column_of_q(a));
-        result.by_v[row * n + a] = output_of_column(row, column_of_v(a));
-      }
+  /// An output in a group's directions, for store().
+  [[nodiscard]] RPSUP_INLINE Lanes& output(int row) { return outputs_[static_cast<std::size_t>(row)]; }
+  /// Puts the outputs of a group's directions into their columns.
+  RPSUP_INLINE void store(int group) {
+    double* const* columns = columns_.data() + group * Lanes::kCount;
+    for (std::size_t row = 0; row < outputs_.size(); row += 2) {
+      const Lanes even = outputs_[row], odd = outputs_[row + 1];
+      store_columns(even, odd, columns, row, std::make_integer_sequence<int, Lanes::kCount>());
+    }
   }
 
  private:
-  /// Coordinates and rates of a joint share a group. @returns the column behind the last
+  /// Sets where each column goes.
+  void direct(const LoadDirection* loads, int count, StateJacobian& J) {
+    columns_.fill(nowhere_.data());
+    const auto set = [&](int column, double* to) { columns_[static_cast<std::size_t>(column)] = to; };
+    set(kTime, J.by_t.data());
+    if (!J.matrices) return;
+    for (int a = 0; a < J.free; ++a) {
+      set(column_of_q(a), J.matrices->by_q.data() + a * J.stride);
+      set(column_of_v(a), J.matrices->by_v.data() + a * J.stride);
+    }
+    for (int i = 0; i < count; ++i) set(column_of_load(i), loads[i].effect);
+  }
+
+  template <int... lane>
+  RPSUP_INLINE static void store_columns(const Lanes& even, const Lanes& odd, double* const* columns, std::size_t row,
+                                         std::integer_sequence<int, lane...>) {
+    constexpr int kWidth = Lanes::kWidth;
+    const auto put = [&]<int l>(std::integral_constant<int, l>) RPSUP_INLINE_LAMBDA {
+      LanePair pair;
+      pair.part[0] = __builtin_shufflevector(even.part[l / kWidth], odd.part[l / kWidth], l % kWidth, kWidth + l % kWidth);
+      pair.store(columns[l] + row);
+    };
+    (put(std::integral_constant<int, lane>()), ...);
+  }
+
+  /// Coordinates and rates of a joint share a group: the first one with room for them. @returns the column behind the last
   [[nodiscard]] static int place_columns(const TreeModel& model, Buffer<int>& column_of_q) {
-    int column = 1;
-    std::size_t free = 0;
+    Buffer<int> taken(model.joints.size() + 1);  // columns of each group
+    taken[0] = 1;
+    std::size_t last = 0, free = 0;
     for (const TreeJoint& joint : model.joints) {
       if (joint.driven) continue;
-      const int count = joint.count();
-      if (column % Lanes::kCount + 2 * count > Lanes::kCount) column = group_of(column + Lanes::kCount - 1) * Lanes::kCount;
-      for (int k = 0; k < count; ++k, column += 2) column_of_q[free++] = column;
+      std::size_t group = 0;
+      while (taken[group] + 2 * joint.count() > Lanes::kCount) ++group;
+      last = group > last ? group : last;
+      for (int k = 0; k < joint.count(); ++k, taken[group] += 2) column_of_q[free++] = static_cast<int>(group) * Lanes::kCount + taken[group];
     }
-    return column;
+    return static_cast<int>(last) * Lanes::kCount + taken[last];
   }
   [[nodiscard]] static int group_of(int column) { return static_cast<int>(static_cast<unsigned>(column) / Lanes::kCount); }
   [[nodiscard]] int clamp(int load) const { return load < 0 ? 0 : load > load_count_ ? load_count_ : load; }
@@ -116,7 +136,9 @@ class DirectionPlan {
   int load_count_ = 0, groups_ = 0;
   const LoadDirection* loads_ = nullptr;
   Buffer<CoordinateVariation<Lanes>> coordinates_;  ///< group after group, one a coordinate; those left over stand still
-  std::unique_ptr<Buffer<Lanes>> outputs_;   ///< row after row, one a group
+  Buffer<double*> columns_;                  ///< where the outputs of each direction go
+  Buffer<Lanes> outputs_;                    ///< of one group, as StateJacobian has a column
+  Buffer<double> nowhere_;                   ///< a column that is not wanted
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -22,27 +22,9 @@ enum class EvaluationStatus {
   kNonFinite,       ///< no number, or a mass matrix that is not positive definite
 };
 
-/// Derivatives of the outputs (accelerations of the free coordinates, rates of work and loss) and of the rates of the acting bristles, by the free
-/// coordinates, their rates, time and the acting bristles. Of a pair of bristles, which are those of one touch, both rates depend on both bristles
-/// and on none of another pair. An owner gives the room, which is zero at first.
-struct Linearisation {
-  int outputs = 0;
-  int pairs = 0;                 ///< pairs of bristles that act
-  int stride = 0;                ///< even, with room for one pair more than there are
-  int* bristles = nullptr;       ///< which ones, by their place among all: those of the first pair, then the others
-  double* by_t = nullptr;        ///< outputs
-  double* by_q = nullptr;        ///< outputs x free coordinates, row after row
-  double* by_v = nullptr;        ///< the same
-  double* by_bristle = nullptr;  ///< outputs x 2 x stride: by the first bristle of each pair, then by the second
-  // Of the bristles' rates, pair by pair: first those of the first bristle of each pair, then of the second
-  double* rates_by_t = nullptr;    ///< 2 x stride
-  double* rates_by_q = nullptr;    ///< free coordinates x 2 x stride
-  double* rates_by_v = nullptr;    ///< the same
-  double* rates_by_own = nullptr;  ///< 2 x 2 x stride: of the first by the first, of the first by the second, of the second ...
-};
-
-/// Linearisation::stride for so many bristles.
-[[nodiscard]] constexpr int calc_pair_stride(int bristles) { return 2 * (bristles / 4 + 1); }
+/// How the systems of an implicit step are solved: with a matrix of the free coordinates, whose cost grows with the third power of their number, or
+/// body by body, which takes no complex shift, no constraints and no springs between points.
+enum class Elimination { kMatrix, kBodies };
 
 /// The equations of motion, compiled for one instruction set: one call evaluates everything.
 class Equations {
@@ -61,17 +43,19 @@ class Equations {
   /// What evaluate_and_keep() last found, for observers.
   virtual void read_out(Evaluation& at) const = 0;
 
-  /// All derivatives where evaluate_and_keep() was last called, and came to an end: at the same y and motion of the drives. Exact to rounding.
-  virtual void linearise(const double* y, const DrivenMotion* drives, Linearisation& result) = 0;
-
-  /// Whether the systems of an implicit step can be solved body by body, without the derivatives by coordinates, rates and bristles.
+  /// Whether the systems of an implicit step can be solved body by body.
   [[nodiscard]] virtual bool can_solve_by_bodies() const = 0;
-  /// The same as linearise() for that: computes the derivatives by time, and keeps what factor_bodies() needs of the others.
-  virtual void linearise_bodies(const double* y, const DrivenMotion* drives, Linearisation& result) = 0;
-  /// Factors (shift 1 - J), J the Jacobian of MotionSystem's state equation at the last linearise_bodies(). False if it is singular.
-  [[nodiscard]] virtual bool factor_bodies(double shift) = 0;
-  /// x <- (shift 1 - J)^-1 x
-  virtual void solve_bodies(double* x) = 0;
+
+  /// Computes the Jacobian J of MotionSystem's state equation, or what solving body by body needs of it, where evaluate_and_keep() was last called,
+  /// and came to an end: at the same y and motion of the drives. Exact to rounding.
+  /// @param by_t  out: df/dt
+  virtual void linearise(const double* y, const DrivenMotion* drives, Elimination elimination, double* by_t) = 0;
+  /// Factors (shift 1 - J). False if it is singular, or the shift complex without the matrix. There is room for one real and one complex shift.
+  [[nodiscard]] virtual bool factor(double shift) = 0;
+  [[nodiscard]] virtual bool factor(double real, double imag) = 0;
+  /// x <- (shift 1 - J)^-1 x after factor() of such a shift; of a complex one by its parts.
+  virtual void solve(double* x) = 0;
+  virtual void solve(double* real, double* imag) = 0;
 
  protected:
   Equations() = default;

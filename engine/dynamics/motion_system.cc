@@ -11,10 +11,7 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
     : mechanism_(mechanism),
       model_(mechanism),
       instruction_set_(instruction_set.empty() ? instruction_sets().back() : instruction_set),
-      drives_(mechanism.drives.size()),
-      jacobian_(0, 0, 0),
-      shifted_(0, 0, 0),
-      complex_shifted_(0, 0, 0) {
+      drives_(mechanism.drives.size()) {
   for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
     if (!mechanism.cut_joints[k].clearance) continue;
     clearance_joints_.emplace_back(*mechanism.cut_joints[k].clearance);
@@ -33,12 +30,7 @@ void MotionSystem::make_room() {
   const Eigen::Index size = controlled_size() + static_cast<Eigen::Index>(drives_.size()) + 3;
   solved_y_.resize(size);
   dydt_.resize(size);
-  const auto free = static_cast<int>(free_count());
-  const auto bristles = static_cast<int>(bristles_);
-  const auto drives = static_cast<int>(drives_.size());
-  jacobian_ = StateJacobian(free, bristles, drives);
-  have_matrices_ = false;
-  elimination_ = Elimination::kMatrix;
+  time_derivative_.resize(size);
 }
 
 /// All bristles of a ring together count as much as the two that a continuum has there: at first by shares, of which the roots are taken.
@@ -50,17 +42,6 @@ void MotionSystem::set_error_weights() {
     first += joint.bristle_count();
   }
   error_weights_ = (error_weights_ / error_weights_.sum()).cwiseSqrt().eval();
-}
-
-/// What only the matrix needs: of many coordinates it takes much room.
-void MotionSystem::make_matrices() {
-  const auto free = static_cast<int>(free_count());
-  const auto bristles = static_cast<int>(bristles_);
-  const auto drives = static_cast<int>(drives_.size());
-  jacobian_.make_matrices();
-  shifted_ = {free, bristles, drives};
-  complex_shifted_ = {free, bristles, drives};
-  have_matrices_ = true;
 }
 
 Eigen::VectorXd MotionSystem::make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const {
@@ -123,14 +104,7 @@ EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Eli
   const bool is_solved = solved_ && t == drives_time_ && y == solved_y_;
   const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : solve(t, y, dydt_);
   if (status != EvaluationStatus::kOk) return status;
-  elimination_ = elimination;
-  if (elimination == Elimination::kBodies) {
-    equations_->linearise_bodies(y.data(), drives_.data(), jacobian_.derivatives());
-  } else {
-    if (!have_matrices_) make_matrices();
-    equations_->linearise(y.data(), drives_.data(), jacobian_.derivatives());
-  }
-  jacobian_.calc_time_derivative(time_derivative_);
+  equations_->linearise(y.data(), drives_.data(), elimination, time_derivative_.data());
   return EvaluationStatus::kOk;
 }
 
@@ -139,21 +113,6 @@ Elimination MotionSystem::choose_elimination() const {
   constexpr Eigen::Index kManyCoordinates = 26;
   const auto joints = static_cast<Eigen::Index>(std::max<std::size_t>(1, clearance_joints_.size()));
   return free_count() >= kManyCoordinates * joints && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;
-}
-
-bool MotionSystem::factor(double shift) {
-  return elimination_ == Elimination::kBodies ? equations_->factor_bodies(shift) : shifted_.factor(jacobian_, shift);
-}
-
-bool MotionSystem::factor(std::complex<double> shift) {
-  return elimination_ == Elimination::kMatrix && complex_shifted_.factor(jacobian_, shift);
-}
-
-void MotionSystem::solve_in_place(Eigen::VectorXd& x) {
-  if (elimination_ == Elimination::kBodies)
-    equations_->solve_bodies(x.data());
-  else
-    shifted_.solve_in_place(jacobian_, {x.data()});
 }
 
 void MotionSystem::calc_energies(Evaluation& at) const {

@@ -11,15 +11,10 @@
 #include "engine/clearance/clearance_joint.h"
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/evaluation.h"
-#include "engine/dynamics/shifted_jacobian.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
-
-/// How the systems of an implicit step are solved: with a matrix of the free coordinates, whose cost grows with the third power of their number, or
-/// body by body, which takes no complex shift, no constraints and no springs between points.
-enum class Elimination { kMatrix, kBodies };
 
 /// The mechanism as a first-order system dy/dt = f(t, y), Eqs. (13.1) and (13.2).
 ///
@@ -52,12 +47,12 @@ class MotionSystem {
   /// df/dt of the last linearise(), one for each entry of y.
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }
   /// Factors (shift 1 - J). False if it is singular, or the shift complex without the matrix. There is room for one real and one complex shift.
-  [[nodiscard]] bool factor(double shift);
-  [[nodiscard]] bool factor(std::complex<double> shift);
+  [[nodiscard]] bool factor(double shift) { return equations_->factor(shift); }
+  [[nodiscard]] bool factor(std::complex<double> shift) { return equations_->factor(shift.real(), shift.imag()); }
   /// x <- (shift 1 - J)^-1 x after factor() of such a shift.
-  void solve_in_place(Eigen::VectorXd& x);
+  void solve_in_place(Eigen::VectorXd& x) { equations_->solve(x.data()); }
   /// The same of a complex x, by its parts.
-  void solve_in_place(Eigen::VectorXd& real, Eigen::VectorXd& imag) { complex_shifted_.solve_in_place(jacobian_, {real.data(), imag.data()}); }
+  void solve_in_place(Eigen::VectorXd& real, Eigen::VectorXd& imag) { equations_->solve(real.data(), imag.data()); }
 
   /// Kinetic and potential energy of an evaluation.
   void calc_energies(Evaluation& at) const;
@@ -85,7 +80,6 @@ class MotionSystem {
   [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
   void make_room();
   void set_error_weights();
-  void make_matrices();
 
   const Mechanism& mechanism_;
   TreeModel model_;
@@ -101,11 +95,6 @@ class MotionSystem {
   bool solved_ = false;        ///< the equations hold their solution at (drives_time_, solved_y_), with the contacts as they are
   Eigen::VectorXd solved_y_;
   Eigen::VectorXd dydt_;       ///< for linearise()
-  Elimination elimination_ = Elimination::kMatrix;  ///< of the last linearise()
-  bool have_matrices_ = false;                      ///< there is room for them, which bodies do without
-  StateJacobian jacobian_;
-  ShiftedJacobian<double> shifted_;
-  ShiftedJacobian<std::complex<double>> complex_shifted_;
   Eigen::VectorXd time_derivative_;
 };
 

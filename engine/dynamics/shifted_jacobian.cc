@@ -1,338 +1,346 @@
+// Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
 #include "engine/dynamics/shifted_jacobian.h"
 
 #include <cmath>
-#include <complex>
 #include <cstddef>
-#include <type_traits>
 #include <utility>
 
-#include "engine/math/instruction_set.h"
+#include "engine/math/finite.h"
 
 namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
 
 namespace {
 
-using Complex = std::complex<double>;
+constexpr int kWide = Wide::kCount;
 
-std::size_t area(int rows, int columns) { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
-
-/// Two numbers side by side, at any address.
-typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
-
-RPSUP_INLINE Pair& pair(double* x) { return *reinterpret_cast<Pair*>(x); }
-RPSUP_INLINE const Pair& pair(const double* x) { return *reinterpret_cast<const Pair*>(x); }
-
-RPSUP_INLINE double add_up(Pair sum) { return sum[0] + sum[1]; }
-
-/// Sums of the even and of the odd products: the same on every machine.
-RPSUP_INLINE Pair begin_sum(double first) { return Pair{first, 0.0}; }
-RPSUP_INLINE Pair add_products(Pair sum, const double* a, const double* b, int n) {
-  int j = 0;
-  for (; j + 1 < n; j += 2) sum += pair(a + j) * pair(b + j);
-  if (j < n) sum += Pair{a[j], 0.0} * Pair{b[j], 0.0};
-  return sum;
-}
-
-/// Two complex numbers side by side.
-struct ComplexPair {
-  Pair real, imag;
-};
-RPSUP_INLINE ComplexPair operator+(ComplexPair a, ComplexPair b) { return {a.real + b.real, a.imag + b.imag}; }
-RPSUP_INLINE ComplexPair operator+(Pair a, ComplexPair b) { return {a + b.real, b.imag}; }
-RPSUP_INLINE ComplexPair operator-(ComplexPair a, Pair b) { return {a.real - b, a.imag}; }
-RPSUP_INLINE ComplexPair operator-(Complex a, Pair b) { return {a.real() - b, a.imag() - Pair{}}; }
-RPSUP_INLINE ComplexPair operator*(Pair a, ComplexPair b) { return {a * b.real, a * b.imag}; }
-RPSUP_INLINE ComplexPair operator*(Pair a, Complex b) { return {a * b.real(), a * b.imag()}; }
-RPSUP_INLINE ComplexPair operator*(ComplexPair a, ComplexPair b) {
-  return {a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real};
-}
-RPSUP_INLINE ComplexPair operator*(ComplexPair a, Complex b) {
-  return {a.real * b.real() - a.imag * b.imag(), a.real * b.imag() + a.imag * b.real()};
-}
-RPSUP_INLINE ComplexPair operator/(double a, ComplexPair b) {
-  const Pair factor = a / (b.real * b.real + b.imag * b.imag);
-  return {factor * b.real, -factor * b.imag};
-}
-
-RPSUP_INLINE ComplexPair begin_sum(Complex first) { return {begin_sum(first.real()), begin_sum(first.imag())}; }
-template <typename Scalar>
-RPSUP_INLINE ComplexPair add_products(ComplexPair sum, const Scalar* a, const Complex* b, int n) {
-  Complex products;
-  for (int j = 0; j < n; ++j) products += a[j] * b[j];
-  return sum + begin_sum(products);
-}
-RPSUP_INLINE Complex add_up(ComplexPair sum) { return {add_up(sum.real), add_up(sum.imag)}; }
-
-RPSUP_INLINE Pair pair_at(NumbersAt<double> numbers, int i) { return pair(numbers.at + i); }
-RPSUP_INLINE ComplexPair pair_at(NumbersAt<Complex> numbers, int i) { return {pair(numbers.real + i), pair(numbers.imag + i)}; }
-RPSUP_INLINE void set_pair(NumbersAt<double> numbers, int i, Pair value) { pair(numbers.at + i) = value; }
-RPSUP_INLINE void set_pair(NumbersAt<Complex> numbers, int i, ComplexPair value) {
-  pair(numbers.real + i) = value.real;
-  pair(numbers.imag + i) = value.imag;
-}
-
-/// y -= factor x from entry `from`, or the pair that holds it, to the one before entry `to`
-RPSUP_INLINE void subtract_scaled(double factor, const double* x, int from, int to, double* y) {
-  const Pair both{factor, factor};
-  for (int j = from & ~1; j < to; j += 2) pair(y + j) -= both * pair(x + j);
-}
-RPSUP_INLINE void subtract_scaled(Complex factor, const Complex* x, int from, int to, Complex* y) {
-  for (int j = from; j < to; ++j) y[j] -= factor * x[j];
-}
+/// The first of several numbers that are taken at once, the i-th among them.
+constexpr int start_of(int i) { return i / kWide * kWide; }
 
 /// A measure of size, the cheapest.
 RPSUP_INLINE double size_of(double x) { return std::abs(x); }
-RPSUP_INLINE double size_of(Complex x) { return std::abs(x.real()) + std::abs(x.imag()); }
+RPSUP_INLINE double size_of(const Complex<double>& x) { return std::abs(x.real) + std::abs(x.imag); }
 
-/// Calls f(0), ..., f(n - 1); with each index known to the compiler if n is.
-template <int N, typename Function>
-RPSUP_INLINE void for_each(int n, const Function& f) {
-  if constexpr (N > 0)
-    [&]<int... k>(std::integer_sequence<int, k...>) { (f(k), ...); }(std::make_integer_sequence<int, N>{});
-  else
-    for (int k = 0; k < n; ++k) f(k);
+RPSUP_INLINE Wide widen(double x) { return Wide::all(x); }
+RPSUP_INLINE Complex<Wide> widen(const Complex<double>& x) { return {Wide::all(x.real), Wide::all(x.imag)}; }
+
+RPSUP_INLINE Wide add_to(const Wide& a, const Wide& real) { return a + real; }
+RPSUP_INLINE Complex<Wide> add_to(const Complex<Wide>& a, const Wide& real) { return {a.real + real, a.imag}; }
+
+RPSUP_INLINE Wide pick(const double* from, const int* which) {
+  Wide picked;
+  for (int lane = 0; lane < kWide; ++lane) picked.set(lane, from[which[lane]]);
+  return picked;
+}
+RPSUP_INLINE Wide pick(NumbersAt<double> from, const int* which) { return pick(from.at, which); }
+RPSUP_INLINE Complex<Wide> pick(NumbersAt<Complex<double>> from, const int* which) { return {pick(from.real, which), pick(from.imag, which)}; }
+
+/// Numbers that have just been stored one by one, or in smaller blocks: taken as a block, they would have to get to memory first.
+RPSUP_INLINE Wide collect(const double* from) {
+  Wide numbers;
+  for (int lane = 0; lane < kWide; ++lane) numbers.set(lane, from[lane]);
+  return numbers;
+}
+RPSUP_INLINE Wide collect(NumbersAt<double> from, int i) { return collect(from.at + i); }
+RPSUP_INLINE Complex<Wide> collect(NumbersAt<Complex<double>> from, int i) { return {collect(from.real + i), collect(from.imag + i)}; }
+
+/// Those of the numbers from entry i on that stand behind entry k; zeros elsewhere.
+RPSUP_INLINE Wide keep_behind(const Wide& numbers, int i, int k) {
+  Wide places;
+  for (int lane = 0; lane < kWide; ++lane) places.set(lane, i + lane);
+  return choose_greater(places, Wide::all(k), numbers, Wide{});
+}
+RPSUP_INLINE Complex<Wide> keep_behind(const Complex<Wide>& numbers, int i, int k) {
+  return {keep_behind(numbers.real, i, k), keep_behind(numbers.imag, i, k)};
 }
 
-RPSUP_INLINE Pair put_together(double a, double b) { return Pair{a, b}; }
-RPSUP_INLINE ComplexPair put_together(Complex a, Complex b) { return {Pair{a.real(), b.real()}, Pair{a.imag(), b.imag()}}; }
-
-/// Adds what all bristles do to an output.
-template <typename Sum, typename Scalar>
-RPSUP_INLINE Sum add_effects(Sum sum, const Linearisation& J, int output, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds) {
-  const double* by = J.by_bristle + 2 * output * J.stride;
-  for (int p = 0; p < J.pairs; p += 2) sum = sum + pair(by + p) * pair_at(firsts, p) + pair(by + J.stride + p) * pair_at(seconds, p);
-  return sum;
+/// y -= factor x from entry `from`, or those that are taken with it, to the entry `last`
+template <typename Scalar>
+RPSUP_INLINE void subtract_scaled(const Scalar& factor, NumbersAt<Scalar> x, int from, int last, NumbersAt<Scalar> y) {
+  for (int i = start_of(from); i <= last; i += kWide) y.store(i, y.load(i) - factor * x.load(i));
 }
 
-/// Room for n entries in whole pairs.
-constexpr int whole_pairs(int n) { return n + (n & 1); }
+/// Sizes of StateJacobian: free coordinates, rows of a column before the works, rows of a column, and from one row of pairs of bristles to the next.
+struct AnySizes {
+  int n, rows, column, pairs;
+};
+/// Known to the compiler, with few bristles.
+template <int coordinates>
+struct SizesOfFew {
+  static constexpr int n = coordinates, rows = StateJacobian::in_blocks(n), column = rows + StateJacobian::kFewestWorks, pairs = StateJacobian::kBlock;
+};
+/// The same with many bristles.
+template <int coordinates>
+struct SizesOfMany {
+  static constexpr int n = coordinates, rows = SizesOfFew<n>::rows, column = SizesOfFew<n>::column;
+  int pairs;
+};
 
-/// Sizes that the compiler may unroll: the rigid linkage's and the flexible one's of four elements.
+/// Calls f with the sizes of J: of the rigid linkage and of the flexible one of four elements the compiler knows them.
 template <typename Function>
-decltype(auto) with_size(int n, const Function& f) {
-  if (n == 5) return f.template operator()<5>();
-  if (n == 14) return f.template operator()<14>();
-  return f.template operator()<0>();
+auto with_sizes(const StateJacobian& J, const Function& f) {
+  const bool usual = J.stride == J.first_work + StateJacobian::kFewestWorks, few = J.pair_stride == StateJacobian::kBlock;
+  if (usual && J.free == 5) return few ? f(SizesOfFew<5>()) : f(SizesOfMany<5>{J.pair_stride});
+  if (usual && J.free == 14) return few ? f(SizesOfFew<14>()) : f(SizesOfMany<14>{J.pair_stride});
+  return f(AnySizes{J.free, J.first_work, J.stride, J.pair_stride});
+}
+
+/// Calls f(0), f(1), ... of the free coordinates; with each index known to the compiler if their number is.
+template <typename Sizes, typename Function>
+RPSUP_INLINE void each_coordinate(const Sizes&, const Function& f) {
+  [&]<int... k>(std::integer_sequence<int, k...>) RPSUP_INLINE_LAMBDA { (f(k), ...); }(std::make_integer_sequence<int, Sizes::n>{});
+}
+template <typename Function>
+RPSUP_INLINE void each_coordinate(const AnySizes& size, const Function& f) {
+  for (int k = 0; k < size.n; ++k) f(k);
+}
+
+/// Bristles of several pairs: own_z^-1 of what is known of them. @param inverse  its rows
+template <typename Scalar, typename WideScalar>
+RPSUP_INLINE void answer(const RowsAt<Scalar>& inverse, int pair, const WideScalar& first, const WideScalar& second, NumbersAt<Scalar> firsts,
+                         NumbersAt<Scalar> seconds) {
+  const auto of = [&](int row) RPSUP_INLINE_LAMBDA { return inverse.row(row).load(pair); };
+  const WideScalar answer_first = of(0) * first + of(1) * second, answer_second = of(2) * first + of(3) * second;
+  firsts.store(pair, answer_first);
+  seconds.store(pair, answer_second);
+}
+
+/// @returns sum + by_z z of some outputs. @param by_z  of them, by the first bristle; the others stand a column further each
+template <typename Sizes, typename Scalar, typename WideScalar>
+[[nodiscard]] RPSUP_INLINE WideScalar add_effects(const Sizes& size, WideScalar sum, const double* by_z, int pairs, NumbersAt<Scalar> firsts,
+                                                  NumbersAt<Scalar> seconds) {
+  for (int p = 0; p < pairs; ++p, by_z += 2 * size.column)
+    sum += Wide::load(by_z) * widen(firsts[p]) + Wide::load(by_z + size.column) * widen(seconds[p]);
+  return sum;
 }
 
 }  // namespace
 
 template <typename Scalar>
-void ShiftedJacobian<Scalar>::Rows::resize(int rows, int columns) {
-  columns_ = columns;
-  size_ = rows * columns_;
-  numbers_.resize(static_cast<std::size_t>(size_) * sizeof(Scalar) / sizeof(double));
-}
+ShiftedJacobian<Scalar>::ShiftedJacobian(const StateJacobian& J)
+    : J_(J),
+      own_inverse_(4, J.pair_stride),
+      response_(2 * J.free, J.pair_stride),
+      lower_(J.free, J.first_work),
+      upper_(J.free, J.first_work),
+      R_w_(J.free, J.stride - J.first_work),
+      inverse_pivot_(1, J.first_work),
+      order_(static_cast<std::size_t>(J.first_work)),
+      bristle_(2, J.pair_stride),
+      q_(1, J.first_work),
+      v_(1, J.first_work),
+      known_(1, J.stride) {}
 
 template <typename Scalar>
-NumbersAt<Scalar> ShiftedJacobian<Scalar>::Rows::row(int i) {
-  double* first = numbers_.data() + i * columns_;
-  if constexpr (std::is_same_v<Scalar, double>)
-    return {first};
-  else
-    return {first, first + size_};
-}
-
-template <typename Scalar>
-ShiftedJacobian<Scalar>::ShiftedJacobian(int free_coordinates, int bristles, int drives) : free_(free_coordinates), bristles_(bristles) {
-  const int outputs = free_ + drives + 3;
-  const int stride = calc_pair_stride(bristles);
-  K_.resize(area(outputs, free_));
-  bristle_inverse_.resize(4, stride);
-  response_.resize(2 * free_, stride);
-  lu_.resize(area(whole_pairs(free_), whole_pairs(free_)));
-  inverse_pivot_.resize(area(free_, 1));
-  order_.resize(area(free_, 1));
-  scaled_q_.resize(area(whole_pairs(free_), 1));
-  solution_.resize(area(whole_pairs(free_), 1));
-  known_.resize(area(free_, 1));
-  bristle_.resize(2, stride);
-}
-
-template <typename Scalar>
-bool ShiftedJacobian<Scalar>::factor(const StateJacobian& J, Scalar shift) {
-  return with_size(free_, [&]<int N>() {
-    reduce<N>(J.derivatives(), shift);
-    return factor_reduced<N>();
+bool ShiftedJacobian<Scalar>::factor(const Scalar& shift) {
+  return with_sizes(J_, [&](const auto& size) {
+    reduce(size, shift);
+    return factor_reduced(size);
   });
 }
 
 template <typename Scalar>
-void ShiftedJacobian<Scalar>::solve_in_place(const StateJacobian& J, NumbersAt<Scalar> x) {
-  with_size(free_, [&]<int N>() { solve_sized<N>(J.derivatives(), x); });
-}
-
-/// Bristles of two pairs from p on: own_z^-1 of what is known of them.
-template <typename Scalar>
-template <typename Wide>
-RPSUP_INLINE void ShiftedJacobian<Scalar>::answer(int p, Wide first, Wide second, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds) {
-  set_pair(firsts, p, pair_at(bristle_inverse_.row(0), p) * first + pair_at(bristle_inverse_.row(1), p) * second);
-  set_pair(seconds, p, pair_at(bristle_inverse_.row(2), p) * first + pair_at(bristle_inverse_.row(3), p) * second);
+void ShiftedJacobian<Scalar>::solve_in_place(NumbersAt<Scalar> x) {
+  with_sizes(J_, [&](const auto& size) { solve_sized(size, x); });
 }
 
 template <typename Scalar>
-RPSUP_INLINE void ShiftedJacobian<Scalar>::invert_own(const Linearisation& J, Scalar shift) {
-  const double* by_own = J.rates_by_own;
-  for (int p = 0; p < J.pairs; p += 2) {
-    const auto a00 = shift - pair(by_own + p), a11 = shift - pair(by_own + 3 * J.stride + p);
-    const Pair a01 = -pair(by_own + J.stride + p), a10 = -pair(by_own + 2 * J.stride + p);
-    const auto inverse_determinant = 1.0 / (a00 * a11 - a01 * a10);
-    set_pair(bristle_inverse_.row(0), p, a11 * inverse_determinant);
-    set_pair(bristle_inverse_.row(1), p, -a01 * inverse_determinant);
-    set_pair(bristle_inverse_.row(2), p, -a10 * inverse_determinant);
-    set_pair(bristle_inverse_.row(3), p, a00 * inverse_determinant);
+template <typename Sizes>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::invert_own(const Sizes& size, const Scalar& shift) {
+  const double* by_own = J_.matrices->rates_by_own.data();
+  const RowsAt<Scalar> inverse = own_inverse_.rows(size.pairs);
+  const int pairs = J_.pairs;
+  const WideScalar shifts = widen(shift);
+  for (int p = 0; p < pairs; p += kWide) {
+    const auto own = [&](int row) RPSUP_INLINE_LAMBDA { return Wide::load(by_own + row * size.pairs + p); };
+    const WideScalar a00 = add_to(shifts, -own(0)), a11 = add_to(shifts, -own(3));
+    const Wide a01 = -own(1), a10 = -own(2);
+    const WideScalar inverse_determinant = 1.0 / add_to(a00 * a11, -(a01 * a10));
+    inverse.row(0).store(p, a11 * inverse_determinant);
+    inverse.row(1).store(p, -a01 * inverse_determinant);
+    inverse.row(2).store(p, -a10 * inverse_determinant);
+    inverse.row(3).store(p, a00 * inverse_determinant);
   }
 }
 
-/// own_z^-1 K_z of a coordinate.
+/// own_z^-1 K_z
 template <typename Scalar>
-RPSUP_INLINE void ShiftedJacobian<Scalar>::find_response(const Linearisation& J, int coordinate) {
-  const double* by_q = J.rates_by_q + 2 * coordinate * J.stride;
-  const double* by_v = J.rates_by_v + 2 * coordinate * J.stride;
-  const Scalar inverse_shift = inverse_shift_;
-  const NumbersAt<Scalar> firsts = response_.row(2 * coordinate), seconds = response_.row(2 * coordinate + 1);
-  for (int p = 0; p < J.pairs; p += 2)
-    answer(p, pair(by_v + p) + pair(by_q + p) * inverse_shift, pair(by_v + J.stride + p) + pair(by_q + J.stride + p) * inverse_shift, firsts,
-           seconds);
+template <typename Sizes>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::find_response(const Sizes& size, const Scalar& inverse_shift) {
+  const double *by_q = J_.matrices->rates_by_q.data(), *by_v = J_.matrices->rates_by_v.data();
+  const RowsAt<Scalar> inverse = own_inverse_.rows(size.pairs), response = response_.rows(size.pairs);
+  const int pairs = J_.pairs;
+  const auto K = [&](int i) RPSUP_INLINE_LAMBDA { return Wide::load(by_v + i) + Wide::load(by_q + i) * widen(inverse_shift); };
+  for (int p = 0; p < pairs; p += kWide)
+    for (int j = 0; j < size.n; ++j) {
+      const int first = 2 * j * size.pairs + p;
+      answer(inverse, p, K(first), K(first + size.pairs), response.row(2 * j), response.row(2 * j + 1));
+    }
 }
 
-/// K, the bristles' own part and the matrix of the free coordinates.
+/// R, the bristles' own part and the matrix of the free coordinates.
 template <typename Scalar>
-template <int N>
-void ShiftedJacobian<Scalar>::reduce(const Linearisation& J, Scalar shift) {
-  const int n = size<N>();
-  const int entries = J.outputs * n;
-  inverse_shift_ = 1.0 / shift;
-  const Scalar inverse_shift = inverse_shift_;
-  Scalar* K = K_.data();
-  for (int k = 0; k < entries; ++k) K[k] = J.by_v[k] + inverse_shift * J.by_q[k];
-
-  invert_own(J, shift);
-  const int stride = whole_pairs(n);
-  Scalar* lu = lu_.data();
-  for_each<N>(n, [&](int j) RPSUP_INLINE_LAMBDA {
-    find_response(J, j);
-    const NumbersAt<Scalar> firsts = response_.row(2 * j), seconds = response_.row(2 * j + 1);
-    for (int i = 0; i < n; ++i) lu[j * stride + i] = -add_up(add_effects(begin_sum(K[i * n + j]), J, i, firsts, seconds));
-    lu[j * stride + j] += shift;
-  });
+template <typename Sizes>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::reduce(const Sizes& size, const Scalar& shift) {
+  const Scalar inverse_shift = 1.0 / shift;
+  inverse_shift_ = inverse_shift;
+  invert_own(size, shift);
+  find_response(size, inverse_shift);
+  const StateJacobian::Matrices& J = *J_.matrices;
+  const double *by_v = J.by_v.data(), *by_q = J.by_q.data(), *by_z = J.by_bristle.data();
+  const RowsAt<Scalar> lower = lower_.rows(size.rows), R_w = R_w_.rows(size.column - size.rows), response = response_.rows(size.pairs);
+  const int pairs = J_.pairs, works = J_.works;
+  for (int j = 0; j < size.n; ++j) {
+    const auto R = [&](int row) RPSUP_INLINE_LAMBDA {
+      const int i = j * size.column + row;
+      const WideScalar K = Wide::load(by_v + i) + Wide::load(by_q + i) * widen(inverse_shift);
+      return add_effects(size, K, by_z + row, pairs, response.row(2 * j), response.row(2 * j + 1));
+    };
+    const NumbersAt<Scalar> column = lower.row(j), column_w = R_w.row(j);
+    for (int i = 0; i < size.n; i += kWide) column.store(i, -R(i));
+    for (int k = 0; k < works; k += kWide) column_w.store(k, R(size.rows + k));
+    column.set(j, shift + column[j]);
+  }
 }
 
-/// Gauss with partial pivoting, in place. Each column of U is then divided by its pivot, so that substituting waits for no division, and the
-/// diagonal is zero, so that a column can be taken in whole pairs.
+/// Gauss with partial pivoting. Each column of U is divided by its pivot, so that substituting waits for no division; L and U stand apart, with zeros
+/// elsewhere, so that several rows can be taken at once.
 template <typename Scalar>
-template <int N>
-bool ShiftedJacobian<Scalar>::factor_reduced() {
-  const int n = size<N>();
-  const int stride = whole_pairs(n);
-  Scalar* lu = lu_.data();
+template <typename Sizes>
+RPSUP_INLINE bool ShiftedJacobian<Scalar>::factor_reduced(const Sizes& size) {
+  const RowsAt<Scalar> lower = lower_.rows(size.rows), upper = upper_.rows(size.rows);
+  const NumbersAt<Scalar> inverse_pivot = inverse_pivot_.first();
   int* order = order_.data();
-  for (int k = 0; k < n; ++k) order[k] = k;
+  for (int k = 0; k < size.rows; ++k) order[k] = k;
   bool regular = true;
-  for_each<N>(n, [&](int k) RPSUP_INLINE_LAMBDA {
-    Scalar* column = lu + k * stride;
+  each_coordinate(size, [&](int k) RPSUP_INLINE_LAMBDA {
+    const NumbersAt<Scalar> column = lower.row(k), above = upper.row(k);
     int pivot = k;
     double largest = size_of(column[k]);
-    for (int i = k + 1; i < n; ++i) {
+    for (int i = k + 1; i < size.n; ++i) {
       if (!(size_of(column[i]) > largest)) [[likely]] continue;
       largest = size_of(column[i]);
       pivot = i;
     }
     if (pivot != k) {
       std::swap(order[k], order[pivot]);
-      for (int j = 0; j < n; ++j) std::swap(lu[j * stride + k], lu[j * stride + pivot]);
+      for (int j = 0; j < size.n; ++j) {
+        const Scalar moved = lower.row(j)[k];
+        lower.row(j).set(k, lower.row(j)[pivot]);
+        lower.row(j).set(pivot, moved);
+      }
     }
-    regular = regular && largest > 0.0 && std::isfinite(largest);
+    regular = regular && largest > 0.0 && is_number(largest);
     const Scalar inverse = 1.0 / column[k];
-    inverse_pivot_.data()[k] = inverse;
-    for (int i = 0; i < n; ++i) column[i] *= inverse;
-    column[k] = Scalar{};
-    for (int j = k + 1; j < n; ++j) subtract_scaled(lu[j * stride + k], column, k + 1, n, lu + j * stride);
+    inverse_pivot.set(k, inverse);
+    for (int i = 0; i < size.n; i += kWide) {
+      const WideScalar scaled = inverse * column.load(i);
+      column.store(i, keep_behind(scaled, i, k));
+      above.store(i, scaled - keep_behind(scaled, i, k - 1));
+    }
+    for (int j = k + 1; j < size.n; ++j) subtract_scaled(lower.row(j)[k], column, k + 1, size.n - 1, lower.row(j));
   });
   return regular;
 }
 
-/// x <- of the reduced matrix's inverse and `known`, whose entries are not kept.
+/// v <- of the reduced matrix's inverse and `known`
 template <typename Scalar>
-template <int N>
-void ShiftedJacobian<Scalar>::solve_reduced(const Scalar* known, Scalar* x) const {
-  const int n = size<N>();
-  const int stride = whole_pairs(n);
-  const Scalar* lu = lu_.data();
-  for (int k = 0; k < n; ++k) x[k] = known[order_.data()[k]];
-  if (stride > n) x[n] = Scalar{};
-  for_each<N>(n, [&](int k) RPSUP_INLINE_LAMBDA { subtract_scaled(x[k], lu + k * stride, k + 1, n, x); });
-  for_each<N>(n, [&](int k) RPSUP_INLINE_LAMBDA { subtract_scaled(x[n - 1 - k], lu + (n - 1 - k) * stride, 0, n - 1 - k, x); });
-  for (int k = 0; k < n; ++k) x[k] *= inverse_pivot_.data()[k];
+template <typename Sizes>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::solve_reduced(const Sizes& size, NumbersAt<Scalar> known, NumbersAt<Scalar> v) {
+  const RowsAt<Scalar> lower = lower_.rows(size.rows), upper = upper_.rows(size.rows);
+  const NumbersAt<Scalar> inverse_pivot = inverse_pivot_.first();
+  const int* order = order_.data();
+  for (int i = 0; i < size.n; i += kWide) v.store(i, pick(known, order + i));
+  each_coordinate(size, [&](int k) RPSUP_INLINE_LAMBDA { subtract_scaled(v[k], lower.row(k), k + 1, size.n - 1, v); });
+  each_coordinate(size, [&](int from_last) RPSUP_INLINE_LAMBDA {
+    const int k = size.n - 1 - from_last;
+    subtract_scaled(v[k], upper.row(k), 0, k - 1, v);
+  });
+  for (int i = 0; i < size.n; i += kWide) v.store(i, inverse_pivot.load(i) * v.load(i));
 }
 
-/// own_z^-1 known_z, two pairs at once; the last one stands for one that is missing.
+/// own_z^-1 (z + by_q q), several pairs at once: the last one stands for those that are missing.
 template <typename Scalar>
-template <int N>
-RPSUP_INLINE void ShiftedJacobian<Scalar>::start_bristles(const Linearisation& J, NumbersAt<Scalar> z, const Scalar* q, NumbersAt<Scalar> firsts,
-                                                          NumbersAt<Scalar> seconds) {
-  for (int p = 0; p < J.pairs; p += 2) {
-    const int* own = J.bristles + 2 * p;
-    const int* next = p + 1 < J.pairs ? own + 2 : own;
-    auto first = put_together(z[own[0]], z[next[0]]), second = put_together(z[own[1]], z[next[1]]);
-    for_each<N>(size<N>(), [&](int j) RPSUP_INLINE_LAMBDA {
-      const double* by_q = J.rates_by_q + 2 * j * J.stride + p;
-      first = first + pair(by_q) * q[j];
-      second = second + pair(by_q + J.stride) * q[j];
-    });
-    answer(p, first, second, firsts, seconds);
+template <typename Sizes>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::start_bristles(const Sizes& size, NumbersAt<Scalar> z, NumbersAt<Scalar> q) {
+  const int* acting = J_.acting.data();
+  const double* by_q = J_.matrices->rates_by_q.data();
+  const RowsAt<Scalar> inverse = own_inverse_.rows(size.pairs), bristle = bristle_.rows(size.pairs);
+  const int pairs = J_.pairs;
+  for (int p = 0; p < pairs; p += kWide) {
+    int first_of[kWide], second_of[kWide];
+    for (int lane = 0; lane < kWide; ++lane) {
+      const int* pair = acting + 2 * (p + lane < pairs ? p + lane : pairs - 1);
+      first_of[lane] = pair[0];
+      second_of[lane] = pair[1];
+    }
+    WideScalar first = pick(z, first_of), second = pick(z, second_of);
+    for (int j = 0; j < size.n; ++j) {
+      const WideScalar by = widen(q[j]);
+      first += Wide::load(by_q + 2 * j * size.pairs + p) * by;
+      second += Wide::load(by_q + (2 * j + 1) * size.pairs + p) * by;
+    }
+    answer(inverse, p, first, second, bristle.row(0), bristle.row(1));
   }
 }
 
 /// Adds the bristles' response to the free rates.
 template <typename Scalar>
-template <int N>
-RPSUP_INLINE void ShiftedJacobian<Scalar>::add_response(int pairs, const Scalar* v, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds) {
-  for (int p = 0; p < pairs; p += 2) {
-    auto first = pair_at(firsts, p), second = pair_at(seconds, p);
-    for_each<N>(size<N>(), [&](int j) RPSUP_INLINE_LAMBDA {
-      first = first + pair_at(response_.row(2 * j), p) * v[j];
-      second = second + pair_at(response_.row(2 * j + 1), p) * v[j];
-    });
-    set_pair(firsts, p, first);
-    set_pair(seconds, p, second);
+template <typename Sizes>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::add_response(const Sizes& size, NumbersAt<Scalar> v) {
+  const RowsAt<Scalar> response = response_.rows(size.pairs), bristle = bristle_.rows(size.pairs);
+  const int pairs = J_.pairs;
+  for (int p = 0; p < pairs; p += kWide) {
+    WideScalar first = bristle.row(0).load(p), second = bristle.row(1).load(p);
+    for (int j = 0; j < size.n; ++j) {
+      const WideScalar by = widen(v[j]);
+      first += response.row(2 * j).load(p) * by;
+      second += response.row(2 * j + 1).load(p) * by;
+    }
+    bristle.row(0).store(p, first);
+    bristle.row(1).store(p, second);
   }
 }
 
 template <typename Scalar>
-template <int N>
-void ShiftedJacobian<Scalar>::solve_sized(const Linearisation& J, NumbersAt<Scalar> state) {
-  // Of a size that the compiler knows, these stay in registers.
-  Scalar q_room[N + 1], v_room[N + 1];
-  const int n = size<N>();
-  Scalar* q = N > 0 ? q_room : scaled_q_.data();
-  Scalar* v = N > 0 ? v_room : solution_.data();
+template <typename Sizes>
+RPSUP_INLINE void ShiftedJacobian<Scalar>::solve_sized(const Sizes& size, NumbersAt<Scalar> state) {
+  const int bristles = J_.bristles, pairs = J_.pairs, works = J_.works;
+  const int* acting = J_.acting.data();
+  const double *by_q = J_.matrices->by_q.data(), *by_z = J_.matrices->by_bristle.data();
+  const NumbersAt<Scalar> rates = state.from(size.n), z = rates.from(size.n), work = z.from(bristles);
+  const NumbersAt<Scalar> q = q_.first(), v = v_.first(), known = known_.first(), known_w = known.from(size.rows);
+  const RowsAt<Scalar> bristle = bristle_.rows(size.pairs), R_w = R_w_.rows(size.column - size.rows);
   const Scalar inverse_shift = inverse_shift_;
-  const NumbersAt<Scalar> z = state.from(2 * n), work = z.from(bristles_);
-  const NumbersAt<Scalar> firsts = bristle_.row(0), seconds = bristle_.row(1);
-  Scalar* known = known_.data();
 
-  for (int i = 0; i < n; ++i) q[i] = inverse_shift * state[i];
-  start_bristles<N>(J, z, q, firsts, seconds);
-  for (int i = 0; i < n; ++i) known[i] = add_up(add_effects(add_products(begin_sum(state[n + i]), J.by_q + i * n, q, n), J, i, firsts, seconds));
-  solve_reduced<N>(known, v);
-  add_response<N>(J.pairs, v, firsts, seconds);
-  for (int k = n; k < J.outputs; ++k) {
-    const auto by_free = add_products(add_products(begin_sum(work[k - n]), J.by_q + k * n, q, n), K_.data() + k * n, v, n);
-    work.set(k - n, inverse_shift * add_up(add_effects(by_free, J, k, firsts, seconds)));
+  for (int i = 0; i < size.n; i += kWide) q.store(i, inverse_shift * collect(state, i));
+  start_bristles(size, z, q);
+  const auto add_known = [&](WideScalar sum, int row) RPSUP_INLINE_LAMBDA {
+    for (int j = 0; j < size.n; ++j) sum += Wide::load(by_q + j * size.column + row) * widen(q[j]);
+    return add_effects(size, sum, by_z + row, pairs, bristle.row(0), bristle.row(1));
+  };
+  for (int i = 0; i < size.n; i += kWide) known.store(i, add_known(collect(rates, i), i));  // what lies behind the rates has no effect on them
+  solve_reduced(size, known, v);
+  for (int k = 0; k < works; k += kWide) {
+    WideScalar sum = add_known(widen(Scalar{}), size.rows + k);
+    for (int j = 0; j < size.n; ++j) sum += R_w.row(j).load(k) * widen(v[j]);
+    known_w.store(k, sum);
   }
-  for (int b = 0; b < bristles_; ++b) z.set(b, inverse_shift * z[b]);
-  for (int p = 0; p < J.pairs; ++p) {
-    z.set(J.bristles[2 * p], firsts[p]);
-    z.set(J.bristles[2 * p + 1], seconds[p]);
-  }
-  for (int i = 0; i < n; ++i) {
+  add_response(size, v);
+  for (int i = 0; i < size.n; ++i) {
     state.set(i, q[i] + inverse_shift * v[i]);
-    state.set(n + i, v[i]);
+    rates.set(i, v[i]);
   }
+  for (int b = 0; b < bristles; ++b) z.set(b, inverse_shift * z[b]);
+  for (int p = 0; p < pairs; ++p) {
+    z.set(acting[2 * p], bristle.row(0)[p]);
+    z.set(acting[2 * p + 1], bristle.row(1)[p]);
+  }
+  for (int k = 0; k < works; ++k) work.set(k, inverse_shift * (work[k] + known_w[k]));
 }
 
 template class ShiftedJacobian<double>;
-template class ShiftedJacobian<Complex>;
+template class ShiftedJacobian<Complex<double>>;
 
+}  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

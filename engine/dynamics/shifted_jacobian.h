@@ -1,34 +1,79 @@
 #pragma once
 
-#include <complex>
 #include <cstddef>
-#include <vector>
 
 #include "engine/dynamics/state_jacobian.h"
+#include "engine/math/buffer.h"
+#include "engine/math/complex.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
+inline namespace RPSUP_INSTRUCTION_SET {
+
+/// Numbers of a matrix that are taken at once. However many: what is computed with each of them is the same.
+using Wide = LaneBlock<kWidestPart < StateJacobian::kBlock ? kWidestPart : StateJacobian::kBlock>;
 
 /// Where a vector of numbers stands: complex ones as two, so that several of them stand side by side.
 template <typename Scalar>
 struct NumbersAt;
 template <>
 struct NumbersAt<double> {
+  using WideScalar = Wide;
   double* at;
 
-  [[nodiscard]] double operator[](int i) const { return at[i]; }
-  void set(int i, double value) const { at[i] = value; }
-  [[nodiscard]] NumbersAt from(int i) const { return {at + i}; }
+  [[nodiscard]] RPSUP_INLINE double operator[](int i) const { return at[i]; }
+  RPSUP_INLINE void set(int i, double value) const { at[i] = value; }
+  [[nodiscard]] RPSUP_INLINE Wide load(int i) const { return Wide::load(at + i); }
+  RPSUP_INLINE void store(int i, const Wide& values) const { values.store(at + i); }
+  [[nodiscard]] RPSUP_INLINE NumbersAt from(int i) const { return {at + i}; }
 };
 template <>
-struct NumbersAt<std::complex<double>> {
+struct NumbersAt<Complex<double>> {
+  using WideScalar = Complex<Wide>;
   double *real, *imag;
 
-  [[nodiscard]] std::complex<double> operator[](int i) const { return {real[i], imag[i]}; }
-  void set(int i, std::complex<double> value) const {
-    real[i] = value.real();
-    imag[i] = value.imag();
+  [[nodiscard]] RPSUP_INLINE Complex<double> operator[](int i) const { return {real[i], imag[i]}; }
+  RPSUP_INLINE void set(int i, const Complex<double>& value) const {
+    real[i] = value.real;
+    imag[i] = value.imag;
   }
-  [[nodiscard]] NumbersAt from(int i) const { return {real + i, imag + i}; }
+  [[nodiscard]] RPSUP_INLINE Complex<Wide> load(int i) const { return {Wide::load(real + i), Wide::load(imag + i)}; }
+  RPSUP_INLINE void store(int i, const Complex<Wide>& values) const {
+    values.real.store(real + i);
+    values.imag.store(imag + i);
+  }
+  [[nodiscard]] RPSUP_INLINE NumbersAt from(int i) const { return {real + i, imag + i}; }
+};
+
+/// Where rows of numbers stand.
+template <typename Scalar>
+struct RowsAt {
+  NumbersAt<Scalar> first;
+  int stride;
+
+  [[nodiscard]] RPSUP_INLINE NumbersAt<Scalar> row(int i) const { return first.from(i * stride); }
+};
+
+/// Rows of numbers; of complex ones all real parts, then all imaginary ones.
+template <typename Scalar>
+class NumberRows {
+ public:
+  NumberRows(int rows, int stride)
+      : size_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride)), numbers_(size_ * sizeof(Scalar) / sizeof(double)) {}
+
+  /// To be asked for before anything is stored: the compiler must take what is stored for a change of these, too.
+  /// @param stride  the same, which the compiler may know
+  [[nodiscard]] RPSUP_INLINE RowsAt<Scalar> rows(int stride) {
+    if constexpr (sizeof(Scalar) == sizeof(double))
+      return {{numbers_.data()}, stride};
+    else
+      return {{numbers_.data(), numbers_.data() + size_}, stride};
+  }
+  [[nodiscard]] RPSUP_INLINE NumbersAt<Scalar> first() { return rows(0).first; }
+
+ private:
+  std::size_t size_;
+  Buffer<double> numbers_;
 };
 
 /// The matrix (shift 1 - J) of an implicit step, J the Jacobian of MotionSystem's state equation, with a real or a complex shift.
@@ -37,65 +82,55 @@ struct NumbersAt<std::complex<double>> {
 /// a = (by_q, by_v, by_z) y for the accelerations, the same for the bristles' rates and those of work and loss, K = by_v + by_q / shift,
 /// and x = (q, v, z, w) as given:
 ///
-///     known = (v, z, w) + by_q q / shift,   own_z = shift 1 - by_z of the bristles' rates,   response = own_z^-1 K_z
-///     (shift 1 - K_v - by_z_v response) v = known_v + by_z_v own_z^-1 known_z
-///     q = (q + v) / shift,   z = own_z^-1 known_z + response v,   w = (known_w + K_w v + by_z_w z) / shift
+///     own_z = shift 1 - by_z of the bristles' rates,   response = own_z^-1 K_z,   R = K + by_z response
+///     known_z = own_z^-1 (z + by_q q / shift),   known = (v, w) + by_q q / shift + by_z known_z
+///     (shift 1 - R_v) v = known_v,   q = (q + v) / shift,   z = known_z + response v,   w = (known_w + R_w v) / shift
 ///
-/// @tparam Scalar  double or std::complex<double>
+/// @tparam Scalar  double or Complex<double>
 template <typename Scalar>
 class ShiftedJacobian {
  public:
-  ShiftedJacobian(int free_coordinates, int bristles, int drives);
+  /// @param J  with its matrices; must outlive this, and stay as it is from factor() to the last solve_in_place()
+  explicit ShiftedJacobian(const StateJacobian& J);
 
   /// Factors (shift 1 - J). False if it is singular.
-  [[nodiscard]] bool factor(const StateJacobian& J, Scalar shift);
-  /// x <- (shift 1 - J)^-1 x. @param J  as factor() had it
-  void solve_in_place(const StateJacobian& J, NumbersAt<Scalar> x);
+  [[nodiscard]] bool factor(const Scalar& shift);
+  /// x <- (shift 1 - J)^-1 x
+  void solve_in_place(NumbersAt<Scalar> x);
 
  private:
-  /// Rows of numbers; of complex ones all real parts, then all imaginary ones.
-  class Rows {
-   public:
-    void resize(int rows, int columns);
-    [[nodiscard]] NumbersAt<Scalar> row(int i);
+  using WideScalar = typename NumbersAt<Scalar>::WideScalar;
 
-   private:
-    std::ptrdiff_t columns_ = 0, size_ = 0;
-    std::vector<double> numbers_;
-  };
+  // Sizes: those of J, some of them as the compiler knows them.
+  template <typename Sizes>
+  void reduce(const Sizes& size, const Scalar& shift);
+  template <typename Sizes>
+  void invert_own(const Sizes& size, const Scalar& shift);
+  template <typename Sizes>
+  void find_response(const Sizes& size, const Scalar& inverse_shift);
+  template <typename Sizes>
+  [[nodiscard]] bool factor_reduced(const Sizes& size);
+  template <typename Sizes>
+  void solve_sized(const Sizes& size, NumbersAt<Scalar> state);
+  template <typename Sizes>
+  void start_bristles(const Sizes& size, NumbersAt<Scalar> z, NumbersAt<Scalar> q);
+  template <typename Sizes>
+  void solve_reduced(const Sizes& size, NumbersAt<Scalar> known, NumbersAt<Scalar> v);
+  template <typename Sizes>
+  void add_response(const Sizes& size, NumbersAt<Scalar> v);
 
-  // N: the number of free coordinates as the compiler knows it, 0 if it does not.
-  template <int N>
-  void reduce(const Linearisation& J, Scalar shift);
-  void invert_own(const Linearisation& J, Scalar shift);
-  void find_response(const Linearisation& J, int coordinate);
-  template <typename Wide>
-  void answer(int p, Wide first, Wide second, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds);
-  template <int N>
-  bool factor_reduced();
-  template <int N>
-  void start_bristles(const Linearisation& J, NumbersAt<Scalar> z, const Scalar* q, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds);
-  template <int N>
-  void add_response(int pairs, const Scalar* v, NumbersAt<Scalar> firsts, NumbersAt<Scalar> seconds);
-  template <int N>
-  void solve_sized(const Linearisation& J, NumbersAt<Scalar> state);
-  template <int N>
-  void solve_reduced(const Scalar* known, Scalar* x) const;
-  template <int N>
-  [[nodiscard]] int size() const {
-    return N > 0 ? N : free_;
-  }
-
-  int free_, bristles_;
+  const StateJacobian& J_;
   Scalar inverse_shift_{};
-  std::vector<Scalar> K_;                         ///< of accelerations and rates of work and loss, rows as by_v
-  Rows bristle_inverse_;                          ///< own_z^-1 of each pair: rows as rates_by_own
-  Rows response_;                                 ///< of each pair's first bristle to a free rate, of its second, ...
-  std::vector<Scalar> lu_;                        ///< free x free, column after column in whole pairs; those of U over their pivots
-  std::vector<Scalar> inverse_pivot_;
-  std::vector<int> order_;                        ///< of the rows, as pivoting has exchanged them
-  std::vector<Scalar> scaled_q_, solution_, known_;  ///< parts of a solution
-  Rows bristle_;                                  ///< first bristles, second ones
+  NumberRows<Scalar> own_inverse_;   ///< own_z^-1 of each pair: rows as rates_by_own
+  NumberRows<Scalar> response_;      ///< of each pair's first bristle to a free rate, of its second, ...
+  NumberRows<Scalar> lower_;         ///< of the reduced matrix, a row for each column; at first all of it
+  NumberRows<Scalar> upper_;         ///< the same, each over its pivot
+  NumberRows<Scalar> R_w_;           ///< the same for the works
+  NumberRows<Scalar> inverse_pivot_;
+  Buffer<int> order_;                ///< of the rows, as pivoting has exchanged them
+  NumberRows<Scalar> bristle_;       ///< first bristles, second ones
+  NumberRows<Scalar> q_, v_, known_;
 };
 
+}  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

@@ -15,6 +15,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 struct LoadDirection {
   std::size_t joint;   ///< of those with clearance
   const double* load;  ///< force, and moment about the journal's centre, in {b}
+  double* effect;      ///< column of the outputs' derivatives by it
   Lanes lanes;         ///< one where it acts
 };
 
@@ -43,8 +44,8 @@ class VariedEquations {
         frames_(model.joints.size()),
         own_turns_(model.joints.size()),
         still_(model.joints.size()),
-        forces_(model.joints.size()),
         scratch_(model),
+        needed_(Shapes::have_rows ? model.joints.size() : 0),
         tau_(qdd.size()),
         lambda_(static_cast<std::size_t>(model.rows)),
         multiplier_scratch_(model) {
@@ -79,6 +80,8 @@ class VariedEquations {
     vary_loads();
     carry_forces();
     vary_applied_forces();
+    if constexpr (Shapes::have_rows)
+      for (std::size_t i = 0; i < needed_.size(); ++i) needed_[i] = scratch_.forces[i];
     solve();
     if constexpr (Shapes::have_rows)
       if (model_.rows > 0) vary_multipliers(time, drives);
@@ -161,13 +164,13 @@ class VariedEquations {
       for (int k = 0; k < joint.count(); ++k) still = still && !coordinates_[joint.first + k].varies;
       still_[i] = still;
       if (still) {
-        forces_[i] = {};
+        scratch_.forces[i] = {};
         return;
       }
       VariedFrame<Lanes> f;
       if (!parent_still) f = frames_[static_cast<std::size_t>(joint.parent)];
       vary_joint_frame(joint, solved_.axes[i], held_[i], &held_coordinates_[first], coordinates_ + joint.first, f, own_turns_[i]);
-      forces_[i] = vary_body_force(joint, solved_.frames[i].R, held_[i], f);
+      scratch_.forces[i] = vary_body_force(joint, solved_.frames[i].R, held_[i], f);
       frames_[i] = f;
     });
   }
@@ -221,8 +224,8 @@ class VariedEquations {
     losses.friction += load.friction_power;
     const VariedNeed<Lanes> need =
         vary_need(cut, journal.turn, journal.offset, load, arm_of(joint.bearing_joint, cut.j.p), arm_of(joint.journal_joint, cut.j.p));
-    if (joint.bearing_joint >= 0) forces_[static_cast<std::size_t>(joint.bearing_joint)] += need.of_bearing;
-    if (joint.journal_joint >= 0) forces_[static_cast<std::size_t>(joint.journal_joint)] += need.of_journal;
+    if (joint.bearing_joint >= 0) scratch_.forces[static_cast<std::size_t>(joint.bearing_joint)] += need.of_bearing;
+    if (joint.journal_joint >= 0) scratch_.forces[static_cast<std::size_t>(joint.journal_joint)] += need.of_journal;
   }
 
   RPSUP_INLINE static void add_load(const LoadDirection& of, LoadVariation<Lanes>& load) {
@@ -267,8 +270,8 @@ class VariedEquations {
     const VariedFrame<Lanes>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
     const Vec3<Dual> origin = join(solved_.frames[static_cast<std::size_t>(joint)].p, f.shift);
     const Vec3<Dual> about_origin = moment + cross(p - origin, force);
-    forces_[static_cast<std::size_t>(joint)].force -= derivatives_of(force) - cross(f.turn, values_of(force));
-    forces_[static_cast<std::size_t>(joint)].moment -= derivatives_of(about_origin) - cross(f.turn, values_of(about_origin));
+    scratch_.forces[static_cast<std::size_t>(joint)].force -= derivatives_of(force) - cross(f.turn, values_of(force));
+    scratch_.forces[static_cast<std::size_t>(joint)].moment -= derivatives_of(about_origin) - cross(f.turn, values_of(about_origin));
   }
 
   /// What the joints transmit turns with them.
@@ -282,11 +285,11 @@ class VariedEquations {
       const SpatialForce<double>& held = held_[i].force;
       const JointAxes& axes = solved_.axes[i];
       if (joint.kind == JointShape::Kind::kTranslation) {
-        if (joint.parent >= 0) forces_[static_cast<std::size_t>(joint.parent)].moment += varies[0].q * cross(axes.axis[0], held.force);
+        if (joint.parent >= 0) scratch_.forces[static_cast<std::size_t>(joint.parent)].moment += varies[0].q * cross(axes.axis[0], held.force);
         return;
       }
-      forces_[i].force += cross(own_turns_[i], held.force);
-      forces_[i].moment += cross(own_turns_[i], held.moment);
+      scratch_.forces[i].force += cross(own_turns_[i], held.force);
+      scratch_.forces[i].moment += cross(own_turns_[i], held.moment);
       Lanes* tau = &tau_[static_cast<std::size_t>(joint.first)];
       for (int k = 1; k < joint.count(); ++k)  // but an axis turns with those before it
         for (int m = 0; m < k; ++m) tau[k] += dot(axes.axis[k], cross(axes.axis[m], held.moment)) * varies[m].q;
@@ -305,7 +308,6 @@ class VariedEquations {
   }
 
   RPSUP_INLINE void solve() {
-    for (std::size_t i = 0; i < forces_.size(); ++i) scratch_.forces[i] = forces_[i];
     solved_.bodies.solve(solved_.axes.data(), tau_.data(), scratch_, qdd.data());
   }
 
@@ -314,6 +316,7 @@ class VariedEquations {
     if (model_.drive_rows) vary_drive_rows(time, drives);
     solved_.find_multipliers(qdd.data(), lambda_.data(), multiplier_scratch_);
     solved_.add_reactions(lambda_.data(), tau_.data());
+    for (std::size_t i = 0; i < needed_.size(); ++i) scratch_.forces[i] = needed_[i];
     solve();
   }
 
@@ -383,8 +386,8 @@ class VariedEquations {
   Buffer<VariedFrame<Lanes>> frames_;
   Buffer<Vec3<Lanes>> own_turns_;           ///< of each joint against its parent
   Buffer<bool> still_;                      ///< joints that no direction moves: their frames are not set
-  Buffer<SpatialForce<Lanes>> forces_;      ///< how what each joint's body needs varies
-  typename ArticulatedBodies<Shapes>::template Scratch<Lanes> scratch_;
+  typename ArticulatedBodies<Shapes>::template Scratch<Lanes> scratch_;  ///< its forces: how what each joint's body needs varies
+  Buffer<SpatialForce<Lanes>> needed_;      ///< the same, where it is solved for twice
   Buffer<Lanes> tau_;
   Buffer<Lanes> lambda_;                    ///< variation of the multipliers; before that, of what their rows lack
   MultiplierMatrix::Scratch<Lanes> multiplier_scratch_;
