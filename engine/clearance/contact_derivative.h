@@ -75,7 +75,10 @@ class ContactDerivative {
   }
 
   /// What comes of a variation of the journal's motion, the bristles held.
-  [[nodiscard]] RPSUP_INLINE LoadVariation<Lanes> apply(const JournalVariation<Lanes>& varies) const { return rows_.apply(varies); }
+  template <typename T>
+  [[nodiscard]] RPSUP_INLINE LoadVariation<T> apply(const JournalVariation<T>& varies) const {
+    return rows_.apply(varies);
+  }
 
   /// Of a bristle's rate, by one of the two that its touch reads.
   [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
@@ -138,7 +141,7 @@ class ContactDerivative {
     const auto turned = [&](const Vec3<double>& u) RPSUP_INLINE_LAMBDA { return join(u, cross(turn, u)); };
     const Vec3<Lanes> shift{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)};
     const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)}, join(journal.p, shift),
-                                            join(journal.v, {}), join(journal.w, {})};
+                                            join(journal.v, Vec3<Lanes>{}), join(journal.w, Vec3<Lanes>{})};
     JointLoad<Dual> load;
     (void)add_contacts(joint, varied, constant_bristles_.data(), rates_.data(), load);
     store(load, acting, &ContactRow::by_position);
@@ -146,8 +149,8 @@ class ContactDerivative {
 
   RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal,
                                           const ActingBristles& acting) {
-    const RelativeMotion<double, Dual> varied{journal.R, journal.p, join(journal.v, {Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
-                                              join(journal.w, {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
+    const RelativeMotion<double, Dual> varied{journal.R, journal.p, join(journal.v, Vec3<Lanes>{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
+                                              join(journal.w, Vec3<Lanes>{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
     TouchedLoad load;
     load.by_bristle = by_bristle_.data();
     (void)add_contacts(joint, varied, bristles_.data(), rates_.data(), load);

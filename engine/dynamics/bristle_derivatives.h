@@ -22,7 +22,7 @@ class BristleDerivatives {
   /// @param stride  of the columns of outputs
   BristleDerivatives(const std::vector<ClearanceJoint>& joints, int moving_groups, std::size_t stride)
       : joint_count_(joints.size()),
-        columns_(static_cast<std::size_t>(moving_groups) * Lanes::kCount),
+        columns_(static_cast<std::size_t>(moving_groups) * Directions::kCount),
         loads_(joint_count_ * kMostLoads),
         effects_(joint_count_ * kMostLoads * stride),
         journals_(joint_count_ * kJournal * columns_) {}
@@ -46,13 +46,13 @@ class BristleDerivatives {
   [[nodiscard]] int load_count() const { return load_count_; }
 
   /// Takes note of how the journals vary in a group's directions.
-  RPSUP_INLINE void take_journals(int group, const JournalVariation<Lanes>* journals) {
+  RPSUP_INLINE void take_journals(int group, const JournalVariation<Directions>* journals) {
     for (std::size_t joint = 0; joint < joint_count_; ++joint) {
       std::size_t row = 0;
-      const Vec3<Lanes>* vectors[] = {&journals[joint].turn, &journals[joint].p, &journals[joint].v, &journals[joint].w};
-      double* to = &journals_[joint * kJournal * columns_ + static_cast<std::size_t>(group) * Lanes::kCount];
-      for (const Vec3<Lanes>* vector : vectors)
-        for (const Lanes* number : {&vector->x, &vector->y, &vector->z}) number->store(to + columns_ * row++);
+      const Vec3<Directions>* vectors[] = {&journals[joint].turn, &journals[joint].p, &journals[joint].v, &journals[joint].w};
+      double* to = &journals_[joint * kJournal * columns_ + static_cast<std::size_t>(group) * Directions::kCount];
+      for (const Vec3<Directions>* vector : vectors)
+        for (const Directions* number : {&vector->x, &vector->y, &vector->z}) number->store(to + columns_ * row++);
     }
   }
 

@@ -12,7 +12,7 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Which directions are taken together, eight a group: time, then joint by joint its coordinates and their rates, so that in most groups most of the
+/// Which directions are taken together, as a group: time, then joint by joint its coordinates and their rates, so that in most groups most of the
 /// mechanism stands still, then loads on journals. And where what comes of each of them goes.
 class DirectionPlan {
  public:
@@ -22,16 +22,17 @@ class DirectionPlan {
       : model_(model),
         n_(static_cast<std::size_t>(model.coordinates)),
         column_of_q_(model.free.size()),
-        first_load_column_(place_columns(model, column_of_q_)),
+        column_of_v_(model.free.size()),
+        first_load_column_(place_columns(model, column_of_q_, column_of_v_)),
         moving_groups_(group_of(first_load_column_ - 1) + 1),
         coordinates_((static_cast<std::size_t>(moving_groups_) + 1) * n_),
-        columns_((static_cast<std::size_t>(moving_groups_) + 1) * Lanes::kCount + most_loads),
+        columns_((static_cast<std::size_t>(moving_groups_) + 1) * Directions::kCount + most_loads),
         outputs_(stride),
         nowhere_(stride) {
     for (std::size_t free = 0; free < model.free.size(); ++free) {
-      const int column = column_of_q_[free];
-      variation(column, model.free[free]).q = Lanes::unit(column % Lanes::kCount);
-      variation(column + 1, model.free[free]).qd = Lanes::unit((column + 1) % Lanes::kCount);
+      const int q = column_of_q_[free], v = column_of_v_[free];
+      variation(q, model.free[free]).q = Directions::unit(q % Directions::kCount);
+      variation(v, model.free[free]).qd = Directions::unit(v % Directions::kCount);
     }
   }
 
@@ -42,42 +43,42 @@ class DirectionPlan {
     loads_ = loads;
     load_count_ = count;
     groups_ = group_of(first_load_column_ + count - 1) + 1;
-    for (int i = 0; i < count; ++i) loads[i].lanes = Lanes::unit((first_load_column_ + i) % Lanes::kCount);
+    for (int i = 0; i < count; ++i) loads[i].lanes = Directions::unit((first_load_column_ + i) % Directions::kCount);
     if (model_.drive_rows) return;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      CoordinateVariation<Lanes>& driven = variation(0, model_.drives[k]);
-      driven.q = drives[k].qd * Lanes::unit(0);
-      driven.qd = drives[k].qdd * Lanes::unit(0);
-      driven.qdd = drives[k].qddd * Lanes::unit(0);
+      CoordinateVariation<Directions>& driven = variation(0, model_.drives[k]);
+      driven.q = drives[k].qd * Directions::unit(0);
+      driven.qd = drives[k].qdd * Directions::unit(0);
+      driven.qdd = drives[k].qddd * Directions::unit(0);
     }
   }
 
   [[nodiscard]] int groups() const { return groups_; }
   /// Those of the groups behind the last moving one stand still.
-  [[nodiscard]] const CoordinateVariation<Lanes>* coordinates(int group) const {
+  [[nodiscard]] const CoordinateVariation<Directions>* coordinates(int group) const {
     return coordinates_.data() + static_cast<std::size_t>(group < moving_groups_ ? group : moving_groups_) * n_;
   }
-  [[nodiscard]] Lanes time(int group) const { return group == 0 ? Lanes::unit(0) : Lanes{}; }
+  [[nodiscard]] Directions time(int group) const { return group == 0 ? Directions::unit(0) : Directions{}; }
   /// Loads of a group.
-  [[nodiscard]] int first_load(int group) const { return clamp(group * Lanes::kCount - first_load_column_); }
-  [[nodiscard]] int end_load(int group) const { return clamp((group + 1) * Lanes::kCount - first_load_column_); }
+  [[nodiscard]] int first_load(int group) const { return clamp(group * Directions::kCount - first_load_column_); }
+  [[nodiscard]] int end_load(int group) const { return clamp((group + 1) * Directions::kCount - first_load_column_); }
   [[nodiscard]] const LoadDirection* loads() const { return loads_; }
 
-  // Columns: one a direction, eight a group
+  // Columns: one a direction
   static constexpr int kTime = 0;
   [[nodiscard]] int column_of_q(int free) const { return column_of_q_[static_cast<std::size_t>(free)]; }
-  [[nodiscard]] int column_of_v(int free) const { return column_of_q(free) + 1; }
+  [[nodiscard]] int column_of_v(int free) const { return column_of_v_[static_cast<std::size_t>(free)]; }
   [[nodiscard]] int column_of_load(int load) const { return first_load_column_ + load; }
   [[nodiscard]] int moving_groups() const { return moving_groups_; }
 
   /// An output in a group's directions, for store().
-  [[nodiscard]] RPSUP_INLINE Lanes& output(int row) { return outputs_[static_cast<std::size_t>(row)]; }
+  [[nodiscard]] RPSUP_INLINE Directions& output(int row) { return outputs_[static_cast<std::size_t>(row)]; }
   /// Puts the outputs of a group's directions into their columns.
   RPSUP_INLINE void store(int group) {
-    double* const* columns = columns_.data() + group * Lanes::kCount;
+    double* const* columns = columns_.data() + group * Directions::kCount;
     for (std::size_t row = 0; row < outputs_.size(); row += 2) {
-      const Lanes even = outputs_[row], odd = outputs_[row + 1];
-      store_columns(even, odd, columns, row, std::make_integer_sequence<int, Lanes::kCount>());
+      const Directions even = outputs_[row], odd = outputs_[row + 1];
+      store_columns(even, odd, columns, row, std::make_integer_sequence<int, Directions::kCount>());
     }
   }
 
@@ -96,9 +97,9 @@ class DirectionPlan {
   }
 
   template <int... lane>
-  RPSUP_INLINE static void store_columns(const Lanes& even, const Lanes& odd, double* const* columns, std::size_t row,
+  RPSUP_INLINE static void store_columns(const Directions& even, const Directions& odd, double* const* columns, std::size_t row,
                                          std::integer_sequence<int, lane...>) {
-    constexpr int kWidth = Lanes::kWidth;
+    constexpr int kWidth = Directions::kWidth;
     const auto put = [&]<int l>(std::integral_constant<int, l>) RPSUP_INLINE_LAMBDA {
       LanePair pair;
       pair.part[0] = __builtin_shufflevector(even.part[l / kWidth], odd.part[l / kWidth], l % kWidth, kWidth + l % kWidth);
@@ -107,38 +108,43 @@ class DirectionPlan {
     (put(std::integral_constant<int, lane>()), ...);
   }
 
-  /// Coordinates and rates of a joint share a group: the first one with room for them. @returns the column behind the last
-  [[nodiscard]] static int place_columns(const TreeModel& model, Buffer<int>& column_of_q) {
-    Buffer<int> taken(model.joints.size() + 1);  // columns of each group
+  /// A joint's coordinates share a group, and so do its rates: the first one with room for them. @returns the column behind the last
+  [[nodiscard]] static int place_columns(const TreeModel& model, Buffer<int>& column_of_q, Buffer<int>& column_of_v) {
+    Buffer<int> taken(2 * model.joints.size() + 1);  // columns of each group
     taken[0] = 1;
     std::size_t last = 0, free = 0;
+    const auto place = [&](int count, Buffer<int>& columns) {
+      std::size_t group = 0;
+      while (taken[group] + count > Directions::kCount) ++group;
+      last = group > last ? group : last;
+      for (int k = 0; k < count; ++k) columns[free + static_cast<std::size_t>(k)] = static_cast<int>(group) * Directions::kCount + taken[group]++;
+    };
     for (const TreeJoint& joint : model.joints) {
       if (joint.driven) continue;
-      std::size_t group = 0;
-      while (taken[group] + 2 * joint.count() > Lanes::kCount) ++group;
-      last = group > last ? group : last;
-      for (int k = 0; k < joint.count(); ++k, taken[group] += 2) column_of_q[free++] = static_cast<int>(group) * Lanes::kCount + taken[group];
+      place(joint.count(), column_of_q);
+      place(joint.count(), column_of_v);
+      free += static_cast<std::size_t>(joint.count());
     }
-    return static_cast<int>(last) * Lanes::kCount + taken[last];
+    return static_cast<int>(last) * Directions::kCount + taken[last];
   }
-  [[nodiscard]] static int group_of(int column) { return static_cast<int>(static_cast<unsigned>(column) / Lanes::kCount); }
+  [[nodiscard]] static int group_of(int column) { return static_cast<int>(static_cast<unsigned>(column) / Directions::kCount); }
   [[nodiscard]] int clamp(int load) const { return load < 0 ? 0 : load > load_count_ ? load_count_ : load; }
-  CoordinateVariation<Lanes>& variation(int column, int coordinate) {
-    CoordinateVariation<Lanes>& entry = coordinates_[static_cast<std::size_t>(group_of(column)) * n_ + static_cast<std::size_t>(coordinate)];
+  CoordinateVariation<Directions>& variation(int column, int coordinate) {
+    CoordinateVariation<Directions>& entry = coordinates_[static_cast<std::size_t>(group_of(column)) * n_ + static_cast<std::size_t>(coordinate)];
     entry.varies = true;
     return entry;
   }
 
   const TreeModel& model_;
-  std::size_t n_;                            ///< coordinates
-  Buffer<int> column_of_q_;                  ///< of each free coordinate; its rate follows
+  std::size_t n_;                          ///< coordinates
+  Buffer<int> column_of_q_, column_of_v_;  ///< of each free coordinate, and of its rate
   int first_load_column_, moving_groups_;
   int load_count_ = 0, groups_ = 0;
   const LoadDirection* loads_ = nullptr;
-  Buffer<CoordinateVariation<Lanes>> coordinates_;  ///< group after group, one a coordinate; those left over stand still
-  Buffer<double*> columns_;                  ///< where the outputs of each direction go
-  Buffer<Lanes> outputs_;                    ///< of one group, as StateJacobian has a column
-  Buffer<double> nowhere_;                   ///< a column that is not wanted
+  Buffer<CoordinateVariation<Directions>> coordinates_;  ///< group after group, one a coordinate; those left over stand still
+  Buffer<double*> columns_;                ///< where the outputs of each direction go
+  Buffer<Directions> outputs_;             ///< of one group, as StateJacobian has a column
+  Buffer<double> nowhere_;                 ///< a column that is not wanted
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

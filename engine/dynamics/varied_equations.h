@@ -11,15 +11,18 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
+/// With how it varies in several directions.
+using VariedNumber = DualOf<Directions::kCount>;
+
 /// A load on a journal in one of the directions.
 struct LoadDirection {
   std::size_t joint;   ///< of those with clearance
   const double* load;  ///< force, and moment about the journal's centre, in {b}
   double* effect;      ///< column of the outputs' derivatives by it
-  Lanes lanes;         ///< one where it acts
+  Directions lanes;    ///< one where it acts
 };
 
-/// How the solution of the equations of motion varies with the state, in eight directions at once, exact to rounding.
+/// How the solution of the equations of motion varies with the state, in several directions at once, exact to rounding.
 ///
 /// The forces that hold the motion, R(q, qd, qdd, lambda) = M qdd + bias - tau - Phi_q^T lambda, vary with qdd and lambda held where they are;
 /// what then is missing is made up for by the accelerations: M dqdd = Phi_q^T dlambda - dR. So no matrix is ever differentiated. Where a joint
@@ -71,8 +74,8 @@ class VariedEquations {
 
   /// @param coordinates  one a coordinate; qdd of driven ones only
   /// @param time         lane in which time varies, the drives' coordinates with it
-  [[gnu::noinline]] void differentiate(const CoordinateVariation<Lanes>* coordinates, const LoadDirection* loads, int load_count, const Lanes& time,
-                                       const DrivenMotion* drives) {
+  [[gnu::noinline]] void differentiate(const CoordinateVariation<Directions>* coordinates, const LoadDirection* loads, int load_count,
+                                       const Directions& time, const DrivenMotion* drives) {
     coordinates_ = coordinates;
     loads_ = loads;
     load_count_ = load_count;
@@ -96,10 +99,10 @@ class VariedEquations {
   [[nodiscard]] const ActingBristles* acting() const { return acting_.data(); }
 
   // Out
-  Buffer<Lanes> qdd;                        ///< of free coordinates
-  Buffer<Lanes> drive_force;
-  Buffer<JournalVariation<Lanes>> journals; ///< of each joint with clearance
-  LossPowers<Lanes> losses;
+  Buffer<Directions> qdd;                         ///< of free coordinates
+  Buffer<Directions> drive_force;
+  Buffer<JournalVariation<Directions>> journals;  ///< of each joint with clearance
+  LossPowers<Directions> losses;
 
  private:
   /// Sorts the acting bristles by joints.
@@ -167,7 +170,7 @@ class VariedEquations {
         scratch_.forces[i] = {};
         return;
       }
-      VariedFrame<Lanes> f;
+      VariedFrame<Directions> f;
       if (!parent_still) f = frames_[static_cast<std::size_t>(joint.parent)];
       vary_joint_frame(joint, solved_.axes[i], held_[i], &held_coordinates_[first], coordinates_ + joint.first, f, own_turns_[i]);
       scratch_.forces[i] = vary_body_force(joint, solved_.frames[i].R, held_[i], f);
@@ -178,7 +181,7 @@ class VariedEquations {
   [[nodiscard]] RPSUP_INLINE bool is_still(int joint) const { return joint < 0 || still_[static_cast<std::size_t>(joint)]; }
 
   /// How the frame of a joint's body varies, with the origin at p.
-  [[nodiscard]] RPSUP_INLINE VariedFrame<Lanes> see_at(int joint, const Vec3<double>& p) const {
+  [[nodiscard]] RPSUP_INLINE VariedFrame<Directions> see_at(int joint, const Vec3<double>& p) const {
     if (is_still(joint)) return {};
     return move_origin(frames_[static_cast<std::size_t>(joint)], arm_of(joint, p));
   }
@@ -199,7 +202,7 @@ class VariedEquations {
 
   RPSUP_INLINE void vary_spring(const TreeSpring& spring) {
     if (is_still(spring.from_joint) && is_still(spring.to_joint)) return;
-    const SpringPull<Dual> pull = calc_spring_pull(spring, see_at_rest(spring.from_joint), see_at_rest(spring.to_joint));
+    const SpringPull<VariedNumber> pull = calc_spring_pull(spring, see_at_rest(spring.from_joint), see_at_rest(spring.to_joint));
     vary_load(spring.to_joint, pull.to, pull.force, {});
     vary_load(spring.from_joint, pull.from, -pull.force, {});
     losses.structural += pull.loss.d;
@@ -208,9 +211,9 @@ class VariedEquations {
   /// All in W as an observer sees it who turns with the bearing, until the journal's own is needed.
   RPSUP_INLINE void vary_contact(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut) {
     const ContactDerivative& contact = *contacts_[static_cast<std::size_t>(joint.clearance)];
-    JournalVariation<Lanes>& varies = journals[static_cast<std::size_t>(joint.clearance)];
-    LoadVariation<Lanes> load;
-    VariedJournal<Lanes> journal;
+    JournalVariation<Directions>& varies = journals[static_cast<std::size_t>(joint.clearance)];
+    LoadVariation<Directions> load;
+    VariedJournal<Directions> journal;
     if (is_still(joint.bearing_joint) && is_still(joint.journal_joint)) {
       varies = {};
     } else {
@@ -222,15 +225,15 @@ class VariedEquations {
       if (loads_[i].joint == static_cast<std::size_t>(joint.clearance)) add_load(loads_[i], load);
     losses.impact += load.impact_power;
     losses.friction += load.friction_power;
-    const VariedNeed<Lanes> need =
+    const VariedNeed<Directions> need =
         vary_need(cut, journal.turn, journal.offset, load, arm_of(joint.bearing_joint, cut.j.p), arm_of(joint.journal_joint, cut.j.p));
     if (joint.bearing_joint >= 0) scratch_.forces[static_cast<std::size_t>(joint.bearing_joint)] += need.of_bearing;
     if (joint.journal_joint >= 0) scratch_.forces[static_cast<std::size_t>(joint.journal_joint)] += need.of_journal;
   }
 
-  RPSUP_INLINE static void add_load(const LoadDirection& of, LoadVariation<Lanes>& load) {
-    load.force += Vec3<Lanes>{of.load[0] * of.lanes, of.load[1] * of.lanes, of.load[2] * of.lanes};
-    load.moment += Vec3<Lanes>{of.load[3] * of.lanes, of.load[4] * of.lanes, of.load[5] * of.lanes};
+  RPSUP_INLINE static void add_load(const LoadDirection& of, LoadVariation<Directions>& load) {
+    load.force += Vec3<Directions>{of.load[0] * of.lanes, of.load[1] * of.lanes, of.load[2] * of.lanes};
+    load.moment += Vec3<Directions>{of.load[3] * of.lanes, of.load[4] * of.lanes, of.load[5] * of.lanes};
   }
 
   /// From the origin of a joint's body to p.
@@ -241,35 +244,35 @@ class VariedEquations {
 
   /// What an ideal joint exerts with its multipliers held, and what its rows lack then.
   RPSUP_INLINE void vary_reaction(const TreeCutJoint& joint) {
-    const Frame<Dual, Dual> b = place(joint.bearing, see_at_rest(joint.bearing_joint), true);
-    const Frame<Dual, Dual> j = place(joint.journal, see_at_rest(joint.journal_joint), true);
-    const JointViolation<Dual, Dual> violation = calc_joint_violation(joint.rows, b, j);
+    const Frame<VariedNumber, VariedNumber> b = place(joint.bearing, see_at_rest(joint.bearing_joint), true);
+    const Frame<VariedNumber, VariedNumber> j = place(joint.journal, see_at_rest(joint.journal_joint), true);
+    const JointViolation<VariedNumber, VariedNumber> violation = calc_joint_violation(joint.rows, b, j);
     const auto first = static_cast<std::size_t>(joint.first_row);
     for (std::size_t r = 0; r < static_cast<std::size_t>(joint.rows.count()); ++r)
       lambda_[first + r] =
           -(violation.Phi_dd[r].d + 2.0 * model_.alpha * violation.Phi_d[r].d + (model_.beta * model_.beta) * violation.Phi[r].d);
-    const JointReaction<Dual> reaction = calc_joint_reaction(joint.rows, violation, b.R, solved_.loops.lambda.data() + first);
+    const JointReaction<VariedNumber> reaction = calc_joint_reaction(joint.rows, violation, b.R, solved_.loops.lambda.data() + first);
     vary_load(joint.journal_joint, j.p, reaction.force, reaction.moment);
     vary_load(joint.bearing_joint, bearing_point(joint.rows, b, j), -reaction.force, -reaction.moment);
   }
 
   /// The frame of a joint's body, with all accelerations, as an observer at rest sees it.
-  [[nodiscard]] RPSUP_INLINE Frame<Dual, Dual> see_at_rest(int joint) const {
-    const VariedFrame<Lanes>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
+  [[nodiscard]] RPSUP_INLINE Frame<VariedNumber, VariedNumber> see_at_rest(int joint) const {
+    const VariedFrame<Directions>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
     const HeldJoint& held = joint < 0 ? ground_ : held_[static_cast<std::size_t>(joint)];
     const Frame<double, double>& stands = joint < 0 ? solved_.ground() : solved_.frames[static_cast<std::size_t>(joint)];
     const auto turned = [&](const Vec3<double>& v) RPSUP_INLINE_LAMBDA { return join(v, cross(f.turn, v)); };
-    const auto turned_too = [&](const Vec3<double>& v, const Vec3<Lanes>& own) RPSUP_INLINE_LAMBDA { return join(v, own + cross(f.turn, v)); };
+    const auto turned_too = [&](const Vec3<double>& v, const Vec3<Directions>& own) RPSUP_INLINE_LAMBDA { return join(v, own + cross(f.turn, v)); };
     return {{turned(stands.R.x), turned(stands.R.y), turned(stands.R.z)}, join(stands.p, f.shift), turned_too(held.w, f.w), turned_too(held.v, f.v),
             turned_too(held.wd, f.wd), turned_too(held.vd, f.vd)};
   }
 
   /// A force at p, with a moment about it, as an observer at rest sees them, on a joint's body.
-  RPSUP_INLINE void vary_load(int joint, const Vec3<Dual>& p, const Vec3<Dual>& force, const Vec3<Dual>& moment) {
+  RPSUP_INLINE void vary_load(int joint, const Vec3<VariedNumber>& p, const Vec3<VariedNumber>& force, const Vec3<VariedNumber>& moment) {
     if (joint < 0) return;
-    const VariedFrame<Lanes>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
-    const Vec3<Dual> origin = join(solved_.frames[static_cast<std::size_t>(joint)].p, f.shift);
-    const Vec3<Dual> about_origin = moment + cross(p - origin, force);
+    const VariedFrame<Directions>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
+    const Vec3<VariedNumber> origin = join(solved_.frames[static_cast<std::size_t>(joint)].p, f.shift);
+    const Vec3<VariedNumber> about_origin = moment + cross(p - origin, force);
     scratch_.forces[static_cast<std::size_t>(joint)].force -= derivatives_of(force) - cross(f.turn, values_of(force));
     scratch_.forces[static_cast<std::size_t>(joint)].moment -= derivatives_of(about_origin) - cross(f.turn, values_of(about_origin));
   }
@@ -278,7 +281,7 @@ class VariedEquations {
   RPSUP_INLINE void carry_forces() {
     tau_.fill({});
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      const CoordinateVariation<Lanes>* varies = coordinates_ + joint.first;
+      const CoordinateVariation<Directions>* varies = coordinates_ + joint.first;
       bool own = false;
       for (int k = 0; k < joint.count(); ++k) own = own || varies[k].varies;
       if (!own) return;
@@ -290,7 +293,7 @@ class VariedEquations {
       }
       scratch_.forces[i].force += cross(own_turns_[i], held.force);
       scratch_.forces[i].moment += cross(own_turns_[i], held.moment);
-      Lanes* tau = &tau_[static_cast<std::size_t>(joint.first)];
+      Directions* tau = &tau_[static_cast<std::size_t>(joint.first)];
       for (int k = 1; k < joint.count(); ++k)  // but an axis turns with those before it
         for (int m = 0; m < k; ++m) tau[k] += dot(axes.axis[k], cross(axes.axis[m], held.moment)) * varies[m].q;
     });
@@ -301,7 +304,7 @@ class VariedEquations {
       if (!joint.sprung) return;
       const auto first = static_cast<std::size_t>(joint.first);
       for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {
-        const CoordinateVariation<Lanes>& coordinate = coordinates_[first + k];
+        const CoordinateVariation<Directions>& coordinate = coordinates_[first + k];
         if (coordinate.varies) tau_[first + k] -= joint.numbers().stiffness[k] * coordinate.q + joint.numbers().damping[k] * coordinate.qd;
       }
     });
@@ -311,7 +314,7 @@ class VariedEquations {
     solved_.bodies.solve(solved_.axes.data(), tau_.data(), scratch_, qdd.data());
   }
 
-  RPSUP_INLINE void vary_multipliers(const Lanes& time, const DrivenMotion* drives) {
+  RPSUP_INLINE void vary_multipliers(const Directions& time, const DrivenMotion* drives) {
     vary_coupling_rows();
     if (model_.drive_rows) vary_drive_rows(time, drives);
     solved_.find_multipliers(qdd.data(), lambda_.data(), multiplier_scratch_);
@@ -323,8 +326,8 @@ class VariedEquations {
   RPSUP_INLINE void vary_coupling_rows() {
     for (std::size_t k = 0; k < model_.couplings.size(); ++k) {
       const Coupling& coupling = model_.couplings[k];
-      const CoordinateVariation<Lanes>& a = coordinates_[coupling.coordinate];
-      const CoordinateVariation<Lanes>& b = coordinates_[coupling.follows];
+      const CoordinateVariation<Directions>& a = coordinates_[coupling.coordinate];
+      const CoordinateVariation<Directions>& b = coordinates_[coupling.follows];
       lambda_[static_cast<std::size_t>(model_.first_coupling_row) + k] = -(a.qdd - coupling.ratio * b.qdd) -
                                                                          2.0 * model_.alpha * (a.qd - coupling.ratio * b.qd) -
                                                                          (model_.beta * model_.beta) * (a.q - coupling.ratio * b.q);
@@ -332,9 +335,9 @@ class VariedEquations {
   }
 
   /// The drives' motion varies in time, and by nothing else.
-  RPSUP_INLINE void vary_drive_rows(const Lanes& time, const DrivenMotion* drives) {
+  RPSUP_INLINE void vary_drive_rows(const Directions& time, const DrivenMotion* drives) {
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      const CoordinateVariation<Lanes>& varies = coordinates_[model_.drives[k]];
+      const CoordinateVariation<Directions>& varies = coordinates_[model_.drives[k]];
       lambda_[static_cast<std::size_t>(model_.first_drive_row) + k] = drives[k].qddd * time -
                                                                       2.0 * model_.alpha * (varies.qd - drives[k].qdd * time) -
                                                                       (model_.beta * model_.beta) * (varies.q - drives[k].qd * time);
@@ -349,7 +352,7 @@ class VariedEquations {
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.driven) return;
       const auto d = static_cast<std::size_t>(joint.first);
-      Lanes force = solved_.bodies.calc_drive_force(joint, i, solved_.axes[i], scratch_);
+      Directions force = solved_.bodies.calc_drive_force(joint, i, solved_.axes[i], scratch_);
       const TreeJoint& numbers = joint.numbers();
       if (joint.sprung) force += numbers.stiffness[0] * coordinates_[d].q + numbers.damping[0] * coordinates_[d].qd;
       if constexpr (Shapes::have_rows)
@@ -379,18 +382,18 @@ class VariedEquations {
   Buffer<ActingBristles> acting_;           ///< of each joint with clearance
   Buffer<int> own_bristles_;                ///< theirs
   // Of the directions at hand
-  const CoordinateVariation<Lanes>* coordinates_ = nullptr;
+  const CoordinateVariation<Directions>* coordinates_ = nullptr;
   const LoadDirection* loads_ = nullptr;
   int load_count_ = 0;
-  const VariedFrame<Lanes> at_rest_{};
-  Buffer<VariedFrame<Lanes>> frames_;
-  Buffer<Vec3<Lanes>> own_turns_;           ///< of each joint against its parent
-  Buffer<bool> still_;                      ///< joints that no direction moves: their frames are not set
-  typename ArticulatedBodies<Shapes>::template Scratch<Lanes> scratch_;  ///< its forces: how what each joint's body needs varies
-  Buffer<SpatialForce<Lanes>> needed_;      ///< the same, where it is solved for twice
-  Buffer<Lanes> tau_;
-  Buffer<Lanes> lambda_;                    ///< variation of the multipliers; before that, of what their rows lack
-  MultiplierMatrix::Scratch<Lanes> multiplier_scratch_;
+  const VariedFrame<Directions> at_rest_{};
+  Buffer<VariedFrame<Directions>> frames_;
+  Buffer<Vec3<Directions>> own_turns_;       ///< of each joint against its parent
+  Buffer<bool> still_;                       ///< joints that no direction moves: their frames are not set
+  typename ArticulatedBodies<Shapes>::template Scratch<Directions> scratch_;  ///< its forces: how what each joint's body needs varies
+  Buffer<SpatialForce<Directions>> needed_;  ///< the same, where it is solved for twice
+  Buffer<Directions> tau_;
+  Buffer<Directions> lambda_;                ///< variation of the multipliers; before that, of what their rows lack
+  MultiplierMatrix::Scratch<Directions> multiplier_scratch_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

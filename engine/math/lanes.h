@@ -190,6 +190,9 @@ template <int count>
 }
 
 using Lanes = LaneBlock<8>;
+/// Numbers in several directions, one a lane: no more than registers hold side by side, so that a vector of them need not leave its registers; and
+/// no fewer than four, of which each group reads all that they share.
+using Directions = LaneBlock<(kWidestPart > 4 ? kWidestPart : 4)>;
 using LanePair = LaneBlock<2>;
 
 /// Stores the first half of the lanes, and the second one elsewhere.
@@ -199,13 +202,6 @@ RPSUP_INLINE void store_halves(const LaneBlock<count>& a, double* first, double*
   a.store(numbers);
   LaneBlock<count / 2>::load(numbers).store(first);
   LaneBlock<count / 2>::load(numbers + count / 2).store(second);
-}
-
-/// A number of a row of lanes, which are numbers side by side.
-[[nodiscard]] RPSUP_INLINE double read_number(const Lanes* row, int i) {
-  double value;
-  __builtin_memcpy(&value, reinterpret_cast<const char*>(row) + sizeof(double) * static_cast<unsigned>(i), sizeof value);
-  return value;
 }
 
 [[nodiscard]] RPSUP_INLINE LanePair join(double a, double b) {
