@@ -6,6 +6,7 @@
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
+#include "engine/math/lanes.h"
 #include "engine/math/vec3.h"
 
 namespace engine {
@@ -91,6 +92,11 @@ class ArticulatedBodies {
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.moves) accelerate(joint, i, axes[i], scratch, qdd + joint.first, rods);
     });
+  }
+
+  /// The same in several directions at once. Much code, which several call: not inlined into each of them.
+  [[gnu::noinline]] void solve_lanes(const JointAxes* axes, const Directions* tau, Scratch<Directions>& scratch, Directions* qdd) const {
+    solve(axes, tau, scratch, qdd);
   }
 
   /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.

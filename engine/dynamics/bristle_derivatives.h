@@ -28,7 +28,8 @@ class BristleDerivatives {
         journals_(joint_count_ * kJournal * columns_) {}
 
   /// Of a joint's bristles the loads, or, of more than six, the six of which all loads consist.
-  void find_loads(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, const StateJacobian& J) {
+  /// @param J  with its matrices, to which the effects of the loads will be written
+  void find_loads(const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, StateJacobian& J) {
     load_count_ = 0;
     double* by_bristle = J.matrices->by_bristle.data();
     for (std::size_t joint = 0; joint < joint_count_; ++joint) {
@@ -63,7 +64,7 @@ class BristleDerivatives {
     });
   }
 
-  /// Writes all. @param plan  with the effects of the loads in their columns
+  /// Writes all, after the plan's store() of every group.
   void write(const DirectionPlan& plan, const std::unique_ptr<ContactDerivative>* contacts, const ActingBristles* acting, StateJacobian& J) const {
     each_block(contacts, acting, [&](const auto& block) { write_rates(plan, block, J); });
     write_effects(contacts, acting, J);

@@ -4,6 +4,7 @@
 
 #include "engine/dynamics/bristle_derivatives.h"
 #include "engine/dynamics/direction_plan.h"
+#include "engine/dynamics/equations.h"
 #include "engine/dynamics/equations_of_motion.h"
 #include "engine/dynamics/shifted_bodies.h"
 #include "engine/dynamics/shifted_jacobian.h"
@@ -20,13 +21,12 @@ class CompiledEquations final : public Equations {
   CompiledEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles)
       : model_(model),
         free_(static_cast<int>(model.free.size())),
-        drives_(static_cast<int>(model.drives.size())),
         bristles_(static_cast<int>(bristles)),
         joints_(joints),
         bristle_rates_(bristles),
         kept_(model, joints),
         varied_(model, joints, bristles, kept_),
-        jacobian_(free_, bristles_, drives_),
+        jacobian_(free_, bristles_, static_cast<int>(model.drives.size())),
         plan_(model, BristleDerivatives::kMostLoads * joints.size(), jacobian_.by_t.size()),
         bristle_derivatives_(joints, plan_.moving_groups(), jacobian_.by_t.size()),
         bodies_(ShiftedBodies::fit(model) ? std::make_unique<ShiftedBodies>(model, joints) : nullptr) {
@@ -184,7 +184,7 @@ class CompiledEquations final : public Equations {
   };
 
   const TreeModel& model_;
-  int free_, drives_, bristles_;
+  int free_, bristles_;
   const std::vector<ClearanceJoint>& joints_;
   Buffer<double> bristle_rates_;                ///< of the solution that is kept
   EquationsOfMotion<Shapes> kept_;

@@ -3,6 +3,7 @@
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -21,16 +22,30 @@ struct ConstraintRows {
         Phi(static_cast<std::size_t>(count)),
         Phi_d(static_cast<std::size_t>(count)),
         bias(static_cast<std::size_t>(count)),
-        Phi_q(static_cast<std::size_t>(count * coordinates)) {}
+        Phi_q(static_cast<std::size_t>(groups() * coordinates)) {}
 
-  [[nodiscard]] RPSUP_INLINE double* row(int r) { return Phi_q.data() + r * coordinates; }
-  [[nodiscard]] RPSUP_INLINE const double* row(int r) const { return Phi_q.data() + r * coordinates; }
+  /// Rows stand side by side in groups of so many.
+  static constexpr int kSide = Directions::kCount;
+  [[nodiscard]] RPSUP_INLINE int groups() const { return (count + kSide - 1) / kSide; }
+
+  /// A row of Phi_q: of coordinate i the entry [i * kSide].
+  [[nodiscard]] RPSUP_INLINE double* row(int r) { return reinterpret_cast<double*>(Phi_q.data() + first_of_group(r)) + lane_of(r); }
+  [[nodiscard]] RPSUP_INLINE const double* row(int r) const {
+    return reinterpret_cast<const double*>(Phi_q.data() + first_of_group(r)) + lane_of(r);
+  }
+  /// All rows of a group.
+  [[nodiscard]] RPSUP_INLINE const Directions* group(int g) const { return Phi_q.data() + g * coordinates; }
+  [[nodiscard]] RPSUP_INLINE static int group_of(int r) { return static_cast<int>(static_cast<unsigned>(r) / kSide); }
+  [[nodiscard]] RPSUP_INLINE static int lane_of(int r) { return static_cast<int>(static_cast<unsigned>(r) % kSide); }
 
   int count, coordinates;
   Buffer<double> Phi;    ///< [m] and [1]
   Buffer<double> Phi_d;  ///< first derivative by time
   Buffer<double> bias;   ///< second derivative without the unknown accelerations
-  Buffer<double> Phi_q;  ///< row after row, one entry a coordinate
+  Buffer<Directions> Phi_q;  ///< group after group, one entry a coordinate
+
+ private:
+  [[nodiscard]] RPSUP_INLINE int first_of_group(int r) const { return group_of(r) * coordinates; }
 };
 
 /// What an ideal joint's rows come to.
@@ -115,6 +130,8 @@ template <typename P, typename V>
 RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>* frames, const JointAxes* axes, const TreeCutJoint& joint, int last,
                             const Vec3<double>& p, const Mat3<double>& R_b, const JointViolation<double, double>& violation, double sign,
                             ConstraintRows& rows) {
+  double* row[6];
+  for (int k = 0; k < joint.rows.count(); ++k) row[k] = rows.row(joint.first_row + k);
   for (int i = last; i >= 0; i = model.joints[static_cast<std::size_t>(i)].parent) {
     const TreeJoint& carrier = model.joints[static_cast<std::size_t>(i)];
     const bool rotates = carrier.rotates();
@@ -122,18 +139,17 @@ RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>*
     for (int k = 0; k < carrier.count(); ++k) {
       const Vec3<double> axis = sign * axes[i].axis[k];
       const Vec3<double> v = rotates ? cross(axis, arm) : axis;
-      const int at = carrier.first + k;
-      int row = joint.first_row;
+      const int at = (carrier.first + k) * ConstraintRows::kSide;
       if (joint.rows.positions == 3) {
-        rows.row(row++)[at] += v.x;
-        rows.row(row++)[at] += v.y;
-        rows.row(row++)[at] += v.z;
+        row[0][at] += v.x;
+        row[1][at] += v.y;
+        row[2][at] += v.z;
       } else {
-        rows.row(row++)[at] += dot(v, R_b.x);
-        rows.row(row++)[at] += dot(v, R_b.y);
+        row[0][at] += dot(v, R_b.x);
+        row[1][at] += dot(v, R_b.y);
       }
       if (!rotates) continue;
-      for (int turn = 0; turn < joint.rows.axes; ++turn) rows.row(row++)[at] += dot(axis, violation.turn[turn]);
+      for (int turn = 0; turn < joint.rows.axes; ++turn) row[joint.rows.positions + turn][at] += dot(axis, violation.turn[turn]);
     }
   }
 }
@@ -150,7 +166,10 @@ RPSUP_INLINE void calc_joint_rows(const TreeModel& model, const TreeCutJoint& jo
     rows.Phi_d[row] = violation.Phi_d[r];
     rows.bias[row] = violation.Phi_dd[r];
   }
-  for (int i = 0; i < count * rows.coordinates; ++i) rows.row(first)[i] = 0.0;
+  for (int r = 0; r < count; ++r) {
+    double* row = rows.row(first + r);
+    for (int i = 0; i < rows.coordinates; ++i) row[i * ConstraintRows::kSide] = 0.0;
+  }
   add_chain(model, frames, axes, joint, joint.journal_joint, j.p, b.R, violation, 1.0, rows);
   add_chain(model, frames, axes, joint, joint.bearing_joint, bearing_point(joint.rows, b, j), b.R, violation, -1.0, rows);
 }
@@ -166,8 +185,8 @@ RPSUP_INLINE void calc_coupling_rows(const TreeModel& model, const double* q, co
     rows.Phi_d[row] = qd[a] - coupling.ratio * qd[b];
     rows.bias[row] = given(a) - coupling.ratio * given(b);
     double* entries = rows.row(static_cast<int>(row));
-    entries[a] = 1.0;
-    entries[b] = -coupling.ratio;
+    entries[a * ConstraintRows::kSide] = 1.0;
+    entries[b * ConstraintRows::kSide] = -coupling.ratio;
   }
 }
 

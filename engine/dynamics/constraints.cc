@@ -24,7 +24,7 @@ Constraints::Constraints(const Mechanism& mechanism)
       Phi(rows_.Phi.data(), rows_.count),
       Phi_d(rows_.Phi_d.data(), rows_.count),
       bias(rows_.bias.data(), rows_.count),
-      Phi_q(rows_.Phi_q.data(), rows_.count, rows_.coordinates) {}
+      Phi_q(rows_.count, rows_.coordinates) {}
 
 void Constraints::calc(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, const std::vector<FrameMotion>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -40,6 +40,8 @@ void Constraints::calc(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, cons
     calc_joint_rows(model_, model_.cut_joints[k], frames_.data(), axes_.data(), b, j, violations_[k], rows_);
   }
   calc_coupling_rows(model_, q.data(), qd.data(), qdd.data(), rows_);
+  for (int r = 0; r < rows_.count; ++r)
+    for (int i = 0; i < rows_.coordinates; ++i) Phi_q(r, i) = rows_.row(r)[i * ConstraintRows::kSide];
 }
 
 JointReaction<double> Constraints::calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const {

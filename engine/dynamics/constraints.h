@@ -37,7 +37,7 @@ class Constraints {
   const Eigen::Map<const Eigen::VectorXd> Phi;    ///< [m] and [1]
   const Eigen::Map<const Eigen::VectorXd> Phi_d;  ///< first derivative by time
   const Eigen::Map<const Eigen::VectorXd> bias;   ///< second derivative without the unknown accelerations
-  const Eigen::Map<const Rows> Phi_q;             ///< count x coordinates
+  Rows Phi_q;                                     ///< count x coordinates
 };
 
 }  // namespace engine

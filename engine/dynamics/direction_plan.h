@@ -7,13 +7,13 @@
 #include "engine/dynamics/varied_equations.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
-#include "engine/math/dual.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Which directions are taken together, as a group: time, then joint by joint its coordinates and their rates, so that in most groups most of the
-/// mechanism stands still, then loads on journals. And where what comes of each of them goes.
+/// Which directions are taken together, as a group: time and the coordinates and rates of one or a few joints, so that in most groups most of the
+/// mechanism stands still; in the last ones loads on journals. And where what comes of each of them goes.
 class DirectionPlan {
  public:
   /// @param most_loads  of any start()

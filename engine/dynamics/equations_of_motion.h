@@ -69,19 +69,21 @@ class EquationsOfMotion {
   }
 
   /// What the constraints lack of the accelerations that they want: lambda <- (Phi_q M^-1 Phi_q^T)^-1 (wanted - Phi_q qdd). After evaluate().
-  /// @param multipliers  in: wanted  @tparam T  a number, or several side by side
+  /// @param multipliers  in: wanted, with room for whole groups of rows  @tparam T  a number, or several side by side
   template <typename T>
   RPSUP_INLINE void find_multipliers(const T* accelerations, T* multipliers, MultiplierMatrix::Scratch<T>& scratch) const {
-    for (int r = 0; r < loops.rows.count; ++r)
-      for (const int i : model_.free) multipliers[r] -= loops.rows.row(r)[i] * accelerations[i];
+    subtract_answers(accelerations, multipliers);
     loops.matrix.solve(multipliers, scratch);
   }
 
   /// tau <- tau + Phi_q^T lambda
   template <typename T>
   RPSUP_INLINE void add_reactions(const T* multipliers, T* tau) const {
-    for (int r = 0; r < loops.rows.count; ++r)
-      for (const int i : model_.free) tau[i] += loops.rows.row(r)[i] * multipliers[r];
+    for (int r = 0; r < loops.rows.count; ++r) {
+      const double* row = loops.rows.row(r);
+      const T multiplier = multipliers[r];
+      for (const int i : model_.free) tau[i] += row[i * ConstraintRows::kSide] * multiplier;
+    }
   }
 
   [[nodiscard]] const Frame<double, double>& ground() const { return ground_; }
@@ -99,7 +101,7 @@ class EquationsOfMotion {
   typename Shapes::template SpringRoom<SpringPull<double>> pulls;  ///< of each spring between two points
   LossPowers<double> losses;
   ArticulatedBodies<Shapes> bodies;
-  std::conditional_t<Shapes::have_rows, LoopEquations, NoLoops> loops;
+  std::conditional_t<Shapes::have_rows, LoopEquations<ArticulatedBodies<Shapes>>, NoLoops> loops;
 
  private:
   /// All frames, root to tip. The joints that stand on driven ones alone move with time only.
@@ -217,34 +219,61 @@ class EquationsOfMotion {
   /// (Phi_q M^-1 Phi_q^T) lambda = -(Phi_q qdd_0 + bias) - 2 alpha Phi_d - beta^2 Phi, with qdd_0 the accelerations without constraints.
   RPSUP_INLINE bool solve_multipliers(const DrivenMotion* drives) {
     calc_rows(drives);
-    auto& [rows, lambda, response, violations, matrix, scratch] = loops;
     if (model_.least_multipliers && is_apart()) return false;
-    const int n = model_.coordinates;
-    matrix.start(rows, model_.free);
-    for (int k = 0; k < matrix.acting_count(); ++k) {
-      const double* row = rows.row(matrix.acting(k));
-      scratch_.forces.fill({});
-      bodies.solve(axes.data(), row, scratch_, response.data() + k * n);
-      for (int l = 0; l <= k; ++l) {
-        double entry = 0.0;
-        for (const int i : model_.free) entry += row[i] * response[static_cast<std::size_t>(l * n + i)];
-        matrix.entry(k, l) = entry;
-      }
-    }
-    if (!matrix.factor()) return false;
+    fill_multiplier_matrix();
+    if (!loops.matrix.factor()) return false;
+    const ConstraintRows& rows = loops.rows;
+    Buffer<double>& lambda = loops.lambda;
     for (std::size_t r = 0; r < lambda.size(); ++r)
       lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
-    find_multipliers(qdd.data(), lambda.data(), scratch);
+    find_multipliers(qdd.data(), lambda.data(), loops.scratch);
     add_reactions(lambda.data(), tau_.data());
     solve();
     for (std::size_t k = 0; k < cuts.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (joint.first_row < 0) continue;
-      const JointReaction<double> reaction = calc_joint_reaction(joint.rows, violations[k], cuts[k].b.R, lambda.data() + joint.first_row);
+      const JointReaction<double> reaction = calc_joint_reaction(joint.rows, loops.violations[k], cuts[k].b.R, lambda.data() + joint.first_row);
       cuts[k].reaction = reaction.force;
       cuts[k].moment = reaction.moment;
     }
     return true;
+  }
+
+  /// Phi_q M^-1 Phi_q^T of the rows that have a part, the columns of a group of rows at once.
+  RPSUP_INLINE void fill_multiplier_matrix() {
+    auto& [rows, lambda, responses, bodies_scratch, violations, matrix, scratch] = loops;
+    matrix.start(rows, model_.free);
+    const int count = matrix.acting_count();
+    for (int first = 0, end = 0; first < count; first = end) {
+      const int group = rows.group_of(matrix.acting(first));
+      while (end < count && rows.group_of(matrix.acting(end)) == group) ++end;
+      bodies_scratch.forces.fill({});
+      bodies.solve_lanes(axes.data(), rows.group(group), bodies_scratch, responses.data());
+      for (int k = first; k < count; ++k) {
+        const double* row = rows.row(matrix.acting(k));
+        Directions entries{};
+        for (const int i : model_.free) entries += row[i * ConstraintRows::kSide] * responses[static_cast<std::size_t>(i)];
+        double numbers[ConstraintRows::kSide];
+        entries.store(numbers);
+        for (int l = first; l < std::min(end, k + 1); ++l) matrix.entry(k, l) = numbers[rows.lane_of(matrix.acting(l))];
+      }
+    }
+  }
+
+  /// multipliers <- multipliers - Phi_q accelerations
+  template <typename T>
+  RPSUP_INLINE void subtract_answers(const T* accelerations, T* multipliers) const {
+    const ConstraintRows& rows = loops.rows;
+    if constexpr (std::is_same_v<T, double>) {
+      for (int g = 0; g < rows.groups(); ++g) {
+        Directions rest = Directions::load(multipliers + g * ConstraintRows::kSide);
+        for (const int i : model_.free) rest -= rows.group(g)[i] * accelerations[i];
+        rest.store(multipliers + g * ConstraintRows::kSide);
+      }
+    } else {
+      for (int r = 0; r < rows.count; ++r)
+        for (const int i : model_.free) multipliers[r] -= rows.row(r)[i * ConstraintRows::kSide] * accelerations[i];
+    }
   }
 
   /// Where rows depend on each other no singular matrix tells that the loops cannot follow: they come apart.
@@ -271,7 +300,7 @@ class EquationsOfMotion {
       rows.Phi[row] = q[d] - drives[k].q;
       rows.Phi_d[row] = qd[d] - drives[k].qd;
       rows.bias[row] = -drives[k].qdd;
-      rows.row(static_cast<int>(row))[d] = 1.0;
+      rows.row(static_cast<int>(row))[model_.drives[k] * ConstraintRows::kSide] = 1.0;
     }
   }
 
@@ -287,7 +316,8 @@ class EquationsOfMotion {
       double force = bodies.calc_drive_force(joint, i, axes[i], scratch_);
       if (joint.sprung) force += joint.numbers().stiffness[0] * q[d] + joint.numbers().damping[0] * qd[d];
       if constexpr (Shapes::have_rows)
-        for (int r = 0; r < loops.rows.count; ++r) force -= loops.rows.row(r)[d] * loops.lambda[static_cast<std::size_t>(r)];
+        for (int r = 0; r < loops.rows.count; ++r)
+          force -= loops.rows.row(r)[joint.first * ConstraintRows::kSide] * loops.lambda[static_cast<std::size_t>(r)];
       drive_force[static_cast<std::size_t>(joint.drive)] = force;
     });
   }

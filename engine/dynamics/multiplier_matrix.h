@@ -77,7 +77,7 @@ class MultiplierMatrix {
     acting_count_ = 0;
     for (int r = 0; r < count_; ++r) {
       double largest = 0.0;
-      for (const int i : free) largest = std::max(largest, std::abs(rows.row(r)[i]));
+      for (const int i : free) largest = std::max(largest, std::abs(rows.row(r)[i * ConstraintRows::kSide]));
       if (largest > kIdle) acting_[room(acting_count_++)] = r;
     }
   }

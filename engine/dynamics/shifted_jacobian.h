@@ -10,26 +10,26 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Numbers of a matrix that are taken at once. However many: what is computed with each of them is the same.
-using Wide = LaneBlock<kWidestPart < StateJacobian::kBlock ? kWidestPart : StateJacobian::kBlock>;
+/// Rows of a matrix that are taken at once. However many: what is computed with each of them is the same.
+using RowLanes = LaneBlock<kWidestPart < StateJacobian::kBlock ? kWidestPart : StateJacobian::kBlock>;
 
 /// Where a vector of numbers stands: complex ones as two, so that several of them stand side by side.
 template <typename Scalar>
 struct NumbersAt;
 template <>
 struct NumbersAt<double> {
-  using WideScalar = Wide;
+  using WideScalar = RowLanes;
   double* at;
 
   [[nodiscard]] RPSUP_INLINE double operator[](int i) const { return at[i]; }
   RPSUP_INLINE void set(int i, double value) const { at[i] = value; }
-  [[nodiscard]] RPSUP_INLINE Wide load(int i) const { return Wide::load(at + i); }
-  RPSUP_INLINE void store(int i, const Wide& values) const { values.store(at + i); }
+  [[nodiscard]] RPSUP_INLINE RowLanes load(int i) const { return RowLanes::load(at + i); }
+  RPSUP_INLINE void store(int i, const RowLanes& values) const { values.store(at + i); }
   [[nodiscard]] RPSUP_INLINE NumbersAt from(int i) const { return {at + i}; }
 };
 template <>
 struct NumbersAt<Complex<double>> {
-  using WideScalar = Complex<Wide>;
+  using WideScalar = Complex<RowLanes>;
   double *real, *imag;
 
   [[nodiscard]] RPSUP_INLINE Complex<double> operator[](int i) const { return {real[i], imag[i]}; }
@@ -37,8 +37,8 @@ struct NumbersAt<Complex<double>> {
     real[i] = value.real;
     imag[i] = value.imag;
   }
-  [[nodiscard]] RPSUP_INLINE Complex<Wide> load(int i) const { return {Wide::load(real + i), Wide::load(imag + i)}; }
-  RPSUP_INLINE void store(int i, const Complex<Wide>& values) const {
+  [[nodiscard]] RPSUP_INLINE Complex<RowLanes> load(int i) const { return {RowLanes::load(real + i), RowLanes::load(imag + i)}; }
+  RPSUP_INLINE void store(int i, const Complex<RowLanes>& values) const {
     values.real.store(real + i);
     values.imag.store(imag + i);
   }
@@ -82,9 +82,9 @@ class NumberRows {
 /// a = (by_q, by_v, by_z) y for the accelerations, the same for the bristles' rates and those of work and loss, K = by_v + by_q / shift,
 /// and x = (q, v, z, w) as given:
 ///
-///     own_z = shift 1 - by_z of the bristles' rates,   response = own_z^-1 K_z,   R = K + by_z response
+///     own_z = shift 1 - by_z of the bristles' rates,   response = own_z^-1 K_z,   condensed = K + by_z response
 ///     known_z = own_z^-1 (z + by_q q / shift),   known = (v, w) + by_q q / shift + by_z known_z
-///     (shift 1 - R_v) v = known_v,   q = (q + v) / shift,   z = known_z + response v,   w = (known_w + R_w v) / shift
+///     (shift 1 - condensed_v) v = known_v,   q = (q + v) / shift,   z = known_z + response v,   w = (known_w + condensed_w v) / shift
 ///
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>
@@ -113,7 +113,7 @@ class ShiftedJacobian {
   template <typename Sizes>
   void solve_sized(const Sizes& size, NumbersAt<Scalar> state);
   template <typename Sizes>
-  void start_bristles(const Sizes& size, NumbersAt<Scalar> z, NumbersAt<Scalar> q);
+  void start_bristles(const Sizes& size, NumbersAt<Scalar> z, NumbersAt<Scalar> scaled_q);
   template <typename Sizes>
   void solve_reduced(const Sizes& size, NumbersAt<Scalar> known, NumbersAt<Scalar> v);
   template <typename Sizes>
@@ -125,11 +125,11 @@ class ShiftedJacobian {
   NumberRows<Scalar> response_;      ///< of each pair's first bristle to a free rate, of its second, ...
   NumberRows<Scalar> lower_;         ///< of the reduced matrix, a row for each column; at first all of it
   NumberRows<Scalar> upper_;         ///< the same, each over its pivot
-  NumberRows<Scalar> R_w_;           ///< the same for the works
+  NumberRows<Scalar> condensed_w_;   ///< a row for each column
   NumberRows<Scalar> inverse_pivot_;
   Buffer<int> order_;                ///< of the rows, as pivoting has exchanged them
   NumberRows<Scalar> bristle_;       ///< first bristles, second ones
-  NumberRows<Scalar> q_, v_, known_;
+  NumberRows<Scalar> scaled_q_, v_, known_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

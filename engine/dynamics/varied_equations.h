@@ -18,7 +18,7 @@ using VariedNumber = DualOf<Directions::kCount>;
 struct LoadDirection {
   std::size_t joint;   ///< of those with clearance
   const double* load;  ///< force, and moment about the journal's centre, in {b}
-  double* effect;      ///< column of the outputs' derivatives by it
+  double* effect;      ///< where the column of the outputs' derivatives by it goes
   Directions lanes;    ///< one where it acts
 };
 
@@ -311,7 +311,7 @@ class VariedEquations {
   }
 
   RPSUP_INLINE void solve() {
-    solved_.bodies.solve(solved_.axes.data(), tau_.data(), scratch_, qdd.data());
+    solved_.bodies.solve_lanes(solved_.axes.data(), tau_.data(), scratch_, qdd.data());
   }
 
   RPSUP_INLINE void vary_multipliers(const Directions& time, const DrivenMotion* drives) {
@@ -356,7 +356,8 @@ class VariedEquations {
       const TreeJoint& numbers = joint.numbers();
       if (joint.sprung) force += numbers.stiffness[0] * coordinates_[d].q + numbers.damping[0] * coordinates_[d].qd;
       if constexpr (Shapes::have_rows)
-        for (int r = 0; r < solved_.loops.rows.count; ++r) force -= solved_.loops.rows.row(r)[d] * lambda_[static_cast<std::size_t>(r)];
+        for (int r = 0; r < solved_.loops.rows.count; ++r)
+          force -= solved_.loops.rows.row(r)[joint.first * ConstraintRows::kSide] * lambda_[static_cast<std::size_t>(r)];
       drive_force[static_cast<std::size_t>(joint.drive)] = force;
     });
   }

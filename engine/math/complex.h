@@ -37,10 +37,6 @@ template <int count, typename B>
   return {a * b.real, a * b.imag};
 }
 template <typename T>
-[[nodiscard]] RPSUP_INLINE Complex<T> operator*(double a, const Complex<T>& b) {
-  return {a * b.real, a * b.imag};
-}
-template <typename T>
 [[nodiscard]] RPSUP_INLINE Complex<T> operator/(double a, const Complex<T>& b) {
   const T factor = a / (b.real * b.real + b.imag * b.imag);
   return {factor * b.real, -(factor * b.imag)};
@@ -48,10 +44,6 @@ template <typename T>
 template <typename T>
 RPSUP_INLINE Complex<T>& operator+=(Complex<T>& a, const Complex<T>& b) {
   return a = a + b;
-}
-template <typename T>
-RPSUP_INLINE Complex<T>& operator-=(Complex<T>& a, const Complex<T>& b) {
-  return a = a - b;
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET
