@@ -7,6 +7,7 @@
 
 #include "jobs/executor.h"
 #include "jobs/parameter_path.h"
+#include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
 
@@ -109,9 +110,20 @@ class Parser {
   void read_parameters() {
     if (!request_.contains("parameters")) return;
     sweep_.parameters = request_.at("parameters");
-    const auto found = find_value_faults(sweep_.parameters);
-    for (const Fault& each : found) fault("/parameters" + each.pointer, each.detail);
-    if (!found.empty()) sweep_.parameters = json::object();  // what follows may rely on them
+    if (!check_values(sweep_.parameters, "/parameters")) sweep_.parameters = json::object();  // what follows may rely on them
+  }
+
+  /// Faults of the parameters at a pointer. Who gives one of them several values is told where those stand.
+  /// @returns true if there are none
+  bool check_values(const json& given, const std::string& pointer) {
+    const std::vector<Fault> found = find_value_faults(given);
+    for (const Fault& each : found) {
+      const bool several = std::ranges::any_of(parameter_table(), [&](const ParameterInfo& info) {
+        return each.pointer == pointer_token(info.key) && given.at(info.key).is_structured();
+      });
+      fault(pointer + each.pointer, each.detail + (several ? "; several values stand under \"sweep\"" : ""));
+    }
+    return found.empty();
   }
 
   void check_cases_shape() {
@@ -152,7 +164,7 @@ class Parser {
     for (std::size_t i = 0; i < request_.at("cases").size(); ++i) {
       json given = request_.at("cases")[i];
       const std::string pointer = "/cases" + pointer_token(std::to_string(i));
-      for (const Fault& found : find_value_faults(given)) fault(pointer + found.pointer, found.detail);
+      check_values(given, pointer);
       if (!seen.insert(given.dump()).second) fault(pointer, "is in the list already");
       sweep_.cases.push_back(std::move(given));
     }
