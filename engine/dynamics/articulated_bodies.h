@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "engine/dynamics/body_force.h"
 #include "engine/dynamics/rod_motion.h"
 #include "engine/dynamics/shapes.h"
@@ -16,6 +18,18 @@ inline namespace RPSUP_INSTRUCTION_SET {
 template <typename T>
 struct SpatialAcceleration {
   Vec3<T> angular, linear;
+};
+
+/// In the place of generalised forces: there are none.
+template <typename T>
+struct NoForces {
+  [[nodiscard]] RPSUP_INLINE NoForces operator+(int) const { return {}; }
+  [[nodiscard]] RPSUP_INLINE T operator[](int) const { return T{}; }
+};
+/// In the place of the coordinates' accelerations: nobody asks for them.
+template <typename T>
+struct NotWanted {
+  [[nodiscard]] RPSUP_INLINE NotWanted operator+(int) const { return {}; }
 };
 
 /// The equations of motion of the open chains solved body by body, in a time that grows with their number: M qdd = tau - bias without M.
@@ -62,12 +76,12 @@ class ArticulatedBodies {
   };
 
   /// Solves for the free coordinates' accelerations with the matrices of factor().
-  /// @param tau  generalised force on each coordinate
-  /// @param qdd  one a coordinate; only free ones are written
+  /// @param tau  generalised force on each coordinate, or NoForces
+  /// @param qdd  one a coordinate, of which free ones are written; or NotWanted
   /// @param rods  one a joint: motion of rods whose angular acceleration is counted from zero, and whose forces lack the moments x x lever; null:
   ///              their accelerations, too, add to those of their frames, and their forces are whole
-  template <typename T>
-  RPSUP_INLINE void solve(const JointAxes* axes, const T* tau, Scratch<T>& scratch, T* qdd, const RodMotion* rods = nullptr) const {
+  template <typename T, typename Tau, typename Qdd>
+  RPSUP_INLINE void solve(const JointAxes* axes, const Tau& tau, Scratch<T>& scratch, const Qdd& qdd, const RodMotion* rods = nullptr) const {
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       SpatialForce<T>& force = scratch.forces[i];
       if (joint.is_rod) {
@@ -97,6 +111,10 @@ class ArticulatedBodies {
   /// The same in several directions at once. Much code, which several call: not inlined into each of them.
   [[gnu::noinline]] void solve_lanes(const JointAxes* axes, const Directions* tau, Scratch<Directions>& scratch, Directions* qdd) const {
     solve(axes, tau, scratch, qdd);
+  }
+  /// The bodies' accelerations alone, by forces on bodies alone.
+  [[gnu::noinline]] void solve_bodies_lanes(const JointAxes* axes, Scratch<Directions>& scratch) const {
+    solve(axes, NoForces<Directions>(), scratch, NotWanted<Directions>());
   }
 
   /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.
@@ -307,8 +325,8 @@ class ArticulatedBodies {
   }
 
   /// @param lever  the force needed has the moment x x lever beside its own
-  template <typename T>
-  RPSUP_INLINE void transmit_rod(const JointAxes& axes, const RodAnswer& rod, const T* tau, const Vec3<T>& lever, Vec3<T>& own,
+  template <typename T, typename Tau>
+  RPSUP_INLINE void transmit_rod(const JointAxes& axes, const RodAnswer& rod, const Tau& tau, const Vec3<T>& lever, Vec3<T>& own,
                                  SpatialForce<T>& force) const {
     const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
     Vec3<T> n = transpose_times(rod.R, moment - force.moment);
@@ -320,8 +338,8 @@ class ArticulatedBodies {
   }
 
   /// The force and moment that a joint passes on before its parent accelerates.
-  template <typename Joint, typename T>
-  RPSUP_INLINE void transmit(const Joint& joint, const JointAxes& axes, const Eliminated& e, const T* tau, Vec3<T>& own,
+  template <typename Joint, typename T, typename Tau>
+  RPSUP_INLINE void transmit(const Joint& joint, const JointAxes& axes, const Eliminated& e, const Tau& tau, Vec3<T>& own,
                              SpatialForce<T>& force) const {
     if (joint.kind == JointShape::Kind::kSpherical) {
       const Vec3<T> moment = tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
@@ -336,8 +354,9 @@ class ArticulatedBodies {
   }
 
   /// A joint's acceleration, after its parent's.
-  template <typename Joint, typename T>
-  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes& axes, Scratch<T>& scratch, T* qdd, const RodMotion* rods) const {
+  template <typename Joint, typename T, typename Qdd>
+  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes& axes, Scratch<T>& scratch, const Qdd& qdd, const RodMotion* rods) const {
+    constexpr bool wanted = !std::is_same_v<Qdd, NotWanted<T>>;
     const Eliminated& e = eliminated_[k];
     SpatialAcceleration<T> own;
     if (joint.parent_moves) {
@@ -355,17 +374,7 @@ class ArticulatedBodies {
       } else if (joint.parent_moves) {
         alpha -= e.J_inverse * transpose_times(e.C, own.linear);
       }
-      Vec3<T> relative = alpha - own.angular;
-      const bool from_zero = rods && joint.is_rod;
-      if (from_zero) relative = relative - rods[k].wd_carried;
-      qdd[0] = dot(axes.dual.x, relative);
-      qdd[1] = dot(axes.dual.y, relative);
-      qdd[2] = dot(axes.dual.z, relative);
-      if (from_zero) {
-        qdd[0] = rods[k].qdd_turning[0] + qdd[0];
-        qdd[1] = rods[k].qdd_turning[1] + qdd[1];
-        qdd[2] = rods[k].qdd_turning[2] + qdd[2];
-      }
+      if constexpr (wanted) find_rotations(axes, alpha - own.angular, rods && joint.is_rod ? &rods[k] : nullptr, qdd);
       own.angular = alpha;
     } else if (!joint.driven) {
       T acceleration = scratch.own[k].x;
@@ -373,13 +382,26 @@ class ArticulatedBodies {
         acceleration -= e.D_inverse * dot(e.U_a, own.linear);
         if (joint.parent_answers_turning) acceleration -= e.D_inverse * dot(e.U_alpha, own.angular);
       }
-      qdd[0] = acceleration;
+      if constexpr (wanted) qdd[0] = acceleration;
       if (joint.rotates())
         own.angular += acceleration * axes.axis[0];
       else
         own.linear += acceleration * axes.axis[0];
     }
-    if (joint.carries_moving || joint.driven) scratch.accelerations[k] = own;
+    if (joint.carries_moving || joint.driven || Shapes::have_rows) scratch.accelerations[k] = own;
+  }
+
+  /// Accelerations of a spherical joint's coordinates. @param rod  its motion if its angular acceleration is counted from zero, else null
+  template <typename T, typename Qdd>
+  RPSUP_INLINE static void find_rotations(const JointAxes& axes, Vec3<T> relative, const RodMotion* rod, const Qdd& qdd) {
+    if (rod) relative = relative - rod->wd_carried;
+    qdd[0] = dot(axes.dual.x, relative);
+    qdd[1] = dot(axes.dual.y, relative);
+    qdd[2] = dot(axes.dual.z, relative);
+    if (!rod) return;
+    qdd[0] = rod->qdd_turning[0] + qdd[0];
+    qdd[1] = rod->qdd_turning[1] + qdd[1];
+    qdd[2] = rod->qdd_turning[2] + qdd[2];
   }
 
   const TreeModel& model_;

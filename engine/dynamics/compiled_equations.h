@@ -34,7 +34,7 @@ class CompiledEquations final : public Equations {
   }
 
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
-    if constexpr (Shapes::on_stack) {
+    if constexpr (Shapes::known) {
       EquationsOfMotion<Shapes> at(model_, joints_);
       at.bristle_rates = dydt + 2 * free_;
       return evaluate(y, drives, at, dydt);
@@ -44,7 +44,7 @@ class CompiledEquations final : public Equations {
   }
 
   EvaluationStatus evaluate_and_keep(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
-    kept_.drives_moved = Shapes::on_stack || drives_moved;
+    kept_.drives_moved = Shapes::known || drives_moved;
     kept_.bristle_rates = bristle_rates_.data();
     const EvaluationStatus status = evaluate(y, drives, kept_, dydt);
     kept_.bristles = nullptr;
@@ -109,7 +109,7 @@ class CompiledEquations final : public Equations {
       });
     });
     double* next = dydt + 2 * free_ + bristles_;
-    if constexpr (Shapes::have_rows) {
+    if constexpr (!Shapes::known) {
       for (std::size_t k = 0; k < at.drive_force.size(); ++k) next[k] = at.drive_force[k] * at.qd[static_cast<std::size_t>(model_.drives[k])];
     } else {
       Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {

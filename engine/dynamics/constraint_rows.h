@@ -3,7 +3,6 @@
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
-#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -15,37 +14,36 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///     q_a - ratio q_b = 0,    q_d - q_d(t) = 0
 ///
 /// The multipliers are the forces that the rows exert: of an ideal joint on its journal (in W), of a drive on its coordinate.
+///
+/// Shapes: the tree's joints, AnyShapes or known ones.
+template <typename Shapes>
 struct ConstraintRows {
-  explicit ConstraintRows(const TreeModel& model)
-      : count(model.rows),
-        coordinates(model.coordinates),
-        Phi(static_cast<std::size_t>(count)),
-        Phi_d(static_cast<std::size_t>(count)),
-        bias(static_cast<std::size_t>(count)),
-        Phi_q(static_cast<std::size_t>(groups() * coordinates)) {}
+  RPSUP_INLINE explicit ConstraintRows(const TreeModel& model)
+      : Phi(static_cast<std::size_t>(model.rows)), Phi_d(Phi.size()), bias(Phi.size()) {}
 
-  /// Rows stand side by side in groups of so many.
-  static constexpr int kSide = Directions::kCount;
-  [[nodiscard]] RPSUP_INLINE int groups() const { return (count + kSide - 1) / kSide; }
+  typename Shapes::template RowRoom<double> Phi;    ///< [m] and [1]
+  typename Shapes::template RowRoom<double> Phi_d;  ///< first derivative by time
+  typename Shapes::template RowRoom<double> bias;   ///< second derivative without the unknown accelerations
+};
 
-  /// A row of Phi_q: of coordinate i the entry [i * kSide].
-  [[nodiscard]] RPSUP_INLINE double* row(int r) { return reinterpret_cast<double*>(Phi_q.data() + first_of_group(r)) + lane_of(r); }
-  [[nodiscard]] RPSUP_INLINE const double* row(int r) const {
-    return reinterpret_cast<const double*>(Phi_q.data() + first_of_group(r)) + lane_of(r);
+/// Phi_q, row after row, one entry a coordinate. Those of couplings and drives never change.
+struct ConstraintEntries {
+  explicit ConstraintEntries(const TreeModel& model)
+      : count(model.rows), coordinates(model.coordinates), Phi_q(static_cast<std::size_t>(count * coordinates)) {
+    for (std::size_t k = 0; k < model.couplings.size(); ++k) {
+      double* entries = row(model.first_coupling_row + static_cast<int>(k));
+      entries[model.couplings[k].coordinate] = 1.0;
+      entries[model.couplings[k].follows] = -model.couplings[k].ratio;
+    }
+    if (!model.drive_rows) return;
+    for (std::size_t k = 0; k < model.drives.size(); ++k) row(model.first_drive_row + static_cast<int>(k))[model.drives[k]] = 1.0;
   }
-  /// All rows of a group.
-  [[nodiscard]] RPSUP_INLINE const Directions* group(int g) const { return Phi_q.data() + g * coordinates; }
-  [[nodiscard]] RPSUP_INLINE static int group_of(int r) { return static_cast<int>(static_cast<unsigned>(r) / kSide); }
-  [[nodiscard]] RPSUP_INLINE static int lane_of(int r) { return static_cast<int>(static_cast<unsigned>(r) % kSide); }
+
+  [[nodiscard]] RPSUP_INLINE double* row(int r) { return Phi_q.data() + r * coordinates; }
+  [[nodiscard]] RPSUP_INLINE const double* row(int r) const { return Phi_q.data() + r * coordinates; }
 
   int count, coordinates;
-  Buffer<double> Phi;    ///< [m] and [1]
-  Buffer<double> Phi_d;  ///< first derivative by time
-  Buffer<double> bias;   ///< second derivative without the unknown accelerations
-  Buffer<Directions> Phi_q;  ///< group after group, one entry a coordinate
-
- private:
-  [[nodiscard]] RPSUP_INLINE int first_of_group(int r) const { return group_of(r) * coordinates; }
+  Buffer<double> Phi_q;
 };
 
 /// What an ideal joint's rows come to.
@@ -98,16 +96,16 @@ template <typename P, typename V>
 }
 
 /// Force on the journal, and moment about the point where it acts, of an ideal joint's multipliers.
-template <typename P>
+template <typename T>
 struct JointReaction {
-  Vec3<P> force, moment;
+  Vec3<T> force, moment;
 };
 
-/// @param R_b  of the bearing
-template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE JointReaction<P> calc_joint_reaction(const CutRows& rows, const JointViolation<P, V>& violation, const Mat3<P>& R_b,
-                                                                const double* multipliers) {
-  JointReaction<P> reaction;
+/// @param R_b  of the bearing  @tparam T  a number, or several side by side
+template <typename P, typename V, typename T>
+[[nodiscard]] RPSUP_INLINE auto calc_joint_reaction(const CutRows& rows, const JointViolation<P, V>& violation, const Mat3<P>& R_b,
+                                                    const T* multipliers) {
+  JointReaction<decltype(multipliers[0] * R_b.x.x)> reaction;
   if (rows.positions == 3) {
     reaction.force.x += multipliers[0];
     reaction.force.y += multipliers[1];
@@ -117,6 +115,22 @@ template <typename P, typename V>
   }
   for (int k = 0; k < rows.axes; ++k) reaction.moment += multipliers[rows.positions + k] * violation.turn[k];
   return reaction;
+}
+
+/// The other way round: what a joint's rows make of accelerations is taken from `rest`.
+/// @param angular, linear  of the journal and the points where the reaction acts, against the bearing's
+template <typename T>
+RPSUP_INLINE void subtract_joint_answer(const CutRows& rows, const JointViolation<double, double>& violation, const Mat3<double>& R_b,
+                                        const Vec3<T>& angular, const Vec3<T>& linear, T* rest) {
+  if (rows.positions == 3) {
+    rest[0] -= linear.x;
+    rest[1] -= linear.y;
+    rest[2] -= linear.z;
+  } else {
+    rest[0] -= dot(R_b.x, linear);
+    rest[1] -= dot(R_b.y, linear);
+  }
+  for (int k = 0; k < rows.axes; ++k) rest[rows.positions + k] -= dot(violation.turn[k], angular);
 }
 
 /// Where the force on the bearing acts: at its own centre, or where the journal has slid to.
@@ -129,9 +143,9 @@ template <typename P, typename V>
 /// bearing's.
 RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>* frames, const JointAxes* axes, const TreeCutJoint& joint, int last,
                             const Vec3<double>& p, const Mat3<double>& R_b, const JointViolation<double, double>& violation, double sign,
-                            ConstraintRows& rows) {
+                            ConstraintEntries& entries) {
   double* row[6];
-  for (int k = 0; k < joint.rows.count(); ++k) row[k] = rows.row(joint.first_row + k);
+  for (int k = 0; k < joint.rows.count(); ++k) row[k] = entries.row(joint.first_row + k);
   for (int i = last; i >= 0; i = model.joints[static_cast<std::size_t>(i)].parent) {
     const TreeJoint& carrier = model.joints[static_cast<std::size_t>(i)];
     const bool rotates = carrier.rotates();
@@ -139,7 +153,7 @@ RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>*
     for (int k = 0; k < carrier.count(); ++k) {
       const Vec3<double> axis = sign * axes[i].axis[k];
       const Vec3<double> v = rotates ? cross(axis, arm) : axis;
-      const int at = (carrier.first + k) * ConstraintRows::kSide;
+      const int at = carrier.first + k;
       if (joint.rows.positions == 3) {
         row[0][at] += v.x;
         row[1][at] += v.y;
@@ -154,39 +168,44 @@ RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>*
   }
 }
 
-/// @param b, j  bearing and journal  @param violation  of the joint
-RPSUP_INLINE void calc_joint_rows(const TreeModel& model, const TreeCutJoint& joint, const Frame<double, double>* frames, const JointAxes* axes,
-                                  const Frame<double, double>& b, const Frame<double, double>& j,
-                                  const JointViolation<double, double>& violation, ConstraintRows& rows) {
-  const int first = joint.first_row;
-  const int count = joint.rows.count();
-  for (int r = 0; r < count; ++r) {
+/// @param violation  of the joint
+template <typename Shapes>
+RPSUP_INLINE void set_joint_rows(const CutRows& of, int first, const JointViolation<double, double>& violation, ConstraintRows<Shapes>& rows) {
+  for (int r = 0; r < of.count(); ++r) {
     const auto row = static_cast<std::size_t>(first + r);
     rows.Phi[row] = violation.Phi[r];
     rows.Phi_d[row] = violation.Phi_d[r];
     rows.bias[row] = violation.Phi_dd[r];
   }
-  for (int r = 0; r < count; ++r) {
-    double* row = rows.row(first + r);
-    for (int i = 0; i < rows.coordinates; ++i) row[i * ConstraintRows::kSide] = 0.0;
+}
+
+/// @param b, j  bearing and journal  @param violation  of the joint
+RPSUP_INLINE void calc_joint_entries(const TreeModel& model, const TreeCutJoint& joint, const Frame<double, double>* frames, const JointAxes* axes,
+                                     const Frame<double, double>& b, const Frame<double, double>& j,
+                                     const JointViolation<double, double>& violation, ConstraintEntries& entries) {
+  for (int r = 0; r < joint.rows.count(); ++r) {
+    double* row = entries.row(joint.first_row + r);
+    for (int i = 0; i < entries.coordinates; ++i) row[i] = 0.0;
   }
-  add_chain(model, frames, axes, joint, joint.journal_joint, j.p, b.R, violation, 1.0, rows);
-  add_chain(model, frames, axes, joint, joint.bearing_joint, bearing_point(joint.rows, b, j), b.R, violation, -1.0, rows);
+  add_chain(model, frames, axes, joint, joint.journal_joint, j.p, b.R, violation, 1.0, entries);
+  add_chain(model, frames, axes, joint, joint.bearing_joint, bearing_point(joint.rows, b, j), b.R, violation, -1.0, entries);
+}
+
+/// What a coupling's row is of the coordinates, and its derivatives by time of theirs.
+[[nodiscard]] RPSUP_INLINE double calc_coupling_row(const Coupling& coupling, const double* q) {
+  return q[coupling.coordinate] - coupling.ratio * q[coupling.follows];
 }
 
 /// @param q, qd, qdd  one entry a coordinate; qdd of driven ones only
-RPSUP_INLINE void calc_coupling_rows(const TreeModel& model, const double* q, const double* qd, const double* qdd, ConstraintRows& rows) {
+template <typename Shapes>
+RPSUP_INLINE void calc_coupling_rows(const TreeModel& model, const double* q, const double* qd, const double* qdd, ConstraintRows<Shapes>& rows) {
   const auto given = [&](int coordinate) RPSUP_INLINE_LAMBDA { return model.is_eliminated(coordinate) ? qdd[coordinate] : 0.0; };
   for (std::size_t k = 0; k < model.couplings.size(); ++k) {
     const Coupling& coupling = model.couplings[k];
     const std::size_t row = static_cast<std::size_t>(model.first_coupling_row) + k;
-    const int a = coupling.coordinate, b = coupling.follows;
-    rows.Phi[row] = q[a] - coupling.ratio * q[b];
-    rows.Phi_d[row] = qd[a] - coupling.ratio * qd[b];
-    rows.bias[row] = given(a) - coupling.ratio * given(b);
-    double* entries = rows.row(static_cast<int>(row));
-    entries[a * ConstraintRows::kSide] = 1.0;
-    entries[b * ConstraintRows::kSide] = -coupling.ratio;
+    rows.Phi[row] = calc_coupling_row(coupling, q);
+    rows.Phi_d[row] = calc_coupling_row(coupling, qd);
+    rows.bias[row] = given(coupling.coordinate) - coupling.ratio * given(coupling.follows);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "engine/dynamics/constraint_rows.h"
+#include "engine/dynamics/shapes.h"
 #include "engine/kinematics/frame_motion.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/model/mechanism.h"
@@ -21,23 +22,31 @@ class Constraints {
   Buffer<Frame<double, double>> frames_;
   Buffer<JointAxes> axes_;
   Buffer<JointViolation<double, double>> violations_;  ///< one a cut joint
-  ConstraintRows rows_;
+  ConstraintRows<AnyShapes> rows_;
+  ConstraintEntries entries_;
+
+  /// Ideal cut joints with their bearings and journals: visit(index, joint, b, j).
+  template <typename Visit>
+  void each_joint(const std::vector<FrameMotion>& frames, const Visit& visit) const;
 
  public:
   explicit Constraints(const Mechanism& mechanism);
 
   [[nodiscard]] Eigen::Index count() const { return Phi.size(); }
 
-  /// Computes all rows from the coordinates and the frames' motions. Bias is Phi's second derivative with the accelerations given.
-  void calc(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, const std::vector<FrameMotion>& frames);
+  /// Computes Phi and Phi_q from the coordinates and the frames' poses.
+  void calc_positions(const Eigen::VectorXd& q, const std::vector<FrameMotion>& frames);
 
-  /// After calc(): what these multipliers are on the journal of an ideal cut joint
+  /// Computes all but Phi_q from the frames' motions. Bias is Phi's second derivative with the accelerations given.
+  void calc_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, const std::vector<FrameMotion>& frames);
+
+  /// After calc_rates(): what these multipliers are on the journal of an ideal cut joint
   [[nodiscard]] JointReaction<double> calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const;
 
   const Eigen::Map<const Eigen::VectorXd> Phi;    ///< [m] and [1]
   const Eigen::Map<const Eigen::VectorXd> Phi_d;  ///< first derivative by time
   const Eigen::Map<const Eigen::VectorXd> bias;   ///< second derivative without the unknown accelerations
-  Rows Phi_q;                                     ///< count x coordinates
+  const Eigen::Map<const Rows> Phi_q;             ///< count x coordinates
 };
 
 }  // namespace engine

@@ -21,7 +21,6 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// Shapes: the tree's joints, AnyShapes or known ones.
 template <typename Shapes>
 class EquationsOfMotion {
-  static_assert(!Shapes::rods_from_zero || !(Shapes::have_rows || Shapes::have_springs), "they would take wd and vd of frames for those of rods");
   template <typename T>
   using JointRoom = typename Shapes::template JointRoom<T>;
   template <typename T>
@@ -30,6 +29,8 @@ class EquationsOfMotion {
   using DriveRoom = typename Shapes::template DriveRoom<T>;
 
  public:
+  using Loops = std::conditional_t<Shapes::have_rows, LoopEquations<Shapes>, NoLoops>;
+
   RPSUP_INLINE EquationsOfMotion(const TreeModel& model, const std::vector<ClearanceJoint>& joints)
       : q(static_cast<std::size_t>(model.coordinates), in_sine_blocks(static_cast<std::size_t>(model.coordinates))),
         qd(q.size()),
@@ -45,6 +46,7 @@ class EquationsOfMotion {
         joints_(joints),
         ground_(make_ground(model)),
         scratch_(model),
+        multiplier_scratch_(model),
         tau_(q.size()),
         sines_(in_sine_blocks(q.size())),
         cosines_(in_sine_blocks(q.size())),
@@ -68,24 +70,6 @@ class EquationsOfMotion {
     return is_finite() ? EvaluationStatus::kOk : EvaluationStatus::kNonFinite;
   }
 
-  /// What the constraints lack of the accelerations that they want: lambda <- (Phi_q M^-1 Phi_q^T)^-1 (wanted - Phi_q qdd). After evaluate().
-  /// @param multipliers  in: wanted, with room for whole groups of rows  @tparam T  a number, or several side by side
-  template <typename T>
-  RPSUP_INLINE void find_multipliers(const T* accelerations, T* multipliers, MultiplierMatrix::Scratch<T>& scratch) const {
-    subtract_answers(accelerations, multipliers);
-    loops.matrix.solve(multipliers, scratch);
-  }
-
-  /// tau <- tau + Phi_q^T lambda
-  template <typename T>
-  RPSUP_INLINE void add_reactions(const T* multipliers, T* tau) const {
-    for (int r = 0; r < loops.rows.count; ++r) {
-      const double* row = loops.rows.row(r);
-      const T multiplier = multipliers[r];
-      for (const int i : model_.free) tau[i] += row[i * ConstraintRows::kSide] * multiplier;
-    }
-  }
-
   [[nodiscard]] const Frame<double, double>& ground() const { return ground_; }
 
   // In
@@ -101,7 +85,7 @@ class EquationsOfMotion {
   typename Shapes::template SpringRoom<SpringPull<double>> pulls;  ///< of each spring between two points
   LossPowers<double> losses;
   ArticulatedBodies<Shapes> bodies;
-  std::conditional_t<Shapes::have_rows, LoopEquations<ArticulatedBodies<Shapes>>, NoLoops> loops;
+  Loops loops;
 
  private:
   /// All frames, root to tip. The joints that stand on driven ones alone move with time only.
@@ -126,7 +110,7 @@ class EquationsOfMotion {
       const auto first = static_cast<std::size_t>(joint.first);
       const std::size_t place = Shapes::sine_place(joint);
       Frame<double, double> f = joint.parent < 0 ? ground_ : frames[static_cast<std::size_t>(joint.parent)];
-      if (Shapes::rods_from_zero && joint.is_rod) {
+      if (Shapes::known && joint.is_rod) {
         const RodMotion* parent = joint.parent_is_rod ? &rods_[static_cast<std::size_t>(joint.parent)] : nullptr;
         calc_rod_frame(joint, parent, &sines[place], &cosines[place], &qd[first], f, axes[i], rods_[i]);
         given_[i] = calc_rod_force(joint, f, rods_[i]);
@@ -212,68 +196,37 @@ class EquationsOfMotion {
   }
 
   RPSUP_INLINE void solve() {
+    start_forces();
+    finish_forces();
+  }
+  RPSUP_INLINE void start_forces() {
     Shapes::outwards(model_, [&](std::size_t i, const auto&) RPSUP_INLINE_LAMBDA { scratch_.forces[i] = needed_[i]; });
-    bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data(), Shapes::rods_from_zero ? rods_.data() : nullptr);
+  }
+  RPSUP_INLINE void finish_forces() {
+    bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data(), Shapes::known ? rods_.data() : nullptr);
   }
 
   /// (Phi_q M^-1 Phi_q^T) lambda = -(Phi_q qdd_0 + bias) - 2 alpha Phi_d - beta^2 Phi, with qdd_0 the accelerations without constraints.
   RPSUP_INLINE bool solve_multipliers(const DrivenMotion* drives) {
     calc_rows(drives);
     if (model_.least_multipliers && is_apart()) return false;
-    fill_multiplier_matrix();
-    if (!loops.matrix.factor()) return false;
-    const ConstraintRows& rows = loops.rows;
-    Buffer<double>& lambda = loops.lambda;
+    if (!loops.factor(bodies, axes.data())) return false;
+    const auto& rows = loops.rows;
+    auto& lambda = loops.lambda;
     for (std::size_t r = 0; r < lambda.size(); ++r)
       lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
-    find_multipliers(qdd.data(), lambda.data(), loops.scratch);
-    add_reactions(lambda.data(), tau_.data());
-    solve();
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
-      const TreeCutJoint& joint = model_.cut_joints[k];
-      if (joint.first_row < 0) continue;
-      const JointReaction<double> reaction = calc_joint_reaction(joint.rows, loops.violations[k], cuts[k].b.R, lambda.data() + joint.first_row);
+    loops.find_multipliers(scratch_.accelerations.data(), qdd.data(), lambda.data(), multiplier_scratch_);
+    start_forces();
+    loops.add_reactions(lambda.data(), scratch_.forces.data(), tau_.data());
+    finish_forces();
+    Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (joint.has_clearance()) return;
+      const JointReaction<double> reaction =
+          calc_joint_reaction(joint.rows, loops.joints[k].violation, cuts[k].b.R, lambda.data() + joint.numbers().first_row);
       cuts[k].reaction = reaction.force;
       cuts[k].moment = reaction.moment;
-    }
+    });
     return true;
-  }
-
-  /// Phi_q M^-1 Phi_q^T of the rows that have a part, the columns of a group of rows at once.
-  RPSUP_INLINE void fill_multiplier_matrix() {
-    auto& [rows, lambda, responses, bodies_scratch, violations, matrix, scratch] = loops;
-    matrix.start(rows, model_.free);
-    const int count = matrix.acting_count();
-    for (int first = 0, end = 0; first < count; first = end) {
-      const int group = rows.group_of(matrix.acting(first));
-      while (end < count && rows.group_of(matrix.acting(end)) == group) ++end;
-      bodies_scratch.forces.fill({});
-      bodies.solve_lanes(axes.data(), rows.group(group), bodies_scratch, responses.data());
-      for (int k = first; k < count; ++k) {
-        const double* row = rows.row(matrix.acting(k));
-        Directions entries{};
-        for (const int i : model_.free) entries += row[i * ConstraintRows::kSide] * responses[static_cast<std::size_t>(i)];
-        double numbers[ConstraintRows::kSide];
-        entries.store(numbers);
-        for (int l = first; l < std::min(end, k + 1); ++l) matrix.entry(k, l) = numbers[rows.lane_of(matrix.acting(l))];
-      }
-    }
-  }
-
-  /// multipliers <- multipliers - Phi_q accelerations
-  template <typename T>
-  RPSUP_INLINE void subtract_answers(const T* accelerations, T* multipliers) const {
-    const ConstraintRows& rows = loops.rows;
-    if constexpr (std::is_same_v<T, double>) {
-      for (int g = 0; g < rows.groups(); ++g) {
-        Directions rest = Directions::load(multipliers + g * ConstraintRows::kSide);
-        for (const int i : model_.free) rest -= rows.group(g)[i] * accelerations[i];
-        rest.store(multipliers + g * ConstraintRows::kSide);
-      }
-    } else {
-      for (int r = 0; r < rows.count; ++r)
-        for (const int i : model_.free) multipliers[r] -= rows.row(r)[i * ConstraintRows::kSide] * accelerations[i];
-    }
   }
 
   /// Where rows depend on each other no singular matrix tells that the loops cannot follow: they come apart.
@@ -285,14 +238,24 @@ class EquationsOfMotion {
   }
 
   RPSUP_INLINE void calc_rows(const DrivenMotion* drives) {
-    ConstraintRows& rows = loops.rows;
-    Buffer<JointViolation<double, double>>& violations = loops.violations;
-    for (std::size_t k = 0; k < cuts.size(); ++k)
-      if (model_.cut_joints[k].first_row >= 0) {
-        violations[k] = calc_joint_violation(model_.cut_joints[k].rows, cuts[k].b, cuts[k].j);
-        calc_joint_rows(model_, model_.cut_joints[k], frames.data(), axes.data(), cuts[k].b, cuts[k].j, violations[k], rows);
-      }
-    if (!model_.couplings.empty()) calc_coupling_rows(model_, q.data(), qd.data(), qdd.data(), rows);
+    Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (joint.has_clearance()) return;
+      const Frame<double, double>&b = cuts[k].b, &j = cuts[k].j;
+      ClosedJoint& closed = loops.joints[k];
+      closed.violation = calc_joint_violation(joint.rows, b, j);
+      closed.R_b = b.R;
+      closed.bearing_arm = bearing_point(joint.rows, b, j) - frame_of(joint.bearing_joint).p;
+      closed.journal_arm = j.p - frame_of(joint.journal_joint).p;
+      set_joint_rows(joint.rows, joint.numbers().first_row, closed.violation, loops.rows);
+      if constexpr (!Shapes::known)
+        if (model_.least_multipliers) calc_joint_entries(model_, joint, frames.data(), axes.data(), b, j, closed.violation, loops.any.entries);
+    });
+    if constexpr (!Shapes::known) calc_coordinate_rows(drives);
+  }
+
+  RPSUP_INLINE void calc_coordinate_rows(const DrivenMotion* drives) {
+    auto& rows = loops.rows;
+    calc_coupling_rows(model_, q.data(), qd.data(), qdd.data(), rows);
     if (!model_.drive_rows) return;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const auto d = static_cast<std::size_t>(model_.drives[k]);
@@ -300,7 +263,6 @@ class EquationsOfMotion {
       rows.Phi[row] = q[d] - drives[k].q;
       rows.Phi_d[row] = qd[d] - drives[k].qd;
       rows.bias[row] = -drives[k].qdd;
-      rows.row(static_cast<int>(row))[model_.drives[k] * ConstraintRows::kSide] = 1.0;
     }
   }
 
@@ -313,12 +275,8 @@ class EquationsOfMotion {
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.driven) return;
       const auto d = static_cast<std::size_t>(joint.first);
-      double force = bodies.calc_drive_force(joint, i, axes[i], scratch_);
-      if (joint.sprung) force += joint.numbers().stiffness[0] * q[d] + joint.numbers().damping[0] * qd[d];
-      if constexpr (Shapes::have_rows)
-        for (int r = 0; r < loops.rows.count; ++r)
-          force -= loops.rows.row(r)[joint.first * ConstraintRows::kSide] * loops.lambda[static_cast<std::size_t>(r)];
-      drive_force[static_cast<std::size_t>(joint.drive)] = force;
+      const double force = bodies.calc_drive_force(joint, i, axes[i], scratch_);
+      drive_force[static_cast<std::size_t>(joint.drive)] = force - tau_[d];
     });
   }
 
@@ -359,6 +317,7 @@ class EquationsOfMotion {
   const std::vector<ClearanceJoint>& joints_;
   const Frame<double, double> ground_;
   typename ArticulatedBodies<Shapes>::template Scratch<double> scratch_;
+  typename Loops::template Scratch<double> multiplier_scratch_;
   CoordinateRoom<double> tau_;
   typename Shapes::SineRoom sines_, cosines_;
   JointRoom<SpatialForce<double>> given_;       ///< needed by the bodies that move with time only

@@ -66,15 +66,15 @@ Eigen::Index rank_of(const Eigen::MatrixXd& J) { return J.size() == 0 ? 0 : deco
 }  // namespace
 
 LoopClosure::LoopClosure(const Mechanism& mechanism)
-    : ideal_(make_ideal(mechanism)), unknown_(find_coordinates(ideal_, is_found_by_loops)), constraints_(ideal_), inverse_dynamics_(ideal_) {
+    : ideal_(make_ideal(mechanism)), unknown_(find_coordinates(ideal_, is_found_by_loops)), constraints_(ideal_), inverse_dynamics_(ideal_),
+      J_(unknown_.size()) {
   Eigen::Index row = 0;
   for (const CutJoint& joint : mechanism.cut_joints)
     for (const Eigen::Index end = row + rows_of(joint.kind).count(); row < end; ++row)
       if (!joint.clearance) rigid_rows_.push_back(row);
   for (; row < constraints_.count(); ++row) rigid_rows_.push_back(row);
-  J_.setZero(constraints_.count(), static_cast<Eigen::Index>(unknown_.size()));
-  step_.setZero(J_.cols());
-  lambda_.setZero(J_.rows());
+  J_.resize(unknown_.size());
+  step_.setZero(static_cast<Eigen::Index>(unknown_.size()));
 }
 
 bool LoopClosure::is_determined() const {
@@ -94,10 +94,19 @@ void LoopClosure::set_drives(double t, Evaluation& at) const {
   }
 }
 
+void LoopClosure::calc_positions(Evaluation& at) {
+  calc_frame_poses(ideal_, at.q, at.frames);
+  constraints_.calc_positions(at.q, at.frames);
+}
+
+void LoopClosure::calc_rates(Evaluation& at) {
+  calc_frame_rates(ideal_, at.qd, at.qdd, at.frames);
+  constraints_.calc_rates(at.q, at.qd, at.qdd, at.frames);
+}
+
 void LoopClosure::calc_rows(Evaluation& at) {
-  calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
-  constraints_.calc(at.q, at.qd, at.qdd, at.frames);
-  for (std::size_t k = 0; k < unknown_.size(); ++k) J_.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(unknown_[k]);
+  calc_positions(at);
+  calc_rates(at);
 }
 
 bool LoopClosure::assemble(double t, Evaluation& at) {
@@ -114,7 +123,7 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
     calc_rows(at);
     if (residual() < kClosed) return assemble_rates(at);
     if (unknown_.empty()) return false;
-    Eigen::VectorXd step = -decompose(J_).solve(constraints_.Phi);
+    Eigen::VectorXd step = -decompose(calc_columns(unknown_)).solve(constraints_.Phi);
     step *= std::min(1.0, kMaxStep / step.cwiseAbs().maxCoeff());
     for (std::size_t k = 0; k < unknown_.size(); ++k) at.q[unknown_[k]] += step[static_cast<Eigen::Index>(k)];
   }
@@ -211,23 +220,25 @@ bool LoopClosure::solve_motion(double t, Evaluation& at) {
   predict(t, at);
   set_drives(t, at);
   if (!close_position(at)) return false;
-  correct_rates(at);
-  step_.noalias() = J_lu_.solve(constraints_.bias);
+  solve_rates(at);
+  calc_rates(at);
+  step_ = constraints_.bias;
   take_step(at.qdd);
   return at.qdd.allFinite();
 }
 
-/// Taylor's series of the unknown coordinates and their rates; their accelerations are asked for anew.
+/// Taylor's series of the unknown coordinates; their accelerations are asked for anew.
 void LoopClosure::predict(double t, Evaluation& at) const {
   const double dt = t - at.t;
   for (const FrameIndex i : unknown_) {
     at.q[i] += dt * (at.qd[i] + 0.5 * dt * at.qdd[i]);
-    at.qd[i] += dt * at.qdd[i];
     at.qdd[i] = 0.0;
   }
 }
 
-void LoopClosure::take_step(Eigen::VectorXd& coordinates) const {
+/// Solves for the step that does to the rows what step_ holds, and takes it back.
+void LoopClosure::take_step(Eigen::VectorXd& coordinates) {
+  J_.solve_in_place(step_.data());
   for (std::size_t k = 0; k < unknown_.size(); ++k) coordinates[unknown_[k]] -= step_[static_cast<Eigen::Index>(k)];
 }
 
@@ -237,40 +248,39 @@ bool LoopClosure::close_position(Evaluation& at) {
   constexpr double kContraction = 0.25;
   double last = kMaxStep;
   for (int iteration = 0; iteration < kMaxNear; ++iteration) {
-    calc_rows(at);
-    J_lu_.compute(J_);
+    calc_positions(at);
+    if (!factor()) return false;
     if (residual() < kClosed) return true;
-    step_.noalias() = J_lu_.solve(constraints_.Phi);
+    step_ = constraints_.Phi;
+    take_step(at.q);
     const double size = step_.cwiseAbs().maxCoeff();
     if (!(size < kContraction * last)) return false;
     last = size;
-    take_step(at.q);
-    // The rates along, so that the rows of the next pass are already nearly theirs.
-    step_.noalias() = J_lu_.solve(constraints_.Phi_d);
-    take_step(at.qd);
   }
   return false;
 }
 
-/// Phi_d is linear in the rates: one step. The bias is not, so the rows are computed again, but for rates that were already right.
-void LoopClosure::correct_rates(Evaluation& at) {
-  constexpr double kRight = 1e-13;  // of the largest rate
-  if (unknown_.empty()) return;     // every coordinate is driven, and no loop is closed: there is no largest one
-  step_.noalias() = J_lu_.solve(constraints_.Phi_d);
+/// Factors Phi_q of the unknown coordinates. False if it is singular.
+bool LoopClosure::factor() {
+  for (std::size_t r = 0; r < J_.size(); ++r)
+    for (std::size_t k = 0; k < J_.size(); ++k) J_(r, k) = constraints_.Phi_q(static_cast<Eigen::Index>(r), unknown_[k]);
+  return J_.factor();
+}
+
+/// Phi_q qd = 0, of which the drives' part is known.
+void LoopClosure::solve_rates(Evaluation& at) {
+  for (const FrameIndex i : unknown_) at.qd[i] = 0.0;
+  step_.noalias() = constraints_.Phi_q * at.qd;
   take_step(at.qd);
-  if (!(step_.cwiseAbs().maxCoeff() <= kRight * at.qd.cwiseAbs().maxCoeff())) calc_rows(at);
 }
 
 /// With all accelerations known the recursion gives every generalised force; those of the unknown coordinates are the reactions' doing.
 void LoopClosure::solve_forces(Evaluation& at) {
-  calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
+  calc_frame_rates(ideal_, at.qd, at.qdd, at.frames);
   const Eigen::VectorXd& forces = inverse_dynamics_.calc(at.frames);
-  for (std::size_t k = 0; k < unknown_.size(); ++k) step_[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
-  // By its factors: solving with the transposed decomposition would allocate.
-  J_lu_.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(step_);
-  J_lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(step_);
-  Eigen::VectorXd& lambda = lambda_;
-  lambda.noalias() = J_lu_.permutationP().transpose() * step_;
+  Eigen::VectorXd& lambda = step_;
+  for (std::size_t k = 0; k < unknown_.size(); ++k) lambda[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
+  J_.solve_transposed_in_place(lambda.data());
   for (std::size_t k = 0; k < at.joints.size(); ++k) {
     const auto [force, moment] = constraints_.calc_reaction(k, lambda, at.frames);
     at.joints[k].reaction_W = to_eigen(force);

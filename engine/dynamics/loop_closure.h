@@ -3,11 +3,11 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "engine/dynamics/constraints.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/dynamics/inverse_dynamics.h"
+#include "engine/math/dense_matrix.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -48,7 +48,7 @@ class LoopClosure {
   void solve_forces(Evaluation& at);
 
   /// Determinant of Phi_q of the unknown coordinates at the position that solve_motion found last, see keeps_branch.
-  [[nodiscard]] double determinant() const { return J_lu_.determinant(); }
+  [[nodiscard]] double determinant() const { return J_.determinant(); }
 
   /// Largest entry of Phi after the last attempt, [m] or [1].
   [[nodiscard]] double residual() const { return constraints_.Phi.size() ? constraints_.Phi.cwiseAbs().maxCoeff() : 0.0; }
@@ -62,10 +62,13 @@ class LoopClosure {
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;
+  void calc_positions(Evaluation& at);
+  void calc_rates(Evaluation& at);
   void calc_rows(Evaluation& at);
   [[nodiscard]] bool close_position(Evaluation& at);
-  void correct_rates(Evaluation& at);
-  void take_step(Eigen::VectorXd& coordinates) const;
+  void solve_rates(Evaluation& at);
+  void take_step(Eigen::VectorXd& coordinates);
+  [[nodiscard]] bool factor();
 
   Mechanism ideal_;
   std::vector<FrameIndex> unknown_;
@@ -74,9 +77,8 @@ class LoopClosure {
   std::vector<Eigen::Index> rigid_rows_;  ///< those of joints without clearance, and of couplings
   Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;
-  Eigen::MatrixXd J_;  ///< Phi_q of the unknown coordinates
-  Eigen::PartialPivLU<Eigen::MatrixXd> J_lu_;
-  Eigen::VectorXd step_, lambda_;  ///< of the unknown coordinates; of the rows
+  DenseMatrix J_;         ///< of a determined mechanism: Phi_q of the unknown coordinates, factored
+  Eigen::VectorXd step_;  ///< of the unknown coordinates, or what it does to the rows
 };
 
 /// True if a step between positions with these determinants cannot have led from one way of closing the loops to another. The two ways

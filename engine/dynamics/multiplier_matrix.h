@@ -9,6 +9,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
+constexpr double kSingularPivot = 1e-12;  ///< of one, relative to its row: the loop stands at the end of its reach
+
 /// The lower triangle of a symmetric matrix, factored in place: L L^T. False if a pivot is below `singular` of its diagonal entry.
 [[nodiscard]] RPSUP_INLINE bool factor_cholesky(int n, double singular, double* A) {
   for (int c = 0; c < n; ++c) {
@@ -38,6 +40,31 @@ RPSUP_INLINE void solve_cholesky(int n, const double* L, T* x) {
     x[r] = L[r * n + r] * x[r];
   }
 }
+
+/// Phi_q M^-1 Phi_q^T of so many constraints that do not depend on each other.
+template <int n>
+class IndependentMatrix {
+ public:
+  RPSUP_INLINE explicit IndependentMatrix(const TreeModel&) {}
+
+  /// Room for solve(): needs none.
+  template <typename T>
+  struct Scratch {
+    RPSUP_INLINE explicit Scratch(const TreeModel&) {}
+  };
+
+  [[nodiscard]] static constexpr int acting_count() { return n; }
+  [[nodiscard]] static constexpr int acting(int k) { return k; }
+  [[nodiscard]] RPSUP_INLINE double& entry(int k, int l) { return A_[k * n + l]; }
+  [[nodiscard]] RPSUP_INLINE bool factor() { return factor_cholesky(n, kSingularPivot, A_); }
+  template <typename T>
+  RPSUP_INLINE void solve(T* x, Scratch<T>&) const {
+    solve_cholesky(n, A_, x);
+  }
+
+ private:
+  double A_[n * n];
+};
 
 /// A = Phi_q M^-1 Phi_q^T, of which the multipliers are found.
 ///
@@ -70,14 +97,13 @@ class MultiplierMatrix {
     Buffer<T> known, rest, solution;
   };
 
-  /// Finds out which rows have a part.
-  RPSUP_INLINE void start(const ConstraintRows& rows, const std::vector<int>& free) {
-    if (!dependent_) return;
+  /// Where rows may depend on each other: finds out which have a part.
+  RPSUP_INLINE void start(const ConstraintEntries& entries, const std::vector<int>& free) {
     constexpr double kIdle = 1e-10;  // of a row's entries, [m/rad] or [1]
     acting_count_ = 0;
     for (int r = 0; r < count_; ++r) {
       double largest = 0.0;
-      for (const int i : free) largest = std::max(largest, std::abs(rows.row(r)[i * ConstraintRows::kSide]));
+      for (const int i : free) largest = std::max(largest, std::abs(entries.row(r)[i]));
       if (largest > kIdle) acting_[room(acting_count_++)] = r;
     }
   }
@@ -91,9 +117,8 @@ class MultiplierMatrix {
 
   /// False if the matrix is singular, and no dependence is expected.
   [[nodiscard]] RPSUP_INLINE bool factor() {
-    constexpr double kSingular = 1e-12;  // of a pivot, relative to its row: the loop stands at the end of its reach
     if (dependent_) scale();
-    return factor_cholesky(acting_count_, dependent_ ? 0.0 : kSingular, A_.data());
+    return factor_cholesky(acting_count_, dependent_ ? 0.0 : kSingularPivot, A_.data());
   }
 
   /// x <- A^-1 x. @tparam T  a number, or several side by side
@@ -171,6 +196,16 @@ class MultiplierMatrix {
   Buffer<double> S_, weight_;
   Buffer<int> block_;                ///< of each row: the first one of its joint and kind
   Buffer<double> largest_;           ///< diagonal entry of each block
+};
+
+template <typename Shapes>
+struct MatrixOf {
+  using Type = MultiplierMatrix;
+};
+template <typename Shapes>
+  requires Shapes::known
+struct MatrixOf<Shapes> {
+  using Type = IndependentMatrix<Shapes::row_count>;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

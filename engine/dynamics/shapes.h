@@ -81,12 +81,13 @@ struct KnownPlacement {
 template <int bearing_on, int journal_on, bool clearance>
 struct KnownCutJoint {
   static constexpr int bearing_joint = bearing_on, journal_joint = journal_on;
+  static constexpr CutRows rows{.positions = 3, .axes = 2};  ///< if it is ideal
   using Bearing = KnownPlacement<true>;
   using Journal = KnownPlacement<false>;
 
   [[nodiscard]] static bool fit(const TreeCutJoint& joint) {
     return joint.bearing_joint == bearing_joint && joint.journal_joint == journal_joint && joint.has_clearance() == clearance &&
-           Bearing::fit(joint.bearing) && Journal::fit(joint.journal);
+           (clearance || joint.rows == rows) && Bearing::fit(joint.bearing) && Journal::fit(joint.journal);
   }
   [[nodiscard]] static constexpr bool has_clearance() { return clearance; }
   [[nodiscard]] RPSUP_INLINE const TreeCutJoint& numbers() const { return joint; }
@@ -100,9 +101,7 @@ struct KnownCutJoint {
 struct AnyShapes {
   static constexpr bool have_springs = true;  ///< there may be some between two points
   static constexpr bool have_rows = true;     ///< there may be constraints
-  static constexpr bool known = false;        ///< when the program is compiled
-  static constexpr bool on_stack = false;     ///< all that an evaluation finds has room there
-  static constexpr bool rods_from_zero = false;  ///< see RodMotion
+  static constexpr bool known = false;        ///< when the program is compiled: all that an evaluation finds has room on the stack
   template <typename T>
   using JointRoom = Buffer<T>;
   template <typename T>
@@ -114,6 +113,8 @@ struct AnyShapes {
   using CutRoom = Buffer<T>;
   template <typename T>
   using SpringRoom = Buffer<T>;
+  template <typename T>
+  using RowRoom = Buffer<T>;
   using RodRoom = FixedBuffer<RodMotion, 0>;
 
   [[nodiscard]] static bool fit(const TreeModel&) { return true; }
@@ -154,8 +155,6 @@ struct KnownShapes {
   static constexpr bool have_springs = false;
   static constexpr bool have_rows = !clearance;
   static constexpr bool known = true;
-  static constexpr bool on_stack = clearance;
-  static constexpr bool rods_from_zero = clearance;
   template <typename T>
   using JointRoom = FixedBuffer<T, n>;
   template <typename T>
@@ -167,11 +166,15 @@ struct KnownShapes {
   using CutRoom = FixedBuffer<T, 1>;
   template <typename T>
   using SpringRoom = FixedBuffer<T, 0>;
-  using RodRoom = FixedBuffer<RodMotion, rods_from_zero ? n : 0>;
+  static constexpr int row_count = clearance ? 0 : 5;
+  template <typename T>
+  using RowRoom = FixedBuffer<T, row_count>;
+  using RodRoom = FixedBuffer<RodMotion, n>;
   using CutJoint = KnownCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
     if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() || !model.couplings.empty()) return false;
+    if (model.drive_rows || model.least_multipliers) return false;
     if (model.cut_joints.size() != 1 || !CutJoint::fit(model.cut_joints[0])) return false;
     for (std::size_t i = 0; i < n; ++i)
       if (!(static_cast<const JointShape&>(model.joints[i]) == shapes[i])) return false;

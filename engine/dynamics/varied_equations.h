@@ -315,11 +315,13 @@ class VariedEquations {
   }
 
   RPSUP_INLINE void vary_multipliers(const Directions& time, const DrivenMotion* drives) {
-    vary_coupling_rows();
-    if (model_.drive_rows) vary_drive_rows(time, drives);
-    solved_.find_multipliers(qdd.data(), lambda_.data(), multiplier_scratch_);
-    solved_.add_reactions(lambda_.data(), tau_.data());
+    if constexpr (!Shapes::known) {
+      vary_coupling_rows();
+      if (model_.drive_rows) vary_drive_rows(time, drives);
+    }
+    solved_.loops.find_multipliers(scratch_.accelerations.data(), qdd.data(), lambda_.data(), multiplier_scratch_);
     for (std::size_t i = 0; i < needed_.size(); ++i) scratch_.forces[i] = needed_[i];
+    solved_.loops.add_reactions(lambda_.data(), scratch_.forces.data(), tau_.data());
     solve();
   }
 
@@ -351,14 +353,8 @@ class VariedEquations {
     }
     Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.driven) return;
-      const auto d = static_cast<std::size_t>(joint.first);
-      Directions force = solved_.bodies.calc_drive_force(joint, i, solved_.axes[i], scratch_);
-      const TreeJoint& numbers = joint.numbers();
-      if (joint.sprung) force += numbers.stiffness[0] * coordinates_[d].q + numbers.damping[0] * coordinates_[d].qd;
-      if constexpr (Shapes::have_rows)
-        for (int r = 0; r < solved_.loops.rows.count; ++r)
-          force -= solved_.loops.rows.row(r)[joint.first * ConstraintRows::kSide] * lambda_[static_cast<std::size_t>(r)];
-      drive_force[static_cast<std::size_t>(joint.drive)] = force;
+      const Directions force = solved_.bodies.calc_drive_force(joint, i, solved_.axes[i], scratch_);
+      drive_force[static_cast<std::size_t>(joint.drive)] = force - tau_[static_cast<std::size_t>(joint.first)];
     });
   }
 
@@ -394,7 +390,7 @@ class VariedEquations {
   Buffer<SpatialForce<Directions>> needed_;  ///< the same, where it is solved for twice
   Buffer<Directions> tau_;
   Buffer<Directions> lambda_;                ///< variation of the multipliers; before that, of what their rows lack
-  MultiplierMatrix::Scratch<Directions> multiplier_scratch_;
+  typename EquationsOfMotion<Shapes>::Loops::template Scratch<Directions> multiplier_scratch_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

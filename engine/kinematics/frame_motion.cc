@@ -13,32 +13,69 @@ FrameMotion ground_motion(const Mechanism& mechanism) {
   return ground;
 }
 
-void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
-                        std::vector<FrameMotion>& frames) {
+void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q, std::vector<FrameMotion>& frames) {
+  const Mat3<double> unturned = to_mat3(Eigen::Matrix3d::Identity());
+  Mat3<double> R = unturned;
+  Vec3<double> p;
+  for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
+    const Coordinate& c = mechanism.coordinates[i];
+    const double q_i = q[static_cast<Eigen::Index>(i)];
+    if (c.parent == kGround) {
+      R = unturned;
+      p = {};
+    } else if (c.parent + 1 != static_cast<FrameIndex>(i)) {  // else they are the parent's
+      R = to_mat3(frames[static_cast<std::size_t>(c.parent)].R);
+      p = to_vec3(frames[static_cast<std::size_t>(c.parent)].p);
+    }
+    Vec3<double> r, along;
+    if (!is_inside_joint(c)) r = R * to_vec3(c.placement.p);
+    if (!is_unturned(c.placement)) R = R * to_mat3(c.placement.R);
+    if (c.motion == Motion::kTranslation) {
+      along = axis_of(R, static_cast<int>(c.axis));
+      r += q_i * along;
+    } else {
+      along = turn_axes(static_cast<int>(c.axis), {std::sin(q_i), std::cos(q_i)}, R);
+    }
+    p += r;
+    FrameMotion& f = frames[i];
+    copy(R, f.R.data());
+    copy(p, f.p.data());
+    copy(r, f.p_parent.data());
+    copy(along, f.axis.data());
+  }
+}
+
+void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, std::vector<FrameMotion>& frames) {
   const Frame<double, double> ground = to_frame(ground_motion(mechanism));
   Frame<double, double> f = ground;
   for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
     const Coordinate& c = mechanism.coordinates[i];
     const auto k = static_cast<Eigen::Index>(i);
-    const int axis = static_cast<int>(c.axis);
     if (c.parent == kGround)
       f = ground;
     else if (c.parent + 1 != static_cast<FrameIndex>(i))  // else f is the parent's
       f = to_frame(frames[static_cast<std::size_t>(c.parent)]);
-    Vec3<double> r, along;
-    if (!is_inside_joint(c) || !is_unturned(c.placement)) r = move_to(c.placement, f);
+    FrameMotion& own = frames[i];
+    const Vec3<double> along = to_vec3(own.axis);
+    shift_frame(to_vec3(own.p_parent), true, f);
     if (c.motion == Motion::kTranslation) {
-      along = axis_of(f.R, axis);
-      slide_frame(along, true, q[k], qd[k], f, r);
+      add_sliding(along, true, qd[k], f);
       f.vd += qdd[k] * along;
     } else {
-      turn_frame(axis, true, {std::sin(q[k]), std::cos(q[k])}, qd[k], f, along);
+      add_turning(along, true, qd[k], f);
       f.wd += qdd[k] * along;
     }
-    set_motion(f, frames[i]);
-    copy(r, frames[i].p_parent.data());
-    copy(along, frames[i].axis.data());
+    copy(f.w, own.w.data());
+    copy(f.v, own.v.data());
+    copy(f.wd, own.wd.data());
+    copy(f.vd, own.vd.data());
   }
+}
+
+void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
+                        std::vector<FrameMotion>& frames) {
+  calc_frame_poses(mechanism, q, frames);
+  calc_frame_rates(mechanism, qd, qdd, frames);
 }
 
 }  // namespace engine

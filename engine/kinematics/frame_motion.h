@@ -24,9 +24,16 @@ struct FrameMotion {
 /// The motion of the ground as the frames on it see it: at rest, gravity as an upward acceleration.
 [[nodiscard]] FrameMotion ground_motion(const Mechanism& mechanism);
 
-/// Computes the motion of every frame from the joint coordinates, root to tip, Eq. (2) and its derivatives by time.
-/// @param q, qd, qdd  one entry a coordinate. Where qdd is not known yet it is zero, and the result is the bias acceleration.
-/// @param frames      one a coordinate
+/// Computes the pose of every frame from the joint coordinates, root to tip, Eq. (2).
+/// @param q       one entry a coordinate
+/// @param frames  one a coordinate; velocities and accelerations stay as they are
+void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q, std::vector<FrameMotion>& frames);
+
+/// Computes velocities and accelerations of frames whose poses are set, by the derivatives of Eq. (2) by time.
+/// @param qdd  where it is not known yet zero, and the result is the bias acceleration
+void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, std::vector<FrameMotion>& frames);
+
+/// Both, from q, qd and qdd.
 void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
                         std::vector<FrameMotion>& frames);
 

@@ -66,20 +66,20 @@ RPSUP_INLINE void add_turning(const Vec3<double>& s, bool turns, const V& qd, Fr
   f.w += rate;
 }
 
-/// Turns a frame about its own axis: the two columns beside it change, the rest follows from the rate.
-RPSUP_INLINE void turn_frame(int axis, bool turns, const Turn& q, double qd, Frame<double, double>& f, Vec3<double>& s) {
+/// Turns a frame's axes about one of them, which stays, by changing the two beside it. @returns that axis
+RPSUP_INLINE Vec3<double> turn_axes(int axis, const Turn& q, Mat3<double>& R) {
   const auto turn = [&](const Vec3<double>& own, Vec3<double>& i, Vec3<double>& j) {
-    s = own;
     const Vec3<double> old_i = i;
     i = q.cosine * old_i + q.sine * j;
     j = q.cosine * j - q.sine * old_i;
+    return own;
   };
-  if (axis == 0)
-    turn(f.R.x, f.R.y, f.R.z);
-  else if (axis == 1)
-    turn(f.R.y, f.R.z, f.R.x);
-  else
-    turn(f.R.z, f.R.x, f.R.y);
+  return axis == 0 ? turn(R.x, R.y, R.z) : axis == 1 ? turn(R.y, R.z, R.x) : turn(R.z, R.x, R.y);
+}
+
+/// Turns a frame about its own axis; the rest of its motion follows from the rate.
+RPSUP_INLINE void turn_frame(int axis, bool turns, const Turn& q, double qd, Frame<double, double>& f, Vec3<double>& s) {
+  s = turn_axes(axis, q, f.R);
   add_turning(s, turns, qd, f);
 }
 

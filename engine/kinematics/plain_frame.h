@@ -28,20 +28,14 @@ inline void copy(const Vec3<double>& from, double* to) {
   to[2] = from.z;
 }
 
-/// Leaves p_parent and axis as they are.
-inline void set_motion(const Frame<double, double>& from, FrameMotion& f) {
-  copy(from.R.x, f.R.data());
-  copy(from.R.y, f.R.data() + 3);
-  copy(from.R.z, f.R.data() + 6);
-  copy(from.p, f.p.data());
-  copy(from.w, f.w.data());
-  copy(from.v, f.v.data());
-  copy(from.wd, f.wd.data());
-  copy(from.vd, f.vd.data());
+inline void copy(const Mat3<double>& from, double* to) {
+  copy(from.x, to);
+  copy(from.y, to + 3);
+  copy(from.z, to + 6);
 }
 
 /// Moves a frame to a constant placement in it. @returns the way from its origin, in W
-inline Vec3<double> move_to(const Placement& placement, Frame<double, double>& f) {
+RPSUP_INLINE Vec3<double> move_to(const Placement& placement, Frame<double, double>& f) {
   const Vec3<double> r = f.R * to_vec3(placement.p);
   shift_frame(r, true, f);
   if (!is_unturned(placement)) f.R = f.R * to_mat3(placement.R);

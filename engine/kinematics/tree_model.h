@@ -37,6 +37,8 @@ struct CutRows {
   int axes = 2;
 
   [[nodiscard]] constexpr int count() const { return positions + axes; }
+
+  bool operator==(const CutRows&) const = default;
 };
 
 [[nodiscard]] CutRows rows_of(CutKind kind);

@@ -53,6 +53,24 @@ class DenseMatrix {
     }
   }
 
+  /// x <- A^-T x after factor().
+  void solve_transposed_in_place(double* x) const {
+    for (std::size_t k = 0; k < n_; ++k) {
+      for (std::size_t j = 0; j < k; ++j) x[k] -= (*this)(j, k) * x[j];
+      x[k] /= (*this)(k, k);
+    }
+    for (std::size_t k = n_; k-- > 0;)
+      for (std::size_t j = k + 1; j < n_; ++j) x[k] -= (*this)(j, k) * x[j];
+    for (std::size_t k = n_; k-- > 0;) std::swap(x[k], x[order_[k]]);
+  }
+
+  /// After factor().
+  [[nodiscard]] double determinant() const {
+    double product = 1.0;
+    for (std::size_t k = 0; k < n_; ++k) product *= order_[k] == k ? (*this)(k, k) : -(*this)(k, k);
+    return product;
+  }
+
  private:
   std::size_t n_ = 0;
   Buffer<double> entries_;       ///< row after row

@@ -69,6 +69,12 @@ TEST(Linkage, ADriveFeelsWhatSlidesBesideItsAxis) {
 }
 
 // A pendulum held twice at one point: the rows depend on each other, and the least reactions share its weight.
+double root_mean_square_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b.at(k)) * (a[k] - b.at(k));
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
 TEST(Linkage, RedundantJointsShareTheLoad) {
   Linkage linkage;
   linkage.gravity_W = {0.0, -9.81, 0.0};
@@ -81,12 +87,12 @@ TEST(Linkage, RedundantJointsShareTheLoad) {
   EXPECT_EQ(run.metric("redundant_constraints"), 8.0);
   // At the start I alpha = m g c: the pivot bears m g (1 - m c^2 / I), half of it in each joint.
   const double inertia = 1.0 + 10.0 * 0.16;
-  // Rounding, over what is added to the matrix of dependent rows: 1e-16 / 1e-9 of about 100 N.
+  // Rounding, over what is added to the matrix of dependent rows: 1e-16 / 1e-9 of about 100 N, now a little more, now less.
   constexpr double kShared = 1e-5;
   EXPECT_NEAR(run.column("one_force_y_n").front(), 0.5 * 98.1 * (1.0 - 1.6 / inertia), kShared);
   for (const char* const axis : {"x", "y", "z"}) {
     const std::string force = std::string("_force_") + axis + "_n";
-    EXPECT_NEAR(run.last("one" + force), run.last("two" + force), kShared) << axis;
+    EXPECT_LT(root_mean_square_difference(run.column("one" + force), run.column("two" + force)), kShared) << axis;
     EXPECT_NEAR(run.last("float" + force), 0.0, 1e-6) << axis;  // lets the bar go where it will
   }
 }
