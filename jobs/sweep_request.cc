@@ -7,7 +7,6 @@
 
 #include "jobs/executor.h"
 #include "jobs/parameter_path.h"
-#include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
 
@@ -118,8 +117,8 @@ class Parser {
   bool check_values(const json& given, const std::string& pointer) {
     const std::vector<Fault> found = find_value_faults(given);
     for (const Fault& each : found) {
-      const bool several = std::ranges::any_of(parameter_table(), [&](const ParameterInfo& info) {
-        return each.pointer == pointer_token(info.key) && given.at(info.key).is_structured();
+      const bool several = std::ranges::any_of(known_paths(), [&](const std::string& path) {
+        return each.pointer == pointer_of_path(path) && given.at(json::json_pointer(each.pointer)).is_structured();
       });
       fault(pointer + each.pointer, each.detail + (several ? "; several values stand under \"sweep\"" : ""));
     }

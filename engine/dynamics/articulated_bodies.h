@@ -355,7 +355,8 @@ class ArticulatedBodies {
 
   /// A joint's acceleration, after its parent's.
   template <typename Joint, typename T, typename Qdd>
-  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes& axes, Scratch<T>& scratch, const Qdd& qdd, const RodMotion* rods) const {
+  RPSUP_INLINE void accelerate(const Joint& joint, std::size_t k, const JointAxes& axes, Scratch<T>& scratch, const Qdd& qdd,
+                               const RodMotion* rods) const {
     constexpr bool wanted = !std::is_same_v<Qdd, NotWanted<T>>;
     const Eliminated& e = eliminated_[k];
     SpatialAcceleration<T> own;

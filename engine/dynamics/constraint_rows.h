@@ -103,9 +103,9 @@ struct JointReaction {
 
 /// @param R_b  of the bearing  @tparam T  a number, or several side by side
 template <typename P, typename V, typename T>
-[[nodiscard]] RPSUP_INLINE auto calc_joint_reaction(const CutRows& rows, const JointViolation<P, V>& violation, const Mat3<P>& R_b,
-                                                    const T* multipliers) {
-  JointReaction<decltype(multipliers[0] * R_b.x.x)> reaction;
+[[nodiscard]] RPSUP_INLINE JointReaction<Mixed<T, P>> calc_joint_reaction(const CutRows& rows, const JointViolation<P, V>& violation,
+                                                                          const Mat3<P>& R_b, const T* multipliers) {
+  JointReaction<Mixed<T, P>> reaction;
   if (rows.positions == 3) {
     reaction.force.x += multipliers[0];
     reaction.force.y += multipliers[1];
@@ -117,8 +117,8 @@ template <typename P, typename V, typename T>
   return reaction;
 }
 
-/// The other way round: what a joint's rows make of accelerations is taken from `rest`.
-/// @param angular, linear  of the journal and the points where the reaction acts, against the bearing's
+/// The other way round: takes what a joint's rows make of accelerations from `rest`.
+/// @param angular, linear  accelerations of the journal, and of its point where the reaction acts, less those of the bearing and its point
 template <typename T>
 RPSUP_INLINE void subtract_joint_answer(const CutRows& rows, const JointViolation<double, double>& violation, const Mat3<double>& R_b,
                                         const Vec3<T>& angular, const Vec3<T>& linear, T* rest) {

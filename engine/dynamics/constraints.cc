@@ -6,9 +6,10 @@ namespace engine {
 
 namespace {
 
-RPSUP_INLINE Frame<double, double> calc_end(const Mechanism& mechanism, FrameIndex frame, const Placement& placement, const std::vector<FrameMotion>& frames) {
+RPSUP_INLINE Frame<double, double> calc_end(const Mechanism& mechanism, FrameIndex frame, const Placement& placement,
+                                            const std::vector<FrameMotion>& frames) {
   Frame<double, double> end = to_frame(frame == kGround ? ground_motion(mechanism) : frames[static_cast<std::size_t>(frame)]);
-  (void)move_to(placement, end);
+  move_to(placement, end);
   return end;
 }
 
@@ -42,7 +43,8 @@ void Constraints::calc_positions(const Eigen::VectorXd& q, const std::vector<Fra
     frames_[i].p = to_vec3(frames[i].p);  // all that the rows' derivatives by the coordinates take of it
     axes_[i].axis[0] = to_vec3(frames[i].axis);
   }
-  each_joint(frames, [&](std::size_t, const TreeCutJoint& joint, const Frame<double, double>& b, const Frame<double, double>& j) RPSUP_INLINE_LAMBDA {
+  each_joint(frames, [&](std::size_t, const TreeCutJoint& joint, const auto& b, const auto& j) RPSUP_INLINE_LAMBDA {
+    // Velocities may be those of another instant: nothing of them is taken.
     const JointViolation<double, double> violation = calc_joint_violation(joint.rows, b, j);
     for (int r = 0; r < joint.rows.count(); ++r) rows_.Phi[static_cast<std::size_t>(joint.first_row + r)] = violation.Phi[r];
     calc_joint_entries(model_, joint, frames_.data(), axes_.data(), b, j, violation, entries_);
@@ -51,8 +53,9 @@ void Constraints::calc_positions(const Eigen::VectorXd& q, const std::vector<Fra
     rows_.Phi[static_cast<std::size_t>(model_.first_coupling_row) + k] = calc_coupling_row(model_.couplings[k], q.data());
 }
 
-void Constraints::calc_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, const std::vector<FrameMotion>& frames) {
-  each_joint(frames, [&](std::size_t k, const TreeCutJoint& joint, const Frame<double, double>& b, const Frame<double, double>& j) RPSUP_INLINE_LAMBDA {
+void Constraints::calc_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
+                             const std::vector<FrameMotion>& frames) {
+  each_joint(frames, [&](std::size_t k, const TreeCutJoint& joint, const auto& b, const auto& j) RPSUP_INLINE_LAMBDA {
     violations_[k] = calc_joint_violation(joint.rows, b, j);
     set_joint_rows(joint.rows, joint.first_row, violations_[k], rows_);
   });

@@ -192,17 +192,14 @@ class EquationsOfMotion {
             joint.sprung ? -(joint.numbers().stiffness[k] * q[first + k] + joint.numbers().damping[k] * qd[first + k]) : 0.0;
       });
     });
+    take_needed_forces();
     solve();
   }
 
-  RPSUP_INLINE void solve() {
-    start_forces();
-    finish_forces();
-  }
-  RPSUP_INLINE void start_forces() {
+  RPSUP_INLINE void take_needed_forces() {
     Shapes::outwards(model_, [&](std::size_t i, const auto&) RPSUP_INLINE_LAMBDA { scratch_.forces[i] = needed_[i]; });
   }
-  RPSUP_INLINE void finish_forces() {
+  RPSUP_INLINE void solve() {
     bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data(), Shapes::known ? rods_.data() : nullptr);
   }
 
@@ -216,9 +213,9 @@ class EquationsOfMotion {
     for (std::size_t r = 0; r < lambda.size(); ++r)
       lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
     loops.find_multipliers(scratch_.accelerations.data(), qdd.data(), lambda.data(), multiplier_scratch_);
-    start_forces();
+    take_needed_forces();
     loops.add_reactions(lambda.data(), scratch_.forces.data(), tau_.data());
-    finish_forces();
+    solve();
     Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
       const JointReaction<double> reaction =
@@ -248,7 +245,7 @@ class EquationsOfMotion {
       closed.journal_arm = j.p - frame_of(joint.journal_joint).p;
       set_joint_rows(joint.rows, joint.numbers().first_row, closed.violation, loops.rows);
       if constexpr (!Shapes::known)
-        if (model_.least_multipliers) calc_joint_entries(model_, joint, frames.data(), axes.data(), b, j, closed.violation, loops.any.entries);
+        if (model_.least_multipliers) calc_joint_entries(model_, joint, frames.data(), axes.data(), b, j, closed.violation, loops.general.entries);
     });
     if constexpr (!Shapes::known) calc_coordinate_rows(drives);
   }
@@ -266,6 +263,7 @@ class EquationsOfMotion {
     }
   }
 
+  /// What springs and couplings exert on a driven coordinate its drive need not.
   RPSUP_INLINE void calc_drive_forces() {
     if constexpr (Shapes::have_rows)
       if (model_.drive_rows) {
@@ -318,7 +316,7 @@ class EquationsOfMotion {
   const Frame<double, double> ground_;
   typename ArticulatedBodies<Shapes>::template Scratch<double> scratch_;
   typename Loops::template Scratch<double> multiplier_scratch_;
-  CoordinateRoom<double> tau_;
+  CoordinateRoom<double> tau_;                  ///< what springs, dampers, couplings and enforced drives exert on each coordinate
   typename Shapes::SineRoom sines_, cosines_;
   JointRoom<SpatialForce<double>> given_;       ///< needed by the bodies that move with time only
   JointRoom<SpatialForce<double>> needed_;

@@ -1,6 +1,7 @@
 #include "engine/dynamics/loop_closure.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -104,11 +105,6 @@ void LoopClosure::calc_rates(Evaluation& at) {
   constraints_.calc_rates(at.q, at.qd, at.qdd, at.frames);
 }
 
-void LoopClosure::calc_rows(Evaluation& at) {
-  calc_positions(at);
-  calc_rates(at);
-}
-
 bool LoopClosure::assemble(double t, Evaluation& at) {
   at.q.setZero();
   at.qd.setZero();
@@ -120,7 +116,7 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
   }
   set_drives(t, at);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    calc_rows(at);
+    calc_positions(at);
     if (residual() < kClosed) return assemble_rates(at);
     if (unknown_.empty()) return false;
     Eigen::VectorXd step = -decompose(calc_columns(unknown_)).solve(constraints_.Phi);
@@ -131,6 +127,7 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
 }
 
 bool LoopClosure::assemble_rates(Evaluation& at) {
+  calc_rates(at);
   if (constraints_.count() == 0) return true;
   const auto rigid = static_cast<Eigen::Index>(rigid_rows_.size());
   redundant_ = rigid - rank_of(calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all));
@@ -146,13 +143,13 @@ bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& 
   constexpr double kFits = 1e-9;  // of what the given rates do to the rows, [m/s] and [1/s]
   const std::vector<FrameIndex> open = find_coordinates(ideal_, is_rate_found_by_loops);
   for (const FrameIndex i : open) at.qd[i] = 0.0;
-  calc_rows(at);
+  calc_rates(at);
   if (rows.empty()) return true;
   const double given = constraints_.Phi_d(rows).cwiseAbs().maxCoeff();
   if (!open.empty()) {
     const Eigen::VectorXd rates = -decompose(calc_columns(open)(rows, Eigen::all)).solve(constraints_.Phi_d(rows));
     for (std::size_t k = 0; k < open.size(); ++k) at.qd[open[k]] = rates[static_cast<Eigen::Index>(k)];
-    calc_rows(at);
+    calc_rates(at);
   }
   return constraints_.Phi_d(rows).cwiseAbs().maxCoeff() <= kFits * std::max(1.0, given);
 }
@@ -185,7 +182,7 @@ bool LoopClosure::closes_beside(const Eigen::VectorXd& q) {
   double beside = kBeside;
   for (const FrameIndex i : find_coordinates(ideal_, is_any)) at.q[i] += std::exchange(beside, -beside);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    calc_rows(at);
+    calc_positions(at);
     const Eigen::VectorXd gaps = constraints_.Phi(rigid_rows_);
     if (gaps.cwiseAbs().maxCoeff() < kMeets) return true;
     const Eigen::VectorXd step = follow(gaps);
@@ -217,6 +214,7 @@ bool LoopClosure::solve(double t, Evaluation& at) {
 }
 
 bool LoopClosure::solve_motion(double t, Evaluation& at) {
+  assert(constraints_.count() == step_.size());
   predict(t, at);
   set_drives(t, at);
   if (!close_position(at)) return false;

@@ -64,7 +64,6 @@ class LoopClosure {
   void set_drives(double t, Evaluation& at) const;
   void calc_positions(Evaluation& at);
   void calc_rates(Evaluation& at);
-  void calc_rows(Evaluation& at);
   [[nodiscard]] bool close_position(Evaluation& at);
   void solve_rates(Evaluation& at);
   void take_step(Eigen::VectorXd& coordinates);

@@ -37,6 +37,7 @@ struct KnownRows {
 ///     (Phi_q M^-1 Phi_q^T) lambda = wanted - Phi_q qdd_0
 ///
 /// without Phi_q: a joint's rows say which forces their multipliers exert on two bodies, and what they make of the accelerations of these two.
+/// (Only to find idle rows among those that depend on each other it is computed, see MultiplierMatrix::start.)
 template <typename Shapes>
 class LoopEquations {
   using Bodies = ArticulatedBodies<Shapes>;
@@ -51,7 +52,7 @@ class LoopEquations {
 
   RPSUP_INLINE explicit LoopEquations(const TreeModel& model)
       : rows(model),
-        any(model),
+        general(model),
         lambda(static_cast<std::size_t>(model.rows)),
         joints(model.cut_joints.size()),
         model_(model),
@@ -61,14 +62,14 @@ class LoopEquations {
         rest_(lambda.size()) {}
 
   ConstraintRows<Shapes> rows;
-  std::conditional_t<Shapes::known, KnownRows, AnyRows> any;
+  std::conditional_t<Shapes::known, KnownRows, AnyRows> general;
   RowRoom<double> lambda;                                 ///< the rows' multipliers
   typename Shapes::template CutRoom<ClosedJoint> joints;  ///< ideal cut joints
 
   /// From the joints as they stand. False if the loops cannot follow.
   [[nodiscard]] RPSUP_INLINE bool factor(const Bodies& bodies, const JointAxes* axes) {
     if constexpr (!Shapes::known)
-      if (model_.least_multipliers) matrix_.start(any.entries, model_.free);
+      if (model_.least_multipliers) matrix_.start(general.entries, model_.free);
     const int count = matrix_.acting_count();
     for (int first = 0; first < count; first += Directions::kCount) {
       const int end = std::min(first + Directions::kCount, count);
@@ -109,10 +110,10 @@ class LoopEquations {
       bodies.solve_bodies_lanes(axes, bodies_scratch_);
       subtract_accelerations(bodies_scratch_.accelerations.data(), rest_.data());
     } else {
-      any.tau.fill({});
-      load_coordinates(units_.data(), any.tau.data());
-      bodies.solve_lanes(axes, any.tau.data(), bodies_scratch_, any.responses.data());
-      subtract_answers(bodies_scratch_.accelerations.data(), any.responses.data(), rest_.data());
+      general.tau.fill({});
+      load_coordinates(units_.data(), general.tau.data());
+      bodies.solve_lanes(axes, general.tau.data(), bodies_scratch_, general.responses.data());
+      subtract_answers(bodies_scratch_.accelerations.data(), general.responses.data(), rest_.data());
     }
   }
 
@@ -137,6 +138,7 @@ class LoopEquations {
     });
   }
 
+  /// Driven coordinates, too: their drives bear it.
   template <typename T>
   RPSUP_INLINE void load_coordinates(const T* multipliers, T* tau) const {
     for (std::size_t k = 0; k < model_.couplings.size(); ++k) {

@@ -9,7 +9,7 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-constexpr double kSingularPivot = 1e-12;  ///< of one, relative to its row: the loop stands at the end of its reach
+constexpr double kSingularPivot = 1e-12;  ///< a pivot so small, of its diagonal entry: the loop stands at the end of its reach
 
 /// The lower triangle of a symmetric matrix, factored in place: L L^T. False if a pivot is below `singular` of its diagonal entry.
 [[nodiscard]] RPSUP_INLINE bool factor_cholesky(int n, double singular, double* A) {
@@ -198,6 +198,7 @@ class MultiplierMatrix {
   Buffer<double> largest_;           ///< diagonal entry of each block
 };
 
+/// Of constraints of a tree with such shapes.
 template <typename Shapes>
 struct MatrixOf {
   using Type = MultiplierMatrix;

@@ -11,7 +11,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///
 /// Of all links a frame's wd holds what the free coordinates do not add to: what the parent and the turning of the joint's axes make of it. A
 /// spherical joint passes none of this on to the rod: its angular acceleration may as well be counted from zero, which leaves less to compute. It is
-/// made up for in the accelerations of the joint's angles, from wd - wd_parent - w_parent x w and the axes' turning against each other.
+/// made up for in the accelerations of the joint's angles, from wd - wd_parent - w_parent x w and the axes' turning against each other. Rows of an
+/// ideal joint on the rod see no difference: their bias lacks what its SpatialAcceleration, which is then the whole one, adds.
 struct RodMotion {
   Vec3<double> x_d, x_dd;      ///< rate of its axis, w x x, and its derivative by time, w x (w x x)
   Vec3<double> lever;          ///< mc vd: its motion needs the moment x x lever

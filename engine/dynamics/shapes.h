@@ -101,7 +101,7 @@ struct KnownCutJoint {
 struct AnyShapes {
   static constexpr bool have_springs = true;  ///< there may be some between two points
   static constexpr bool have_rows = true;     ///< there may be constraints
-  static constexpr bool known = false;        ///< when the program is compiled: all that an evaluation finds has room on the stack
+  static constexpr bool known = false;        ///< when the program is compiled: evaluations have room on the stack, and count rods from zero
   template <typename T>
   using JointRoom = Buffer<T>;
   template <typename T>
@@ -166,15 +166,15 @@ struct KnownShapes {
   using CutRoom = FixedBuffer<T, 1>;
   template <typename T>
   using SpringRoom = FixedBuffer<T, 0>;
-  static constexpr int row_count = clearance ? 0 : 5;
+  using CutJoint = KnownCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
+  static constexpr int row_count = clearance ? 0 : CutJoint::rows.count();
   template <typename T>
   using RowRoom = FixedBuffer<T, row_count>;
   using RodRoom = FixedBuffer<RodMotion, n>;
-  using CutJoint = KnownCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
     if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() || !model.couplings.empty()) return false;
-    if (model.drive_rows || model.least_multipliers) return false;
+    if (model.least_multipliers) return false;  // see IndependentMatrix
     if (model.cut_joints.size() != 1 || !CutJoint::fit(model.cut_joints[0])) return false;
     for (std::size_t i = 0; i < n; ++i)
       if (!(static_cast<const JointShape&>(model.joints[i]) == shapes[i])) return false;

@@ -346,6 +346,7 @@ class VariedEquations {
     }
   }
 
+  /// See EquationsOfMotion::calc_drive_forces().
   RPSUP_INLINE void vary_drive_forces() {
     if (model_.drive_rows) {
       for (std::size_t k = 0; k < drive_force.size(); ++k) drive_force[k] = lambda_[static_cast<std::size_t>(model_.first_drive_row) + k];

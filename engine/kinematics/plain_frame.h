@@ -34,12 +34,10 @@ inline void copy(const Mat3<double>& from, double* to) {
   copy(from.z, to + 6);
 }
 
-/// Moves a frame to a constant placement in it. @returns the way from its origin, in W
-RPSUP_INLINE Vec3<double> move_to(const Placement& placement, Frame<double, double>& f) {
-  const Vec3<double> r = f.R * to_vec3(placement.p);
-  shift_frame(r, true, f);
+/// Moves a frame to a constant placement in it.
+RPSUP_INLINE void move_to(const Placement& placement, Frame<double, double>& f) {
+  shift_frame(f.R * to_vec3(placement.p), true, f);
   if (!is_unturned(placement)) f.R = f.R * to_mat3(placement.R);
-  return r;
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -44,6 +44,8 @@ std::vector<Case> all_cases() {
   rigid_rows.drive = DriveEnforcement::kBaumgarte;
   RpsupParameters ideal = flexible;
   ideal.c_r = 0.0;
+  RpsupParameters ideal_rigid = rigid;
+  ideal_rigid.c_r = 0.0;
   RpsupParameters plastic = rigid;  // Kelvin and Voigt's damper, a logarithmic stiffness, elasto-plastic bristles
   plastic.normal_law = NormalForceLaw::kKelvinVoigt;
   plastic.stiffness_law = StiffnessLaw::kRadzimovsky;
@@ -109,7 +111,7 @@ std::vector<Case> all_cases() {
           of_rpsup("ambrosio", no_bristles, kPressed, kFine), of_rpsup("coulomb", smooth, kPressed, kFine),
           of_rpsup("worn", worn, kPressed, 0.2 * kFine), of_rpsup("drive_rows", rows, kPressed, kFine),
           of_rpsup("rigid_drive_rows", rigid_rows, kPressed, kFine),
-          of_rpsup("ideal_flexible", ideal, 1e-6, kCoarse), of_rpsup("ideal_drive_rows", all_rows, 1e-6, kCoarse),
+          of_rpsup("ideal_flexible", ideal, 1e-6, kCoarse), of_rpsup("ideal_rigid", ideal_rigid, 1e-6, kCoarse), of_rpsup("ideal_drive_rows", all_rows, 1e-6, kCoarse),
           of_rpsup("flexible_links", links, kPressed, kFine), of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
           {"loose_loops", build_linkage(loose).mechanism, 1, 3e-4, kFine}, {"loose_rocker", build_linkage(loose).mechanism, 3, 2e-3, kFine},
           {"loose_elements", build_linkage(loose_elements).mechanism, 3, 2e-3, kFine},
@@ -335,6 +337,43 @@ TEST_P(Linearisation, TheRatesAreTheSameBytesWhetherAllIsKeptOrNot) {
   }
 }
 
+/// The linkage without clearance that code is specialised for, and others that look like it.
+std::vector<Case> ideal_linkages() {
+  std::vector<Case> cases = all_cases();
+  std::erase_if(cases, [](const Case& c) { return c.name != "ideal_flexible" && c.name != "ideal_rigid"; });
+  for (const std::size_t k : {0u, 1u}) {
+    Case universal = cases.at(k), dependent = cases.at(k);
+    universal.name += "_universal";
+    universal.mechanism.cut_joints[0].kind = CutKind::kUniversal;
+    dependent.name += "_dependent";
+    dependent.mechanism.least_multipliers = true;
+    cases.push_back(universal);
+    cases.push_back(dependent);
+  }
+  return cases;
+}
+
+class Specialised : public testing::TestWithParam<Case> {};
+
+// A spring without stiffness makes a linkage one that no code is specialised for.
+TEST_P(Specialised, MovesAndVariesAsAnyLinkageDoes) {
+  Case general = GetParam();
+  general.mechanism.springs.push_back({.from_frame = 0, .from = {0.1, 0.2, 0.3}, .to = {5.0, 6.0, 7.0}});
+  Moving special(GetParam(), {}), any(general, {});
+  constexpr double kRounding = 1e-9;  // amplified by the least of the multipliers' pivots, and by thin elements' accelerations
+  EXPECT_LE((special.f - any.f).cwiseAbs().maxCoeff(), kRounding * any.f.cwiseAbs().maxCoeff());
+  for (Moving* moving : {&special, &any}) {
+    ASSERT_EQ(moving->system_.linearise(Moving::kTime, special.y), EvaluationStatus::kOk);
+    ASSERT_TRUE(moving->system_.factor(1e4));
+  }
+  Eigen::VectorXd x = any.f, y = any.f;
+  special.system_.solve_in_place(x);
+  any.system_.solve_in_place(y);
+  EXPECT_LE((x - y).cwiseAbs().maxCoeff(), kRounding * y.cwiseAbs().maxCoeff());
+  EXPECT_LE((special.system_.time_derivative() - any.system_.time_derivative()).cwiseAbs().maxCoeff(),
+            kRounding * any.system_.time_derivative().cwiseAbs().maxCoeff());
+}
+
 /// Those without constraints, and without springs between points.
 std::vector<Case> open_chains() {
   std::vector<Case> cases = all_cases();
@@ -346,6 +385,7 @@ std::vector<Case> open_chains() {
   return cases;
 }
 
+INSTANTIATE_TEST_SUITE_P(Cases, Specialised, testing::ValuesIn(ideal_linkages()), [](const auto& test) { return test.param.name; });
 INSTANTIATE_TEST_SUITE_P(Cases, OpenChains, testing::ValuesIn(open_chains()), [](const auto& test) { return test.param.name; });
 INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, testing::ValuesIn(all_cases()), [](const auto& test) { return test.param.name; });
 
