@@ -123,7 +123,8 @@ std::vector<Case> all_cases() {
           of_linkage("screw", make_screw(), 1e-5, 1.0), of_linkage("sprung", sprung, 1e-5, 1.0),
           of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0),
           of_linkage("dependent_cylinder", make_four_bar(JointKind::kCylindrical), 0.0, 0.0),
-          of_linkage("dependent_weld", make_four_bar(JointKind::kWeld), 0.0, 0.0)};
+          of_linkage("dependent_weld", make_four_bar(JointKind::kWeld), 0.0, 0.0),
+          of_linkage("dependent_slot", make_quick_return(JointKind::kPrismatic), 0.0, 0.0)};
 }
 
 /// A mechanism in motion, its bristles bent.

@@ -81,6 +81,29 @@ namespace engine {
   return linkage;
 }
 
+/// A flat quick-return, free to fall: a pin of the crank turns in a block that slides along a lever. @param cut  of the joint: kRevolute, the pin,
+/// or kPrismatic, the slot
+[[nodiscard]] inline Linkage make_quick_return(JointKind cut) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -9.81, 0.0};
+  linkage.bodies = {make_body("crank", 0.2, {0.05, 0.01, 0.0}, {1e-4, 2e-4, 2e-4}), make_body("lever", 0.5, {0.2, 0.0, 0.0}, {1e-4, 3e-2, 3e-2}),
+                    make_body("block", 0.3, {0.01, 0.02, 0.0}, {1e-4, 2e-4, 2e-4})};
+  linkage.joints = {
+      {.name = "crank", .from = kGroundName, .to = "crank", .placement = {}, .freedoms = {{.name = "crank", .start = 1.0, .start_rate = 6.0}}},
+      {.name = "lever", .from = kGroundName, .to = "lever", .placement = {.p = {0.0, -0.3, 0.0}}, .freedoms = {{.name = "lever", .guess = 1.4}}}};
+  const Placement tip{.p = {0.1, 0.0, 0.0}};
+  if (cut == JointKind::kRevolute) {
+    linkage.joints.push_back({.name = "slot", .kind = JointKind::kPrismatic, .from = "lever", .to = "block", .placement = {},
+                              .axes = {Axis::kX, Axis::kY}, .freedoms = {{.name = "slot", .guess = 0.4}}});
+    linkage.joints.push_back({.name = "pin", .kind = cut, .from = "crank", .to = "block", .placement = tip, .cut = true});
+  } else {
+    linkage.joints.push_back({.name = "pin", .from = "crank", .to = "block", .placement = tip, .freedoms = {{.name = "pin", .guess = 0.4}}});
+    linkage.joints.push_back({.name = "slot", .kind = cut, .from = "lever", .to = "block", .placement = {.R = z_to_x()}, .cut = true,
+                              .to_placement = {.R = z_to_x()}});
+  }
+  return linkage;
+}
+
 /// A tree of all sorts whose two loops are closed by joints with clearance: a sprung carriage that slides along a rail, which turns, with a driven
 /// crank on it, which a flexible rod joins to a rocker; on this an arm, with a pin in the ground. Coordinates: rail 0, carriage 1, rocker 3.
 [[nodiscard]] inline Linkage make_loose_loops(const ClearanceParameters& clearance) {

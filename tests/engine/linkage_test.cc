@@ -47,6 +47,21 @@ TEST(Linkage, MovesTheSameWithAFlatLoopCutAnywhere) {
   EXPECT_LT(revolute.metric("energy_imbalance_j"), 1e-8);
 }
 
+// The journal of the slot is elsewhere than its bearing, and the bearing turns.
+TEST(Linkage, MovesTheSameWithABlockOnALeverCutAtItsPinOrItsSlot) {
+  const LinkageRun pin(make_quick_return(JointKind::kRevolute), accurate(1.0));
+  const LinkageRun slot(make_quick_return(JointKind::kPrismatic), accurate(1.0));
+  EXPECT_GT(pin.last("crank_rad"), 3.0);
+  EXPECT_NEAR(slot.last("crank_rad"), pin.last("crank_rad"), 2e-8);
+  EXPECT_NEAR(slot.last("lever_rad"), pin.last("lever_rad"), 2e-8);
+  for (const char* const joint : {"crank", "lever", "pin", "slot"})
+    for (const char* const axis : {"x", "y"}) {
+      const std::string force = joint + std::string("_force_") + axis + "_n";
+      EXPECT_NEAR(slot.last(force), pin.last(force), 1e-5) << force;
+    }
+  EXPECT_LT(slot.metric("energy_imbalance_j"), 1e-8);
+}
+
 // Turning the nut by phi lowers it by lead phi: (I + m lead^2) phi'' = m g lead - c phi'.
 TEST(Linkage, AScrewTurnsUnderItsLoad) {
   const LinkageRun run(make_screw(), accurate(2.0));
