@@ -6,6 +6,7 @@
 #include <set>
 
 #include "jobs/executor.h"
+#include "jobs/link_parameters.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
@@ -15,6 +16,17 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
+
+/// Whether what stands at a pointer into parameters is one number or word. (Moments of inertia are three.)
+bool takes_one_value(const std::string& pointer) {
+  static const std::set<std::string> pointers = [] {
+    std::set<std::string> found;
+    for (const std::string& path : known_paths())
+      if (!path.ends_with(kInertiaKey)) found.insert(pointer_of_path(path));
+    return found;
+  }();
+  return pointers.contains(pointer);
+}
 
 /// Reads one request; a member function a part of it.
 class Parser {
@@ -117,9 +129,7 @@ class Parser {
   bool check_values(const json& given, const std::string& pointer) {
     const std::vector<Fault> found = find_value_faults(given);
     for (const Fault& each : found) {
-      const bool several = std::ranges::any_of(known_paths(), [&](const std::string& path) {
-        return each.pointer == pointer_of_path(path) && given.at(json::json_pointer(each.pointer)).is_structured();
-      });
+      const bool several = takes_one_value(each.pointer) && given.at(json::json_pointer(each.pointer)).is_structured();
       fault(pointer + each.pointer, each.detail + (several ? "; several values stand under \"sweep\"" : ""));
     }
     return found.empty();

@@ -24,6 +24,14 @@ TEST_P(SweepFault, IsNamedWithItsPlace) {
   EXPECT_NE(faults[0].detail.find(GetParam().says), std::string::npos) << faults[0].detail;
 }
 
+TEST(SweepFaults, OfAListThatAParameterIsSayNothingOfSweeping) {
+  const auto faults = faults_of([] {
+    (void)jobs::plan_sweep(request_of(R"({"parameters": {"links": {"1,3": {"inertia_kg_m2": [1, 2]}}}})"), 10'000);
+  });
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].detail.find("sweep"), std::string::npos) << faults[0].detail;
+}
+
 constexpr FaultCase kFaultCases[] = {
     {"not_an_object", "[]", "", "object"},
     {"unknown_key", R"({"swep": {}})", "/swep", "did you mean sweep?"},
