@@ -15,10 +15,6 @@ namespace engine {
 
 namespace {
 
-void require(bool holds, const std::string& field, const std::string& allowed) {
-  if (!holds) throw InvalidInput(field, "must be " + allowed);
-}
-
 /// About the centre of mass no principal moment is below 0 or above the sum of the other two; those of a thin rod are 0 and equal.
 bool is_inertia_of_a_body(const LinkageBody& body) {
   const Eigen::Vector3d& c = body.com;

@@ -21,10 +21,6 @@ std::string to_text(double value) {
   return text.str();
 }
 
-void require(bool holds, const std::string& field, const std::string& allowed) {
-  if (!holds) throw InvalidInput(field, "must be " + allowed);
-}
-
 /// Written so that not-a-number fails as well.
 void require_positive(double value, const std::string& field) { require(value > 0.0 && std::isfinite(value), field, "a finite number above 0"); }
 void require_not_negative(double value, const std::string& field) { require(value >= 0.0 && std::isfinite(value), field, "a finite number of at least 0"); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -13,7 +14,9 @@ namespace jobs {
 /// What names a result: the same parameters computed by the same engine. SHA-256 in hex, 64 characters.
 [[nodiscard]] std::string content_id(std::string_view canonical_parameters, std::string_view engine_version);
 
-/// SHA-256 of a text in hex, 64 characters. @param rest  what follows it, if the text comes in two parts
+inline constexpr std::size_t kSha256Digits = 64;
+
+/// SHA-256 of a text in hex. @param rest  what follows it, if the text comes in two parts
 [[nodiscard]] std::string sha256_hex(std::string_view text, std::string_view rest = {});
 
 }  // namespace jobs

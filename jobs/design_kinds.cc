@@ -3,6 +3,7 @@
 #include <array>
 
 #include "jobs/listed_designs.h"
+#include "jobs/parameter_value.h"
 #include "jobs/sampled_designs.h"
 
 namespace jobs {
@@ -18,10 +19,11 @@ std::span<const DesignKind> design_kinds() {
       {"morris", "trajectories along which one parameter after the other is changed: elementary effects, for few runs",
        {"trajectories", "levels", "seed"}, count_morris, make_morris},
       {"saltelli", "count blocks of two points and, for each parameter, of their mixture: Sobol's indices, for many runs", {"count", "seed"},
-      count_saltelli,
-       make_saltelli},
+       count_saltelli, make_saltelli},
   }};
   return kinds;
 }
+
+std::string pointer_of_axis(std::string_view path) { return "/design/over" + pointer_token(path); }
 
 }  // namespace jobs

@@ -5,6 +5,7 @@
 
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
+#include "jobs/units.h"
 
 namespace jobs {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kLinksPointer = "/links";
-constexpr double kMmPerM = 1000.0;
 
 /// The keys on which the default mass and inertia of a link depend; empty: none.
 struct RodKeys {
@@ -78,7 +78,6 @@ void find_part_faults(std::string_view link, const json& parts, std::vector<Faul
   }
 }
 
-double number_at(const json& completed, std::string_view key) { return completed.at(key).get<double>(); }
 double default_number(std::string_view key) { return default_value(*find_parameter(key)).get<double>(); }
 
 SectionRatio section_ratio(const RodKeys& keys, const json& completed) {

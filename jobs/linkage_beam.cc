@@ -5,14 +5,13 @@
 #include <numbers>
 
 #include "jobs/range.h"
+#include "jobs/units.h"
 
 namespace jobs {
 namespace {
 
 using nlohmann::json;
 using std::numbers::pi;
-
-constexpr double kMmPerM = 1000.0;
 
 /// Area, second moments about y and z, and torsion constant of a section, in m.
 struct Section {

@@ -11,8 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr Range between(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum}; }
-constexpr Range above(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .lower = Bound::kExclusive}; }
 constexpr Range kLength = between(-1000, 1000);
 constexpr Range kAngle = between(-360, 360);
 constexpr Range kTime = between(0, 3600);

@@ -14,11 +14,9 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-std::string pointer_of(const std::string& path) { return "/design/over" + pointer_token(path); }
-
 std::vector<Axis> make_axes(const ordered_json& design, Repeats repeats, std::vector<Fault>& faults) {
   std::vector<Axis> axes;
-  for (const auto& [path, axis] : design.at("over").items()) axes.push_back(make_axis(path, axis, pointer_of(path), faults, repeats));
+  for (const auto& [path, axis] : design.at("over").items()) axes.push_back(make_axis(path, axis, pointer_of_axis(path), faults, repeats));
   return axes;
 }
 
@@ -52,10 +50,10 @@ std::uint64_t count_zip(const ordered_json& design, const json&, std::vector<Fau
   const std::string& first = design.at("over").begin().key();
   std::uint64_t count = 0;
   for (const auto& [path, axis] : design.at("over").items()) {
-    const std::uint64_t values = count_axis_values(path, axis, pointer_of(path), faults);
+    const std::uint64_t values = count_axis_values(path, axis, pointer_of_axis(path), faults);
     if (path == first) count = values;
     if (values == 0 || count == 0 || values == count) continue;
-    faults.push_back({pointer_of(path), "has " + std::to_string(values) + " values, and " + first + " has " + std::to_string(count) + ": a zip needs as many of each"});
+    faults.push_back({pointer_of_axis(path), "has " + std::to_string(values) + " values, and " + first + " has " + std::to_string(count) + ": a zip needs as many of each"});
   }
   return faults.size() == before ? count : 0;
 }
@@ -81,7 +79,7 @@ std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parame
   const std::size_t before = faults.size();
   check_centre(design, faults);
   std::uint64_t count = 1;
-  for (const auto& [path, axis] : design.at("over").items()) count += count_axis_values(path, axis, pointer_of(path), faults);
+  for (const auto& [path, axis] : design.at("over").items()) count += count_axis_values(path, axis, pointer_of_axis(path), faults);
   if (faults.size() != before) return 0;
   const auto centre = centre_of(design, parameters);
   // Of parameters with faults nothing is known.

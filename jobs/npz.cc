@@ -37,7 +37,7 @@ std::string npy_head(std::size_t values) {
 }
 
 /// One entry of the archive.
-struct Entry {
+struct ArchivedFile {
   std::string name;
   std::uint32_t crc = 0;
   std::uint32_t size = 0;
@@ -52,7 +52,7 @@ std::uint32_t crc_of(std::string_view head, std::string_view data) {
 }
 
 /// What a local header and a line of the directory have in common.
-void append_description(std::string& bytes, const Entry& entry) {
+void append_description(std::string& bytes, const ArchivedFile& entry) {
   constexpr std::uint32_t kVersion = 20;
   constexpr std::uint32_t kMidnight = 0;
   constexpr std::uint32_t kFirstDay = (1U << 5U) | 1U;  // 1980-01-01: no clock in the bytes
@@ -68,7 +68,7 @@ void append_description(std::string& bytes, const Entry& entry) {
   append_u16(bytes, 0);  // no extra fields
 }
 
-void append_directory_line(std::string& bytes, const Entry& entry) {
+void append_directory_line(std::string& bytes, const ArchivedFile& entry) {
   bytes += "PK\x01\x02";
   append_u16(bytes, 20);  // made by version 2.0, on MS-DOS: no permissions
   append_description(bytes, entry);
@@ -104,7 +104,7 @@ void check_size(const engine::Trajectory& trajectory) {
 std::string to_npz(const engine::Trajectory& trajectory) {
   check_size(trajectory);
   std::string bytes;
-  std::vector<Entry> entries;
+  std::vector<ArchivedFile> entries;
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
     const std::span column(trajectory.columns[c]);
     const std::string head = npy_head(column.size());
@@ -118,7 +118,7 @@ std::string to_npz(const engine::Trajectory& trajectory) {
     bytes += data;
   }
   const std::size_t directory_offset = bytes.size();
-  for (const Entry& entry : entries) append_directory_line(bytes, entry);
+  for (const ArchivedFile& entry : entries) append_directory_line(bytes, entry);
   append_end(bytes, entries.size(), directory_offset);
   return bytes;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "jobs/units.h"
+
 namespace jobs {
 namespace {
 
@@ -25,10 +27,6 @@ struct OfLink {
 };
 template <typename Spec, typename T>
 auto& field(Spec& spec, OfLink<T> member) { return spec.parameters.*member.link.*member.member; }
-
-constexpr Range between(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum}; }
-constexpr Range above(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .lower = Bound::kExclusive}; }
-constexpr Range below(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .upper = Bound::kExclusive}; }
 
 /// What the rows of the table say, whatever the type of the engine's member.
 struct About {
@@ -80,7 +78,6 @@ ParameterInfo choice(const About& about, Member member, std::vector<std::pair<st
 constexpr auto kPaper = DefaultSource::kPaper;
 constexpr auto kDeduced = DefaultSource::kDeduced;
 constexpr auto kChosen = DefaultSource::kChosen;
-constexpr double kMmPerM = 1000.0;
 
 using P = RpsupParameters;
 using O = RunOptions;

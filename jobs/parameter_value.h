@@ -23,6 +23,9 @@ namespace jobs {
 /// A value that may be used, in the one form in which it is stored: numbers as doubles, -0 as 0, integers as integers.
 [[nodiscard]] nlohmann::json canonical_value(const ParameterInfo& info, const nlohmann::json& value);
 
+/// A number of a parameter set that has this key.
+[[nodiscard]] inline double number_at(const nlohmann::json& parameters, std::string_view key) { return parameters.at(key).get<double>(); }
+
 /// What to say of a key that is none of `known`: "unknown key; did you mean clearance_mm?".
 [[nodiscard]] std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known);
 

@@ -45,8 +45,6 @@ void find_linkage_faults(const json& given, std::vector<Fault>& faults) {
   if (faults.empty()) (void)read_linkage(linkage, to_job_spec(fill_in_defaults({{"linkage", json::object()}})).parameters, faults);
 }
 
-double number_at(const json& completed, std::string_view key) { return completed.at(key).get<double>(); }
-
 void add_clearance_faults(const json& completed, std::vector<Fault>& faults) {
   const double clearance = number_at(completed, "clearance_mm");
   const double bearing_radius = number_at(completed, "bearing_radius_mm");

@@ -19,6 +19,12 @@ struct Range {
   [[nodiscard]] std::string text() const;  ///< for the user: "in (0, 3600]"
 };
 
+[[nodiscard]] constexpr Range between(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum}; }
+/// Without its minimum.
+[[nodiscard]] constexpr Range above(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .lower = Bound::kExclusive}; }
+/// Without its maximum.
+[[nodiscard]] constexpr Range below(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .upper = Bound::kExclusive}; }
+
 /// Seeds: the integers that every reader of JSON keeps.
 inline constexpr Range kSeedRange{.minimum = 0, .maximum = 9007199254740991.0};
 

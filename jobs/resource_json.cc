@@ -9,6 +9,7 @@
 #include "engine/simulate_linkage.h"
 #include "jobs/flat_json.h"
 #include "jobs/linkage_json.h"
+#include "jobs/optional_json.h"
 #include "jobs/parameter_path.h"
 #include "jobs/parameters.h"
 #include "jobs/provenance.h"
@@ -21,9 +22,6 @@ namespace {
 using nlohmann::json;
 
 json time_or_null(const std::optional<std::int64_t>& unix_ms) { return unix_ms ? json(time_text(*unix_ms)) : json(); }
-
-template <typename T>
-json value_or_null(const std::optional<T>& value) { return value ? json(*value) : json(); }
 
 json text_or_null(const std::string& text) { return text.empty() ? json() : json(text); }
 

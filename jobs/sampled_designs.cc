@@ -23,8 +23,6 @@ using nlohmann::ordered_json;
 constexpr std::uint64_t kDefaultSeed = 1;
 constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();  ///< what no count of points reaches
 
-std::string pointer_of(const std::string& path) { return "/design/over" + pointer_token(path); }
-
 bool is_integer(const std::string& path) {
   const ParameterInfo* info = find_parameter(path);
   return info != nullptr && info->kind == ParameterKind::kInteger;
@@ -33,12 +31,12 @@ bool is_integer(const std::string& path) {
 /// Adds the faults of both ends of a range. Returns whether there are none.
 bool check_range(const std::string& path, const json& given, std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
-  const auto span = read_span(given, {}, pointer_of(path), faults);
+  const auto span = read_span(given, {}, pointer_of_axis(path), faults);
   if (!span) return false;
   for (const char* end : {"from", "to"}) {
-    for (const Fault& fault : find_path_faults(path, given.at(end))) faults.push_back({pointer_of(path) + "/" + end, fault.detail});
+    for (const Fault& fault : find_path_faults(path, given.at(end))) faults.push_back({pointer_of_axis(path) + "/" + end, fault.detail});
   }
-  if (!(span->from < span->to)) faults.push_back({pointer_of(path) + "/to", "must be more than from"});
+  if (!(span->from < span->to)) faults.push_back({pointer_of_axis(path) + "/to", "must be more than from"});
   return faults.size() == before;
 }
 
@@ -46,7 +44,7 @@ bool check_range(const std::string& path, const json& given, std::vector<Fault>&
 std::uint64_t count_levels(const std::string& path, const json& given, std::vector<Fault>& faults) {
   if (given.is_array() && !given.empty()) return given.size();
   if (!given.is_object() || !is_numeric(path)) {
-    faults.push_back({pointer_of(path), is_numeric(path) ? "must be {\"from\", \"to\", \"scale\"}, or a list of one value or more" : "must be a list of one value or more"});
+    faults.push_back({pointer_of_axis(path), is_numeric(path) ? "must be {\"from\", \"to\", \"scale\"}, or a list of one value or more" : "must be a list of one value or more"});
     return kEndless;
   }
   if (!check_range(path, given, faults) || !is_integer(path)) return kEndless;
@@ -58,9 +56,9 @@ class Dimension {
  public:
   Dimension(const std::string& path, const json& given, std::vector<Fault>& faults) : integer_(is_integer(path)) {
     if (given.is_array()) {
-      values_ = make_axis(path, given, pointer_of(path), faults).values;
+      values_ = make_axis(path, given, pointer_of_axis(path), faults).values;
     } else {
-      span_ = *read_span(given, {}, pointer_of(path), faults);
+      span_ = *read_span(given, {}, pointer_of_axis(path), faults);
     }
   }
 

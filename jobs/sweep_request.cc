@@ -29,9 +29,9 @@ bool takes_one_value(const std::string& pointer) {
 }
 
 /// Reads one request; a member function a part of it.
-class Parser {
+class SweepParser {
  public:
-  Parser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+  SweepParser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
 
   SweepRequest parse() {
     if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
@@ -248,6 +248,6 @@ class Parser {
 
 }  // namespace
 
-SweepRequest parse_sweep_request(const ordered_json& request, std::size_t max_jobs) { return Parser(request, max_jobs).parse(); }
+SweepRequest parse_sweep_request(const ordered_json& request, std::size_t max_jobs) { return SweepParser(request, max_jobs).parse(); }
 
 }  // namespace jobs

@@ -56,13 +56,13 @@ std::string_view bytes_of(const std::vector<T>& items) {
 }
 
 /// A column as it is stored, before it is made a frame.
-struct Block {
+struct EncodedColumn {
   Encoding encoding = Encoding::kDouble;
   std::string bytes;
   std::size_t copied = 0;  ///< kCopy: the channel that has the same column
 };
 
-Block encode_column(const engine::QuantityInfo& channel, const std::vector<double>& column, SinglePacker& packer) {
+EncodedColumn encode_column(const engine::QuantityInfo& channel, const std::vector<double>& column, SinglePacker& packer) {
   if (channel.single_precision) return {Encoding::kPackedSingle, std::string(packer.pack(column))};
   if (const auto time = channel.key == "t_s" ? find_uniform_time(column) : std::nullopt) {
     ByteWriter writer;
@@ -85,18 +85,18 @@ std::size_t find_original(const engine::Trajectory& trajectory, std::size_t i) {
 
 /// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a copy of it; numbers that
 /// are the same when rounded are seen by their bytes.
-std::vector<Block> encode_columns(const engine::Trajectory& trajectory) {
+std::vector<EncodedColumn> encode_columns(const engine::Trajectory& trajectory) {
   SinglePacker packer;
-  std::vector<Block> blocks;
+  std::vector<EncodedColumn> blocks;
   blocks.reserve(trajectory.columns.size());
-  const auto copy_of = [](std::size_t original) { return Block{Encoding::kCopy, {}, original}; };
+  const auto copy_of = [](std::size_t original) { return EncodedColumn{Encoding::kCopy, {}, original}; };
   for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
     if (const std::size_t original = find_original(trajectory, i); original < i) {
       blocks.push_back(copy_of(original));
       continue;
     }
-    Block block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
-    const auto is_same = [&](const Block& other) { return other.encoding == block.encoding && other.bytes == block.bytes; };
+    EncodedColumn block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
+    const auto is_same = [&](const EncodedColumn& other) { return other.encoding == block.encoding && other.bytes == block.bytes; };
     const auto same = std::ranges::find_if(blocks, is_same);
     if (same != blocks.end()) block = copy_of(static_cast<std::size_t>(same - blocks.begin()));
     blocks.push_back(std::move(block));
@@ -105,7 +105,7 @@ std::vector<Block> encode_columns(const engine::Trajectory& trajectory) {
 }
 
 /// What the header says of a channel.
-struct Entry {
+struct StoredChannel {
   engine::QuantityInfo info;
   Encoding encoding = Encoding::kDouble;
   std::span<const std::byte> block;  ///< a frame; of a copy, that of its original
@@ -113,12 +113,12 @@ struct Entry {
 
 struct Contents {
   std::size_t samples = 0;
-  std::vector<Entry> entries;
+  std::vector<StoredChannel> entries;
 };
 
 /// @param before  the channels that a copy may be of
-Entry read_entry(ByteReader& header, ByteReader& blob, std::span<const Entry> before) {
-  Entry entry;
+StoredChannel read_entry(ByteReader& header, ByteReader& blob, std::span<const StoredChannel> before) {
+  StoredChannel entry;
   entry.info.key = header.text();
   entry.info.help = header.text();
   const auto flags = header.number<std::uint8_t>();
@@ -163,7 +163,7 @@ std::vector<double> decode_items(std::span<const std::byte> block, std::size_t s
   return {items.begin(), items.end()};
 }
 
-std::vector<double> decode_column(const Entry& entry, std::size_t samples) {
+std::vector<double> decode_column(const StoredChannel& entry, std::size_t samples) {
   switch (entry.encoding) {
     case Encoding::kSingle: return decode_items<float>(entry.block, samples);
     case Encoding::kDouble: return decode_items<double>(entry.block, samples);
@@ -202,9 +202,9 @@ std::string encode_trajectory(const engine::Trajectory& trajectory) {
   ByteWriter header;
   header.number(std::uint64_t{count_samples(trajectory)});
   header.number(static_cast<std::uint32_t>(trajectory.channels.size()));
-  const std::vector<Block> blocks = encode_columns(trajectory);
+  const std::vector<EncodedColumn> blocks = encode_columns(trajectory);
   std::string frames;
-  const auto add_room = [](std::size_t sum, const Block& block) { return sum + block.bytes.size() + 32; };
+  const auto add_room = [](std::size_t sum, const EncodedColumn& block) { return sum + block.bytes.size() + 32; };
   frames.reserve(std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, add_room));
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const engine::QuantityInfo& channel = trajectory.channels[i];
@@ -229,13 +229,13 @@ std::string encode_trajectory(const engine::Trajectory& trajectory) {
 engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<const std::string> keys) {
   const Contents contents = read_contents(blob);
   engine::Trajectory trajectory;
-  const auto add = [&](const Entry& entry) {
+  const auto add = [&](const StoredChannel& entry) {
     trajectory.channels.push_back(entry.info);
     trajectory.columns.push_back(decode_column(entry, contents.samples));
   };
   if (keys.empty()) std::ranges::for_each(contents.entries, add);
   for (const std::string& key : keys) {
-    const auto found = std::ranges::find(contents.entries, key, [](const Entry& entry) { return entry.info.key; });
+    const auto found = std::ranges::find(contents.entries, key, [](const StoredChannel& entry) { return entry.info.key; });
     if (found != contents.entries.end()) add(*found);
   }
   return trajectory;
@@ -243,7 +243,7 @@ engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<
 
 std::vector<engine::QuantityInfo> decode_channels(std::span<const std::byte> blob) {
   std::vector<engine::QuantityInfo> channels;
-  for (Entry& entry : read_contents(blob).entries) channels.push_back(std::move(entry.info));
+  for (StoredChannel& entry : read_contents(blob).entries) channels.push_back(std::move(entry.info));
   return channels;
 }
 

@@ -30,19 +30,19 @@ namespace server {
 namespace {
 
 /// A sweep and its rows.
-struct Study {
+struct StudiedSweep {
   nlohmann::json sweep;
   jobs::ResultTable results;
 };
 
-std::optional<Study> find_study(const Call& call, const jobs::ResultQuery& query = {}) {
+std::optional<StudiedSweep> find_study(const Call& call, const jobs::ResultQuery& query = {}) {
   auto sweep = call.service.find_sweep(call.id);
   auto results = sweep ? call.service.find_results(call.id, query) : std::nullopt;
-  return results ? std::optional(Study{std::move(*sweep), std::move(*results)}) : std::nullopt;
+  return results ? std::optional(StudiedSweep{std::move(*sweep), std::move(*results)}) : std::nullopt;
 }
 
 /// job_id, what is swept, and the end of the run-up.
-std::optional<Study> find_study_with_run_up(const Call& call) {
+std::optional<StudiedSweep> find_study_with_run_up(const Call& call) {
   const auto sweep = call.service.find_sweep(call.id);
   if (!sweep) return std::nullopt;
   jobs::ResultQuery query;
@@ -55,7 +55,7 @@ std::optional<Study> find_study_with_run_up(const Call& call) {
 
 /// What is worked out of a study, with the faults of the query beside those that the work finds.
 template <typename Work>
-auto work_out(const Call& call, Query& query, std::optional<Study> (*find)(const Call&), const Work& work) {
+auto work_out(const Call& call, Query& query, std::optional<StudiedSweep> (*find)(const Call&), const Work& work) {
   auto made = query.check_and([&] {
     const auto study = find(call);
     return study ? std::optional(work(*study)) : std::nullopt;
@@ -64,7 +64,7 @@ auto work_out(const Call& call, Query& query, std::optional<Study> (*find)(const
   return std::move(*made);
 }
 
-std::optional<Study> find_whole_study(const Call& call) { return find_study(call); }
+std::optional<StudiedSweep> find_whole_study(const Call& call) { return find_study(call); }
 
 Response with_etag_if(bool ended, const Call& call, Response response) {
   return ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
@@ -75,7 +75,7 @@ Response make_rows(const Call& call, TableFormat format, const jobs::ResultTable
 }
 
 /// The metric that a query asks for, of those that the study's linkages have.
-std::string metric_of(const Query& query, const Study& study) { return jobs::choose_metric(study.results, query.text("metric").value_or("")); }
+std::string metric_of(const Query& query, const StudiedSweep& study) { return jobs::choose_metric(study.results, query.text("metric").value_or("")); }
 
 /// A part of the trajectory of a job, for what is worked out of RPSUP's own channels. @param what  that jobs of RPSUP have
 std::optional<engine::Trajectory> find_rpsup_run(const Call& call, const std::string& id, const jobs::TrajectoryQuery& part, const char* what) {
@@ -160,14 +160,14 @@ Response get_sensitivity(const Call& call) {
   Query query(call.request, {"metric", "format"});
   const TableFormat format = find_row_format(call.request, query);
   const auto table = work_out(call, query, find_whole_study,
-                              [&](const Study& study) { return jobs::calc_sensitivity(study.sweep, study.results, metric_of(query, study)); });
+                              [&](const StudiedSweep& study) { return jobs::calc_sensitivity(study.sweep, study.results, metric_of(query, study)); });
   return make_rows(call, format, table, "sensitivity");
 }
 
 Response get_surrogate(const Call& call) {
   Query query(call.request, {"metric", "x", "y"});
   bool ended = false;
-  const auto surrogate = work_out(call, query, find_whole_study, [&](const Study& study) {
+  const auto surrogate = work_out(call, query, find_whole_study, [&](const StudiedSweep& study) {
     const jobs::SurrogateQuery wanted{.metric = metric_of(query, study), .x = query.text("x").value_or(""), .y = query.text("y").value_or("")};
     ended = study.results.ended;
     return make_surrogate(study.sweep, study.results, wanted);
@@ -179,7 +179,7 @@ Response get_flexibility(const Call& call) {
   Query query(call.request, {"metric", "format"});
   const TableFormat format = find_row_format(call.request, query);
   const auto table = work_out(call, query, find_whole_study,
-                              [&](const Study& study) { return jobs::compare_couplers(study.sweep, study.results, metric_of(query, study)); });
+                              [&](const StudiedSweep& study) { return jobs::compare_couplers(study.sweep, study.results, metric_of(query, study)); });
   return make_rows(call, format, table, "flexibility");
 }
 
@@ -190,7 +190,7 @@ Response get_bifurcation(const Call& call) {
   wanted.channel = query.text("channel").value_or(wanted.channel);
   wanted.phase = query.number("phase_rad").value_or(wanted.phase);
   wanted.from = query.number("from");
-  const auto table = work_out(call, query, find_study_with_run_up, [&](const Study& study) {
+  const auto table = work_out(call, query, find_study_with_run_up, [&](const StudiedSweep& study) {
     return with_one_channel([&] { return make_bifurcation(study.sweep.at("axes"), study.results, wanted, finder(call, kSection)); });
   });
   return make_rows(call, format, table, "bifurcation");
@@ -199,7 +199,7 @@ Response get_bifurcation(const Call& call) {
 Response get_lyapunov(const Call& call) {
   Query query(call.request, {"format"});
   const TableFormat format = find_row_format(call.request, query);
-  const auto table = work_out(call, query, find_whole_study, [&](const Study& study) {
+  const auto table = work_out(call, query, find_whole_study, [&](const StudiedSweep& study) {
     return make_lyapunov(study.sweep.at("axes"), study.results, finder(call, "the journal that this is measured by"));
   });
   return make_rows(call, format, table, "lyapunov");
@@ -208,7 +208,7 @@ Response get_lyapunov(const Call& call) {
 Response get_report(const Call& call) {
   Query query(call.request, {});
   bool ended = false;
-  std::string page = work_out(call, query, find_whole_study, [&](const Study& study) {
+  std::string page = work_out(call, query, find_whole_study, [&](const StudiedSweep& study) {
     ended = study.results.ended;
     return report::make_report(study.sweep, study.results, find_provenance(call, study.results));
   });

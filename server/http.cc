@@ -3,12 +3,9 @@
 #include <strings.h>
 
 #include <algorithm>
-#include <atomic>
-#include <charconv>
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -19,6 +16,7 @@
 #include "server/http_guard.h"
 #include "server/problem.h"
 #include "server/request_head.h"
+#include "server/request_ids.h"
 
 namespace server {
 
@@ -32,22 +30,6 @@ const httplib::Headers kSecurityHeaders = {
     {"Cross-Origin-Resource-Policy", "same-origin"},
     {"Referrer-Policy", "no-referrer"},
     {"X-Content-Type-Options", "nosniff"},
-};
-
-/// Names requests: a random part for this run of the program, then a number.
-class RequestIds {
- public:
-  RequestIds() : prefix_(hex(std::random_device{}())) {}
-  std::string next() { return prefix_ + "-" + std::to_string(++count_); }
-
- private:
-  static std::string hex(unsigned value) {
-    char digits[16];
-    return {digits, std::to_chars(digits, digits + sizeof digits, value, 16).ptr};
-  }
-
-  std::string prefix_;
-  std::atomic<unsigned long> count_ = 0;
 };
 
 /// Sends a file piece by piece.

@@ -19,7 +19,7 @@ HttpError no_such_job(const std::string& id) { return {404, "there is no job " +
 
 bool has_ended(const nlohmann::json& job) { return job.at("state") != "queued" && job.at("state") != "running"; }
 
-std::string to_text(const engine::Trajectory& trajectory, TableFormat format) {
+std::string trajectory_text(const engine::Trajectory& trajectory, TableFormat format) {
   if (format == TableFormat::kCsv) return jobs::to_csv(trajectory);
   return format == TableFormat::kNpz ? jobs::to_npz(trajectory) : to_json_columns(trajectory);
 }
@@ -69,7 +69,7 @@ Response get_trajectory(const Call& call) {
                              " and has no trajectory");
   }
   // Only what has ended has a trajectory.
-  return with_etag(call.request, make_table(format, to_text(*trajectory, format), "job-" + call.id));
+  return with_etag(call.request, make_table(format, trajectory_text(*trajectory, format), "job-" + call.id));
 }
 
 Response get_parameters(const Call& call) {

@@ -5,17 +5,13 @@
 #include <charconv>
 #include <string>
 
+#include "server/trimmed.h"
+
 namespace server {
 
 namespace {
 
 constexpr std::chrono::seconds kLongest{60};
-
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
-  while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
-  return text;
-}
 
 /// Names of preferences are the same in capitals (RFC 7240).
 bool names_wait(std::string_view item) {

@@ -19,7 +19,7 @@ namespace {
 
 HttpError no_such_sweep(const std::string& id) { return {404, "there is no sweep " + id}; }
 
-bool has_ended(const nlohmann::json& sweep) {
+bool have_all_ended(const nlohmann::json& sweep) {
   const auto& counts = sweep.at("counts");
   return counts.at("queued") == 0 && counts.at("running") == 0;
 }
@@ -53,7 +53,7 @@ Response get_sweep(const Call& call) {
   const auto sweep = call.service.find_sweep(call.id);
   if (!sweep) throw no_such_sweep(call.id);
   response.body = to_text(*sweep) + "\n";
-  return has_ended(*sweep) ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+  return have_all_ended(*sweep) ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
 }
 
 Response delete_sweep(const Call& call) {

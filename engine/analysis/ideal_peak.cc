@@ -13,11 +13,11 @@ namespace engine {
 
 namespace {
 
-constexpr double kOfTimeScale = 0.1;   // an interval's part of the drives' time scale
-constexpr double kFirst = 1e-3;        // of the longest interval: the first one of a run
-constexpr double kSmooth = 0.01;       // part of an interval's accelerations by which the trapezoid may miss their mean
-constexpr double kContender = 0.99;    // a quadratic's extreme above this part of the largest so far may be the true one
-constexpr double kNegligible = 1e-9;   // [m/s^2]: accelerations that gravity's rounding may spoil
+constexpr double kIntervalOfTimeScale = 0.1;      // an interval's part of the drives' time scale
+constexpr double kFirstInterval = 1e-3;           // of the longest interval: the first one of a run
+constexpr double kSmooth = 0.01;                  // part of an interval's accelerations by which the trapezoid may miss their mean
+constexpr double kContender = 0.99;               // a quadratic's extreme above this part of the largest so far may be the true one
+constexpr double kNegligibleAcceleration = 1e-9;  // [m/s^2]: accelerations that gravity's rounding may spoil
 constexpr long kSolvesBetweenQueries = 1024;
 
 /// Goes through the motion in intervals so short that a quadratic tells the acceleration inside; locates its extremes where they contend.
@@ -32,7 +32,7 @@ class IdealPeakSearch {
     // Onwards from the start: the branch on which the linkage is assembled is known there.
     if (!closure_.assemble(0.0, last_) || !solve(0.0, last_, last_)) return std::nullopt;
     determinant_ = closure_.determinant();
-    wanted_ = kFirst * calc_longest();
+    wanted_ = kFirstInterval * calc_longest();
     if (!advance(from)) return std::nullopt;
     searches_ = true;
     take(last_);
@@ -80,7 +80,7 @@ class IdealPeakSearch {
   /// The longest interval from the last node on that the drives allow.
   [[nodiscard]] double calc_longest() const {
     double longest = std::numeric_limits<double>::infinity();
-    for (const Drive& drive : ideal_.mechanism.drives) longest = std::min(longest, kOfTimeScale * calc_time_scale(drive.law, last_.t));
+    for (const Drive& drive : ideal_.mechanism.drives) longest = std::min(longest, kIntervalOfTimeScale * calc_time_scale(drive.law, last_.t));
     return longest;
   }
 
@@ -104,7 +104,7 @@ class IdealPeakSearch {
   [[nodiscard]] bool is_smooth() {
     const double a0 = acceleration(last_);
     const double a1 = acceleration(next_);
-    const double scale = std::max({std::abs(a0), std::abs(a1), 0.8 * scale_, kNegligible});
+    const double scale = std::max({std::abs(a0), std::abs(a1), 0.8 * scale_, kNegligibleAcceleration});
     const double missed = (velocity(next_) - velocity(last_)) / (next_.t - last_.t) - 0.5 * (a0 + a1);
     if (!(std::abs(missed) <= kSmooth * scale)) return false;
     scale_ = scale;

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "engine/dynamics/evaluation.h"
 
 namespace engine {
+
+/// What a run does not have.
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A number read from the mechanism at one instant.
 using Reading = std::function<double(const Evaluation&)>;

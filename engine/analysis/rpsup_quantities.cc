@@ -4,15 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 
 namespace engine {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double radial_force(const Evaluation& at) { return at.joints[0].load.radial_normal_sum; }
 double penetration(const Evaluation& at) { return at.joints[0].load.max_penetration; }

@@ -29,9 +29,9 @@ ElasticForce calc_liu(double stiffness, double c_r, double delta) {
 
 /// delta = c F ln(F_1 / F), whose inverse is a branch of Lambert's function.
 ElasticForce calc_logarithmic(double c, double F_1, double delta) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kBeyond = std::numeric_limits<double>::quiet_NaN();
   const double argument = delta / (c * F_1);
-  if (!(argument < 1.0 / e)) return {kNone, kNone, kNone};
+  if (!(argument < 1.0 / e)) return {kBeyond, kBeyond, kBeyond};
   const double y = boost::math::lambert_wm1(-argument);  // -ln(F_1 / F), below -1
   const double force = -delta / (c * y);
   return {force, -1.0 / (c * (1.0 + y)), 0.5 * force * delta - 0.25 * c * force * force};

@@ -17,14 +17,14 @@ namespace engine {
 
 namespace {
 
-constexpr std::size_t kSteps = 4;       // of a panel
-constexpr double kOfTimeScale = 0.015;  // a step's part of the drives' time scale
-constexpr double kPerSecond = 1000.0;   // the grid on which steps end is that of milliseconds, halves, doubles and so on
-constexpr double kSameInstant = 1e-12;  // of the time
-constexpr double kFirst = 0.01;         // of the longest step: the first one of a run
-constexpr double kResolved = 3e-6;      // fourth difference of a panel's accelerations and powers, of the largest of them
-constexpr double kNegligible = 1e-9;    // [m/s^2], [rad/s^2], [W]: what gravity's rounding may spoil
-constexpr double kTurnStep = 1.0 / 32.0;  // of a step: the short one in which an acceleration turns
+constexpr std::size_t kSteps = 4;           // of a panel
+constexpr double kStepOfTimeScale = 0.015;  // a step's part of the drives' time scale
+constexpr double kPerSecond = 1000.0;       // the grid on which steps end is that of milliseconds, halves, doubles and so on
+constexpr double kSameInstant = 1e-12;      // of the time
+constexpr double kFirstOfLongest = 0.01;    // the first step of a run, of the longest one
+constexpr double kResolved = 3e-6;          // fourth difference of a panel's accelerations and powers, of the largest of them
+constexpr double kNegligibleRate = 1e-9;    // [m/s^2], [rad/s^2], [W]: what gravity's rounding may spoil
+constexpr double kTurnStep = 1.0 / 32.0;    // of a step: the short one in which an acceleration turns
 constexpr long kPanelsBetweenQueries = 64;
 
 /// A quantity whose extremes are looked for, in the panel at hand.
@@ -51,7 +51,7 @@ class KinematicRun {
     }
     determinant_ = closure_.determinant();
     take_samples(nodes_[0]);
-    wanted_ = kFirst * calc_longest();
+    wanted_ = kFirstOfLongest * calc_longest();
     for (long panel = 0; nodes_[0].t < options_.duration && run_end_.status == RunStatus::kSucceeded; ++panel) {
       if (panel % kPanelsBetweenQueries == 0 && observer_.stop_requested(nodes_[0].t)) {
         fail(RunStatus::kStopped, "stopped on request");
@@ -89,7 +89,7 @@ class KinematicRun {
 
   [[nodiscard]] double calc_longest() const {
     double longest = std::numeric_limits<double>::infinity();
-    for (const Drive& drive : mechanism_.drives) longest = std::min(longest, kOfTimeScale * calc_time_scale(drive.law, nodes_[0].t));
+    for (const Drive& drive : mechanism_.drives) longest = std::min(longest, kStepOfTimeScale * calc_time_scale(drive.law, nodes_[0].t));
     return longest;
   }
 
@@ -163,7 +163,7 @@ class KinematicRun {
   [[nodiscard]] bool is_resolved() {
     const std::vector<FrameIndex>& unknown = closure_.unknown_coordinates();
     double of_accelerations = 0.0;
-    acceleration_scale_ = std::max(0.5 * acceleration_scale_, kNegligible);
+    acceleration_scale_ = std::max(0.5 * acceleration_scale_, kNegligibleRate);
     for (std::size_t j = 0; j < unknown.size(); ++j) {
       const double largest = take_course(accelerations_[j], [i = unknown[j]](const Evaluation& at) { return at.qdd[i]; });
       acceleration_scale_ = std::max(acceleration_scale_, largest);
@@ -313,7 +313,7 @@ class KinematicRun {
   std::vector<Watched> powers_;               ///< one a drive
   double acceleration_scale_ = 0.0;           ///< of those near by
   double missed_ = 0.0;                       ///< by the panel's quartics, see kResolved
-  double power_scale_ = kNegligible;          ///< of the run so far
+  double power_scale_ = kNegligibleRate;          ///< of the run so far
   std::vector<Watched> accelerations_;        ///< one an unknown coordinate
   std::vector<Watched> loads_;                ///< one a drive, then one a cut joint
   std::vector<double> turns_;

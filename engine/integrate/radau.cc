@@ -13,7 +13,7 @@ namespace {
 
 using K = RadauCoefficients;
 
-constexpr int kMaxIterations = 10;
+constexpr int kMaxNewtonIterations = 10;
 constexpr double kGoodContraction = 0.05;  // with less, the Jacobian is good for another step
 // In units of the tolerance:
 constexpr double kClose = 3e-4;      // what may be left of the iteration: more is noise to the energy account
@@ -121,7 +121,7 @@ Radau5::Newton Radau5::solve_stages(MotionSystem& system, const StepEnd& start, 
 Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial) {
   guess_stages(start, system.free_count(), dt);
   double last_change = 0.0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
     for (std::size_t i = 0; i < K::kStages; ++i) {
       stage_ = start.y + Z_[i];
       ++trial.evaluations;

@@ -98,9 +98,9 @@ class RodasStepper {
     adjust_size(y);
     f.linearise(y, t);
     if (!f.factor(1.0 / (K::gamma * dt))) {
-      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-      error.setConstant(y.size(), kNone);
-      end.setConstant(y.size(), kNone);
+      constexpr double kFailed = std::numeric_limits<double>::quiet_NaN();
+      error.setConstant(y.size(), kFailed);
+      end.setConstant(y.size(), kFailed);
       return;
     }
     calc_stages(f, y, dydt, t, dt, std::make_index_sequence<K::kStages>{});

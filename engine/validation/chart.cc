@@ -44,9 +44,9 @@ std::string draw_text(Point at, const char* anchor, const std::string& text, con
 }
 
 /// One axis: from values to pixels.
-class Axis {
+class PlotAxis {
  public:
-  Axis(Scale scale, double least, double most, double first_pixel, double last_pixel)
+  PlotAxis(Scale scale, double least, double most, double first_pixel, double last_pixel)
       : scale_(scale), least_(least), most_(most), first_(first_pixel), last_(last_pixel) {}
 
   [[nodiscard]] double pixel_of(double value) const {
@@ -140,7 +140,7 @@ Range find_y_range(const Chart& chart) {
 double calc_left_margin(const Chart& chart) {
   constexpr double kCharacter = 7.0, kLeast = 62.0;
   const Range range = find_y_range(chart);
-  const auto longest = static_cast<double>(Axis(chart.y_scale, range.least, range.most, 0.0, 1.0).longest_label());
+  const auto longest = static_cast<double>(PlotAxis(chart.y_scale, range.least, range.most, 0.0, 1.0).longest_label());
   return std::max(kLeast, kCharacter * longest + (chart.y_label.empty() ? 8.0 : 22.0));
 }
 
@@ -164,7 +164,7 @@ class ChartDrawing {
     double left, top, right, bottom;
   };
 
-  [[nodiscard]] Axis make_x() const {
+  [[nodiscard]] PlotAxis make_x() const {
     std::vector<const std::vector<double>*> data;
     for (const Series& s : chart_.series) data.push_back(&s.x);
     const Range range = limits(chart_.x_min, chart_.x_max, chart_.x_scale, data);
@@ -172,7 +172,7 @@ class ChartDrawing {
     return {chart_.x_scale, range.least, range.most, box_.left, box_.left + width};
   }
 
-  [[nodiscard]] Axis make_y() const {
+  [[nodiscard]] PlotAxis make_y() const {
     const Range range = find_y_range(chart_);
     const double height = chart_.equal_axes ? std::min(box_.right - box_.left, box_.bottom - box_.top) : box_.bottom - box_.top;
     return {chart_.y_scale, range.least, range.most, box_.top + height, box_.top};
@@ -240,7 +240,7 @@ class ChartDrawing {
   const Chart& chart_;
   double left_;
   Box box_;
-  Axis x_, y_;
+  PlotAxis x_, y_;
 };
 
 }  // namespace

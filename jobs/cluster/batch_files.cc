@@ -14,12 +14,11 @@ namespace {
 
 constexpr std::string_view kJobsMagic = "RPSUPJB1";
 constexpr std::string_view kResultsMagic = "RPSUPRS1";
-constexpr std::size_t kDigest = 64;
 constexpr std::size_t kLongestText = 60'000;
 constexpr std::uint32_t kLargestHeader = 64U << 20U;
 
 /// Where a job's parameters lie behind the table.
-struct Entry {
+struct JobEntry {
   Place place = 0;
   std::uint64_t offset = 0;
   std::uint32_t size = 0;
@@ -32,7 +31,7 @@ std::string read_bytes(std::ifstream& in, std::size_t size, const std::filesyste
   return bytes;
 }
 
-std::vector<Entry> read_header(std::string_view bytes, BatchHeader& header) {
+std::vector<JobEntry> read_header(std::string_view bytes, BatchHeader& header) {
   ByteReader reader(std::as_bytes(std::span(bytes)));
   header.batch = reader.text();
   header.engine = reader.text();
@@ -40,8 +39,8 @@ std::vector<Entry> read_header(std::string_view bytes, BatchHeader& header) {
   header.limits.steps = static_cast<long>(reader.number<std::int64_t>());
   header.limits.memory_bytes = reader.number<std::uint64_t>();
   header.deliver_every_s = reader.number<double>();
-  std::vector<Entry> entries(reader.number<std::uint32_t>());
-  for (Entry& entry : entries) {
+  std::vector<JobEntry> entries(reader.number<std::uint32_t>());
+  for (JobEntry& entry : entries) {
     entry.place = reader.number<Place>();
     entry.offset = reader.number<std::uint64_t>();
     entry.size = reader.number<std::uint32_t>();
@@ -152,9 +151,9 @@ BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<Place>&
     throw FileError(file.string() + " is cut off or no file of jobs");
   }
   const std::string head = read_bytes(in, size, file);
-  std::map<Place, Entry> entries;
+  std::map<Place, JobEntry> entries;
   try {
-    for (const Entry& entry : read_header(unseal(kJobsMagic, head), header)) entries.emplace(entry.place, entry);
+    for (const JobEntry& entry : read_header(unseal(kJobsMagic, head), header)) entries.emplace(entry.place, entry);
   } catch (const DamagedTrajectory& error) {
     throw FileError(file.string() + " is damaged: " + error.what());
   }
@@ -163,7 +162,7 @@ BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<Place>&
     const auto found = entries.find(place);
     if (found == entries.end()) throw FileError(file.string() + " has no job " + std::to_string(place));
     in.seekg(static_cast<std::streamoff>(sizeof size + size + found->second.offset));
-    std::string text = read_bytes(in, found->second.size + kDigest, file);
+    std::string text = read_bytes(in, found->second.size + kSha256Digits, file);
     const std::string digest = text.substr(found->second.size);
     text.resize(found->second.size);
     if (sha256_hex(text) != digest) throw FileError(file.string() + " is damaged at job " + std::to_string(place));

@@ -19,7 +19,7 @@ namespace {
 
 using Kind = Finding::Kind;
 
-constexpr std::size_t kLogTail = 600;
+constexpr std::size_t kTrialLogTail = 600;
 /// Some impacts: what processors do differently shows.
 constexpr const char* kJob = R"({"duration_s": 0.3, "run_up_s": 0.1, "clearance_mm": 0.25, "coupler": "flexible"})";
 
@@ -139,7 +139,7 @@ class Check {
   }
 
   bool no_result(const TaskReport& last) {
-    const std::string log = tail_of(batch_.folder().log(0, 0), kLogTail);
+    const std::string log = tail_of(batch_.folder().log(0, 0), kTrialLogTail);
     const std::string ended = "the task ended as " + last.word + " on " + last.node + " without a result";
     if (log.empty() && !std::filesystem::exists(batch_.folder().log(0, 0))) {
       return fault(ended + " and without a log", "The node does not see the shared folder, or may not write into it: "

@@ -15,8 +15,6 @@
 namespace jobs::cluster {
 namespace {
 
-constexpr std::size_t kDigest = 64;
-
 [[noreturn]] void fail(const std::string& what, const std::filesystem::path& file, int error) {
   throw FileError(what + " " + file.string() + ": " + std::strerror(error));
 }
@@ -85,9 +83,9 @@ std::string seal(std::string_view magic, std::string_view bytes) {
 }
 
 std::string_view unseal(std::string_view magic, std::string_view sealed) {
-  if (sealed.size() < magic.size() + kDigest || !sealed.starts_with(magic)) throw FileError("no file of this program, or one that is cut off");
-  const std::string_view bytes = sealed.substr(magic.size(), sealed.size() - magic.size() - kDigest);
-  if (sha256_hex(bytes) != sealed.substr(sealed.size() - kDigest)) throw FileError("damaged: its checksum is another one");
+  if (sealed.size() < magic.size() + kSha256Digits || !sealed.starts_with(magic)) throw FileError("no file of this program, or one that is cut off");
+  const std::string_view bytes = sealed.substr(magic.size(), sealed.size() - magic.size() - kSha256Digits);
+  if (sha256_hex(bytes) != sealed.substr(sealed.size() - kSha256Digits)) throw FileError("damaged: its checksum is another one");
   return bytes;
 }
 

@@ -8,6 +8,7 @@
 
 #include "jobs/axis.h"
 #include "jobs/errors.h"
+#include "jobs/optional_json.h"
 #include "jobs/replicate_statistics.h"
 #include "jobs/sensitivity/row_groups.h"
 
@@ -44,8 +45,6 @@ Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coup
   pair.largest = *pair.flexible.max / *pair.rigid.min;
   return pair;
 }
-
-json value_or_null(const std::optional<double>& value) { return value ? json(*value) : json(); }
 
 json verdict_of(const Pair& pair) {
   if (!pair.ratio) return nullptr;

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kFloor = 1e-5, kCeiling = 0.1;  ///< of the motion's size
-constexpr std::size_t kFewestSamples = 8;
+constexpr std::size_t kFewestForSlope = 8;
 
 /// Root mean square deviation from the mean, of all coordinates together.
 double size_of(const std::vector<std::vector<double>>& run) {
@@ -102,7 +102,7 @@ std::optional<Divergence> measure_divergence(std::span<const double> t, const Co
     logarithms.push_back(std::log(apart));
     if (k + 1 == t.size()) return std::nullopt;  // they have not parted
   }
-  if (times.size() < kFewestSamples) return std::nullopt;
+  if (times.size() < kFewestForSlope) return std::nullopt;
   const double exponent = slope_of(times, logarithms);
   if (exponent <= 0.0) return std::nullopt;  // they came closer, until one impact more or less threw them apart
   return Divergence{.exponent = exponent, .from = times.front(), .to = times.back()};

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-SearchRequest request_of(const SearchRow& row) {
+SearchRequest search_of(const SearchRow& row) {
   return parse_search_request(ordered_json::parse(row.request), std::numeric_limits<std::size_t>::max());
 }
 
@@ -72,16 +72,16 @@ class LimitStudy final : public StudyKind {
   }
 
   [[nodiscard]] std::unique_ptr<StudyCourse> make_course(const SearchRow& row, const SweepResults& results) const override {
-    return std::make_unique<LimitCourse>(request_of(row), results);
+    return std::make_unique<LimitCourse>(search_of(row), results);
   }
 
   [[nodiscard]] json make_resource(const SearchRow& row, const SweepResults& results, int threads) const override {
-    return search_json(row, request_of(row), results, threads);
+    return search_json(row, search_of(row), results, threads);
   }
   [[nodiscard]] json make_summary(const SearchRow& row) const override { return search_summary_json(row); }
   [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return search_listing_keys(); }
   [[nodiscard]] ResultTable make_table(const SearchRow& row, const SweepResults& results) const override {
-    return limit_table(row, request_of(row), results);
+    return limit_table(row, search_of(row), results);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/binomial.hpp>
 
 #include "jobs/axis.h"
+#include "jobs/optional_json.h"
 #include "jobs/resource_json.h"
 #include "jobs/time_text.h"
 
@@ -15,9 +16,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kConfidence = 0.9;  ///< of the interval of part_within
-
-template <typename T>
-json value_or_null(const std::optional<T>& value) { return value ? json(*value) : json(); }
 
 /// Which part of all replicates there could be stays within the bound: the interval of Clopper and Pearson.
 json part_within_json(std::size_t within, std::size_t count) {

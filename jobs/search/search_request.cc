@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 6> kKeysOfSweeps{"name", "parameters", "sweep", "replicates", "reuse", "priority"};
+constexpr std::array<std::string_view, 6> kKeysOfItsSweeps{"name", "parameters", "sweep", "replicates", "reuse", "priority"};
 
 std::vector<std::string_view> metric_keys() {
   std::vector<std::string_view> keys;
@@ -27,9 +27,9 @@ std::vector<std::string_view> metric_keys() {
 }
 
 /// Reads one request; a member function a part of it.
-class Parser {
+class SearchParser {
  public:
-  Parser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+  SearchParser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
 
   SearchRequest parse() {
     if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
@@ -122,7 +122,7 @@ class Parser {
   /// What a search has in common with a sweep is read as a sweep's.
   void read_common() {
     ordered_json common = ordered_json::object();
-    for (const std::string_view key : kKeysOfSweeps) {
+    for (const std::string_view key : kKeysOfItsSweeps) {
       if (request_.contains(key)) common[std::string(key)] = request_.at(key);
     }
     try {
@@ -164,7 +164,7 @@ std::string pointer_in_search(const std::string& pointer, const SearchRequest& s
 
 }  // namespace
 
-SearchRequest parse_search_request(const ordered_json& request, std::size_t max_jobs) { return Parser(request, max_jobs).parse(); }
+SearchRequest parse_search_request(const ordered_json& request, std::size_t max_jobs) { return SearchParser(request, max_jobs).parse(); }
 
 std::vector<std::vector<json>> combinations_of(const SearchRequest& search) {
   std::vector<std::vector<json>> combinations{{}};
@@ -195,7 +195,7 @@ ordered_json case_at(const SearchRequest& search, const std::vector<json>& combi
 
 ordered_json first_sweep_of(const ordered_json& request, const SearchRequest& search) {
   ordered_json sweep = ordered_json::object();
-  for (const std::string_view key : kKeysOfSweeps) {
+  for (const std::string_view key : kKeysOfItsSweeps) {
     if (key != "sweep" && request.contains(key)) sweep[std::string(key)] = request.at(key);
   }
   sweep["cases"] = ordered_json::array();

@@ -19,7 +19,6 @@ using engine::validation::Table;
 
 namespace {
 
-constexpr const char* kPeak = "peak_slider_acceleration_m_s2";
 constexpr double kOpenVelocities[] = {10.0, 15.0};  // of the sweeps over open parameters, [rad/s]
 
 /// Peak of a case in the study: without clearance of its run, with clearance the mean of its replicates.

@@ -12,7 +12,6 @@ using engine::validation::Table;
 
 namespace {
 
-constexpr const char* kPeak = "peak_slider_acceleration_m_s2";
 constexpr double kConverged = 1e-3;  // spread over mean below which a peak is a property of its case: the error that default tolerances aim at
 
 ReplicateStatistics statistics_of(const StudyTable& table, const StudyCase& c, const char* metric) {

@@ -11,6 +11,8 @@
 
 namespace jobs::validation {
 
+inline constexpr const char* kPeak = "peak_slider_acceleration_m_s2";
+
 /// One case of the paper's study.
 struct StudyCase {
   double clearance_mm = 0.0;

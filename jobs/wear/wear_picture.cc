@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "jobs/optional_json.h"
 #include "jobs/resource_json.h"
 #include "jobs/time_text.h"
 
@@ -10,9 +11,6 @@ namespace jobs {
 namespace {
 
 using nlohmann::json;
-
-template <typename T>
-json value_or_null(const std::optional<T>& value) { return value ? json(*value) : json(); }
 
 /// Where a bore is deepest; null where it is round.
 struct Deepest {

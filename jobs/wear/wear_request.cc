@@ -14,12 +14,12 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 4> kKeysOfSweeps{"name", "parameters", "reuse", "priority"};
+constexpr std::array<std::string_view, 4> kKeysOfItsSweep{"name", "parameters", "reuse", "priority"};
 
 /// Reads one request; a member function a part of it.
-class Parser {
+class WearParser {
  public:
-  Parser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+  WearParser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
 
   WearStudyRequest parse() {
     if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
@@ -65,7 +65,7 @@ class Parser {
 
   void read_common() {
     ordered_json common = ordered_json::object();
-    for (const std::string_view key : kKeysOfSweeps) {
+    for (const std::string_view key : kKeysOfItsSweep) {
       if (request_.contains(key)) common[std::string(key)] = request_.at(key);
     }
     try {
@@ -117,13 +117,13 @@ class Parser {
 
 }  // namespace
 
-WearStudyRequest parse_wear_request(const ordered_json& request, std::size_t max_jobs) { return Parser(request, max_jobs).parse(); }
+WearStudyRequest parse_wear_request(const ordered_json& request, std::size_t max_jobs) { return WearParser(request, max_jobs).parse(); }
 
 ordered_json case_of(const WearGrid& depth_um) { return {{std::string(kWearKey), depth_um}}; }
 
 ordered_json first_sweep_of(const ordered_json& request, const WearStudyRequest& study) {
   ordered_json sweep = ordered_json::object();
-  for (const std::string_view key : kKeysOfSweeps) {
+  for (const std::string_view key : kKeysOfItsSweep) {
     if (request.contains(key)) sweep[std::string(key)] = request.at(key);
   }
   sweep["cases"] = ordered_json::array({case_of(study.round_bore())});

@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-WearStudyRequest request_of(const SearchRow& row) {
+WearStudyRequest study_of(const SearchRow& row) {
   return parse_wear_request(ordered_json::parse(row.request), std::numeric_limits<std::size_t>::max());
 }
 
@@ -160,17 +160,17 @@ class WearStudy final : public StudyKind {
   }
 
   [[nodiscard]] std::unique_ptr<StudyCourse> make_course(const SearchRow& row, const SweepResults& results) const override {
-    return std::make_unique<WearStudyCourse>(request_of(row), results, rates_);
+    return std::make_unique<WearStudyCourse>(study_of(row), results, rates_);
   }
 
   [[nodiscard]] json make_resource(const SearchRow& row, const SweepResults& results, int threads) const override {
-    const WearStudyCourse so_far(request_of(row), results, rates_);
+    const WearStudyCourse so_far(study_of(row), results, rates_);
     return wear_study_json(row, so_far.study(), results, so_far.course(), threads);
   }
   [[nodiscard]] json make_summary(const SearchRow& row) const override { return wear_summary_json(row); }
   [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return wear_listing_keys(); }
   [[nodiscard]] ResultTable make_table(const SearchRow& row, const SweepResults& results) const override {
-    const WearStudyCourse so_far(request_of(row), results, rates_);
+    const WearStudyCourse so_far(study_of(row), results, rates_);
     return wear_table(row, so_far.study(), results, so_far.course());
   }
 

@@ -6,7 +6,7 @@ namespace {
 
 constexpr const char* kFile = "FILE";  // the type name of options whose value is the name of a file
 
-std::string joined(const std::vector<std::string>& words) {
+std::string spaced(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
   return text;
@@ -39,12 +39,12 @@ std::vector<std::string> names_of_options(const CommandEntry& command) {
 
 /// What bash is to offer as an option's value.
 std::string bash_values(const OptionEntry& option) {
-  if (!option.choices.empty()) return "mapfile -t COMPREPLY < <(compgen -W " + quoted(joined(option.choices)) + " -- \"$current\")";
+  if (!option.choices.empty()) return "mapfile -t COMPREPLY < <(compgen -W " + quoted(spaced(option.choices)) + " -- \"$current\")";
   return option.value == kFile ? "_rpsup_files" : "COMPREPLY=()";
 }
 
 std::string zsh_action(const OptionEntry& option) {
-  if (!option.choices.empty()) return "(" + joined(option.choices) + ")";
+  if (!option.choices.empty()) return "(" + spaced(option.choices) + ")";
   return option.value == kFile ? "_files" : " ";
 }
 
@@ -58,7 +58,7 @@ std::string zsh_specification(const OptionEntry& option) {
 }
 
 std::string fish_values(const OptionEntry& option) {
-  if (!option.choices.empty()) return " -x -a " + quoted(joined(option.choices));
+  if (!option.choices.empty()) return " -x -a " + quoted(spaced(option.choices));
   if (option.value.empty()) return "";
   if (option.optional_value) return " -F";
   return option.value == kFile ? " -r -F" : " -x";
@@ -79,7 +79,7 @@ std::string make_bash_completion(const std::vector<CommandEntry>& commands) {
       if (option.argument && option.choices.empty()) continue;
       values += "    " + place + ") " + bash_values(option) + "; return ;;\n";
     }
-    if (!program) words += "    " + command.name + ") words=" + quoted(joined(names_of_options(command))) + " ;;\n";
+    if (!program) words += "    " + command.name + ") words=" + quoted(spaced(names_of_options(command))) + " ;;\n";
   }
   return R"(# bash completion of rpsup: source <(rpsup completion bash)
 _rpsup_files() {
@@ -101,7 +101,7 @@ _rpsup() {
   case "$place" in
 )" + values + R"(  esac
   case "$command" in
-    '') words=)" + quoted(joined(first)) + R"( ;;
+    '') words=)" + quoted(spaced(first)) + R"( ;;
 )" + words + R"(  esac
   if [[ -z $command || $current == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
@@ -155,7 +155,7 @@ std::string make_fish_completion(const std::vector<CommandEntry>& commands) {
       if (!option.argument) {
         text += "complete -c rpsup" + here + " -l " + option.name.substr(2) + fish_values(option) + " -d " + quoted(option.help) + "\n";
       } else if (!option.choices.empty()) {
-        text += "complete -c rpsup" + here + " -a " + quoted(joined(option.choices)) + "\n";
+        text += "complete -c rpsup" + here + " -a " + quoted(spaced(option.choices)) + "\n";
       } else if (option.value == kFile) {
         text += "complete -c rpsup" + here + " -F\n";
       }

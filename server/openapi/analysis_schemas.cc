@@ -7,10 +7,7 @@ namespace server::openapi {
 
 namespace {
 
-const Json kText{{"type", "string"}};
-const Json kNumber{{"type", "number"}};
 const Json kNumberOrNull{{"type", {"number", "null"}}};
-const Json kCount{{"type", "integer"}, {"minimum", 0}};
 
 /// Rows that have what is swept beside these.
 Json rows_of(Json properties) {

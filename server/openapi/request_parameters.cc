@@ -11,7 +11,6 @@ namespace server::openapi {
 
 namespace {
 
-const Json kText{{"type", "string"}};
 const Json kNames{{"type", "array"}, {"minItems", 1}, {"items", kText}};
 
 Json words(std::initializer_list<const char*> allowed) { return {{"type", "string"}, {"enum", allowed}}; }

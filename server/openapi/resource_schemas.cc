@@ -15,11 +15,7 @@ namespace {
 
 enum class Detail { kFull, kListing };
 
-const Json kText{{"type", "string"}};
-const Json kNumber{{"type", "number"}};
 const Json kTime{{"type", "string"}, {"format", "date-time"}, {"pattern", "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]{3}Z$"}};
-
-Json count() { return {{"type", "integer"}, {"minimum", 0}}; }
 
 Json make_problem_schema() {
   return object_of({{"type", kText}, {"title", kText}, {"status", {{"type", "integer"}, {"minimum", 400}, {"maximum", 599}}}, {"detail", kText},
@@ -41,7 +37,7 @@ Json make_error() {
 }
 
 Json make_run() {
-  return object_of({{"wall_time_s", kNumber}, {"cpu_time_s", kNumber}, {"attempts", count()}, {"host", kText}, {"cpu", kText},
+  return object_of({{"wall_time_s", kNumber}, {"cpu_time_s", kNumber}, {"attempts", kCount}, {"host", kText}, {"cpu", kText},
                     {"libm", or_null(described(kText, "the mathematical library that was used"))},
                     {"numerics", or_null({{"type", "string"}, {"enum", {"native", "portable", nullptr}}})},
                     {"program", object_of({{"version", kText}, {"commit", kText}, {"compiler", kText}, {"engine", kText}})},
@@ -53,8 +49,8 @@ Json make_job(Detail detail) {
                   {"sweep_id", or_null(ref("Id"))},
                   {"state", ref("State")},
                   {"error", or_null(ref("JobError"))},
-                  {"attempts", count()},
-                  {"replicate", count()},
+                  {"attempts", kCount},
+                  {"replicate", kCount},
                   {"created_at", kTime},
                   {"started_at", or_null(kTime)},
                   {"ended_at", or_null(kTime)},
@@ -69,8 +65,8 @@ Json make_job(Detail detail) {
 
 Json make_counts() {
   Json counts = Json::object();
-  for (const std::string_view state : jobs::kJobStates) counts[std::string(state)] = count();
-  counts["total"] = count();
+  for (const std::string_view state : jobs::kJobStates) counts[std::string(state)] = kCount;
+  counts["total"] = kCount;
   return object_of(std::move(counts));
 }
 
@@ -95,10 +91,10 @@ Json make_sweep(Detail detail) {
 }
 
 Json make_executors() {
-  const Json tasks = object_of({{"pending", count()}, {"running", count()}});
-  const Json waiting = object_of({{"reason", described(kText, "in Slurm's words")}, {"tasks", count()}});
+  const Json tasks = object_of({{"pending", kCount}, {"running", kCount}});
+  const Json waiting = object_of({{"reason", described(kText, "in Slurm's words")}, {"tasks", kCount}});
   const Json executor = object_of({{"name", {{"type", "string"}, {"enum", jobs::kExecutorNames}}},
-                                   {"slots", described(count(), "jobs that it computes at a time")},
+                                   {"slots", described(kCount, "jobs that it computes at a time")},
                                    {"tasks", described(or_null(tasks), "of this service in Slurm's queue; null where there is none")},
                                    {"nodes", described(list_of(kText), "machines that compute now")},
                                    {"waiting", described(list_of(waiting), "why tasks wait")},
@@ -111,10 +107,10 @@ Json make_page(std::string_view item) {
 }
 
 Json make_result_row() {
-  Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", count()}};
+  Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", kCount}};
   for (const std::string& path : jobs::known_paths()) properties[path] = or_null(parameter_ref(path));  // null: of jobs of another linkage
   properties.update(make_metrics());
-  properties["replicates_count"] = described(count(), "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
+  properties["replicates_count"] = described(kCount, "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"}) properties[key] = or_null(kNumber);
   properties["linkage"] = described(kText, "of a described one its name, with a number if another one of the sweep has that name");
   Json row = options_of(std::move(properties));

@@ -9,6 +9,10 @@ namespace server::openapi {
 
 using Json = nlohmann::ordered_json;
 
+inline const Json kText{{"type", "string"}};
+inline const Json kNumber{{"type", "number"}};
+inline const Json kCount{{"type", "integer"}, {"minimum", 0}};
+
 /// A schema of the document, by its name.
 [[nodiscard]] inline Json ref(std::string_view schema) { return {{"$ref", "#/components/schemas/" + std::string(schema)}}; }
 

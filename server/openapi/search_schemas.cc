@@ -8,10 +8,6 @@ namespace server::openapi {
 
 namespace {
 
-const Json kText{{"type", "string"}};
-const Json kNumber{{"type", "number"}};
-const Json kCount{{"type", "integer"}, {"minimum", 0}};
-
 Json make_verdict() {
   Json names = Json::array();
   for (int i = 0; i <= static_cast<int>(jobs::Verdict::kLost); ++i) names.push_back(jobs::verdict_name(static_cast<jobs::Verdict>(i)));
@@ -54,13 +50,13 @@ Json make_full_limit() {
   return with_axes(std::move(properties));
 }
 
-Json make_row() {
+Json make_limit_row() {
   Json properties{{"parameter", kText}, {"metric", kText}, {"bound", kNumber}, {"quantile", kNumber}};
   properties.update(make_limit());
   return described(with_axes(std::move(properties)), "Every key stands in every row, and those of the axes, unless fields leaves it out");
 }
 
-Json make_summary() {
+Json make_search_summary() {
   return {{"id", ref("Id")}, {"name", kText}, {"state", ref("SearchState")}, {"error", described(or_null(kText), "why it could not go on")},
       {"sweep_id", ref("Id")},
           {"parameter", kText}, {"metric", kText}, {"bound", kNumber}, {"quantile", kNumber}, {"axes", list_of(kText)}, {"created_at", kText},
@@ -69,7 +65,7 @@ Json make_summary() {
 }
 
 Json make_search() {
-  Json properties = make_summary();
+  Json properties = make_search_summary();
   properties.update({{"counts", Json{{"$ref", "#/components/schemas/Sweep/properties/counts"}}},
       {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
                      {"most_evaluations", described(kCount, "of all combinations together")}, {"limits", list_of(ref("Limit"))},
@@ -82,11 +78,11 @@ Json make_search() {
 Json make_search_schemas() {
   return {{"SearchState", {{"type", "string"}, {"enum", jobs::kSearchStates}}},
           {"Search", make_search()},
-          {"SearchSummary", options_of(make_summary())},
+          {"SearchSummary", options_of(make_search_summary())},
           {"SearchPage", object_of({{"items", list_of(ref("SearchSummary"))}, {"next_cursor", kText}})},
           {"SearchPoint", make_point()},
           {"Limit", make_full_limit()},
-          {"LimitRow", make_row()},
+          {"LimitRow", make_limit_row()},
           {"LimitRows", list_of(ref("LimitRow"))}};
 }
 

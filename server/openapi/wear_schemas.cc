@@ -8,10 +8,6 @@ namespace server::openapi {
 
 namespace {
 
-const Json kText{{"type", "string"}};
-const Json kNumber{{"type", "number"}};
-const Json kCount{{"type", "integer"}, {"minimum", 0}};
-
 Json above_zero(std::string_view description) { return described({{"type", "number"}, {"exclusiveMinimum", 0}}, description); }
 
 Json count_in(const jobs::Range& range, std::size_t otherwise, std::string_view description) {
@@ -52,7 +48,7 @@ Json make_request() {
   return request;
 }
 
-Json make_summary() {
+Json make_study_summary() {
   return {{"id", ref("Id")}, {"name", kText}, {"state", ref("SearchState")}, {"error", described(or_null(kText), "why it could not go on")},
           {"sweep_id", ref("Id")}, {"hours", or_null(kNumber)}, {"worn_clearance_mm", or_null(kNumber)}, {"created_at", kText},
           {"ended_at", or_null(kText)},
@@ -79,13 +75,13 @@ Json make_full_cycle() {
   return object_of(std::move(properties));
 }
 
-Json make_row() {
+Json make_cycle_row() {
   return described(Json{{"type", "object"}, {"properties", make_cycle()}, {"additionalProperties", or_null(kNumber)}},
                    "Every key stands in every row, and so does every metric, unless fields leaves it out");
 }
 
 Json make_study() {
-  Json properties = make_summary();
+  Json properties = make_study_summary();
   properties.update({{"counts", as_in("Sweep", "counts")}, {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
                      {"verdict", described({{"type", "string"}, {"enum", jobs::kWearVerdicts}},
                                            "open: not ended yet; hours_reached; clearance_reached; no_wear: nothing slides; cycle_limit; lost: a job "
@@ -100,10 +96,10 @@ Json make_study() {
 Json make_wear_schemas() {
   return {{"WearStudyRequest", make_request()},
           {"WearStudy", make_study()},
-          {"WearStudySummary", options_of(make_summary())},
+          {"WearStudySummary", options_of(make_study_summary())},
           {"WearStudyPage", object_of({{"items", list_of(ref("WearStudySummary"))}, {"next_cursor", kText}})},
           {"WearCycle", make_full_cycle()},
-          {"WearCycleRow", make_row()},
+          {"WearCycleRow", make_cycle_row()},
           {"WearCycleRows", list_of(ref("WearCycleRow"))}};
 }
 

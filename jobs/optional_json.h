@@ -1,0 +1,12 @@
+#pragma once
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+namespace jobs {
+
+template <typename T>
+[[nodiscard]] nlohmann::json value_or_null(const std::optional<T>& value) { return value ? nlohmann::json(*value) : nlohmann::json(); }
+
+}  // namespace jobs
