@@ -20,7 +20,7 @@ class InvalidInput : public std::runtime_error {
   std::string detail_;
 };
 
-/// @throws InvalidInput if it does not hold
+/// @param allowed  what follows "must be"  @throws InvalidInput if it does not hold
 inline void require(bool holds, const std::string& field, const std::string& allowed) {
   if (!holds) throw InvalidInput(field, "must be " + allowed);
 }

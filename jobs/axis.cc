@@ -134,6 +134,8 @@ std::uint64_t count_axis_values(const std::string& path, const json& axis, const
   return 0;
 }
 
+std::string pointer_of_axis(std::string_view path) { return "/design/over" + pointer_token(path); }
+
 bool axis_contains(const std::string& path, const json& axis, const json& value) {
   if (axis.is_object()) return SpanValues(axis).contains(value.get<double>());
   return std::ranges::any_of(axis, [&](const json& other) {

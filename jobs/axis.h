@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +38,9 @@ enum class Repeats { kRefused, kAllowed };
 /// @param pointer  where the axis stands in the request
 [[nodiscard]] std::uint64_t count_axis_values(const std::string& path, const nlohmann::json& axis, const std::string& pointer,
                                               std::vector<Fault>& faults);
+
+/// Where a design's values of a path stand in a request.
+[[nodiscard]] std::string pointer_of_axis(std::string_view path);
 
 /// Whether one of an axis' values is this one, without making them.
 /// @param axis   has passed count_axis_values

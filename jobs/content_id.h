@@ -14,7 +14,7 @@ namespace jobs {
 /// What names a result: the same parameters computed by the same engine. SHA-256 in hex, 64 characters.
 [[nodiscard]] std::string content_id(std::string_view canonical_parameters, std::string_view engine_version);
 
-inline constexpr std::size_t kSha256Digits = 64;
+inline constexpr std::size_t kSha256Digits = 64;  ///< hexadecimal ones
 
 /// SHA-256 of a text in hex. @param rest  what follows it, if the text comes in two parts
 [[nodiscard]] std::string sha256_hex(std::string_view text, std::string_view rest = {});

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "jobs/listed_designs.h"
-#include "jobs/parameter_value.h"
 #include "jobs/sampled_designs.h"
 
 namespace jobs {
@@ -23,7 +22,5 @@ std::span<const DesignKind> design_kinds() {
   }};
   return kinds;
 }
-
-std::string pointer_of_axis(std::string_view path) { return "/design/over" + pointer_token(path); }
 
 }  // namespace jobs

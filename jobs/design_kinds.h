@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,8 +26,5 @@ struct DesignKind {
 
 /// All of them, in the order in which they are shown.
 [[nodiscard]] std::span<const DesignKind> design_kinds();
-
-/// Where the values of a path stand in a request.
-[[nodiscard]] std::string pointer_of_axis(std::string_view path);
 
 }  // namespace jobs

@@ -17,6 +17,7 @@
 #include "jobs/parameter_table.h"
 #include "jobs/parameter_value.h"
 #include "jobs/service.h"
+#include "jobs/units.h"
 
 namespace jobs {
 namespace {
@@ -382,7 +383,7 @@ class LinkageReader {
       return joint;
     }
     joint.axes = {axis_of(given, "axis", 'z'), axis_of(given, "second_axis", 'y')};
-    joint.lead = given.value("lead_mm", 0.0) / 1000.0 / (2.0 * std::numbers::pi);
+    joint.lead = given.value("lead_mm", 0.0) / kMmPerM / (2.0 * std::numbers::pi);
     for (const auto& [part, slides] : parts_of(joint.kind)) {
       const json own = part.empty() ? given : given.value("freedoms", json::object()).value(std::string(part), json::object());
       joint.freedoms.push_back(make_freedom(part.empty() ? name : name + "_" + std::string(part), own, slides));

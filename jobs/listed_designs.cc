@@ -53,7 +53,8 @@ std::uint64_t count_zip(const ordered_json& design, const json&, std::vector<Fau
     const std::uint64_t values = count_axis_values(path, axis, pointer_of_axis(path), faults);
     if (path == first) count = values;
     if (values == 0 || count == 0 || values == count) continue;
-    faults.push_back({pointer_of_axis(path), "has " + std::to_string(values) + " values, and " + first + " has " + std::to_string(count) + ": a zip needs as many of each"});
+    faults.push_back({pointer_of_axis(path), "has " + std::to_string(values) + " values, and " + first + " has " + std::to_string(count) +
+                                                 ": a zip needs as many of each"});
   }
   return faults.size() == before ? count : 0;
 }

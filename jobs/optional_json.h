@@ -6,6 +6,7 @@
 
 namespace jobs {
 
+/// What JSON has for a value that may not be there.
 template <typename T>
 [[nodiscard]] nlohmann::json value_or_null(const std::optional<T>& value) { return value ? nlohmann::json(*value) : nlohmann::json(); }
 

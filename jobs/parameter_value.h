@@ -23,7 +23,7 @@ namespace jobs {
 /// A value that may be used, in the one form in which it is stored: numbers as doubles, -0 as 0, integers as integers.
 [[nodiscard]] nlohmann::json canonical_value(const ParameterInfo& info, const nlohmann::json& value);
 
-/// A number of a parameter set that has this key.
+/// A number of a parameter set, which has it, by its key.
 [[nodiscard]] inline double number_at(const nlohmann::json& parameters, std::string_view key) { return parameters.at(key).get<double>(); }
 
 /// What to say of a key that is none of `known`: "unknown key; did you mean clearance_mm?".

@@ -19,6 +19,7 @@ struct Range {
   [[nodiscard]] std::string text() const;  ///< for the user: "in (0, 3600]"
 };
 
+/// With both ends.
 [[nodiscard]] constexpr Range between(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum}; }
 /// Without its minimum.
 [[nodiscard]] constexpr Range above(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .lower = Bound::kExclusive}; }

@@ -8,7 +8,6 @@
 
 #include "jobs/axis.h"
 #include "jobs/parameter_table.h"
-#include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
 #include "jobs/sensitivity/effect_points.h"
 #include "jobs/span.h"
@@ -44,7 +43,8 @@ bool check_range(const std::string& path, const json& given, std::vector<Fault>&
 std::uint64_t count_levels(const std::string& path, const json& given, std::vector<Fault>& faults) {
   if (given.is_array() && !given.empty()) return given.size();
   if (!given.is_object() || !is_numeric(path)) {
-    faults.push_back({pointer_of_axis(path), is_numeric(path) ? "must be {\"from\", \"to\", \"scale\"}, or a list of one value or more" : "must be a list of one value or more"});
+    faults.push_back({pointer_of_axis(path), is_numeric(path) ? "must be {\"from\", \"to\", \"scale\"}, or a list of one value or more"
+                                                            : "must be a list of one value or more"});
     return kEndless;
   }
   if (!check_range(path, given, faults) || !is_integer(path)) return kEndless;

@@ -21,7 +21,7 @@ namespace server {
 
 namespace {
 
-constexpr std::size_t kUnreadBytes = 16 * 1024;
+constexpr std::size_t kBytesAtATime = 16 * 1024;
 constexpr std::string_view kEndOfHead = "\r\n\r\n";
 
 /// Whether accepting has failed for good, and not for this connection or for want of files or memory.
@@ -113,7 +113,7 @@ void Reception::read_ready(const Arrival* ready) {
 }
 
 bool Reception::read_some(Arrival& arrival) {
-  std::array<char, kUnreadBytes> bytes;
+  std::array<char, kBytesAtATime> bytes;
   const ssize_t got = ::recv(arrival.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (got < 0) return errno != EAGAIN && errno != EINTR;
   if (got == 0) return true;  // closed, without a whole head

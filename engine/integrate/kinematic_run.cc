@@ -313,7 +313,7 @@ class KinematicRun {
   std::vector<Watched> powers_;               ///< one a drive
   double acceleration_scale_ = 0.0;           ///< of those near by
   double missed_ = 0.0;                       ///< by the panel's quartics, see kResolved
-  double power_scale_ = kNegligibleRate;          ///< of the run so far
+  double power_scale_ = kNegligibleRate;      ///< of the run so far
   std::vector<Watched> accelerations_;        ///< one an unknown coordinate
   std::vector<Watched> loads_;                ///< one a drive, then one a cut joint
   std::vector<double> turns_;

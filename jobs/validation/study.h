@@ -11,6 +11,7 @@
 
 namespace jobs::validation {
 
+/// The metric that is compared.
 inline constexpr const char* kPeak = "peak_slider_acceleration_m_s2";
 
 /// One case of the paper's study.

@@ -9,6 +9,7 @@ namespace server::openapi {
 
 using Json = nlohmann::ordered_json;
 
+// Schemas of values that stand alone.
 inline const Json kText{{"type", "string"}};
 inline const Json kNumber{{"type", "number"}};
 inline const Json kCount{{"type", "integer"}, {"minimum", 0}};

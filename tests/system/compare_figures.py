@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Two figures show the same: the same curves and marks within a pixel, the same text with its numbers within one.
+"""Two figures show the same: places and curves within a pixel, all else to the letter.
 
   compare_figures.py FRESH WRITTEN
 
-Points are not compared by their place in a curve: where two neighbours fall on one pixel the drawing leaves one of them out,
-and a last digit decides.
+Of two curves every corner lies within a pixel of the other curve. Corners are not compared one by one: where two neighbours fall on
+one pixel the drawing leaves one of them out, and a last digit decides.
 """
 import math
 import re
@@ -12,6 +12,7 @@ import sys
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 CURVE = re.compile(r'<path d="M([-\d. L]+)"')
+WORDS = re.compile(r">[^<]*<|#[0-9a-f]+")  # labels, and colours
 WITHIN = 1.0  # [px]
 REACH = 40  # segments to either side of the last nearest one
 
@@ -53,10 +54,13 @@ def difference(fresh, written):
     curves = points_of(fresh), points_of(written)
     if all(curves):
         distance, point = max(farthest_from(curves[0], curves[1]), farthest_from(curves[1], curves[0]))
-        return f"{distance:.1f} px apart at {point}" if distance > WITHIN else None
-    if NUMBER.sub("", fresh) != NUMBER.sub("", written):
+        if distance > WITHIN:
+            return f"{distance:.1f} px apart at {point}"
+        fresh, written = CURVE.sub("", fresh), CURVE.sub("", written)
+    if NUMBER.sub("", fresh) != NUMBER.sub("", written) or WORDS.findall(fresh) != WORDS.findall(written):
         return f"drawn as {fresh!r}, written as {written!r}"
-    apart = [pair for pair in zip(NUMBER.findall(fresh), NUMBER.findall(written)) if abs(float(pair[0]) - float(pair[1])) > WITHIN]
+    pairs = zip(NUMBER.findall(fresh), NUMBER.findall(written), strict=True)
+    apart = [pair for pair in pairs if abs(float(pair[0]) - float(pair[1])) > WITHIN]
     return f"drawn with {apart[0][0]}, written with {apart[0][1]}" if apart else None
 
 
