@@ -8,6 +8,7 @@
 
 #include "jobs/axis.h"
 #include "jobs/parameter_table.h"
+#include "jobs/parameter_value.h"
 #include "jobs/parameters.h"
 #include "jobs/sensitivity/effect_points.h"
 #include "jobs/span.h"
