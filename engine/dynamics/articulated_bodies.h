@@ -26,11 +26,26 @@ struct NoForces {
   [[nodiscard]] RPSUP_INLINE NoForces operator+(int) const { return {}; }
   [[nodiscard]] RPSUP_INLINE T operator[](int) const { return T{}; }
 };
+/// Those of one motion, as the first of several directions.
+struct FirstForces {
+  const double* tau;
+  [[nodiscard]] RPSUP_INLINE FirstForces operator+(int k) const { return {tau + k}; }
+  [[nodiscard]] RPSUP_INLINE Directions operator[](int k) const { return Directions::first(tau[k]); }
+};
 /// In the place of the coordinates' accelerations: nobody asks for them.
 template <typename T>
 struct NotWanted {
   [[nodiscard]] RPSUP_INLINE NotWanted operator+(int) const { return {}; }
 };
+
+/// A vector of one motion, as the first of several directions.
+template <typename T>
+[[nodiscard]] RPSUP_INLINE Vec3<T> as_first(const Vec3<double>& v) {
+  if constexpr (std::is_same_v<T, double>)
+    return v;
+  else
+    return {T::first(v.x), T::first(v.y), T::first(v.z)};
+}
 
 /// The equations of motion of the open chains solved body by body, in a time that grows with their number: M qdd = tau - bias without M.
 ///
@@ -79,7 +94,7 @@ class ArticulatedBodies {
   /// @param tau  generalised force on each coordinate, or NoForces
   /// @param qdd  one a coordinate, of which free ones are written; or NotWanted
   /// @param rods  one a joint: motion of rods whose angular acceleration is counted from zero, and whose forces lack the moments x x lever; null:
-  ///              their accelerations, too, add to those of their frames, and their forces are whole
+  ///              their accelerations, too, add to those of their frames, and their forces are whole. Of several directions: of the first one
   template <typename T, typename Tau, typename Qdd>
   RPSUP_INLINE void solve(const JointAxes* axes, const Tau& tau, Scratch<T>& scratch, const Qdd& qdd, const RodMotion* rods = nullptr) const {
     Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
@@ -87,7 +102,7 @@ class ArticulatedBodies {
       if (joint.is_rod) {
         Vec3<T> lever;
         if (joint.carries_moving) lever = scratch.levers[i];
-        if (rods) lever = lever + rods[i].lever;
+        if (rods) lever = lever + as_first<T>(rods[i].lever);
         transmit_rod(axes[i], eliminated_[i].rod, tau + joint.first, lever, scratch.own[i], force);
       } else if (!joint.driven) {
         transmit(joint, axes[i], eliminated_[i], tau + joint.first, scratch.own[i], force);
@@ -115,6 +130,11 @@ class ArticulatedBodies {
   /// The bodies' accelerations alone, by forces on bodies alone.
   [[gnu::noinline]] void solve_bodies_lanes(const JointAxes* axes, Scratch<Directions>& scratch) const {
     solve(axes, NoForces<Directions>(), scratch, NotWanted<Directions>());
+  }
+  /// The same, the first direction by the generalised forces and the rods of a motion, too.
+  [[gnu::noinline]] void solve_bodies_lanes(const JointAxes* axes, const double* tau, Scratch<Directions>& scratch,
+                                            const typename Shapes::RodRoom& rods) const {
+    solve(axes, FirstForces{tau}, scratch, NotWanted<Directions>(), rods.data());
   }
 
   /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.

@@ -20,7 +20,7 @@ Equations* make_compiled_equations(const TreeModel& model, const std::vector<Cle
   if (Equations* rigid = try_shapes<KnownShapes<kRigidRpsup, true>>(model, joints, bristles)) return rigid;
   if (Equations* flexible = try_shapes<KnownShapes<kFlexibleRpsup, true>>(model, joints, bristles)) return flexible;
   if (Equations* ideal = try_shapes<KnownShapes<kRigidRpsup, false>>(model, joints, bristles)) return ideal;
-  if (Equations* flexible_ideal = try_shapes<KnownShapes<kFlexibleRpsup, false>>(model, joints, bristles)) return flexible_ideal;
+  if (Equations* flexible_ideal = try_shapes<KnownShapes<kFlexibleRpsup, false>::Looped>(model, joints, bristles)) return flexible_ideal;
   return try_shapes<AnyShapes>(model, joints, bristles);
 }
 

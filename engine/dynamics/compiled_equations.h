@@ -14,7 +14,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// The equations of motion and their derivatives between the plain arrays of states.
+/// The equations of motion and their derivatives between the plain arrays of states. What is kept stands in memory anyhow: there rods in series are
+/// visited in loops.
 template <typename Shapes>
 class CompiledEquations final : public Equations {
  public:
@@ -80,7 +81,8 @@ class CompiledEquations final : public Equations {
   void solve(double* real, double* imag) override { shifted_->complex.solve_in_place({real, imag}); }
 
  private:
-  RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, EquationsOfMotion<Shapes>& at, double* dydt) const {
+  template <typename Visited>
+  RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, EquationsOfMotion<Visited>& at, double* dydt) const {
     set_state(y, drives, at);
     const EvaluationStatus status = at.evaluate(drives);
     if (status == EvaluationStatus::kOk) write_rates(at, dydt);
@@ -88,8 +90,9 @@ class CompiledEquations final : public Equations {
   }
 
   /// Sets q, qd, the driven qdd and the bristles; the free qdd to zero.
-  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives, EquationsOfMotion<Shapes>& at) const {
-    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+  template <typename Visited>
+  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives, EquationsOfMotion<Visited>& at) const {
+    Visited::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
         const auto i = static_cast<std::size_t>(joint.first + k);
         at.q[i] = joint.driven ? drives[joint.drive].q : y[joint.first_free + k];
@@ -100,8 +103,9 @@ class CompiledEquations final : public Equations {
     at.bristles = y + 2 * free_;
   }
 
-  RPSUP_INLINE void write_rates(const EquationsOfMotion<Shapes>& at, double* dydt) const {
-    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+  template <typename Visited>
+  RPSUP_INLINE void write_rates(const EquationsOfMotion<Visited>& at, double* dydt) const {
+    Visited::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.driven) return;
       each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
         dydt[joint.first_free + k] = at.qd[static_cast<std::size_t>(joint.first + k)];
@@ -112,7 +116,7 @@ class CompiledEquations final : public Equations {
     if constexpr (!Shapes::known) {
       for (std::size_t k = 0; k < at.drive_force.size(); ++k) next[k] = at.drive_force[k] * at.qd[static_cast<std::size_t>(model_.drives[k])];
     } else {
-      Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      Visited::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
         if (joint.driven) next[joint.drive] = at.drive_force[static_cast<std::size_t>(joint.drive)] * at.qd[static_cast<std::size_t>(joint.first)];
       });
     }
@@ -187,8 +191,8 @@ class CompiledEquations final : public Equations {
   int free_, bristles_;
   const std::vector<ClearanceJoint>& joints_;
   Buffer<double> bristle_rates_;                ///< of the solution that is kept
-  EquationsOfMotion<Shapes> kept_;
-  VariedEquations<Shapes> varied_;
+  EquationsOfMotion<typename Shapes::Looped> kept_;
+  VariedEquations<typename Shapes::Looped> varied_;
   StateJacobian jacobian_;
   DirectionPlan plan_;
   BristleDerivatives bristle_derivatives_;

@@ -62,9 +62,8 @@ class EquationsOfMotion {
     if (is_out_of_range()) return EvaluationStatus::kOutOfRange;
     if (!definite) return EvaluationStatus::kNonFinite;
     calc_needed_forces();
-    calc_free_accelerations();
-    if constexpr (Shapes::have_rows)
-      if (model_.rows > 0 && !solve_multipliers(drives)) return EvaluationStatus::kLocked;
+    calc_spring_forces();
+    if (!calc_accelerations(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
     calc_losses();
     return is_finite() ? EvaluationStatus::kOk : EvaluationStatus::kNonFinite;
@@ -183,7 +182,7 @@ class EquationsOfMotion {
     needed.moment -= cross(p - frames[static_cast<std::size_t>(joint)].p, force);
   }
 
-  RPSUP_INLINE void calc_free_accelerations() {
+  RPSUP_INLINE void calc_spring_forces() {
     Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       const auto first = static_cast<std::size_t>(joint.first);
       each_coordinate(joint, [&](int index) RPSUP_INLINE_LAMBDA {
@@ -192,30 +191,33 @@ class EquationsOfMotion {
             joint.sprung ? -(joint.numbers().stiffness[k] * q[first + k] + joint.numbers().damping[k] * qd[first + k]) : 0.0;
       });
     });
-    take_needed_forces();
-    solve();
   }
+
+  /// False if the loops cannot follow.
+  RPSUP_INLINE bool calc_accelerations(const DrivenMotion* drives) {
+    take_needed_forces();
+    if constexpr (Shapes::have_rows)
+      if (model_.rows > 0 && !solve_multipliers(drives)) return false;
+    bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data(), rods());
+    return true;
+  }
+  [[nodiscard]] RPSUP_INLINE const RodMotion* rods() const { return Shapes::known ? rods_.data() : nullptr; }
 
   RPSUP_INLINE void take_needed_forces() {
     Shapes::outwards(model_, [&](std::size_t i, const auto&) RPSUP_INLINE_LAMBDA { scratch_.forces[i] = needed_[i]; });
   }
-  RPSUP_INLINE void solve() {
-    bodies.solve(axes.data(), tau_.data(), scratch_, qdd.data(), Shapes::known ? rods_.data() : nullptr);
-  }
 
   /// (Phi_q M^-1 Phi_q^T) lambda = -(Phi_q qdd_0 + bias) - 2 alpha Phi_d - beta^2 Phi, with qdd_0 the accelerations without constraints.
+  /// Adds what lambda exerts to the forces and tau.
   RPSUP_INLINE bool solve_multipliers(const DrivenMotion* drives) {
     calc_rows(drives);
     if (model_.least_multipliers && is_apart()) return false;
-    if (!loops.factor(bodies, axes.data())) return false;
     const auto& rows = loops.rows;
     auto& lambda = loops.lambda;
     for (std::size_t r = 0; r < lambda.size(); ++r)
       lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
-    loops.find_multipliers(scratch_.accelerations.data(), qdd.data(), lambda.data(), multiplier_scratch_);
-    take_needed_forces();
+    if (!loops.solve(bodies, axes.data(), {needed_.data(), tau_.data(), rods_}, lambda.data(), multiplier_scratch_)) return false;
     loops.add_reactions(lambda.data(), scratch_.forces.data(), tau_.data());
-    solve();
     Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
       const JointReaction<double> reaction =

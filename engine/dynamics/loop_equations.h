@@ -32,6 +32,14 @@ struct KnownRows {
   RPSUP_INLINE explicit KnownRows(const TreeModel&) {}
 };
 
+/// What moves the bodies if there are no multipliers, as ArticulatedBodies::solve() takes it.
+template <typename Shapes>
+struct FreeMotion {
+  const SpatialForce<double>* needed;
+  const double* tau;
+  const typename Shapes::RodRoom& rods;
+};
+
 /// The constraints of closed loops and enforced drives, solved for their multipliers lambda:
 ///
 ///     (Phi_q M^-1 Phi_q^T) lambda = wanted - Phi_q qdd_0
@@ -58,6 +66,7 @@ class LoopEquations {
         model_(model),
         matrix_(model),
         bodies_scratch_(model),
+        lacking_(lambda.size()),
         units_(lambda.size()),
         rest_(lambda.size()) {}
 
@@ -66,24 +75,17 @@ class LoopEquations {
   RowRoom<double> lambda;                                 ///< the rows' multipliers
   typename Shapes::template CutRoom<ClosedJoint> joints;  ///< ideal cut joints
 
-  /// From the joints as they stand. False if the loops cannot follow.
-  [[nodiscard]] RPSUP_INLINE bool factor(const Bodies& bodies, const JointAxes* axes) {
-    if constexpr (!Shapes::known)
-      if (model_.least_multipliers) matrix_.start(general.entries, model_.free);
-    const int count = matrix_.acting_count();
-    for (int first = 0; first < count; first += Directions::kCount) {
-      const int end = std::min(first + Directions::kCount, count);
-      find_responses(bodies, axes, first, end);
-      for (int k = first; k < count; ++k) {
-        double numbers[Directions::kCount];
-        rest_[static_cast<std::size_t>(matrix_.acting(k))].store(numbers);
-        for (int l = first; l < std::min(end, k + 1); ++l) matrix_.entry(k, l) = -numbers[l - first];
-      }
-    }
-    return matrix_.factor();
+  /// Computes the multipliers of a motion from the joints as they stand. False if the loops cannot follow.
+  /// @param multipliers  in: wanted
+  [[nodiscard]] RPSUP_INLINE bool solve(const Bodies& bodies, const JointAxes* axes, const FreeMotion<Shapes>& motion, double* multipliers,
+                                        Scratch<double>& scratch) {
+    if (!factor(bodies, axes, motion)) return false;
+    for (std::size_t r = 0; r < lacking_.size(); ++r) multipliers[r] += lacking_[r];
+    matrix_.solve(multipliers, scratch);
+    return true;
   }
 
-  /// What accelerations lack of those that are wanted, as multipliers. After factor().
+  /// What accelerations lack of those that are wanted, as multipliers. After solve().
   /// @param multipliers  in: wanted  @tparam T  a number, or several side by side
   template <typename T>
   RPSUP_INLINE void find_multipliers(const SpatialAcceleration<T>* accelerations, const T* qdd, T* multipliers, Scratch<T>& scratch) const {
@@ -99,22 +101,47 @@ class LoopEquations {
   }
 
  private:
-  /// rest_ <- -Phi_q M^-1 Phi_q^T, of some of the acting rows the columns, side by side.
-  RPSUP_INLINE void find_responses(const Bodies& bodies, const JointAxes* axes, int first, int end) {
+  /// Of the acting rows the columns of the matrix, and before the first of them the motion without multipliers: as many at once as there are
+  /// directions.
+  [[nodiscard]] RPSUP_INLINE bool factor(const Bodies& bodies, const JointAxes* axes, const FreeMotion<Shapes>& motion) {
+    if constexpr (!Shapes::known)
+      if (model_.least_multipliers) matrix_.start(general.entries, model_.free);
+    const int count = matrix_.acting_count();
+    matrix_.template each_place<Directions::kCount>([&](auto place) RPSUP_INLINE_LAMBDA {
+      find_responses(bodies, axes, motion, place);
+      for (int k = std::max<int>(place, 0); k < count; ++k) matrix_.set(k, place, rest_[static_cast<std::size_t>(matrix_.acting(k))]);
+    });
+    return matrix_.factor();
+  }
+
+  /// rest_ <- Phi_q M^-1 Phi_q^T, of the acting rows from a place on the columns, side by side; at place -1 the motion, and lacking_ of it.
+  RPSUP_INLINE void find_responses(const Bodies& bodies, const JointAxes* axes, const FreeMotion<Shapes>& motion, int place) {
+    auto& forces = bodies_scratch_.forces;
+    forces.fill({});
+    if (place < 0)
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        forces[i] = {as_first<Directions>(motion.needed[i].force), as_first<Directions>(motion.needed[i].moment)};
     units_.fill({});
-    for (int k = first; k < end; ++k) units_[static_cast<std::size_t>(matrix_.acting(k))] = Directions::unit(k - first);
-    bodies_scratch_.forces.fill({});
+    for (int k = std::max(place, 0); k < std::min(place + Directions::kCount, matrix_.acting_count()); ++k)
+      units_[static_cast<std::size_t>(matrix_.acting(k))] = -Directions::unit(k - place);
+    load_bodies(units_.data(), forces.data());
     rest_.fill({});
-    load_bodies(units_.data(), bodies_scratch_.forces.data());
     if constexpr (Shapes::known) {
-      bodies.solve_bodies_lanes(axes, bodies_scratch_);
+      if (place < 0)
+        bodies.solve_bodies_lanes(axes, motion.tau, bodies_scratch_, motion.rods);
+      else
+        bodies.solve_bodies_lanes(axes, bodies_scratch_);
       subtract_accelerations(bodies_scratch_.accelerations.data(), rest_.data());
     } else {
       general.tau.fill({});
+      if (place < 0)
+        for (std::size_t i = 0; i < general.tau.size(); ++i) general.tau[i] = Directions::first(motion.tau[i]);
       load_coordinates(units_.data(), general.tau.data());
       bodies.solve_lanes(axes, general.tau.data(), bodies_scratch_, general.responses.data());
       subtract_answers(bodies_scratch_.accelerations.data(), general.responses.data(), rest_.data());
     }
+    if (place < 0)
+      for (std::size_t r = 0; r < lacking_.size(); ++r) lacking_[r] = rest_[r][0];
   }
 
   /// Takes what the joints' multipliers exert from what each joint's body needs.
@@ -191,6 +218,7 @@ class LoopEquations {
   const TreeModel& model_;
   Matrix matrix_;                  ///< factored
   typename Bodies::template Scratch<Directions> bodies_scratch_;
+  RowRoom<double> lacking_;        ///< -Phi_q qdd_0
   RowRoom<Directions> units_, rest_;
 };
 /// There are none.

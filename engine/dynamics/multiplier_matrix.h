@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/dynamics/constraint_rows.h"
 #include "engine/math/buffer.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -12,17 +14,25 @@ inline namespace RPSUP_INSTRUCTION_SET {
 constexpr double kSingularPivot = 1e-12;  ///< a pivot so small, of its diagonal entry: the loop stands at the end of its reach
 
 /// The lower triangle of a symmetric matrix, factored in place: L L^T. False if a pivot is below `singular` of its diagonal entry.
-[[nodiscard]] RPSUP_INLINE bool factor_cholesky(int n, double singular, double* A) {
+/// Without loops where n is known: they take as long as what they repeat.
+/// @param stride  from row to row
+[[nodiscard]] RPSUP_INLINE bool factor_cholesky(int n, int stride, double singular, double* A) {
+#pragma GCC unroll 8
   for (int c = 0; c < n; ++c) {
-    double pivot = A[c * n + c];
-    for (int k = 0; k < c; ++k) pivot -= A[c * n + k] * A[c * n + k];
-    if (!(pivot > singular * A[c * n + c])) return false;
+    double* row_c = A + c * stride;
+    double pivot = row_c[c];
+#pragma GCC unroll 8
+    for (int k = 0; k < c; ++k) pivot -= row_c[k] * row_c[k];
+    if (!(pivot > singular * row_c[c])) return false;
     const double inverse = 1.0 / std::sqrt(pivot);
-    A[c * n + c] = inverse;  // what solving needs
+    row_c[c] = inverse;  // what solving needs
+#pragma GCC unroll 8
     for (int r = c + 1; r < n; ++r) {
-      double sum = A[r * n + c];
-      for (int k = 0; k < c; ++k) sum -= A[r * n + k] * A[c * n + k];
-      A[r * n + c] = sum * inverse;
+      double* row = A + r * stride;
+      double sum = row[c];
+#pragma GCC unroll 8
+      for (int k = 0; k < c; ++k) sum -= row[k] * row_c[k];
+      row[c] = sum * inverse;
     }
   }
   return true;
@@ -30,14 +40,18 @@ constexpr double kSingularPivot = 1e-12;  ///< a pivot so small, of its diagonal
 
 /// x <- (L L^T)^-1 x. @tparam T  a number, or several side by side
 template <typename T>
-RPSUP_INLINE void solve_cholesky(int n, const double* L, T* x) {
+RPSUP_INLINE void solve_cholesky(int n, int stride, const double* L, T* x) {
+#pragma GCC unroll 8
   for (int r = 0; r < n; ++r) {
-    for (int k = 0; k < r; ++k) x[r] -= L[r * n + k] * x[k];
-    x[r] = L[r * n + r] * x[r];
+#pragma GCC unroll 8
+    for (int k = 0; k < r; ++k) x[r] -= L[r * stride + k] * x[k];
+    x[r] = L[r * stride + r] * x[r];
   }
+#pragma GCC unroll 8
   for (int r = n - 1; r >= 0; --r) {
-    for (int k = r + 1; k < n; ++k) x[r] -= L[k * n + r] * x[k];
-    x[r] = L[r * n + r] * x[r];
+#pragma GCC unroll 8
+    for (int k = r + 1; k < n; ++k) x[r] -= L[k * stride + r] * x[k];
+    x[r] = L[r * stride + r] * x[r];
   }
 }
 
@@ -55,15 +69,26 @@ class IndependentMatrix {
 
   [[nodiscard]] static constexpr int acting_count() { return n; }
   [[nodiscard]] static constexpr int acting(int k) { return k; }
-  [[nodiscard]] RPSUP_INLINE double& entry(int k, int l) { return A_[k * n + l]; }
-  [[nodiscard]] RPSUP_INLINE bool factor() { return factor_cholesky(n, kSingularPivot, A_); }
+
+  /// Visits the places -1, -1 + width and so on of columns that are set together. That at -1 is none of the matrix.
+  template <int width, typename Visit>
+  RPSUP_INLINE static void each_place(const Visit& visit) {
+    [&]<int... group>(std::integer_sequence<int, group...>) RPSUP_INLINE_LAMBDA {
+      (visit(std::integral_constant<int, group * width - 1>()), ...);
+    }(std::make_integer_sequence<int, (n + width) / width>());
+  }
+  /// Of a row the entries from a place on, one a lane.
+  RPSUP_INLINE void set(int k, int place, const Directions& entries) { entries.store(A_ + k * kStride + 1 + place); }
+
+  [[nodiscard]] RPSUP_INLINE bool factor() { return factor_cholesky(n, kStride, kSingularPivot, A_ + 1); }
   template <typename T>
   RPSUP_INLINE void solve(T* x, Scratch<T>&) const {
-    solve_cholesky(n, A_, x);
+    solve_cholesky(n, kStride, A_ + 1, x);
   }
 
  private:
-  double A_[n * n];
+  static constexpr int kStride = (n + Directions::kCount) / Directions::kCount * Directions::kCount;
+  double A_[n * kStride];  ///< each row behind a number that is none of the matrix
 };
 
 /// A = Phi_q M^-1 Phi_q^T, of which the multipliers are found.
@@ -112,19 +137,27 @@ class MultiplierMatrix {
   [[nodiscard]] RPSUP_INLINE int acting_count() const { return acting_count_; }
   [[nodiscard]] RPSUP_INLINE int acting(int k) const { return acting_[room(k)]; }
 
-  /// Of two rows that have a part, the second no later one than the first.
-  [[nodiscard]] RPSUP_INLINE double& entry(int k, int l) { return A_[room(k * acting_count_ + l)]; }
+  /// As IndependentMatrix has them, of the rows that have a part.
+  template <int width, typename Visit>
+  RPSUP_INLINE void each_place(const Visit& visit) const {
+    for (int place = -1; place < acting_count_; place += width) visit(place);
+  }
+  RPSUP_INLINE void set(int k, int place, const Directions& entries) {
+    double numbers[Directions::kCount];
+    entries.store(numbers);
+    for (int l = std::max(place, 0); l < std::min(place + Directions::kCount, k + 1); ++l) entry(k, l) = numbers[l - place];
+  }
 
   /// False if the matrix is singular, and no dependence is expected.
   [[nodiscard]] RPSUP_INLINE bool factor() {
     if (dependent_) scale();
-    return factor_cholesky(acting_count_, dependent_ ? 0.0 : kSingularPivot, A_.data());
+    return factor_cholesky(acting_count_, acting_count_, dependent_ ? 0.0 : kSingularPivot, A_.data());
   }
 
   /// x <- A^-1 x. @tparam T  a number, or several side by side
   template <typename T>
   RPSUP_INLINE void solve(T* x, Scratch<T>& scratch) const {
-    if (!dependent_) return solve_cholesky(count_, A_.data(), x);
+    if (!dependent_) return solve_cholesky(count_, count_, A_.data(), x);
     const int n = acting_count_;
     T* known = scratch.known.data();
     const T* solution = scratch.solution.data();
@@ -150,7 +183,7 @@ class MultiplierMatrix {
       solution[k] = {};
     }
     for (int repeat = 0; repeat <= kRepeats; ++repeat) {
-      solve_cholesky(n, A_.data(), rest);
+      solve_cholesky(n, n, A_.data(), rest);
       for (int k = 0; k < n; ++k) solution[k] += rest[k];
       if (repeat == kRepeats) break;
       multiply(solution, rest);
@@ -169,6 +202,8 @@ class MultiplierMatrix {
   }
 
   [[nodiscard]] static std::size_t room(int n) { return static_cast<std::size_t>(n); }
+  /// Of two rows that have a part, the second no later one than the first.
+  [[nodiscard]] RPSUP_INLINE double& entry(int k, int l) { return A_[room(k * acting_count_ + l)]; }
 
   /// A <- S + e 1, the lower triangle.
   RPSUP_INLINE void scale() {

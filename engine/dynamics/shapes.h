@@ -52,6 +52,23 @@ struct KnownJoint {
   const TreeJoint& joint;
 };
 
+/// One of several rods in series, alike but for the coordinates and the parent, and for what the last one lacks. A loop over them is less code than
+/// each for itself, and what does not fit into the processor's cache of instructions is fetched again for each evaluation.
+template <const auto& shapes, std::size_t first_of_series>
+struct RodInSeries : KnownJoint<shapes, first_of_series> {
+  RPSUP_INLINE RodInSeries(const TreeJoint& of, int behind, bool carries)
+      : KnownJoint<shapes, first_of_series>{of},
+        first(shapes[first_of_series].first + 3 * behind),
+        first_free(shapes[first_of_series].first_free + 3 * behind),
+        parent(shapes[first_of_series].parent + behind),
+        carries_moving(carries),
+        from_first(3 * behind) {}
+
+  int first, first_free, parent;
+  bool carries_moving;
+  int from_first;  ///< coordinates between its own and those of the first one
+};
+
 /// A joint's coordinates: visit(k). Known ones are no loop, so that what they index may stay in registers.
 template <typename Visit>
 RPSUP_INLINE void each_coordinate(const TreeJoint& joint, const Visit& visit) {
@@ -117,6 +134,8 @@ struct AnyShapes {
   using RowRoom = Buffer<T>;
   using RodRoom = FixedBuffer<RodMotion, 0>;
 
+  using Looped = AnyShapes;
+
   [[nodiscard]] static bool fit(const TreeModel&) { return true; }
 
   template <typename Visit>
@@ -146,8 +165,10 @@ struct AnyShapes {
 /// The joints of a tree known when the program is compiled: the last one's body carries the journal, the third last one's the bearing.
 /// @tparam shapes     an array of JointShape
 /// @tparam clearance  whether the cut joint has any
-template <const auto& shapes, bool clearance>
+/// @tparam looped     whether rods in series are visited in a loop: less code, but nothing of theirs stays in registers
+template <const auto& shapes, bool clearance, bool looped = false>
 struct KnownShapes {
+  using Looped = KnownShapes<shapes, clearance, true>;
   static constexpr std::size_t n = shapes.size();
   static_assert(std::ranges::none_of(shapes, [](const JointShape& s) { return s.is_rod && (s.turned || s.driven); }), "RodMotion knows no such rods");
   static constexpr std::size_t n_q = static_cast<std::size_t>(shapes[n - 1].first + shapes[n - 1].count());
@@ -183,11 +204,17 @@ struct KnownShapes {
 
   template <typename Visit>
   RPSUP_INLINE static void outwards(const TreeModel& model, const Visit& visit) {
-    outwards(model, visit, std::make_index_sequence<n>());
+    outwards<0>(model, visit, std::make_index_sequence<series.first>());
+    if constexpr (series.first < series.end)
+      for (std::size_t i = series.first; i < series.end; ++i) visit(i, rod_in_series(model, i));
+    outwards<series.end>(model, visit, std::make_index_sequence<n - series.end>());
   }
   template <typename Visit>
   RPSUP_INLINE static void inwards(const TreeModel& model, const Visit& visit) {
-    inwards(model, visit, std::make_index_sequence<n>());
+    inwards<n>(model, visit, std::make_index_sequence<n - series.end>());
+    if constexpr (series.first < series.end)
+      for (std::size_t i = series.end; i-- > series.first;) visit(i, rod_in_series(model, i));
+    inwards<series.first>(model, visit, std::make_index_sequence<series.first>());
   }
   template <typename Visit>
   RPSUP_INLINE static void cut_joints(const TreeModel& model, const Visit& visit) {
@@ -203,6 +230,10 @@ struct KnownShapes {
   [[nodiscard]] RPSUP_INLINE static constexpr std::size_t sine_place(const KnownJoint<shapes, index>&) {
     return angles_of(shapes).place[index];
   }
+  template <std::size_t first_of_series>
+  [[nodiscard]] RPSUP_INLINE static constexpr std::size_t sine_place(const RodInSeries<shapes, first_of_series>& joint) {
+    return angles_of(shapes).place[first_of_series] + static_cast<std::size_t>(joint.from_first);
+  }
 
  private:
   /// Put together from numbers: as the parts of a block in memory they would have to get there first.
@@ -216,15 +247,43 @@ struct KnownShapes {
     block.part[0] = SineBlock::Part{(first + lane < angles_of(shapes).count ? q[angles_of(shapes).coordinate[first + lane]] : 0.0)...};
     return block;
   }
-  template <typename Visit, std::size_t... i>
+
+  struct Series {
+    std::size_t first = n, end = n;
+  };
+  /// Of rods alike, each on the one before it; empty where there are no two of them.
+  [[nodiscard]] static consteval Series find_series() {
+    const auto follows = [](std::size_t i) {
+      JointShape before = shapes[i - 1];
+      before.first = shapes[i].first;
+      before.first_free = shapes[i].first_free;
+      before.parent = static_cast<int>(i) - 1;
+      before.carries_moving = shapes[i].carries_moving;
+      return shapes[i].is_rod && shapes[i] == before;
+    };
+    for (std::size_t i = 1; looped && i < n; ++i) {
+      if (!follows(i)) continue;
+      std::size_t end = i + 1;
+      while (end < n && follows(end)) ++end;
+      return {i - 1, end};
+    }
+    return {};
+  }
+  static constexpr Series series = find_series();
+
+  [[nodiscard]] RPSUP_INLINE static auto rod_in_series(const TreeModel& model, std::size_t i) {
+    const bool carries = i + 1 < series.end || shapes[series.end - 1].carries_moving;
+    return RodInSeries<shapes, series.first>{model.joints[i], static_cast<int>(i - series.first), carries};
+  }
+  template <std::size_t from, typename Visit, std::size_t... i>
   RPSUP_INLINE static void outwards(const TreeModel& model, const Visit& visit, std::index_sequence<i...>) {
     const TreeJoint* joints = model.joints.data();
-    (visit(std::integral_constant<std::size_t, i>(), KnownJoint<shapes, i>{joints[i]}), ...);
+    (visit(std::integral_constant<std::size_t, from + i>(), KnownJoint<shapes, from + i>{joints[from + i]}), ...);
   }
-  template <typename Visit, std::size_t... i>
+  template <std::size_t end, typename Visit, std::size_t... i>
   RPSUP_INLINE static void inwards(const TreeModel& model, const Visit& visit, std::index_sequence<i...>) {
     const TreeJoint* joints = model.joints.data();
-    (visit(std::integral_constant<std::size_t, n - 1 - i>(), KnownJoint<shapes, n - 1 - i>{joints[n - 1 - i]}), ...);
+    (visit(std::integral_constant<std::size_t, end - 1 - i>(), KnownJoint<shapes, end - 1 - i>{joints[end - 1 - i]}), ...);
   }
 };
 

@@ -92,6 +92,12 @@ struct LaneBlock {
     for (Part& p : lanes.part) p = number - Part{};
     return lanes;
   }
+  /// A number in the first lane, zero in the others.
+  [[nodiscard]] RPSUP_INLINE static LaneBlock first(double number) {
+    LaneBlock lanes{};
+    lanes.part[0] = Part{number};
+    return lanes;
+  }
   /// One in a lane, zero in the others.
   [[nodiscard]] RPSUP_INLINE static LaneBlock unit(int lane) {
     LaneBlock lanes{};
