@@ -20,13 +20,7 @@ struct SpatialAcceleration {
   Vec3<T> angular, linear;
 };
 
-/// In the place of generalised forces: there are none.
-template <typename T>
-struct NoForces {
-  [[nodiscard]] RPSUP_INLINE NoForces operator+(int) const { return {}; }
-  [[nodiscard]] RPSUP_INLINE T operator[](int) const { return T{}; }
-};
-/// Those of one motion, as the first of several directions.
+/// Generalised forces of one motion, as the first of several directions.
 struct FirstForces {
   const double* tau;
   [[nodiscard]] RPSUP_INLINE FirstForces operator+(int k) const { return {tau + k}; }
@@ -91,7 +85,7 @@ class ArticulatedBodies {
   };
 
   /// Solves for the free coordinates' accelerations with the matrices of factor().
-  /// @param tau  generalised force on each coordinate, or NoForces
+  /// @param tau  generalised force on each coordinate
   /// @param qdd  one a coordinate, of which free ones are written; or NotWanted
   /// @param rods  one a joint: motion of rods whose angular acceleration is counted from zero, and whose forces lack the moments x x lever; null:
   ///              their accelerations, too, add to those of their frames, and their forces are whole. Of several directions: of the first one
@@ -127,14 +121,9 @@ class ArticulatedBodies {
   [[gnu::noinline]] void solve_lanes(const JointAxes* axes, const Directions* tau, Scratch<Directions>& scratch, Directions* qdd) const {
     solve(axes, tau, scratch, qdd);
   }
-  /// The bodies' accelerations alone, by forces on bodies alone.
-  [[gnu::noinline]] void solve_bodies_lanes(const JointAxes* axes, Scratch<Directions>& scratch) const {
-    solve(axes, NoForces<Directions>(), scratch, NotWanted<Directions>());
-  }
-  /// The same, the first direction by the generalised forces and the rods of a motion, too.
-  [[gnu::noinline]] void solve_bodies_lanes(const JointAxes* axes, const double* tau, Scratch<Directions>& scratch,
-                                            const typename Shapes::RodRoom& rods) const {
-    solve(axes, FirstForces{tau}, scratch, NotWanted<Directions>(), rods.data());
+  /// The bodies' accelerations alone, by forces on bodies; in the first direction by a motion's generalised forces and rods, too.
+  [[gnu::noinline]] void solve_bodies_lanes(const JointAxes* axes, const double* tau, Scratch<Directions>& scratch, const RodMotion* rods) const {
+    solve(axes, FirstForces{tau}, scratch, NotWanted<Directions>(), rods);
   }
 
   /// After solve(): the force or moment along the axis that the joint of a driven coordinate exerts.

@@ -15,7 +15,7 @@ Equations* try_shapes(const TreeModel& model, const std::vector<ClearanceJoint>&
 }  // namespace
 
 /// The linkage with prescribed drives is known when the program is compiled, with a rigid coupler and with one of four parts, with clearance and
-/// without.
+/// without. Those with rows call what is not inlined with addresses of their rooms, so that these stand in memory in any case.
 Equations* make_compiled_equations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles) {
   if (Equations* rigid = try_shapes<KnownShapes<kRigidRpsup, true>>(model, joints, bristles)) return rigid;
   if (Equations* flexible = try_shapes<KnownShapes<kFlexibleRpsup, true>>(model, joints, bristles)) return flexible;

@@ -216,7 +216,7 @@ class EquationsOfMotion {
     auto& lambda = loops.lambda;
     for (std::size_t r = 0; r < lambda.size(); ++r)
       lambda[r] = -(rows.bias[r] + 2.0 * model_.alpha * rows.Phi_d[r] + model_.beta * model_.beta * rows.Phi[r]);
-    if (!loops.solve(bodies, axes.data(), {needed_.data(), tau_.data(), rods_}, lambda.data(), multiplier_scratch_)) return false;
+    if (!loops.solve(bodies, axes.data(), {needed_.data(), tau_.data(), rods()}, lambda.data(), multiplier_scratch_)) return false;
     loops.add_reactions(lambda.data(), scratch_.forces.data(), tau_.data());
     Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;

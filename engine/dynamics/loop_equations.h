@@ -33,11 +33,10 @@ struct KnownRows {
 };
 
 /// What moves the bodies if there are no multipliers, as ArticulatedBodies::solve() takes it.
-template <typename Shapes>
 struct FreeMotion {
-  const SpatialForce<double>* needed;
-  const double* tau;
-  const typename Shapes::RodRoom& rods;
+  const SpatialForce<double>* needed;  ///< one a joint
+  const double* tau;                   ///< one a coordinate
+  const RodMotion* rods;               ///< one a joint, of known shapes
 };
 
 /// The constraints of closed loops and enforced drives, solved for their multipliers lambda:
@@ -54,7 +53,7 @@ class LoopEquations {
   using RowRoom = typename Shapes::template RowRoom<T>;
 
  public:
-  /// Room for find_multipliers().
+  /// Room for solve() and find_multipliers().
   template <typename T>
   using Scratch = typename Matrix::template Scratch<T>;
 
@@ -77,7 +76,7 @@ class LoopEquations {
 
   /// Computes the multipliers of a motion from the joints as they stand. False if the loops cannot follow.
   /// @param multipliers  in: wanted
-  [[nodiscard]] RPSUP_INLINE bool solve(const Bodies& bodies, const JointAxes* axes, const FreeMotion<Shapes>& motion, double* multipliers,
+  [[nodiscard]] RPSUP_INLINE bool solve(const Bodies& bodies, const JointAxes* axes, const FreeMotion& motion, double* multipliers,
                                         Scratch<double>& scratch) {
     if (!factor(bodies, axes, motion)) return false;
     for (std::size_t r = 0; r < lacking_.size(); ++r) multipliers[r] += lacking_[r];
@@ -103,19 +102,19 @@ class LoopEquations {
  private:
   /// Of the acting rows the columns of the matrix, and before the first of them the motion without multipliers: as many at once as there are
   /// directions.
-  [[nodiscard]] RPSUP_INLINE bool factor(const Bodies& bodies, const JointAxes* axes, const FreeMotion<Shapes>& motion) {
+  [[nodiscard]] RPSUP_INLINE bool factor(const Bodies& bodies, const JointAxes* axes, const FreeMotion& motion) {
     if constexpr (!Shapes::known)
       if (model_.least_multipliers) matrix_.start(general.entries, model_.free);
     const int count = matrix_.acting_count();
     matrix_.template each_place<Directions::kCount>([&](auto place) RPSUP_INLINE_LAMBDA {
-      find_responses(bodies, axes, motion, place);
+      calc_responses(bodies, axes, motion, place);
       for (int k = std::max<int>(place, 0); k < count; ++k) matrix_.set(k, place, rest_[static_cast<std::size_t>(matrix_.acting(k))]);
     });
     return matrix_.factor();
   }
 
   /// rest_ <- Phi_q M^-1 Phi_q^T, of the acting rows from a place on the columns, side by side; at place -1 the motion, and lacking_ of it.
-  RPSUP_INLINE void find_responses(const Bodies& bodies, const JointAxes* axes, const FreeMotion<Shapes>& motion, int place) {
+  RPSUP_INLINE void calc_responses(const Bodies& bodies, const JointAxes* axes, const FreeMotion& motion, int place) {
     auto& forces = bodies_scratch_.forces;
     forces.fill({});
     if (place < 0)
@@ -127,10 +126,8 @@ class LoopEquations {
     load_bodies(units_.data(), forces.data());
     rest_.fill({});
     if constexpr (Shapes::known) {
-      if (place < 0)
-        bodies.solve_bodies_lanes(axes, motion.tau, bodies_scratch_, motion.rods);
-      else
-        bodies.solve_bodies_lanes(axes, bodies_scratch_);
+      static constexpr double no_tau[Shapes::n_q]{};
+      bodies.solve_bodies_lanes(axes, place < 0 ? motion.tau : no_tau, bodies_scratch_, place < 0 ? motion.rods : nullptr);
       subtract_accelerations(bodies_scratch_.accelerations.data(), rest_.data());
     } else {
       general.tau.fill({});

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/dynamics/angles_of.h"
+#include "engine/dynamics/known_joint.h"
 #include "engine/dynamics/rod_motion.h"
 #include "engine/kinematics/joint_shape.h"
 #include "engine/kinematics/tree_model.h"
@@ -15,73 +16,6 @@
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
-
-/// A joint whose shape is known when the program is compiled: what it leaves out costs not even a question.
-template <const auto& shapes, std::size_t index>
-struct KnownJoint {
-  static constexpr JointShape shape = shapes[index];
-  static constexpr JointShape::Kind kind = shape.kind;
-  static constexpr int first = shape.first;
-  static constexpr int axis = shape.axis;
-  static constexpr int parent = shape.parent;
-  static constexpr bool driven = shape.driven;
-  static constexpr int drive = shape.drive;
-  static constexpr int first_free = shape.first_free;
-  static constexpr bool turned = shape.turned;
-  static constexpr bool shifted = shape.shifted;
-  static constexpr bool shifted_along_x = shape.shifted_along_x;
-  static constexpr bool sprung = shape.sprung;
-  static constexpr JointShape::Inertia inertia = shape.inertia;
-  static constexpr bool com_at_origin = shape.com_at_origin;
-  static constexpr bool com_along_x = shape.com_along_x;
-  static constexpr bool parent_turns = shape.parent_turns;
-  static constexpr bool turns = shape.turns;
-  static constexpr bool moves = shape.moves;
-  static constexpr bool parent_moves = shape.parent_moves;
-  static constexpr bool parent_answers_turning = shape.parent_answers_turning;
-  static constexpr bool answers_turning = shape.answers_turning;
-  static constexpr bool carries_moving = shape.carries_moving;
-  static constexpr bool last_child = shape.last_child;
-  static constexpr bool is_rod = shape.is_rod;
-  static constexpr bool parent_is_rod = shape.parent_is_rod;
-
-  [[nodiscard]] static constexpr int count() { return shape.count(); }
-  [[nodiscard]] static constexpr bool rotates() { return shape.rotates(); }
-  [[nodiscard]] RPSUP_INLINE const TreeJoint& numbers() const { return joint; }
-
-  const TreeJoint& joint;
-};
-
-/// One of several rods in series, alike but for the coordinates and the parent, and for what the last one lacks. A loop over them is less code than
-/// each for itself, and what does not fit into the processor's cache of instructions is fetched again for each evaluation.
-template <const auto& shapes, std::size_t first_of_series>
-struct RodInSeries : KnownJoint<shapes, first_of_series> {
-  RPSUP_INLINE RodInSeries(const TreeJoint& of, int behind, bool carries)
-      : KnownJoint<shapes, first_of_series>{of},
-        first(shapes[first_of_series].first + 3 * behind),
-        first_free(shapes[first_of_series].first_free + 3 * behind),
-        parent(shapes[first_of_series].parent + behind),
-        carries_moving(carries),
-        from_first(3 * behind) {}
-
-  int first, first_free, parent;
-  bool carries_moving;
-  int from_first;  ///< coordinates between its own and those of the first one
-};
-
-/// A joint's coordinates: visit(k). Known ones are no loop, so that what they index may stay in registers.
-template <typename Visit>
-RPSUP_INLINE void each_coordinate(const TreeJoint& joint, const Visit& visit) {
-  for (int k = 0; k < joint.count(); ++k) visit(k);
-}
-template <const auto& shapes, std::size_t index, typename Visit>
-RPSUP_INLINE void each_coordinate(const KnownJoint<shapes, index>&, const Visit& visit) {
-  visit(0);
-  if constexpr (KnownJoint<shapes, index>::count() == 3) {
-    visit(1);
-    visit(2);
-  }
-}
 
 /// A placement whose zeros are known when the program is compiled.
 template <bool is_shifted>
@@ -168,8 +102,9 @@ struct AnyShapes {
 /// @tparam looped     whether rods in series are visited in a loop: less code, but nothing of theirs stays in registers
 template <const auto& shapes, bool clearance, bool looped = false>
 struct KnownShapes {
-  using Looped = KnownShapes<shapes, clearance, true>;
   static constexpr std::size_t n = shapes.size();
+  static constexpr bool have_series = find_series(shapes).end > 0;
+  using Looped = KnownShapes<shapes, clearance, have_series>;
   static_assert(std::ranges::none_of(shapes, [](const JointShape& s) { return s.is_rod && (s.turned || s.driven); }), "RodMotion knows no such rods");
   static constexpr std::size_t n_q = static_cast<std::size_t>(shapes[n - 1].first + shapes[n - 1].count());
   static constexpr std::size_t n_drives = 2;
@@ -205,15 +140,15 @@ struct KnownShapes {
   template <typename Visit>
   RPSUP_INLINE static void outwards(const TreeModel& model, const Visit& visit) {
     outwards<0>(model, visit, std::make_index_sequence<series.first>());
-    if constexpr (series.first < series.end)
-      for (std::size_t i = series.first; i < series.end; ++i) visit(i, rod_in_series(model, i));
+    if constexpr (looped)
+      for (std::size_t i = series.first; i < series.end; ++i) visit(i, Rod{model.joints[i], i - series.first});
     outwards<series.end>(model, visit, std::make_index_sequence<n - series.end>());
   }
   template <typename Visit>
   RPSUP_INLINE static void inwards(const TreeModel& model, const Visit& visit) {
     inwards<n>(model, visit, std::make_index_sequence<n - series.end>());
-    if constexpr (series.first < series.end)
-      for (std::size_t i = series.end; i-- > series.first;) visit(i, rod_in_series(model, i));
+    if constexpr (looped)
+      for (std::size_t i = series.end; i-- > series.first;) visit(i, Rod{model.joints[i], i - series.first});
     inwards<series.first>(model, visit, std::make_index_sequence<series.first>());
   }
   template <typename Visit>
@@ -230,12 +165,15 @@ struct KnownShapes {
   [[nodiscard]] RPSUP_INLINE static constexpr std::size_t sine_place(const KnownJoint<shapes, index>&) {
     return angles_of(shapes).place[index];
   }
-  template <std::size_t first_of_series>
-  [[nodiscard]] RPSUP_INLINE static constexpr std::size_t sine_place(const RodInSeries<shapes, first_of_series>& joint) {
-    return angles_of(shapes).place[first_of_series] + static_cast<std::size_t>(joint.from_first);
+  template <std::size_t index>
+  [[nodiscard]] RPSUP_INLINE static constexpr std::size_t sine_place(const RodInSeries<shapes, index>& joint) {
+    return angles_of(shapes).place[index] + joint.from_first;
   }
 
  private:
+  static constexpr Series series = looped ? find_series(shapes) : Series{};
+  using Rod = RodInSeries<shapes, series.first>;
+
   /// Put together from numbers: as the parts of a block in memory they would have to get there first.
   template <typename Visit, std::size_t... block>
   RPSUP_INLINE static void each_sine_block(const CoordinateRoom<double>& q, const Visit& visit, std::index_sequence<block...>) {
@@ -246,34 +184,6 @@ struct KnownShapes {
     SineBlock block;
     block.part[0] = SineBlock::Part{(first + lane < angles_of(shapes).count ? q[angles_of(shapes).coordinate[first + lane]] : 0.0)...};
     return block;
-  }
-
-  struct Series {
-    std::size_t first = n, end = n;
-  };
-  /// Of rods alike, each on the one before it; empty where there are no two of them.
-  [[nodiscard]] static consteval Series find_series() {
-    const auto follows = [](std::size_t i) {
-      JointShape before = shapes[i - 1];
-      before.first = shapes[i].first;
-      before.first_free = shapes[i].first_free;
-      before.parent = static_cast<int>(i) - 1;
-      before.carries_moving = shapes[i].carries_moving;
-      return shapes[i].is_rod && shapes[i] == before;
-    };
-    for (std::size_t i = 1; looped && i < n; ++i) {
-      if (!follows(i)) continue;
-      std::size_t end = i + 1;
-      while (end < n && follows(end)) ++end;
-      return {i - 1, end};
-    }
-    return {};
-  }
-  static constexpr Series series = find_series();
-
-  [[nodiscard]] RPSUP_INLINE static auto rod_in_series(const TreeModel& model, std::size_t i) {
-    const bool carries = i + 1 < series.end || shapes[series.end - 1].carries_moving;
-    return RodInSeries<shapes, series.first>{model.joints[i], static_cast<int>(i - series.first), carries};
   }
   template <std::size_t from, typename Visit, std::size_t... i>
   RPSUP_INLINE static void outwards(const TreeModel& model, const Visit& visit, std::index_sequence<i...>) {

@@ -55,7 +55,9 @@ expect_found() {
   [ "$said" = "$1" ] || { printf 'expected: %s\nsaid: %s\n' "$1" "$said"; exit 1; }
 }
 for use in 'Angle:engine::Angle a;' 'Angles:void turn(const engine::Angles& a);' 'kTurn:double whole = engine::kTurn;' \
-  'in_turns:double turns = engine::in_turns(1.0);' 'Sense:auto side = engine::Sense::kLeft;'; do
+  'in_turns:double turns = engine::in_turns(1.0);' 'Sense:auto side = engine::Sense::kLeft;' \
+  'in_turns:} namespace engine { double twice(double y) { return y * in_turns(2.0); }' \
+  'Angle:} namespace engine { struct Pair : public Held<const Angle> {};'; do
   plant "${use#*:}"
   python3 "$check" "$tree" >/dev/null || { echo "refused though included: $use"; exit 1; }
   leave_out jobs/turn.cc

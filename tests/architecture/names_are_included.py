@@ -26,11 +26,12 @@ FUNCTION = re.compile(r"(?:^|[\s&*>])([A-Za-z_]\w*)\s*\(")
 USE = re.compile(r"(?<![\w.:>~])(?:(?:engine|jobs|server)::(?:[a-z]\w*::)?)?(\w+)(\s*\()?")
 
 # What a source declares itself, at any depth: "Type name", "auto [a, name]", "using library::Name", enumerators.
-OWN = re.compile(r"(?:(\w+)|[>&*\]]|\bauto\s*&?\s*\[[\w, ]*)(?:\s+|(?<=[&*])|(?<=\[))(\w+)\s*(?=[=({;,):\[\]>]|$)")
+OWN = re.compile(r"(?:(\w+)|(?<=[\w>])[&*]|(?<=[\w>*&])>|(?<=\w)\.\.\.|\bauto\s*&?\s*\[[\w, ]*)(?:\s+|(?<=\[))(\w+)\s*(?=[=({;,):\[\]>]|$)")
 BORROWED = re.compile(r"\busing\s+[\w:]+::(\w+)\s*;")
 ENUMERATOR = re.compile(r"[{,]\s*(k[A-Z]\w*)\s*(?=[,}=])")
 TEST = re.compile(r"\bTEST\(\s*(\w+)")  # of GoogleTest, whose suites have names of their own
-NO_TYPES = {"return", "else", "case", "throw", "new"}
+NO_TYPES = {"return", "else", "case", "throw", "new", "delete", "do", "co_return", "public", "private", "protected", "const", "constexpr", "static"}
+OTHERS = {"sqrt", "sin", "cos", "exp", "copy", "any", "sum", "join"}  # of <cmath> and <algorithm>, whose arguments are not looked at
 NO_FUNCTIONS = {"static_assert", "decltype", "noexcept", "requires", "alignas", "operator"}
 
 
@@ -108,7 +109,8 @@ def main():
     for source, code in codes.items():
         if source.endswith(".h"):
             for name, is_function in declared_names(code):
-                headers_of.setdefault(name, {})[source] = is_function
+                if name not in OTHERS:
+                    headers_of.setdefault(name, {})[source] = is_function
 
     faults = 0
     for source, code in codes.items():
