@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -108,24 +109,29 @@ class DirectionPlan {
     (put(std::integral_constant<int, lane>()), ...);
   }
 
-  /// A joint's coordinates share a group, and so do its rates: the first one with room for them. @returns the column behind the last
+  /// A joint's coordinates share a group, and so do its rates: the first one with room for them. Those that no group holds take several.
+  /// @returns the column behind the last
   [[nodiscard]] static int place_columns(const TreeModel& model, Buffer<int>& column_of_q, Buffer<int>& column_of_v) {
-    Buffer<int> taken(2 * model.joints.size() + 1);  // columns of each group
+    constexpr int kCount = Directions::kCount;
+    Buffer<int> taken(2 * model.free.size() + 1);  // columns of each group
     taken[0] = 1;
     std::size_t last = 0, free = 0;
-    const auto place = [&](int count, Buffer<int>& columns) {
-      std::size_t group = 0;
-      while (taken[group] + count > Directions::kCount) ++group;
-      last = group > last ? group : last;
-      for (int k = 0; k < count; ++k) columns[free + static_cast<std::size_t>(k)] = static_cast<int>(group) * Directions::kCount + taken[group]++;
+    const auto place = [&](int count, Buffer<int>& columns, std::size_t first) {
+      for (int placed = 0; placed < count; placed += kCount) {
+        const int part = std::min(count - placed, kCount);
+        std::size_t group = 0;
+        while (taken[group] + part > kCount) ++group;
+        last = std::max(group, last);
+        for (int k = 0; k < part; ++k) columns[first++] = static_cast<int>(group) * kCount + taken[group]++;
+      }
     };
     for (const TreeJoint& joint : model.joints) {
       if (joint.driven) continue;
-      place(joint.count(), column_of_q);
-      place(joint.count(), column_of_v);
+      place(joint.count(), column_of_q, free);
+      place(joint.count(), column_of_v, free);
       free += static_cast<std::size_t>(joint.count());
     }
-    return static_cast<int>(last) * Directions::kCount + taken[last];
+    return static_cast<int>(last) * kCount + taken[last];
   }
   [[nodiscard]] static int group_of(int column) { return static_cast<int>(static_cast<unsigned>(column) / Directions::kCount); }
   [[nodiscard]] int clamp(int load) const { return load < 0 ? 0 : load > load_count_ ? load_count_ : load; }

@@ -196,9 +196,8 @@ template <int count>
 }
 
 using Lanes = LaneBlock<8>;
-/// Numbers in several directions, one a lane: no more than registers hold side by side, so that a vector of them need not leave its registers; and
-/// no fewer than four, of which each group reads all that they share.
-using Directions = LaneBlock<(kWidestPart > 4 ? kWidestPart : 4)>;
+/// Numbers in several directions, one a lane: no more than registers hold side by side, so that a vector of them need not leave its registers.
+using Directions = LaneBlock<kWidestPart>;
 using LanePair = LaneBlock<2>;
 
 /// Stores the first half of the lanes, and the second one elsewhere.
