@@ -85,7 +85,8 @@ nlohmann::json canonical_value(const ParameterInfo& info, const nlohmann::json& 
   return nullptr;
 }
 
-std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known) {
+std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known, std::string_view listed) {
+  constexpr std::size_t kFew = 12;  // that a user reads through
   std::string_view nearest;
   std::optional<std::size_t> least;
   for (const std::string_view candidate : known) {
@@ -94,7 +95,11 @@ std::string describe_unknown_key(std::string_view key, std::span<const std::stri
     least = distance;
     nearest = candidate;
   }
-  return least ? "unknown key; did you mean " + std::string(nearest) + "?" : "unknown key";
+  if (least) return "unknown key; did you mean " + std::string(nearest) + "?";
+  if (known.size() > kFew) return listed.empty() ? "unknown key" : "unknown key; all are listed at " + std::string(listed);
+  std::string text = "unknown key; allowed:";
+  for (std::size_t i = 0; i < known.size(); ++i) text.append(i == 0 ? " " : ", ").append(known[i]);
+  return text;
 }
 
 std::string pointer_token(std::string_view key) {

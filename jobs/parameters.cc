@@ -167,7 +167,7 @@ std::vector<Fault> find_value_faults(const json& given) {
     } else if (const ParameterInfo* info = find_parameter(key)) {
       if (std::string detail = describe_fault(*info, value); !detail.empty()) faults.push_back({pointer_token(key), std::move(detail)});
     } else {
-      if (key != kLinkageKey) faults.push_back({pointer_token(key), describe_unknown_key(key, known)});
+      if (key != kLinkageKey) faults.push_back({pointer_token(key), describe_unknown_key(key, known, "GET /v1/parameters")});
     }
   }
   if (faults.empty() && given.contains(kLinkageKey)) find_linkage_faults(given, faults);

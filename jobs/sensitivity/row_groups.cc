@@ -57,7 +57,7 @@ std::string choose_metric(const ResultTable& table, const std::string& wanted) {
   if (std::ranges::find(metrics, wanted) != metrics.end()) return wanted;
   std::string known;
   for (const std::string_view metric : metrics) known += (known.empty() ? "" : ", ") + std::string(metric);
-  throw InvalidRequest(std::vector<Fault>{{"/metric", "\"" + wanted + "\": " + describe_unknown_key(wanted, metrics) + "; this sweep has " + known}});
+  throw InvalidRequest(std::vector<Fault>{{"/metric", "\"" + wanted + "\" is no metric of this sweep, which has " + known}});
 }
 
 std::vector<std::string> choose_metrics(const ResultTable& table, std::span<const std::string_view> wanted) {

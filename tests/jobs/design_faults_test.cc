@@ -31,7 +31,7 @@ constexpr FaultCase kFaultCases[] = {
     {"no_over", R"({"design": {"type": "zip"}})", "/design/over", "one parameter or more"},
     {"over_a_list", R"({"design": {"type": "zip", "over": [1]}})", "/design/over", "one parameter or more"},
     {"over_nothing", R"({"design": {"type": "sobol", "count": 2, "over": {}}})", "/design/over", "one parameter or more"},
-    {"key_of_another_type", R"({"design": {"type": "zip", "seed": 1, "over": {"clearance_mm": [1]}}})", "/design/seed", "unknown key (of zip)"},
+    {"key_of_another_type", R"({"design": {"type": "zip", "seed": 1, "over": {"clearance_mm": [1]}}})", "/design/seed", "unknown key; allowed: type, over (of zip)"},
     {"misspelt_key", R"({"design": {"type": "sobol", "count": 2, "sed": 1, "over": {"clearance_mm": {"from": 0, "to": 1}}}})", "/design/sed", "did you mean seed?"},
     {"unknown_path", R"({"design": {"type": "zip", "over": {"clearence_mm": [1]}}})", "/design/over/clearence_mm", "did you mean clearance_mm?"},
     {"whole_links", R"({"design": {"type": "zip", "over": {"links": [1]}}})", "/design/over/links", "links.1,3.mass_kg"},

@@ -139,7 +139,7 @@ TEST(Metrics, AreThoseOfTheStudysLinkages) {
       ADD_FAILURE() << none;
     } catch (const jobs::InvalidRequest& invalid) {
       EXPECT_EQ(invalid.faults().at(0).pointer, "/metric");
-      EXPECT_NE(invalid.faults().at(0).detail.find("this sweep has peak_pin_force_n, steps"), std::string::npos);
+      EXPECT_NE(invalid.faults().at(0).detail.find("is no metric of this sweep, which has peak_pin_force_n, steps"), std::string::npos);
     }
   }
 }

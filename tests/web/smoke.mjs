@@ -43,6 +43,43 @@ test("the form shows what is wrong where it is wrong, and submits what it shows"
   await leave(page, /422/);
 });
 
+test("a form is sent once, also where it is changed while it is under way", async () => {
+  const page = await visit("#/new");
+  await page.getByText("1 job", { exact: true }).waitFor();
+  let sent = 0;
+  let answer = null;
+  await page.route("**/v1/sweeps", (route) => {
+    if (route.request().method() !== "POST") return route.continue();
+    ++sent;
+    answer = () => route.fulfill({ status: 422, contentType: "application/problem+json", body: '{"title": "told later", "detail": "told later", "errors": []}' });
+  });
+  const submit = page.getByRole("button", { name: "Submit" });
+  await submit.click();
+  assert.ok(await submit.isDisabled());
+  await page.getByLabel("Name", { exact: true }).fill("changed meanwhile");
+  assert.ok(await submit.isDisabled());
+  await page.keyboard.press("Enter");
+  await answer();
+  await page.getByRole("alert").getByText("told later").waitFor();
+  assert.equal(sent, 1);
+  assert.ok(await submit.isEnabled());
+  await leave(page, /422/);
+});
+
+test("a run that ends before its steady part says so", async () => {
+  const sweep = await runSweep({ parameters: { duration_s: 0.3, run_up_s: 0.4 }, sweep: { clearance_mm: [0.1, 0.2] } });
+  const page = await visit(`#/sweeps/${sweep.id}`);
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption("peak_slider_acceleration_m_s2");
+  await page.getByText(/^2 computed jobs without a value of .*count from run_up_s on/).waitFor();
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption("steps");
+  await page.getByText(/computed jobs without a value/).waitFor({ state: "hidden" });
+  const [{ job_id: id }] = await resultsOf(sweep);
+  await page.goto(`${url}/#/jobs/${id}`);
+  await page.getByText("this run ends at 0.3 s, at or before run_up_s (0.4 s)").waitFor();
+  await picture(page, "before_steady", { fullPage: true });
+  await leave(page);
+});
+
 test("a request is used again whole", async () => {
   const request = { name: "whole", priority: 3, reuse: false, parameters: short, sweep: { coupler: ["rigid", "flexible"], youngs_modulus_pa: { from: 1e11, to: 2e11, count: 2, scale: "log" } },
     design: { type: "sobol", count: 3, over: { clearance_mm: { from: 0.1, to: 0.5 } } }, cases: [{ restitution: 0.8 }], replicates: { count: 2, perturbation: 1e-6, seed: 4 } };
@@ -371,7 +408,7 @@ test("a sweep says what its results mean", async () => {
   await page.getByRole("region", { name: "Sensitivity" }).getByText("Restitution").waitFor();
   await page.getByText(/predicts a point from all others/).waitFor();
   await page.locator(".chart canvas").nth(1).waitFor();
-  await page.getByLabel("Metric").selectOption("impact_count");
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption("impact_count");
   await page.waitForURL(/metric=impact_count/);
   await page.locator(".chart canvas").nth(1).waitFor();
   await expectAccessible(page);

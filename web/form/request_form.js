@@ -14,7 +14,7 @@ export class RequestForm {
   /// @param fields  of the parameters
   /// @param state   what stands in the form: {name, priority, reuse, linkage, replicates, entries: {path: entry}, ...}
   constructor(fields, state) {
-    Object.assign(this, { fields, state, rows: new Map() });
+    Object.assign(this, { fields, state, rows: new Map(), isSending: false });
   }
 
   /// The fields that are shown first, and all others behind a heading.
@@ -114,19 +114,26 @@ export class RequestForm {
     for (const row of this.rows.values()) row.complain("");
     for (const { path, detail } of problems) this.rows.get(path).complain(detail);
     this.drawCount(request);
-    this.send.disabled = problems.length > 0;
+    this.drawSend();
     this.faults.replaceChildren();
     this.shown.textContent = JSON.stringify(request, null, 1);
     this.curl.textContent = `curl -d '${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}${this.path}`;
   }
 
+  drawSend() {
+    this.send.disabled = this.isSending || this.problems.length > 0;
+  }
+
+  /// One request at a time, also where a field is changed or Enter pressed while it is under way.
   async submit() {
-    if (this.problems.length > 0) return;
-    this.send.disabled = true;
+    if (this.isSending || this.problems.length > 0) return;
+    this.isSending = true;
+    this.drawSend();
     try {
       location.hash = routeTo(this.route, (await this.ask(this.request)).id);
     } catch (error) {
-      this.send.disabled = false;
+      this.isSending = false;
+      this.drawSend();
       this.refuse(error);
     }
   }

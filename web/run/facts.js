@@ -8,7 +8,15 @@ export function metricsCard(jobs) {
   const labels = labelsOf(jobs);
   const head = h("tr", {}, h("th", { scope: "col" }, "Metric"), labels.map((_, index) => h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index])), h("th", { scope: "col" }, "Unit"));
   return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"), h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
-    names.map((name) => h("tr", {}, h("td", {}, nameOf(name)), jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))));
+    names.map((name) => h("tr", {}, h("td", {}, nameOf(name)), jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))), whyMissing(jobs));
+}
+
+/// A dash without a word would look like a fault.
+function whyMissing(jobs) {
+  const early = jobs.filter(({ metrics, parameters }) => metrics && parameters.duration_s <= parameters.run_up_s);
+  if (early.length === 0) return "";
+  const which = jobs.length === 1 ? `; this run ends at ${exact(early[0].parameters.duration_s)} s, at or before run_up_s (${exact(early[0].parameters.run_up_s)} s)` : "; some of these runs have ended by then";
+  return h("p", { class: "quiet small" }, `Values of the steady part count from run_up_s on${which}.`);
 }
 
 /// Where the energy went: what the drives gave, what was lost to what, and what the account misses.

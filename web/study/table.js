@@ -1,6 +1,6 @@
 // The rows of a sweep as a table: sorted by any column, a page at a time.
 import { h } from "/core/dom.js";
-import { nameOf, number, unitOf } from "/core/format.js";
+import { nameOf, number, plural, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { sortedBy, valueOf } from "/study/data.js";
 
@@ -18,7 +18,8 @@ export class ResultTable {
     this.back = h("button", { onclick: () => this.turn(-1) }, "Back");
     this.next = h("button", { onclick: () => this.turn(1) }, "Next");
     const only = h("input", { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.page = 0; this.draw(); } });
-    this.element = h("div", {},
+    this.missing = h("p", { class: "quiet small", role: "note" });
+    this.element = h("div", {}, this.missing,
       h("p", { class: "actions" }, this.back, this.next, this.where, h("label", {}, only, " only what is selected")),
       h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Results" }, h("table", {}, h("thead", {}, this.head), this.body)));
   }
@@ -41,6 +42,7 @@ export class ResultTable {
     const columns = ["state", ...axes, ...(this.study.rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
       view.metric, ...metrics.filter((metric) => metric !== view.metric)];
     this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"), ...columns.map((column) => this.heading(column)));
+    this.drawMissing();
     const rows = this.visible();
     const pages = Math.max(1, Math.ceil(rows.length / pageSize));
     this.page = Math.min(Math.max(this.page, 0), pages - 1);
@@ -48,6 +50,14 @@ export class ResultTable {
     this.back.disabled = this.page === 0;
     this.next.disabled = this.page >= pages - 1;
     this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} of ${this.study.rows.length.toLocaleString("en")} jobs`;
+  }
+
+  /// Says why jobs that succeeded have no value of the metric.
+  drawMissing() {
+    const { rows, view } = this.study;
+    const without = rows.filter((row) => row.state === "succeeded" && row[view.metric] === null).length;
+    this.missing.hidden = without === 0;
+    this.missing.textContent = `${plural(without, "computed job")} without a value of ${nameOf(view.metric)}: values of the steady part count from run_up_s on, and a run must last longer; those of contacts need a clearance.`;
   }
 
   visible() {
