@@ -30,7 +30,7 @@ class IdealPeakSearch {
 
   std::optional<Peak> find(double from, double to) {
     // Onwards from the start: the branch on which the linkage is assembled is known there.
-    if (!closure_.assemble(0.0, last_) || !solve(0.0, last_, last_)) return std::nullopt;
+    if (!closure_.assemble(0.0, last_) || !solve(0.0, last_, last_, last_)) return std::nullopt;
     determinant_ = closure_.determinant();
     wanted_ = kFirstInterval * calc_longest();
     if (!advance(from)) return std::nullopt;
@@ -67,7 +67,7 @@ class IdealPeakSearch {
       const double rest = piece_end_ - last_.t;
       const double end = rest <= dt ? piece_end_ : rest < 2.0 * dt ? last_.t + 0.5 * rest : last_.t + dt;
       if (!(end > last_.t)) return false;
-      if (!solve(end, last_, next_) || !keeps_branch(determinant_, closure_.determinant())) continue;
+      if (!solve(end, next_, last_, next_) || !keeps_branch(determinant_, closure_.determinant())) continue;
       if (!searches_ || is_smooth() || dt < kShortSmooth * followed) break;
     }
     wanted_ = 1.5 * dt;
@@ -84,14 +84,11 @@ class IdealPeakSearch {
     return longest;
   }
 
-  /// Position, velocity and acceleration at t, from those of an instant nearby; both evaluations may be one.
-  [[nodiscard]] bool solve(double t, const Evaluation& nearby, Evaluation& at) {
+  /// Position, velocity and acceleration at t, from those of two instants: see LoopClosure::lead.
+  [[nodiscard]] bool solve(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) {
     if (++solves_ % kSolvesBetweenQueries == 0 && stop_requested_ && stop_requested_(t)) stopped_ = true;
     if (stopped_) return false;
-    at.t = nearby.t;
-    at.q = nearby.q;
-    at.qd = nearby.qd;
-    at.qdd = nearby.qdd;
+    closure_.lead(t, before, nearby, at);
     return closure_.solve_motion(t, at);
   }
 
@@ -143,7 +140,7 @@ class IdealPeakSearch {
   }
 
   double probe(double t) {
-    if (!solve(t, t - last_.t < next_.t - t ? last_ : next_, probe_)) return std::nan("");
+    if (!solve(t, last_, next_, probe_)) return std::nan("");
     take(probe_);
     return acceleration(probe_);
   }
@@ -151,7 +148,7 @@ class IdealPeakSearch {
   Rpsup ideal_;
   LoopClosure closure_;
   const std::function<bool(double)>& stop_requested_;
-  Evaluation last_, next_, probe_;  ///< the interval's ends; an instant near by
+  Evaluation last_, next_, probe_;  ///< the interval's ends, and until the second is known the one before; an instant near by
   double piece_start_ = 0.0, piece_end_ = 0.0;
   double wanted_ = 0.0;       ///< the next interval, [s]
   double determinant_ = 0.0;  ///< at the last node

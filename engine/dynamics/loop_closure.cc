@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -9,6 +10,7 @@
 #include <Eigen/QR>
 
 #include "engine/kinematics/plain_frame.h"
+#include "engine/math/quintic.h"
 
 namespace engine {
 
@@ -205,6 +207,22 @@ Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordin
   Eigen::MatrixXd columns(constraints_.count(), static_cast<Eigen::Index>(coordinates.size()));
   for (std::size_t k = 0; k < coordinates.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(coordinates[k]);
   return columns;
+}
+
+void LoopClosure::lead(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) const {
+  constexpr double kFar = 5.0;  // times as far as they are apart: there their rounding counts
+  const double apart = nearby.t - before.t;
+  const double place = (t - before.t) / apart;
+  if (apart > 0.0 && std::abs(place) < kFar) {
+    for (const FrameIndex i : unknown_)
+      at.q[i] = Quintic(apart, before.q[i], before.qd[i], before.qdd[i], nearby.q[i], nearby.qd[i], nearby.qdd[i]).value(place);
+    at.t = t;
+  } else {
+    at.q = nearby.q;
+    at.t = nearby.t;
+  }
+  at.qd = nearby.qd;
+  at.qdd = nearby.qdd;
 }
 
 bool LoopClosure::solve(double t, Evaluation& at) {

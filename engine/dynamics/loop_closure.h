@@ -36,6 +36,10 @@ class LoopClosure {
   /// After assemble(): how many of the constraint rows (joints with clearance have none) follow from the others.
   [[nodiscard]] Eigen::Index redundant() const { return redundant_; }
 
+  /// Sets the motion of `at`, but for the driven coordinates, to where that of two instants, the second one nearby, leads at time t: what
+  /// solve() may start from. `at` may be one of them. If the first is not before the second, or t far from both, that is the second's motion.
+  void lead(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) const;
+
   /// Position, velocity, acceleration, joint reactions and drive forces at time t of a determined mechanism: solve_motion, then solve_forces.
   [[nodiscard]] bool solve(double t, Evaluation& at);
 

@@ -45,12 +45,12 @@ class KinematicRun {
 
   RunEnd run() {
     ++run_end_.evaluations;
-    if (!solve(0.0, nodes_[0], nodes_[0])) {
+    if (!solve(0.0, nodes_[0], nodes_[0], nodes_[0])) {
       fail(RunStatus::kLockUp, kLocked);
       return run_end_;
     }
     determinant_ = closure_.determinant();
-    take_samples(nodes_[0]);
+    take_samples(nodes_[0], nodes_[0]);
     wanted_ = kFirstOfLongest * calc_longest();
     for (long panel = 0; nodes_[0].t < options_.duration && run_end_.status == RunStatus::kSucceeded; ++panel) {
       if (panel % kPanelsBetweenQueries == 0 && observer_.stop_requested(nodes_[0].t)) {
@@ -75,12 +75,9 @@ class KinematicRun {
     run_end_.detail = std::move(detail);
   }
 
-  /// Everything at time t, from the motion at an instant nearby; both evaluations may be one.
-  [[nodiscard]] bool solve(double t, const Evaluation& nearby, Evaluation& at) {
-    at.t = nearby.t;
-    at.q = nearby.q;
-    at.qd = nearby.qd;
-    at.qdd = nearby.qdd;
+  /// Everything at time t, from the motion at two instants: see LoopClosure::lead.
+  [[nodiscard]] bool solve(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) {
+    closure_.lead(t, before, nearby, at);
     if (!closure_.solve(t, at)) return false;
     at.energy.kinetic = calc_kinetic_energy(mechanism_, at.frames);
     at.energy.potential = calc_potential_energy(mechanism_, at.frames, at.q);
@@ -151,7 +148,8 @@ class KinematicRun {
     end_determinant_ = determinant_;
     run_end_.evaluations += kSteps;
     for (std::size_t k = 1; k <= kSteps; ++k) {
-      if (!solve(times_[k], nodes_[k - 1], nodes_[k]) || !keeps_branch(end_determinant_, closure_.determinant())) return false;
+      const Evaluation& before = nodes_[k == 1 ? kSteps - 1 : k - 2];  // of the last panel where this one begins
+      if (!solve(times_[k], before, nodes_[k - 1], nodes_[k]) || !keeps_branch(end_determinant_, closure_.determinant())) return false;
       end_determinant_ = closure_.determinant();
     }
     return true;
@@ -206,7 +204,7 @@ class KinematicRun {
         if (*turn < from->t + apart || *turn > nodes_[k + 1].t - apart) continue;
         Evaluation& at = extra_[i];
         ++run_end_.evaluations;
-        if (!solve(*turn, nodes_[*turn - nodes_[k].t < nodes_[k + 1].t - *turn ? k : k + 1], at)) continue;
+        if (!solve(*turn, nodes_[k], nodes_[k + 1], at)) continue;
         set_work(at);
         accept(*from, at);
         from = &at;
@@ -282,16 +280,16 @@ class KinematicRun {
   void accept(const Evaluation& from, const Evaluation& to) {
     ++run_end_.steps;
     observer_.on_step(from, to);
-    take_samples(to);
+    take_samples(from, to);
   }
 
   /// Samples up to the end of a step, those inside solved each at its own instant.
-  void take_samples(const Evaluation& to) {
+  void take_samples(const Evaluation& from, const Evaluation& to) {
     while (!samples_.all_taken() && samples_.next() <= to.t) {
       if (samples_.next() == to.t) {
         observer_.on_sample(to);
       } else {
-        if (!solve(samples_.next(), to, sample_)) return fail(RunStatus::kLockUp, kLocked);
+        if (!solve(samples_.next(), from, to, sample_)) return fail(RunStatus::kLockUp, kLocked);
         set_work(sample_);
         observer_.on_sample(sample_);
       }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <functional>
 #include <new>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -81,8 +82,14 @@ TEST(LoopClosure, AllocatesNothing) {
   LoopClosure closure(mechanism);
   Evaluation at = MotionSystem(mechanism).make_evaluation();
   ASSERT_TRUE(closure.assemble(0.0, at));
+  Evaluation earlier = at;
+  ASSERT_TRUE(closure.solve(1e-3, at));
   const long before = allocations;
-  for (int i = 0; i < 100; ++i) ASSERT_TRUE(closure.solve(1e-3 * i, at));
+  for (int i = 2; i < 100; ++i) {
+    closure.lead(1e-3 * i, earlier, at, earlier);
+    ASSERT_TRUE(closure.solve(1e-3 * i, earlier));
+    std::swap(earlier, at);
+  }
   EXPECT_EQ(allocations - before, 0);
 }
 
