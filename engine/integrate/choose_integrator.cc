@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace engine {
 
@@ -10,10 +11,13 @@ namespace {
 /// Against dopri5 at 1e-6, radau5 has peaks of the continuum within 0.02 % from 10 to 1000 1/m, and misses one at 3000 1/m.
 constexpr double kSlowBristles = 300.0;  // stiffness, [1/m]
 
-// What tolerances are divided by. With 1.5e-5 undivided, rodas5 misses a third of the peaks that converge by 0.1 % to several percent, radau5 with
-// contact elements one in thirty by up to 1.2 %.
+/// What radau5 solves with a matrix, rodas5 solves body by body in less time from here on.
+constexpr std::size_t kManyCoordinates = 51;
+
+// What tolerances are divided by. With 1.5e-5 undivided, rodas5 misses a third of the peaks that converge by 0.1 % to several percent (a fifth, by up
+// to 0.9 %, with slow friction), radau5 with contact elements one in thirty by up to 1.2 %.
 constexpr double kForChangingContacts = 7.5;
-constexpr double kForElementsWithRadau5 = 3.75;
+constexpr double kForFewChanges = 3.75;
 constexpr double kForJumpingFriction = 30.0;  // across a band of velocities that a step may leap
 
 constexpr auto is_elastic = [](const auto& spring) { return spring.stiffness > 0.0; };
@@ -24,24 +28,50 @@ bool has_slow_friction(const ClearanceParameters& joint) {
 
 double choose_refinement(const ClearanceParameters& joint, Integrator integrator) {
   if (has_slow_friction(joint)) {
-    if (joint.form == RadialForm::kContinuum) return 1.0;
-    return integrator == Integrator::kRadau5 ? kForElementsWithRadau5 : kForChangingContacts;
+    const bool is_radau = integrator == Integrator::kRadau5;
+    if (joint.form == RadialForm::kContinuum) return is_radau ? 1.0 : kForFewChanges;
+    return is_radau ? kForFewChanges : kForChangingContacts;
   }
   const bool jumps = joint.friction && joint.friction->law != FrictionLaw::kNone && !has_bristles(joint.friction->law);
   return jumps ? kForJumpingFriction : kForChangingContacts;
 }
 
-bool has_only_slow_friction(const Mechanism& mechanism) {
-  return std::ranges::all_of(mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance || has_slow_friction(*joint.clearance); });
+bool has_elastic_links(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.coordinates, is_elastic) || std::ranges::any_of(mechanism.springs, is_elastic);
+}
+
+std::size_t count_free(const Mechanism& mechanism) {
+  return mechanism.coordinates.size() - (mechanism.drive_rows == DriveRows::kEliminated ? mechanism.drives.size() : 0);
+}
+
+/// Whether long steps of radau5 miss nothing of what happens in a joint. @param elastic  some links of the mechanism are
+bool suits_long_steps(const ClearanceParameters& joint, bool elastic) {
+  return has_slow_friction(joint) && !(elastic && joint.form == RadialForm::kElements);
 }
 
 }  // namespace
 
+bool has_clearance(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return joint.clearance.has_value(); });
+}
+
 Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted) {
   if (wanted != Integrator::kAuto) return wanted;
-  const bool elastic = std::ranges::any_of(mechanism.coordinates, is_elastic) || std::ranges::any_of(mechanism.springs, is_elastic);
-  const bool ideal = std::ranges::none_of(mechanism.cut_joints, [](const CutJoint& joint) { return joint.clearance.has_value(); });
-  return ideal || (!elastic && has_only_slow_friction(mechanism)) ? Integrator::kRadau5 : Integrator::kRodas5;
+  if (!has_clearance(mechanism)) return Integrator::kRadau5;
+  const bool elastic = has_elastic_links(mechanism);
+  const bool suits_all = std::ranges::all_of(mechanism.cut_joints, [&](const CutJoint& joint) {
+    return !joint.clearance || suits_long_steps(*joint.clearance, elastic);
+  });
+  return suits_all && count_free(mechanism) < kManyCoordinates ? Integrator::kRadau5 : Integrator::kRodas5;
+}
+
+double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
+  constexpr double kLongest = 1e-3;          // short enough for the cubic that finds a ring's contact inside a step
+  constexpr double kLongestImplicit = 5e-3;  // of an implicit method without such a joint: short enough for what is read from inside
+  // Friction feeds vibrations of elastic links, measured up to 1.3 kHz, that grow a hundredfold in 5 ms. Longer steps of radau5 damp them as fast.
+  constexpr double kLongestElastic = 4e-4;
+  if (!has_clearance(mechanism)) return is_implicit(integrator) ? kLongestImplicit : kLongest;
+  return integrator == Integrator::kRadau5 && has_elastic_links(mechanism) ? kLongestElastic : kLongest;
 }
 
 double choose_tolerance(const Mechanism& mechanism, double wanted) {

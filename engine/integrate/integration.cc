@@ -12,21 +12,11 @@ namespace engine {
 
 namespace {
 
-constexpr double kFirstStep = 1e-6;       // [s]; the controller finds its own within some steps
-constexpr double kLongestStep = 1e-3;     // [s]; short enough for the cubic that finds a ring's contact inside a step
-constexpr double kLongestFree = 5e-3;     // [s]; of an implicit method without such a joint: short enough for what is read from inside
+constexpr double kFirstStep = 1e-6;     // [s]; the controller finds its own within some steps
 constexpr double kImpactWeight = 50.0;  // of radau5's errors where there are impacts: one sets off what the next ones are
-constexpr double kWidenBelow = 1e-5;      // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
-constexpr int kMaxLandings = 6;           // tries to end a step on an event
+constexpr double kWidenBelow = 1e-5;    // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
+constexpr int kMaxLandings = 6;         // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
-
-bool has_clearance(const Mechanism& mechanism) {
-  return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return joint.clearance.has_value(); });
-}
-
-double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
-  return is_implicit(integrator) && !has_clearance(mechanism) ? kLongestFree : kLongestStep;
-}
 
 RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   if (options.integrator != Integrator::kAuto) return options;

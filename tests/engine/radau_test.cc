@@ -149,21 +149,39 @@ TEST(ChooseIntegrator, TakesRadauWhereItsStepsMissNothing) {
   p.coupler = Coupler::kFlexible;
   EXPECT_EQ(choose(p), Integrator::kRodas5);
   p.contact = ContactForm::kContinuum;
+  EXPECT_EQ(choose(p), Integrator::kRadau5);
+  p.rigid_elements = 16;
+  EXPECT_EQ(choose(p), Integrator::kRadau5);
+  p.rigid_elements = 17;  // with which solving body by body takes less time
   EXPECT_EQ(choose(p), Integrator::kRodas5);
   p.c_r = 0.0;
   EXPECT_EQ(choose(p), Integrator::kRadau5);
   EXPECT_EQ(choose_integrator(build_rpsup(p).mechanism, Integrator::kRk4), Integrator::kRk4);
 }
 
+TEST(ChooseLongestStep, IsShorterWhereFrictionMayFeedVibrations) {
+  const auto choose = [](const RpsupParameters& p, Integrator integrator) { return choose_longest_step(build_rpsup(p).mechanism, integrator); };
+  RpsupParameters rigid, flexible, ideal;
+  flexible.coupler = Coupler::kFlexible;
+  ideal.c_r = 0.0;
+  EXPECT_LT(choose(flexible, Integrator::kRadau5), choose(rigid, Integrator::kRadau5));
+  EXPECT_EQ(choose(flexible, Integrator::kRodas5), choose(rigid, Integrator::kRodas5));
+  EXPECT_GT(choose(ideal, Integrator::kRadau5), choose(rigid, Integrator::kRadau5));
+  EXPECT_EQ(choose(ideal, Integrator::kDopri5), choose(rigid, Integrator::kDopri5));
+}
+
 TEST(ChooseTolerance, IsFinerWhereContactsChangeInsideSteps) {
   const auto choose = [](const RpsupParameters& p, double wanted) { return choose_tolerance(build_rpsup(p).mechanism, wanted); };
-  RpsupParameters study, elements, coulomb;
+  RpsupParameters study, elements, coulomb, many_coordinates;
+  many_coordinates.coupler = Coupler::kFlexible;
+  many_coordinates.rigid_elements = 17;
   elements.contact = ContactForm::kElements;
   RpsupParameters flexible_elements = elements;
   flexible_elements.coupler = Coupler::kFlexible;
   coulomb.friction = FrictionLaw::kCoulomb;
   EXPECT_EQ(choose(study, 1.5e-5), 1.5e-5);
   EXPECT_DOUBLE_EQ(choose(elements, 1.5e-5), 4e-6);
+  EXPECT_DOUBLE_EQ(choose(many_coordinates, 1.5e-5), 4e-6);
   EXPECT_DOUBLE_EQ(choose(flexible_elements, 1.5e-5), 2e-6);
   EXPECT_DOUBLE_EQ(choose(coulomb, 1.5e-5), 5e-7);
   EXPECT_EQ(choose(coulomb, 1e-10), 1e-10);
