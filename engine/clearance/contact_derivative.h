@@ -2,7 +2,9 @@
 
 #include "engine/clearance/joint_contact.h"
 #include "engine/math/buffer.h"
+#include "engine/math/complex.h"
 #include "engine/math/dual_vec3.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -28,23 +30,26 @@ struct ActingBristles {
   int count = 0;
 };
 
-/// The derivatives of one number by the journal's motion, and by the two bristles of a touch.
-struct ContactRow {
-  Lanes by_position;  ///< turn, p
-  Lanes by_rate;      ///< v, w, and the touch's own two bristles
+/// The derivatives of one number by the journal's motion, and by the two bristles of a touch. @tparam Block  eight numbers side by side
+template <typename Block>
+struct ContactRowOf {
+  Block by_position;  ///< turn, p
+  Block by_rate;      ///< v, w, and the touch's own two bristles
 
   template <typename T>
   [[nodiscard]] RPSUP_INLINE T apply(const JournalVariation<T>& varies) const {
     return dot3(by_position, 0, varies.turn) + dot3(by_position, 3, varies.p) + dot3(by_rate, 0, varies.v) + dot3(by_rate, 3, varies.w);
   }
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE static T dot3(const Lanes& by, int first, const Vec3<T>& v) {
-    return by[first] * v.x + by[first + 1] * v.y + by[first + 2] * v.z;
+  [[nodiscard]] RPSUP_INLINE static T dot3(const Block& by, int first, const Vec3<T>& v) {
+    return number_in(by, first) * v.x + number_in(by, first + 1) * v.y + number_in(by, first + 2) * v.z;
   }
 };
+using ContactRow = ContactRowOf<Lanes>;
 
 /// Those of all that a joint's contacts do together: force and moment on the journal, about its centre, in {b}, and powers.
-struct ContactRows {
+template <typename Block>
+struct ContactRowsOf {
   static constexpr int kImpactPower = 6, kFrictionPower = 7, kCount = 8;
 
   template <typename T>
@@ -53,8 +58,9 @@ struct ContactRows {
     return {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, row(kImpactPower), row(kFrictionPower)};
   }
 
-  ContactRow of[kCount];
+  ContactRowOf<Block> of[kCount];
 };
+using ContactRows = ContactRowsOf<Lanes>;
 
 /// The derivatives of all that a joint's contacts do, by the twelve numbers of the journal's motion and by the bristles. Each touch reads its
 /// own two bristles alone: those of all touches share two directions.

@@ -10,6 +10,7 @@
 #include "engine/dynamics/shifted_jacobian.h"
 #include "engine/dynamics/state_jacobian.h"
 #include "engine/dynamics/varied_equations.h"
+#include "engine/math/complex.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -30,7 +31,7 @@ class CompiledEquations final : public Equations {
         jacobian_(free_, bristles_, static_cast<int>(model.drives.size())),
         plan_(model, BristleDerivatives::kMostLoads * joints.size(), jacobian_.by_t.size()),
         bristle_derivatives_(joints, plan_.moving_groups(), jacobian_.by_t.size()),
-        bodies_(ShiftedBodies::fit(model) ? std::make_unique<ShiftedBodies>(model, joints) : nullptr) {
+        bodies_(fits_bodies(model) ? std::make_unique<Bodies>(model, joints) : nullptr) {
     kept_.drive_force.fill(0.0);  // to be read if the first evaluation fails
   }
 
@@ -68,17 +69,23 @@ class CompiledEquations final : public Equations {
     jacobian_.write_time_derivative(by_t);
   }
 
-  bool factor(double shift) override { return elimination_ == Elimination::kBodies ? bodies_->factor(shift) : shifted_->real.factor(shift); }
+  bool factor(double shift) override { return elimination_ == Elimination::kBodies ? bodies_->real.factor(shift) : shifted_->real.factor(shift); }
   bool factor(double real, double imag) override {
-    return elimination_ == Elimination::kMatrix && shifted_->complex.factor({real, imag});
+    const Complex<double> shift{real, imag};
+    return elimination_ == Elimination::kBodies ? bodies_->complex.factor(shift) : shifted_->complex.factor(shift);
   }
   void solve(double* x) override {
     if (elimination_ == Elimination::kBodies)
-      bodies_->solve_in_place(x);
+      bodies_->real.solve_in_place({x});
     else
       shifted_->real.solve_in_place({x});
   }
-  void solve(double* real, double* imag) override { shifted_->complex.solve_in_place({real, imag}); }
+  void solve(double* real, double* imag) override {
+    if (elimination_ == Elimination::kBodies)
+      bodies_->complex.solve_in_place({real, imag});
+    else
+      shifted_->complex.solve_in_place({real, imag});
+  }
 
  private:
   template <typename Visited>
@@ -160,8 +167,10 @@ class CompiledEquations final : public Equations {
     varied_.differentiate(plan_.coordinates(0), nullptr, 0, plan_.time(0), drives);
     take_outputs(0);
     bristle_derivatives_.write_by_time(varied_.contacts(), varied_.acting(), jacobian_);
-    bodies_->take_up({kept_.frames.data(), kept_.axes.data(), varied_.held(), varied_.held_coordinates(), kept_.cuts.data(), varied_.contacts(),
-                      varied_.acting(), kept_.qd.data()});
+    const BodiesSolution solution{kept_.frames.data(), kept_.axes.data(), varied_.held(),   varied_.held_coordinates(),
+                                  kept_.cuts.data(),   varied_.contacts(), varied_.acting(), kept_.qd.data()};
+    bodies_->real.take_up(solution);
+    bodies_->complex.take_up(solution);
   }
 
   void take_outputs(int group) {
@@ -187,6 +196,13 @@ class CompiledEquations final : public Equations {
     ShiftedJacobian<Complex<double>> complex;
   };
 
+  /// Solves body by body.
+  struct Bodies {
+    Bodies(const TreeModel& model, const std::vector<ClearanceJoint>& joints) : real(model, joints), complex(model, joints) {}
+    ShiftedBodies<double> real;
+    ShiftedBodies<Complex<double>> complex;
+  };
+
   const TreeModel& model_;
   int free_, bristles_;
   const std::vector<ClearanceJoint>& joints_;
@@ -196,7 +212,7 @@ class CompiledEquations final : public Equations {
   StateJacobian jacobian_;
   DirectionPlan plan_;
   BristleDerivatives bristle_derivatives_;
-  std::unique_ptr<ShiftedBodies> bodies_;       ///< null: the tree is none for them
+  std::unique_ptr<Bodies> bodies_;              ///< null: the tree is none for them
   std::unique_ptr<Shifted> shifted_;            ///< null until it is needed
   Elimination elimination_ = Elimination::kMatrix;  ///< of the last linearise()
 };

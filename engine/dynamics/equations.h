@@ -23,7 +23,7 @@ enum class EvaluationStatus {
 };
 
 /// How the systems of an implicit step are solved: with a matrix of the free coordinates, whose cost grows with the third power of their number, or
-/// body by body, which takes no complex shift, no constraints and no springs between points.
+/// body by body, which takes no constraints and no springs between points.
 enum class Elimination { kMatrix, kBodies };
 
 /// The equations of motion, compiled for one instruction set: one call evaluates everything.
@@ -50,7 +50,7 @@ class Equations {
   /// and came to an end: at the same y and motion of the drives. Exact to rounding.
   /// @param by_t  out: df/dt
   virtual void linearise(const double* y, const DrivenMotion* drives, Elimination elimination, double* by_t) = 0;
-  /// Factors (shift 1 - J). False if it is singular, or the shift complex without the matrix. There is room for one real and one complex shift.
+  /// Factors (shift 1 - J). False if it is singular. There is room for one real and one complex shift.
   [[nodiscard]] virtual bool factor(double shift) = 0;
   [[nodiscard]] virtual bool factor(double real, double imag) = 0;
   /// x <- (shift 1 - J)^-1 x after factor() of such a shift; of a complex one by its parts.

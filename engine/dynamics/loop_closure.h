@@ -80,7 +80,7 @@ class LoopClosure {
   std::vector<Eigen::Index> rigid_rows_;  ///< those of joints without clearance, and of couplings
   Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;
-  DenseMatrix J_;         ///< of a determined mechanism: Phi_q of the unknown coordinates, factored
+  DenseMatrix<double> J_;  ///< of a determined mechanism: Phi_q of the unknown coordinates, factored
   Eigen::VectorXd step_;  ///< of the unknown coordinates, or what it does to the rows
 };
 

@@ -109,7 +109,7 @@ EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Eli
 }
 
 Elimination MotionSystem::choose_elimination() const {
-  // Measured with one joint and the continuum, both take as long there; each joint that touches costs the bodies about as much.
+  // Measured with one joint and the continuum, by rodas5 and by radau5, both take as long there; each joint that touches costs the bodies about as much.
   constexpr Eigen::Index kManyCoordinates = 26;
   const auto joints = static_cast<Eigen::Index>(std::max<std::size_t>(1, clearance_joints_.size()));
   return free_count() >= kManyCoordinates * joints && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;

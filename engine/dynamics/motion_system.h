@@ -41,12 +41,12 @@ class MotionSystem {
   /// Computes the exact Jacobian J = df/dy, or what solving body by body needs of it, and df/dt at (t, y), with the contacts as they are. All is
   /// valid until the next call.
   [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y, Elimination elimination = Elimination::kMatrix);
-  /// Which one is the cheaper for this mechanism with real shifts.
+  /// Which one is the cheaper for this mechanism.
   [[nodiscard]] Elimination choose_elimination() const;
   [[nodiscard]] bool can_solve_by_bodies() const { return equations_->can_solve_by_bodies(); }
   /// df/dt of the last linearise(), one for each entry of y.
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }
-  /// Factors (shift 1 - J). False if it is singular, or the shift complex without the matrix. There is room for one real and one complex shift.
+  /// Factors (shift 1 - J). False if it is singular. There is room for one real and one complex shift.
   [[nodiscard]] bool factor(double shift) { return equations_->factor(shift); }
   [[nodiscard]] bool factor(std::complex<double> shift) { return equations_->factor(shift.real(), shift.imag()); }
   /// x <- (shift 1 - J)^-1 x after factor() of such a shift.

@@ -12,7 +12,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 
 namespace {
 
-constexpr int kOwn = 1;  ///< the first of u in the rest
+constexpr int kOwn = 1;          ///< the first of u in the rest
+constexpr int kRest = kOwn + 3;  ///< the last of the nine numbers, and u
 
 /// The nine numbers that forces follow.
 template <typename T>
@@ -22,8 +23,8 @@ struct Inputs {
 };
 
 /// row . inputs
-template <typename T>
-[[nodiscard]] RPSUP_INLINE T apply_row(const double* row, const Inputs<T>& inputs) {
+template <typename Scalar, typename T>
+[[nodiscard]] RPSUP_INLINE T apply_row(const InputRow<Scalar>& row, const Inputs<T>& inputs) {
   T sum = row[0] * *inputs.of[0];
   for (int k = 1; k < 9; ++k) sum += row[k] * *inputs.of[k];
   return sum;
@@ -37,24 +38,33 @@ struct ForceRows {
 };
 
 /// Adds the force that what a body carries needs. @param answer  Body's
-template <typename T>
-RPSUP_INLINE void add_answer(const double (&answer)[6][9], const VariedFrame<T>& f, SpatialForce<T>& force) {
+template <typename Scalar, typename T>
+RPSUP_INLINE void add_answer(const InputRow<Scalar> (&answer)[6], const VariedFrame<T>& f, SpatialForce<T>& force) {
   const Inputs<T> inputs(f);
   const ForceRows<T> rows(force);
   for (int row = 0; row < 6; ++row) *rows.of[row] += apply_row(answer[row], inputs);
 }
 
+/// One in a lane, zero in the others.
+template <typename Scalar, int count>
+[[nodiscard]] RPSUP_INLINE auto unit(int lane) {
+  return NumbersOf<Scalar>::widen(LaneBlock<count>::unit(lane));
+}
+
 /// A frame that varies by one in each of its nine numbers: the first eight, and the last.
-[[nodiscard]] VariedFrame<Lanes> make_inputs() {
-  VariedFrame<Lanes> f;
-  f.w = {Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
-  f.wd = {Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)};
-  f.vd = {Lanes::unit(6), Lanes::unit(7), Lanes{}};
+template <typename Scalar>
+[[nodiscard]] auto make_inputs() {
+  const auto one = [](int lane) { return unit<Scalar, Lanes::kCount>(lane); };
+  VariedFrame<decltype(one(0))> f;
+  f.w = {one(0), one(1), one(2)};
+  f.wd = {one(3), one(4), one(5)};
+  f.vd = {one(6), one(7), {}};
   return f;
 }
-[[nodiscard]] VariedFrame<LaneBlock<4>> make_last_input() {
-  VariedFrame<LaneBlock<4>> f;
-  f.vd.z = LaneBlock<4>::unit(0);
+template <typename Scalar>
+[[nodiscard]] auto make_last_input() {
+  VariedFrame<decltype(unit<Scalar, kRest>(0))> f;
+  f.vd.z = unit<Scalar, kRest>(0);
   return f;
 }
 
@@ -66,20 +76,21 @@ template <typename T>
 }
 
 /// Inverse of a matrix of n = 1 or 3. False if it is singular.
-[[nodiscard]] bool invert_small(int n, const double (&m)[3][3], double (&inverse)[3][3]) {
+template <typename Scalar>
+[[nodiscard]] bool invert_small(int n, const Scalar (&m)[3][3], Scalar (&inverse)[3][3]) {
   if (n == 1) {
     inverse[0][0] = 1.0 / m[0][0];
-    return is_number(inverse[0][0]);
+    return is_number(size_of(inverse[0][0]));
   }
-  const Vec3<double> x{m[0][0], m[0][1], m[0][2]}, y{m[1][0], m[1][1], m[1][2]}, z{m[2][0], m[2][1], m[2][2]};
-  const Vec3<double> columns[3] = {cross(y, z), cross(z, x), cross(x, y)};
-  const double by = 1.0 / dot(x, columns[0]);
+  const Vec3<Scalar> x{m[0][0], m[0][1], m[0][2]}, y{m[1][0], m[1][1], m[1][2]}, z{m[2][0], m[2][1], m[2][2]};
+  const Vec3<Scalar> columns[3] = {cross(y, z), cross(z, x), cross(x, y)};
+  const Scalar by = 1.0 / dot(x, columns[0]);
   for (int k = 0; k < 3; ++k) {
     inverse[0][k] = by * columns[k].x;
     inverse[1][k] = by * columns[k].y;
     inverse[2][k] = by * columns[k].z;
   }
-  return is_number(by);
+  return is_number(size_of(by));
 }
 
 [[nodiscard]] std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -97,11 +108,13 @@ constexpr std::size_t kLanes = Lanes::kCount;
 
 }  // namespace
 
+template <typename Scalar>
 template <typename T>
-ShiftedBodies::Room<T>::Room(const TreeModel& model)
+ShiftedBodies<Scalar>::Room<T>::Room(const TreeModel& model)
     : forces(model.joints.size()), own(at(model.coordinates)), frames(model.joints.size()), u(model.free.size()), drive_force(model.drives.size()) {}
 
-ShiftedBodies::ShiftedBodies(const TreeModel& model, const std::vector<ClearanceJoint>& joints)
+template <typename Scalar>
+ShiftedBodies<Scalar>::ShiftedBodies(const TreeModel& model, const std::vector<ClearanceJoint>& joints)
     : model_(model),
       free_(static_cast<int>(model.free.size())),
       bristles_(count_bristles(joints)),
@@ -109,16 +122,18 @@ ShiftedBodies::ShiftedBodies(const TreeModel& model, const std::vector<Clearance
       drive_rates_(model.drives.size()),
       touching_(joints.size()),
       journal_matrix_(kJournal * joints.size()),
-      journals_(kLanes * count_groups(kJournal * joints.size())),
-      u_by_journals_(model.free.size() * journals_.size() / kLanes),
-      drive_force_by_journals_(model.drives.size() * journals_.size() / kLanes),
+      journals_(kJournal * joints.size()),
+      journal_groups_(count_groups(journals_.size())),
+      u_by_journals_(model.free.size() * journal_groups_.size()),
+      drive_force_by_journals_(model.drives.size() * journal_groups_.size()),
       room_(model),
-      lanes_room_(model) {
+      wide_room_(model) {
   for (const TreeCutJoint& joint : model.cut_joints)
     contacts_.push_back(std::make_unique<Contact>(joint, at(joints[at(joint.clearance)].bristle_count())));
 }
 
-void ShiftedBodies::take_up(const Solution& solution) {
+template <typename Scalar>
+void ShiftedBodies<Scalar>::take_up(const BodiesSolution& solution) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     const TreeJoint& joint = model_.joints[i];
@@ -140,81 +155,80 @@ void ShiftedBodies::take_up(const Solution& solution) {
   }
 }
 
-bool ShiftedBodies::factor(double shift) {
+template <typename Scalar>
+bool ShiftedBodies<Scalar>::factor(const Scalar& shift) {
   shift_ = shift;
   inverse_shift_ = 1.0 / shift;
   for (Body& body : bodies_)
-    for (auto& row : body.answer)
-      for (double& entry : row) entry = 0.0;
+    for (InputRow<Scalar>& row : body.answer) row = {};
   bool regular = true;
   for (std::size_t i = bodies_.size(); i-- > 0;) regular = eliminate(i) && regular;
   return regular && factor_contacts();
 }
 
 /// Of a joint its u, and what is left goes to its parent.
-bool ShiftedBodies::eliminate(std::size_t i) {
+template <typename Scalar>
+bool ShiftedBodies<Scalar>::eliminate(std::size_t i) {
   const TreeJoint& joint = model_.joints[i];
   Body& body = bodies_[i];
   if (!joint.moves) return true;
   const int count = joint.driven ? 0 : joint.count();
   CoordinateVariation<Rest> own[3];
   for (int k = 0; k < count; ++k) {
-    const Rest unit = Rest::unit(kOwn + k);
-    own[k] = {true, inverse_shift_ * unit, unit, shift_ * unit};
+    const Rest one = unit<Scalar, kRest>(kOwn + k);
+    own[k] = {true, inverse_shift_ * one, one, shift_ * one};
   }
-  Passed<Rest> rest = respond(i, make_last_input(), own);
-  double lacks[3][3];
+  Passed<Rest> rest = respond(i, make_last_input<Scalar>(), own);
+  Scalar lacks[3][3];
   for (int k = 0; k < count; ++k)
-    for (int m = 0; m < count; ++m) lacks[k][m] = rest.lacks[k][kOwn + m];
+    for (int m = 0; m < count; ++m) lacks[k][m] = number_in(rest.lacks[k], kOwn + m);
   const bool regular = joint.driven || invert_small(count, lacks, body.inverse);
   const ForceRows<Rest> rows(rest.to_parent);
   for (int row = 0; row < kForces; ++row)
-    for (int k = 0; k < count; ++k) body.by_own[row][k] = (*rows.of[row])[kOwn + k];
+    for (int k = 0; k < count; ++k) body.by_own[row][k] = number_in(*rows.of[row], kOwn + k);
   if (joint.parent_moves) carry(i, count, rest);
   return regular;
 }
 
 /// How a joint's u follow the parent's variation, and what force that asks of the parent.
 /// @param count  of u  @param rest  what comes of the last of the nine numbers
-void ShiftedBodies::carry(std::size_t i, int count, Passed<Rest> rest) {
+template <typename Scalar>
+void ShiftedBodies<Scalar>::carry(std::size_t i, int count, Passed<Rest> rest) {
   const TreeJoint& joint = model_.joints[i];
   Body& body = bodies_[i];
-  const CoordinateVariation<Lanes> none[3];
-  Passed<Lanes> most = respond(i, make_inputs(), none);
-  Lanes by_most[3]{};
-  double by_last[3]{};
+  const CoordinateVariation<Wide> none[3];
+  Passed<Wide> most = respond(i, make_inputs<Scalar>(), none);
+  Wide by_most[3]{};
+  Scalar by_last[3]{};
   for (int k = 0; k < count; ++k)
     for (int m = 0; m < count; ++m) {
       by_most[k] -= body.inverse[k][m] * most.lacks[m];
-      by_last[k] -= body.inverse[k][m] * rest.lacks[m][0];
+      by_last[k] -= body.inverse[k][m] * number_in(rest.lacks[m], 0);
     }
   if (joint.driven) {
     by_most[0] = most.lacks[0];
-    by_last[0] = rest.lacks[0][0];
+    by_last[0] = number_in(rest.lacks[0], 0);
   }
-  for (int k = 0; k < joint.count(); ++k) {
-    by_most[k].store(body.by_parent[k]);
-    body.by_parent[k][kInputs - 1] = by_last[k];
-  }
-  const ForceRows<Lanes> most_rows(most.to_parent);
+  for (int k = 0; k < joint.count(); ++k) body.by_parent[k].set(by_most[k], by_last[k]);
+  const ForceRows<Wide> most_rows(most.to_parent);
   const ForceRows<Rest> rest_rows(rest.to_parent);
   Body& parent = bodies_[at(joint.parent)];
   for (int row = 0; row < kForces; ++row) {
-    Lanes answer = Lanes::load(parent.answer[row]) + *most_rows.of[row];
-    double last = parent.answer[row][kInputs - 1] + (*rest_rows.of[row])[0];
+    Wide answer = parent.answer[row].most() + *most_rows.of[row];
+    Scalar last = parent.answer[row].last() + number_in(*rest_rows.of[row], 0);
     for (int k = 0; k < count; ++k) {
       answer += body.by_own[row][k] * by_most[k];
       last += body.by_own[row][k] * by_last[k];
     }
-    answer.store(parent.answer[row]);
-    parent.answer[row][kInputs - 1] = last;
+    parent.answer[row].set(answer, last);
   }
 }
 
 /// @param f    the parent's variation
 /// @param own  of the joint's coordinates
+template <typename Scalar>
 template <typename T>
-ShiftedBodies::Passed<T> ShiftedBodies::respond(std::size_t i, VariedFrame<T> f, const CoordinateVariation<T>* own) const {
+typename ShiftedBodies<Scalar>::template Passed<T> ShiftedBodies<Scalar>::respond(std::size_t i, VariedFrame<T> f, const CoordinateVariation<T>* own) const {
   const TreeJoint& joint = model_.joints[i];
   const Body& body = bodies_[i];
   Vec3<T> own_turn;
@@ -226,9 +240,10 @@ ShiftedBodies::Passed<T> ShiftedBodies::respond(std::size_t i, VariedFrame<T> f,
 
 /// From who turns with the joint's body to who turns with its parent's, for whom what the joint transmits turns with the joint.
 /// @param force  all that is needed behind the joint
+template <typename Scalar>
 template <typename T>
-ShiftedBodies::Passed<T> ShiftedBodies::pass_on(std::size_t i, const CoordinateVariation<T>* own, const Vec3<T>& own_turn,
-                                                SpatialForce<T> force) const {
+typename ShiftedBodies<Scalar>::template Passed<T> ShiftedBodies<Scalar>::pass_on(std::size_t i, const CoordinateVariation<T>* own,
+                                                                                  const Vec3<T>& own_turn, SpatialForce<T> force) const {
   const TreeJoint& joint = model_.joints[i];
   const Body& body = bodies_[i];
   const SpatialForce<double>& held = body.held.force;
@@ -251,7 +266,8 @@ ShiftedBodies::Passed<T> ShiftedBodies::pass_on(std::size_t i, const CoordinateV
 }
 
 /// y of all journals that touch: what is known of them, and what they answer to themselves through the contacts.
-bool ShiftedBodies::factor_contacts() {
+template <typename Scalar>
+bool ShiftedBodies<Scalar>::factor_contacts() {
   touching_count_ = 0;
   bool regular = true;
   for (const std::unique_ptr<Contact>& contact : contacts_) {
@@ -261,41 +277,43 @@ bool ShiftedBodies::factor_contacts() {
   }
   journal_matrix_.resize(kJournal * touching_count_);
   groups_ = count_groups(kJournal * touching_count_);
-  journals_.fill(0.0);
+  journal_groups_.fill({});
   for (std::size_t group = 0; group < groups_; ++group) answer_journals(group);
   return journal_matrix_.factor() && regular;
 }
 
 /// What comes of a group of the journals' numbers: all that varies, these numbers with it.
-void ShiftedBodies::answer_journals(std::size_t group) {
+template <typename Scalar>
+void ShiftedBodies<Scalar>::answer_journals(std::size_t group) {
   const std::size_t first = group * kLanes;
   const std::size_t end = std::min(first + kLanes, journal_matrix_.size());
-  lanes_room_.forces.fill({});
+  wide_room_.forces.fill({});
   for (std::size_t t = 0; t < touching_count_; ++t) {
     const Contact& contact = *touching_[t];
-    JournalVariation<Lanes> y;
+    JournalVariation<Wide> y;
     for (std::size_t column = std::max(first, t * kJournal); column < std::min(end, (t + 1) * kJournal); ++column)
-      number_of(y, column - t * kJournal) = Lanes::unit(static_cast<int>(column - first));
+      number_of(y, column - t * kJournal) = unit<Scalar, Lanes::kCount>(static_cast<int>(column - first));
     const Mat3<double>& R = contact.cut.b.R;
-    add_need<Lanes>(contact, R * y.turn, R * y.p, contact.shifted.apply(y), lanes_room_);
+    add_need<Wide>(contact, R * y.turn, R * y.p, contact.shifted.apply(y), wide_room_);
   }
-  pass_inwards<Lanes>(nullptr, lanes_room_);
-  pass_outwards<Lanes>(nullptr, lanes_room_);
-  for (std::size_t i = 0; i < lanes_room_.u.size(); ++i) u_by_journals_[i * groups_ + group] = lanes_room_.u[i];
-  for (std::size_t d = 0; d < drive_rates_.size(); ++d) drive_force_by_journals_[d * groups_ + group] = lanes_room_.drive_force[d];
+  pass_inwards<Wide>(nullptr, wide_room_);
+  pass_outwards<Wide>(nullptr, wide_room_);
+  for (std::size_t i = 0; i < wide_room_.u.size(); ++i) u_by_journals_[i * groups_ + group] = wide_room_.u[i];
+  for (std::size_t d = 0; d < drive_rates_.size(); ++d) drive_force_by_journals_[d * groups_ + group] = wide_room_.drive_force[d];
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    JournalVariation<Lanes> y = calc_journal(*touching_[t], lanes_room_);
+    JournalVariation<Wide> y = calc_journal(*touching_[t], wide_room_);
     for (std::size_t k = 0; k < kJournal; ++k)
       for (std::size_t column = first; column < end; ++column) {
         const std::size_t row = t * kJournal + k;
-        journal_matrix_(row, column) = (row == column ? 1.0 : 0.0) - number_of(y, k)[static_cast<int>(column - first)];
+        journal_matrix_(row, column) = Scalar{row == column ? 1.0 : 0.0} - number_in(number_of(y, k), static_cast<int>(column - first));
       }
   }
 }
 
 /// @param turn, offset  of the journal, in W
+template <typename Scalar>
 template <typename T>
-void ShiftedBodies::add_need(const Contact& contact, const Vec3<T>& turn, const Vec3<T>& offset, const LoadVariation<T>& load, Room<T>& room) const {
+void ShiftedBodies<Scalar>::add_need(const Contact& contact, const Vec3<T>& turn, const Vec3<T>& offset, const LoadVariation<T>& load, Room<T>& room) const {
   const TreeCutJoint& joint = contact.joint;
   const Vec3<double>& centre = contact.cut.j.p;
   const VariedNeed<T> need =
@@ -304,8 +322,9 @@ void ShiftedBodies::add_need(const Contact& contact, const Vec3<T>& turn, const 
   if (joint.journal_joint >= 0) room.forces[at(joint.journal_joint)] += need.of_journal;
 }
 
+template <typename Scalar>
 template <typename T>
-JournalVariation<T> ShiftedBodies::calc_journal(const Contact& contact, const Room<T>& room) const {
+JournalVariation<T> ShiftedBodies<Scalar>::calc_journal(const Contact& contact, const Room<T>& room) const {
   const CutJointMotion<double, double>& cut = contact.cut;
   const VariedFrame<T> b = see_at(contact.joint.bearing_joint, cut.b.p, room);
   const VariedFrame<T> j = see_at(contact.joint.journal_joint, cut.j.p, room);
@@ -313,20 +332,23 @@ JournalVariation<T> ShiftedBodies::calc_journal(const Contact& contact, const Ro
 }
 
 /// How the frame of a joint's body varies, with the origin at p.
+template <typename Scalar>
 template <typename T>
-VariedFrame<T> ShiftedBodies::see_at(int joint, const Vec3<double>& p, const Room<T>& room) const {
+VariedFrame<T> ShiftedBodies<Scalar>::see_at(int joint, const Vec3<double>& p, const Room<T>& room) const {
   return joint < 0 ? VariedFrame<T>{} : move_origin(room.frames[at(joint)], arm_of(joint, p));
 }
 
 /// From the origin of a joint's body to p.
-Vec3<double> ShiftedBodies::arm_of(int joint, const Vec3<double>& p) const { return joint < 0 ? p : p - bodies_[at(joint)].p; }
+template <typename Scalar>
+Vec3<double> ShiftedBodies<Scalar>::arm_of(int joint, const Vec3<double>& p) const { return joint < 0 ? p : p - bodies_[at(joint)].p; }
 
 /// How a free coordinate varies with u = 0.
+template <typename Scalar>
 template <typename T>
-CoordinateVariation<T> ShiftedBodies::vary_known(const TreeJoint& joint, int k, const double* known) const {
-  if constexpr (std::is_same_v<T, double>) {
+CoordinateVariation<T> ShiftedBodies<Scalar>::vary_known(const TreeJoint& joint, int k, const NumbersAt<Scalar>* known) const {
+  if constexpr (std::is_same_v<T, Scalar>) {
     const int i = joint.first_free + k;
-    return {true, inverse_shift_ * known[i], 0.0, -known[free_ + i]};
+    return {true, inverse_shift_ * (*known)[i], T{}, -(*known)[free_ + i]};
   } else {
     return {true, T{}, T{}, T{}};
   }
@@ -334,8 +356,9 @@ CoordinateVariation<T> ShiftedBodies::vary_known(const TreeJoint& joint, int k, 
 
 /// All that is known of forces goes to the root.
 /// @param known  (q, v) of the system's right-hand side; null: zero
+template <typename Scalar>
 template <typename T>
-void ShiftedBodies::pass_inwards(const double* known, Room<T>& room) const {
+void ShiftedBodies<Scalar>::pass_inwards(const NumbersAt<Scalar>* known, Room<T>& room) const {
   for (std::size_t i = bodies_.size(); i-- > 0;) {
     const TreeJoint& joint = model_.joints[i];
     const Body& body = bodies_[i];
@@ -367,8 +390,9 @@ void ShiftedBodies::pass_inwards(const double* known, Room<T>& room) const {
 }
 
 /// And u comes back.
+template <typename Scalar>
 template <typename T>
-void ShiftedBodies::pass_outwards(const double* known, Room<T>& room) const {
+void ShiftedBodies<Scalar>::pass_outwards(const NumbersAt<Scalar>* known, Room<T>& room) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TreeJoint& joint = model_.joints[i];
     const Body& body = bodies_[i];
@@ -397,18 +421,19 @@ void ShiftedBodies::pass_outwards(const double* known, Room<T>& room) const {
   }
 }
 
-void ShiftedBodies::solve_in_place(double* x) {
-  double* z = x + 2 * free_;
+template <typename Scalar>
+void ShiftedBodies<Scalar>::solve_in_place(NumbersAt<Scalar> x) {
+  const NumbersAt<Scalar> z = x.from(2 * free_);
   losses_ = {};
   room_.forces.fill({});
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    const LoadVariation<double> load = touching_[t]->shifted.start(z + touching_[t]->acting.first);
-    add_need<double>(*touching_[t], {}, {}, load, room_);
+    const LoadVariation<Scalar> load = touching_[t]->shifted.start(z.from(touching_[t]->acting.first));
+    add_need<Scalar>(*touching_[t], {}, {}, load, room_);
     add_losses(load);
   }
-  pass_inwards(x, room_);
-  pass_outwards(x, room_);
-  for (int b = 0; b < bristles_; ++b) z[b] *= inverse_shift_;
+  pass_inwards(&x, room_);
+  pass_outwards(&x, room_);
+  for (int b = 0; b < bristles_; ++b) z.set(b, inverse_shift_ * z[b]);
   solve_journals(z);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TreeJoint& joint = model_.joints[i];
@@ -418,46 +443,53 @@ void ShiftedBodies::solve_in_place(double* x) {
 }
 
 /// The touching journals' motions, and what they add to all else. @param z  bristles
-void ShiftedBodies::solve_journals(double* z) {
+template <typename Scalar>
+void ShiftedBodies<Scalar>::solve_journals(NumbersAt<Scalar> z) {
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    JournalVariation<double> y = calc_journal(*touching_[t], room_);
+    JournalVariation<Scalar> y = calc_journal(*touching_[t], room_);
     for (std::size_t k = 0; k < kJournal; ++k) journals_[t * kJournal + k] = number_of(y, k);
   }
   journal_matrix_.solve_in_place(journals_.data());
-  const auto answer = [&](const Lanes* by_journals) {
-    Lanes products{};
-    for (std::size_t g = 0; g < groups_; ++g) products += by_journals[g] * Lanes::load(&journals_[g * kLanes]);
+  for (std::size_t i = 0; i < journal_matrix_.size(); ++i) set_number_in(journal_groups_[i / kLanes], static_cast<int>(i % kLanes), journals_[i]);
+  const auto answer = [&](const Wide* by_journals) {
+    Wide products{};
+    for (std::size_t g = 0; g < groups_; ++g) products += by_journals[g] * journal_groups_[g];
     return sum(products);
   };
   for (std::size_t i = 0; i < room_.u.size(); ++i) room_.u[i] += answer(&u_by_journals_[i * groups_]);
   for (std::size_t d = 0; d < drive_rates_.size(); ++d) room_.drive_force[d] += answer(&drive_force_by_journals_[d * groups_]);
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    JournalVariation<double> y;
+    JournalVariation<Scalar> y;
     for (std::size_t k = 0; k < kJournal; ++k) number_of(y, k) = journals_[t * kJournal + k];
     add_losses(touching_[t]->shifted.apply(y));
-    touching_[t]->shifted.finish(y, z + touching_[t]->acting.first);
+    touching_[t]->shifted.finish(y, z.from(touching_[t]->acting.first));
   }
 }
 
-void ShiftedBodies::add_losses(const LoadVariation<double>& load) {
+template <typename Scalar>
+void ShiftedBodies<Scalar>::add_losses(const LoadVariation<Scalar>& load) {
   losses_.impact += load.impact_power;
   losses_.friction += load.friction_power;
 }
 
 /// All but the bristles.
-void ShiftedBodies::write_state(double* x) const {
+template <typename Scalar>
+void ShiftedBodies<Scalar>::write_state(NumbersAt<Scalar> x) const {
   for (int i = 0; i < free_; ++i) {
-    const double u = room_.u[at(i)];
-    x[i] = inverse_shift_ * (u + x[i]);
-    x[free_ + i] = u;
+    const Scalar u = room_.u[at(i)];
+    x.set(i, inverse_shift_ * (u + x[i]));
+    x.set(free_ + i, u);
   }
-  double* work = x + 2 * free_ + bristles_;
-  for (std::size_t d = 0; d < drive_rates_.size(); ++d) work[d] = inverse_shift_ * (work[d] + drive_rates_[d] * room_.drive_force[d]);
-  work += drive_rates_.size();
-  work[0] = inverse_shift_ * (work[0] + losses_.impact);
-  work[1] = inverse_shift_ * (work[1] + losses_.friction);
-  work[2] = inverse_shift_ * (work[2] + losses_.structural);
+  const int first = 2 * free_ + bristles_, drives = static_cast<int>(drive_rates_.size());
+  const auto add = [&](int i, const Scalar& power) { x.set(first + i, inverse_shift_ * (x[first + i] + power)); };
+  for (int d = 0; d < drives; ++d) add(d, drive_rates_[at(d)] * room_.drive_force[at(d)]);
+  add(drives, losses_.impact);
+  add(drives + 1, losses_.friction);
+  add(drives + 2, losses_.structural);
 }
+
+template class ShiftedBodies<double>;
+template class ShiftedBodies<Complex<double>>;
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

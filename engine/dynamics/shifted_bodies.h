@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "engine/clearance/clearance_joint.h"
+#include "engine/clearance/contact_derivative.h"
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/loss_powers.h"
 #include "engine/dynamics/shifted_contact.h"
@@ -11,10 +13,60 @@
 #include "engine/dynamics/varied_frame.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
+#include "engine/math/complex.h"
 #include "engine/math/dense_matrix.h"
+#include "engine/math/lanes.h"
+#include "engine/math/number_rows.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
+
+/// By how much one number follows each of nine others; the first eight are used side by side.
+template <typename Scalar>
+class InputRow;
+template <>
+class InputRow<double> {
+ public:
+  [[nodiscard]] RPSUP_INLINE double operator[](int i) const { return numbers_[i]; }
+  [[nodiscard]] RPSUP_INLINE Lanes most() const { return Lanes::load(numbers_); }
+  [[nodiscard]] RPSUP_INLINE double last() const { return numbers_[Lanes::kCount]; }
+  RPSUP_INLINE void set(const Lanes& most, double last) {
+    most.store(numbers_);
+    numbers_[Lanes::kCount] = last;
+  }
+
+ private:
+  double numbers_[Lanes::kCount + 1]{};
+};
+template <>
+class InputRow<Complex<double>> {
+ public:
+  [[nodiscard]] RPSUP_INLINE Complex<double> operator[](int i) const { return {real_[i], imag_[i]}; }
+  [[nodiscard]] RPSUP_INLINE Complex<Lanes> most() const { return {real_.most(), imag_.most()}; }
+  [[nodiscard]] RPSUP_INLINE Complex<double> last() const { return {real_.last(), imag_.last()}; }
+  RPSUP_INLINE void set(const Complex<Lanes>& most, const Complex<double>& last) {
+    real_.set(most.real, last.real);
+    imag_.set(most.imag, last.imag);
+  }
+
+ private:
+  InputRow<double> real_, imag_;
+};
+
+/// A solution of the equations of motion, and what of it their variations need. All but the contacts' derivatives and bristles is copied.
+struct BodiesSolution {
+  const Frame<double, double>* frames;
+  const JointAxes* axes;
+  const HeldJoint* held;
+  const HeldCoordinate* held_coordinates;
+  const CutJointMotion<double, double>* cuts;
+  const std::unique_ptr<ContactDerivative>* contacts;
+  const ActingBristles* acting;
+  const double* qd;
+};
+
+/// Whether a mechanism's systems can be solved body by body: if it has no constraints, and no springs between points.
+[[nodiscard]] inline bool fits_bodies(const TreeModel& model) { return model.rows == 0 && model.springs.empty(); }
 
 /// The system (shift 1 - J) x = known of an implicit step solved body by body, J the Jacobian of MotionSystem's state equation: in a time that
 /// grows with the number of bodies and of bristles. J itself is never written down.
@@ -30,38 +82,28 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// Contacts join bodies that are no parent and child. How all answers the twelve numbers of a journal's motion, taken as given, leaves a matrix
 /// of twelve for each joint that touches (Woodbury's identity). It costs digits where a contact is stiffer than all that moves without it.
 ///
-/// There may be no constraints, and no springs between points.
+/// @tparam Scalar  double or Complex<double>, as the shift is
+template <typename Scalar>
 class ShiftedBodies {
  public:
   /// @param model, joints  must outlive this
   ShiftedBodies(const TreeModel& model, const std::vector<ClearanceJoint>& joints);
 
-  [[nodiscard]] static bool fit(const TreeModel& model) { return model.rows == 0 && model.springs.empty(); }
-
-  /// A solution of the equations of motion, and what of it their variations need. All but the contacts' derivatives and bristles is copied.
-  struct Solution {
-    const Frame<double, double>* frames;
-    const JointAxes* axes;
-    const HeldJoint* held;
-    const HeldCoordinate* held_coordinates;
-    const CutJointMotion<double, double>* cuts;
-    const std::unique_ptr<ContactDerivative>* contacts;
-    const ActingBristles* acting;
-    const double* qd;
-  };
-  void take_up(const Solution& solution);
+  void take_up(const BodiesSolution& solution);
 
   /// False if (shift 1 - J) is singular.
-  [[nodiscard]] bool factor(double shift);
+  [[nodiscard]] bool factor(const Scalar& shift);
   /// x <- (shift 1 - J)^-1 x, of a state as MotionSystem has it.
-  void solve_in_place(double* x);
+  void solve_in_place(NumbersAt<Scalar> x);
 
  private:
-  static constexpr int kInputs = 9;             ///< dw, dwd, dvd
   static constexpr int kForces = 6;             ///< force and moment
-  static constexpr std::size_t kJournal = ShiftedContact::kJournal;
+  static constexpr std::size_t kJournal = ShiftedContact<Scalar>::kJournal;
 
-  using Rest = LaneBlock<4>;                    ///< the last of the nine numbers and a joint's three u, side by side
+  template <int count>
+  using Block = typename NumbersOf<Scalar>::template Block<count>;
+  using Wide = Block<Lanes::kCount>;            ///< the first eight of the nine numbers side by side, or eight of the journals'
+  using Rest = Block<1 + 3>;                    ///< the last of the nine numbers and a joint's three u, side by side
 
   /// A body and the joint that carries it.
   struct Body {
@@ -73,10 +115,10 @@ class ShiftedBodies {
     HeldCoordinate coordinates[3];
     double rate_of_loss[3];            ///< of dampers, by the coordinate's rate
     // Of the factors
-    double answer[kForces][kInputs];   ///< of all that it carries: the force needed, by the frame's variation
-    double by_own[kForces][3];         ///< the force passed on to the parent, by u
-    double inverse[3][3];              ///< of what the joint lacks of balance, by u
-    double by_parent[3][kInputs];      ///< u, or of a driven joint its force, by the parent's variation
+    InputRow<Scalar> answer[kForces];  ///< of all that it carries: the force needed, by the frame's variation
+    Scalar by_own[kForces][3];         ///< the force passed on to the parent, by u
+    Scalar inverse[3][3];              ///< of what the joint lacks of balance, by u
+    InputRow<Scalar> by_parent[3];     ///< u, or of a driven joint its force, by the parent's variation
   };
   /// Room for solutions in one or several directions.
   template <typename T>
@@ -101,7 +143,7 @@ class ShiftedBodies {
     CutJointMotion<double, double> cut;
     const ContactDerivative* derivative = nullptr;
     ActingBristles acting;
-    ShiftedContact shifted;
+    ShiftedContact<Scalar> shifted;
   };
 
   [[nodiscard]] bool eliminate(std::size_t i);
@@ -122,30 +164,31 @@ class ShiftedBodies {
   [[nodiscard]] Vec3<double> arm_of(int joint, const Vec3<double>& p) const;
 
   template <typename T>
-  [[nodiscard]] CoordinateVariation<T> vary_known(const TreeJoint& joint, int k, const double* known) const;
+  [[nodiscard]] CoordinateVariation<T> vary_known(const TreeJoint& joint, int k, const NumbersAt<Scalar>* known) const;
   template <typename T>
-  void pass_inwards(const double* known, Room<T>& room) const;
+  void pass_inwards(const NumbersAt<Scalar>* known, Room<T>& room) const;
   template <typename T>
-  void pass_outwards(const double* known, Room<T>& room) const;
-  void solve_journals(double* z);
-  void add_losses(const LoadVariation<double>& load);
-  void write_state(double* x) const;
+  void pass_outwards(const NumbersAt<Scalar>* known, Room<T>& room) const;
+  void solve_journals(NumbersAt<Scalar> z);
+  void add_losses(const LoadVariation<Scalar>& load);
+  void write_state(NumbersAt<Scalar> x) const;
 
   const TreeModel& model_;
   int free_, bristles_;
-  double shift_ = 1.0, inverse_shift_ = 1.0;
+  Scalar shift_{1.0}, inverse_shift_{1.0};
   Buffer<Body> bodies_;
   Buffer<double> drive_rates_;
   std::vector<std::unique_ptr<Contact>> contacts_;
   Buffer<Contact*> touching_;
   std::size_t touching_count_ = 0, groups_ = 0;   ///< groups: of the touching journals' numbers, several side by side
-  DenseMatrix journal_matrix_;                    ///< of those numbers
-  Buffer<double> journals_;                       ///< the numbers, in whole groups
-  Buffer<Lanes> u_by_journals_;                   ///< free coordinates x groups
-  Buffer<Lanes> drive_force_by_journals_;         ///< drives x groups
-  LossPowers<double> losses_;
-  Room<double> room_;
-  Room<Lanes> lanes_room_;
+  DenseMatrix<Scalar> journal_matrix_;            ///< of those numbers
+  Buffer<Scalar> journals_;                       ///< the numbers
+  Buffer<Wide> journal_groups_;                   ///< the same in whole groups
+  Buffer<Wide> u_by_journals_;                    ///< free coordinates x groups
+  Buffer<Wide> drive_force_by_journals_;          ///< drives x groups
+  LossPowers<Scalar> losses_;
+  Room<Scalar> room_;
+  Room<Wide> wide_room_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

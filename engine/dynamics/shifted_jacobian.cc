@@ -1,10 +1,10 @@
 // Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
 #include "engine/dynamics/shifted_jacobian.h"
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "engine/math/complex.h"
 #include "engine/math/finite.h"
 
 namespace engine {
@@ -17,10 +17,6 @@ static_assert(kLanes <= 4, "behind the rates of a state stand no more than the t
 
 /// The first of several numbers that are taken at once, the i-th among them.
 constexpr int start_of(int i) { return i / kLanes * kLanes; }
-
-/// A measure of size, the cheapest.
-RPSUP_INLINE double size_of(double x) { return std::abs(x); }
-RPSUP_INLINE double size_of(const Complex<double>& x) { return std::abs(x.real) + std::abs(x.imag); }
 
 RPSUP_INLINE RowLanes widen(double x) { return RowLanes::all(x); }
 RPSUP_INLINE Complex<RowLanes> widen(const Complex<double>& x) { return {RowLanes::all(x.real), RowLanes::all(x.imag)}; }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "engine/math/buffer.h"
+#include "engine/math/number_rows.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -18,9 +19,9 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// which the rest is zero, the second in no fewer than two: so that most mechanisms have as many.
 struct StateJacobian {
   /// Numbers that are taken at once.
-  static constexpr int kBlock = 4;
+  static constexpr int kBlock = kRowBlock;
   static constexpr int kFewestWorks = 2 * kBlock;  ///< that there is room for
-  [[nodiscard]] static constexpr int in_blocks(int numbers) { return (numbers + kBlock - 1) / kBlock * kBlock; }
+  [[nodiscard]] static constexpr int in_blocks(int numbers) { return in_row_blocks(numbers); }
 
   StateJacobian(int free_coordinates, int bristle_count, int drives)
       : free(free_coordinates),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace engine {
 
@@ -11,13 +10,10 @@ namespace {
 /// Against dopri5 at 1e-6, radau5 has peaks of the continuum within 0.02 % from 10 to 1000 1/m, and misses one at 3000 1/m.
 constexpr double kSlowBristles = 300.0;  // stiffness, [1/m]
 
-/// What radau5 solves with a matrix, rodas5 solves body by body in less time from here on.
-constexpr std::size_t kManyCoordinates = 51;
-
-// What tolerances are divided by. With 1.5e-5 undivided, rodas5 misses a third of the peaks that converge by 0.1 % to several percent (a fifth, by up
-// to 0.9 %, with slow friction), radau5 with contact elements one in thirty by up to 1.2 %.
+// What tolerances are divided by. With 1.5e-5 undivided, rodas5 misses a third of the peaks that converge by 0.1 % to several percent, radau5 with
+// contact elements one in thirty by up to 1.2 %.
 constexpr double kForChangingContacts = 7.5;
-constexpr double kForFewChanges = 3.75;
+constexpr double kForElementsWithRadau5 = 3.75;
 constexpr double kForJumpingFriction = 30.0;  // across a band of velocities that a step may leap
 
 constexpr auto is_elastic = [](const auto& spring) { return spring.stiffness > 0.0; };
@@ -28,9 +24,8 @@ bool has_slow_friction(const ClearanceParameters& joint) {
 
 double choose_refinement(const ClearanceParameters& joint, Integrator integrator) {
   if (has_slow_friction(joint)) {
-    const bool is_radau = integrator == Integrator::kRadau5;
-    if (joint.form == RadialForm::kContinuum) return is_radau ? 1.0 : kForFewChanges;
-    return is_radau ? kForFewChanges : kForChangingContacts;
+    if (joint.form == RadialForm::kContinuum) return 1.0;
+    return integrator == Integrator::kRadau5 ? kForElementsWithRadau5 : kForChangingContacts;
   }
   const bool jumps = joint.friction && joint.friction->law != FrictionLaw::kNone && !has_bristles(joint.friction->law);
   return jumps ? kForJumpingFriction : kForChangingContacts;
@@ -38,15 +33,6 @@ double choose_refinement(const ClearanceParameters& joint, Integrator integrator
 
 bool has_elastic_links(const Mechanism& mechanism) {
   return std::ranges::any_of(mechanism.coordinates, is_elastic) || std::ranges::any_of(mechanism.springs, is_elastic);
-}
-
-std::size_t count_free(const Mechanism& mechanism) {
-  return mechanism.coordinates.size() - (mechanism.drive_rows == DriveRows::kEliminated ? mechanism.drives.size() : 0);
-}
-
-/// Whether long steps of radau5 miss nothing of what happens in a joint. @param elastic  some links of the mechanism are
-bool suits_long_steps(const ClearanceParameters& joint, bool elastic) {
-  return has_slow_friction(joint) && !(elastic && joint.form == RadialForm::kElements);
 }
 
 }  // namespace
@@ -57,12 +43,12 @@ bool has_clearance(const Mechanism& mechanism) {
 
 Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted) {
   if (wanted != Integrator::kAuto) return wanted;
-  if (!has_clearance(mechanism)) return Integrator::kRadau5;
   const bool elastic = has_elastic_links(mechanism);
-  const bool suits_all = std::ranges::all_of(mechanism.cut_joints, [&](const CutJoint& joint) {
-    return !joint.clearance || suits_long_steps(*joint.clearance, elastic);
+  const bool long_steps_suit = std::ranges::all_of(mechanism.cut_joints, [&](const CutJoint& joint) {
+    if (!joint.clearance) return true;
+    return has_slow_friction(*joint.clearance) && !(elastic && joint.clearance->form == RadialForm::kElements);
   });
-  return suits_all && count_free(mechanism) < kManyCoordinates ? Integrator::kRadau5 : Integrator::kRodas5;
+  return long_steps_suit ? Integrator::kRadau5 : Integrator::kRodas5;
 }
 
 double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {

@@ -1,16 +1,18 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "engine/math/buffer.h"
+#include "engine/math/complex.h"
 #include "engine/math/finite.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// A square matrix to be factored, Gauss with partial pivoting. (Functions of Eigen would be shared between instruction sets by the linker.)
+/// @tparam Scalar  double or Complex<double>
+template <typename Scalar>
 class DenseMatrix {
  public:
   /// @param room  largest number of rows
@@ -19,22 +21,22 @@ class DenseMatrix {
   /// Makes it n x n. Entries are not set.
   void resize(std::size_t n) { n_ = n; }
   [[nodiscard]] std::size_t size() const { return n_; }
-  [[nodiscard]] RPSUP_INLINE double& operator()(std::size_t row, std::size_t column) { return entries_[row * n_ + column]; }
-  [[nodiscard]] RPSUP_INLINE double operator()(std::size_t row, std::size_t column) const { return entries_[row * n_ + column]; }
+  [[nodiscard]] RPSUP_INLINE Scalar& operator()(std::size_t row, std::size_t column) { return entries_[row * n_ + column]; }
+  [[nodiscard]] RPSUP_INLINE Scalar operator()(std::size_t row, std::size_t column) const { return entries_[row * n_ + column]; }
 
   /// L U = P A in place. False if A is singular.
   [[nodiscard]] bool factor() {
     for (std::size_t k = 0; k < n_; ++k) {
       std::size_t pivot = k;
       for (std::size_t i = k + 1; i < n_; ++i)
-        if (std::abs((*this)(i, k)) > std::abs((*this)(pivot, k))) pivot = i;
+        if (size_of((*this)(i, k)) > size_of((*this)(pivot, k))) pivot = i;
       order_[k] = pivot;
       if (pivot != k)
         for (std::size_t j = 0; j < n_; ++j) std::swap((*this)(k, j), (*this)(pivot, j));
-      const double inverse = 1.0 / (*this)(k, k);
-      if (!is_number(inverse)) return false;
+      const Scalar inverse = 1.0 / (*this)(k, k);
+      if (!is_number(size_of(inverse))) return false;
       for (std::size_t i = k + 1; i < n_; ++i) {
-        const double factor = (*this)(i, k) *= inverse;
+        const Scalar factor = (*this)(i, k) *= inverse;
         for (std::size_t j = k + 1; j < n_; ++j) (*this)(i, j) -= factor * (*this)(k, j);
       }
     }
@@ -42,7 +44,7 @@ class DenseMatrix {
   }
 
   /// x <- A^-1 x after factor().
-  void solve_in_place(double* x) const {
+  void solve_in_place(Scalar* x) const {
     for (std::size_t k = 0; k < n_; ++k) {
       std::swap(x[k], x[order_[k]]);
       for (std::size_t j = 0; j < k; ++j) x[k] -= (*this)(k, j) * x[j];
@@ -54,7 +56,7 @@ class DenseMatrix {
   }
 
   /// x <- A^-T x after factor().
-  void solve_transposed_in_place(double* x) const {
+  void solve_transposed_in_place(Scalar* x) const {
     for (std::size_t k = 0; k < n_; ++k) {
       for (std::size_t j = 0; j < k; ++j) x[k] -= (*this)(j, k) * x[j];
       x[k] /= (*this)(k, k);
@@ -65,15 +67,15 @@ class DenseMatrix {
   }
 
   /// After factor().
-  [[nodiscard]] double determinant() const {
-    double product = 1.0;
+  [[nodiscard]] Scalar determinant() const {
+    Scalar product{1.0};
     for (std::size_t k = 0; k < n_; ++k) product *= order_[k] == k ? (*this)(k, k) : -(*this)(k, k);
     return product;
   }
 
  private:
   std::size_t n_ = 0;
-  Buffer<double> entries_;       ///< row after row
+  Buffer<Scalar> entries_;       ///< row after row
   Buffer<std::size_t> order_;    ///< which row each one was exchanged with
 };
 

@@ -15,7 +15,7 @@ Eigen::MatrixXd draw_matrix(Eigen::Index n, std::mt19937& random) {
   return Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) { return i == j ? 0.0 : entry(random); });
 }
 
-struct Given : DenseMatrix {
+struct Given : DenseMatrix<double> {
   explicit Given(const Eigen::MatrixXd& A) : DenseMatrix(static_cast<std::size_t>(A.rows())) {
     resize(static_cast<std::size_t>(A.rows()));
     for (Eigen::Index i = 0; i < A.rows(); ++i)

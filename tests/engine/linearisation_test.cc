@@ -215,19 +215,21 @@ TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
   constexpr std::complex<double> kShift(2e4, 3e4);
   std::vector<Eigen::VectorXd> columns;
   for (Eigen::Index j = 0; j < moving.y.size(); ++j) columns.push_back(column(j));
-  ASSERT_EQ(system.linearise(Moving::kTime, moving.y), EvaluationStatus::kOk);
-  ASSERT_TRUE(system.factor(kShift));
-  for (Eigen::Index j = 0; j + 1 < moving.y.size(); ++j) {
-    Eigen::VectorXd real = -columns[static_cast<std::size_t>(j)], imag = -columns[static_cast<std::size_t>(j) + 1];
-    real[j] += kShift.real();
-    real[j + 1] -= kShift.imag();
-    imag[j] += kShift.imag();
-    imag[j + 1] += kShift.real();
-    const double scale = std::max(real.cwiseAbs().maxCoeff(), imag.cwiseAbs().maxCoeff()) / std::abs(kShift);
-    system.solve_in_place(real, imag);
-    real[j] -= 1.0;
-    imag[j + 1] -= 1.0;
-    EXPECT_LT(real.cwiseAbs().maxCoeff() + imag.cwiseAbs().maxCoeff(), 4e-6 * std::max(1.0, scale)) << "column " << j;
+  for (const Elimination elimination : eliminations_of(system)) {
+    ASSERT_EQ(system.linearise(Moving::kTime, moving.y, elimination), EvaluationStatus::kOk);
+    ASSERT_TRUE(system.factor(kShift));
+    for (Eigen::Index j = 0; j + 1 < moving.y.size(); ++j) {
+      Eigen::VectorXd real = -columns[static_cast<std::size_t>(j)], imag = -columns[static_cast<std::size_t>(j) + 1];
+      real[j] += kShift.real();
+      real[j + 1] -= kShift.imag();
+      imag[j] += kShift.imag();
+      imag[j + 1] += kShift.real();
+      const double scale = std::max(real.cwiseAbs().maxCoeff(), imag.cwiseAbs().maxCoeff()) / std::abs(kShift);
+      system.solve_in_place(real, imag);
+      real[j] -= 1.0;
+      imag[j + 1] -= 1.0;
+      EXPECT_LT(real.cwiseAbs().maxCoeff() + imag.cwiseAbs().maxCoeff(), 4e-6 * std::max(1.0, scale)) << "column " << j;
+    }
   }
 }
 
@@ -277,6 +279,37 @@ TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrix) {
   }
 }
 
+TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrixWithAComplexShift) {
+  Moving moving(GetParam(), {});
+  MotionSystem& system = moving.system_;
+  ASSERT_TRUE(system.can_solve_by_bodies());
+  constexpr double kSame = 1e-7;  // as above
+  const Eigen::Index free = system.free_count(), controlled = system.controlled_size();
+  for (const std::complex<double> shift : {std::complex<double>(3e2, 4e2), {3e4, -4e4}, {3e6, 4e6}}) {
+    Eigen::VectorXcd solutions[2];
+    for (const Elimination elimination : eliminations_of(system)) {
+      ASSERT_EQ(system.linearise(Moving::kTime, moving.y, elimination), EvaluationStatus::kOk);
+      ASSERT_TRUE(system.factor(shift));
+      Eigen::VectorXd real = moving.f, imag = moving.f.reverse();
+      for (Eigen::Index i = 0; i < real.size(); ++i) imag[i] += static_cast<double>(i % 5 - 2);
+      system.solve_in_place(real, imag);
+      Eigen::VectorXcd& x = solutions[elimination == Elimination::kBodies];
+      x.resize(real.size());
+      x.real() = real;
+      x.imag() = imag;
+    }
+    const auto expect_same = [&](Eigen::Index first, Eigen::Index count, const char* part) {
+      if (count == 0) return;
+      const double scale = solutions[0].segment(first, count).cwiseAbs().maxCoeff();
+      EXPECT_LE((solutions[1] - solutions[0]).segment(first, count).cwiseAbs().maxCoeff(), kSame * scale) << part << " at a shift of " << shift;
+    };
+    expect_same(0, free, "coordinates");
+    expect_same(free, free, "rates");
+    expect_same(2 * free, controlled - 2 * free, "bristles");
+    expect_same(controlled, solutions[0].size() - controlled, "works");
+  }
+}
+
 // A step that is tried again is factored anew, after its stages have been evaluated elsewhere.
 TEST_P(OpenChains, WhatIsHeldOutlivesOtherEvaluations) {
   Moving moving(GetParam(), {});
@@ -300,7 +333,39 @@ TEST_P(OpenChains, WhatIsHeldOutlivesOtherEvaluations) {
   EXPECT_EQ(solve(1e5, go_elsewhere), first);
   go_elsewhere();
   EXPECT_EQ(solve(3e4, go_elsewhere), second);
-  EXPECT_FALSE(system.factor(std::complex<double>(1e4, 1e4))) << "there is no matrix to factor";
+}
+
+// As radau5 does: a real and a complex shift are factored, both serve for several steps.
+TEST_P(OpenChains, ARealAndAComplexShiftAreHeldSideBySide) {
+  Moving moving(GetParam(), {});
+  MotionSystem& system = moving.system_;
+  constexpr std::complex<double> kShift(2e4, 3e4);
+  const auto linearise = [&] { ASSERT_EQ(system.linearise(Moving::kTime, moving.y, Elimination::kBodies), EvaluationStatus::kOk); };
+  const auto solve_real = [&] {
+    Eigen::VectorXd x = moving.f;
+    system.solve_in_place(x);
+    return x;
+  };
+  const auto solve_complex = [&] {
+    Eigen::VectorXd real = moving.f, imag = moving.f.reverse();
+    system.solve_in_place(real, imag);
+    return Eigen::VectorXd(real + imag);
+  };
+  linearise();
+  ASSERT_TRUE(system.factor(1e5));
+  const Eigen::VectorXd real = solve_real();
+  linearise();
+  ASSERT_TRUE(system.factor(kShift));
+  const Eigen::VectorXd complex = solve_complex();
+  linearise();
+  ASSERT_TRUE(system.factor(1e5) && system.factor(kShift));
+  for (int step = 0; step < 2; ++step) {
+    EXPECT_EQ(solve_real(), real);
+    EXPECT_EQ(solve_complex(), complex);
+    Eigen::VectorXd other = moving.y, rates = moving.f;
+    other.head(system.free_count()).array() += 1e-9;
+    moving.evaluate(Moving::kTime + 1e-7, other, rates);
+  }
 }
 
 TEST_P(Linearisation, AndTheRatesAreTheSameBytesWithEveryInstructionSet) {
@@ -319,7 +384,6 @@ TEST_P(Linearisation, AndTheRatesAreTheSameBytesWithEveryInstructionSet) {
       other.system_.solve_in_place(y);
       EXPECT_EQ((x - y).cwiseAbs().maxCoeff(), 0.0) << set;
       constexpr std::complex<double> kComplexShift(2e4, 3e4);
-      if (elimination != Elimination::kMatrix) continue;
       Eigen::VectorXd x_imag = first.f.reverse(), y_imag = x_imag;
       ASSERT_TRUE(first.system_.factor(kComplexShift) && other.system_.factor(kComplexShift));
       first.system_.solve_in_place(x, x_imag);

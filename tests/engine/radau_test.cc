@@ -150,10 +150,6 @@ TEST(ChooseIntegrator, TakesRadauWhereItsStepsMissNothing) {
   EXPECT_EQ(choose(p), Integrator::kRodas5);
   p.contact = ContactForm::kContinuum;
   EXPECT_EQ(choose(p), Integrator::kRadau5);
-  p.rigid_elements = 16;
-  EXPECT_EQ(choose(p), Integrator::kRadau5);
-  p.rigid_elements = 17;  // with which solving body by body takes less time
-  EXPECT_EQ(choose(p), Integrator::kRodas5);
   p.c_r = 0.0;
   EXPECT_EQ(choose(p), Integrator::kRadau5);
   EXPECT_EQ(choose_integrator(build_rpsup(p).mechanism, Integrator::kRk4), Integrator::kRk4);
@@ -172,16 +168,13 @@ TEST(ChooseLongestStep, IsShorterWhereFrictionMayFeedVibrations) {
 
 TEST(ChooseTolerance, IsFinerWhereContactsChangeInsideSteps) {
   const auto choose = [](const RpsupParameters& p, double wanted) { return choose_tolerance(build_rpsup(p).mechanism, wanted); };
-  RpsupParameters study, elements, coulomb, many_coordinates;
-  many_coordinates.coupler = Coupler::kFlexible;
-  many_coordinates.rigid_elements = 17;
+  RpsupParameters study, elements, coulomb;
   elements.contact = ContactForm::kElements;
   RpsupParameters flexible_elements = elements;
   flexible_elements.coupler = Coupler::kFlexible;
   coulomb.friction = FrictionLaw::kCoulomb;
   EXPECT_EQ(choose(study, 1.5e-5), 1.5e-5);
   EXPECT_DOUBLE_EQ(choose(elements, 1.5e-5), 4e-6);
-  EXPECT_DOUBLE_EQ(choose(many_coordinates, 1.5e-5), 4e-6);
   EXPECT_DOUBLE_EQ(choose(flexible_elements, 1.5e-5), 2e-6);
   EXPECT_DOUBLE_EQ(choose(coulomb, 1.5e-5), 5e-7);
   EXPECT_EQ(choose(coulomb, 1e-10), 1e-10);

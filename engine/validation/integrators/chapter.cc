@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kText =
     R"(Five integrators: `rk4`, the paper's classical Runge-Kutta method of order 4 in equal steps; `dopri5`, Dormand and Prince's method of order 5
 with error control; and three implicit ones with error control, `radau5` (Radau IIA of order 5), `rodas5` and `rodas4` (Rosenbrock methods of orders 5
-and 4). The default is `radau5` without clearance and with friction like the study's, else `rodas5`. The steps of all but `rk4` end where a ring of the journal meets or leaves the bore.
+and 4). The default is `radau5` without clearance, and with it where friction is like the study's, else `rodas5`. The steps of all but `rk4` end where a ring of the journal meets or leaves the bore.
 
 - Where the motion is smooth `rk4` and `dopri5` have the order that their names promise: on a pendulum against elliptic functions, on the ideal linkage
   (constraints, multipliers, drives) against the closed form of its crank, rod and slider.
@@ -24,10 +24,10 @@ with friction of other than slow bristles that takes a smaller one, with which n
 that are asked for by 7.5 (by 3.75 where it is `radau5`), and by 30 with Coulomb's and Ambrosio's friction, which have no bristles.
 (With these two, peaks at 10 rad/s still change by percents where tolerances go from 1e-7 to 1e-8; with Dahl's, or with none, they do so
 at 5 rad/s.) `radau5` damps vibrations of which a step holds several periods. Where friction feeds these (stiff bristles, a force that jumps with
-the velocity) its peaks differ: there the default is `rodas5`, and so with contact elements and a flexible coupler, where it is no dearer, and with
-more than fifty free coordinates, where it can solve body by body. Friction also feeds vibrations of flexible links, of some
-kHz at most and for some 10 ms at a time, until the joint bounds them. Their size hangs on what they grow from; that they are there does not: steps of
-`radau5` with flexible links are 0.4 ms at most, which damps them little.
+the velocity) its peaks differ: there the default is `rodas5`, and so with contact elements and a flexible coupler, where it is no dearer.
+Friction also feeds vibrations of flexible links, of up to
+1.3 kHz and for some 10 ms at a time, until the joint bounds them. Their size hangs on what they grow from; that they are there does not: steps of
+`radau5` with flexible links and clearance are 0.4 ms at most, which damps them little.
 `dopri5` at 1e-6, with 1e-7 absolute, is at the loosest of the decades at which both cases of the last table are
 right to five digits.
 At 10 rad/s, where hard impacts make the peak, `rk4` takes more work for less: the caption of that table gives the ratios. At 5 rad/s,
