@@ -108,11 +108,11 @@ EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Eli
   return EvaluationStatus::kOk;
 }
 
-Elimination MotionSystem::choose_elimination() const {
+Elimination MotionSystem::choose_elimination(Shifts shifts) const {
   // Measured with one joint and the continuum, by rodas5 and by radau5, both take as long there; each joint that touches costs the bodies about as much.
-  constexpr Eigen::Index kManyCoordinates = 26;
+  const Eigen::Index many_coordinates = shifts == Shifts::kReal ? 26 : 47;
   const auto joints = static_cast<Eigen::Index>(std::max<std::size_t>(1, clearance_joints_.size()));
-  return free_count() >= kManyCoordinates * joints && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;
+  return free_count() >= many_coordinates * joints && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;
 }
 
 void MotionSystem::calc_energies(Evaluation& at) const {

@@ -16,6 +16,9 @@
 
 namespace engine {
 
+/// Which shifts (shift 1 - J) is factored with.
+enum class Shifts { kReal, kRealAndComplex };
+
 /// The mechanism as a first-order system dy/dt = f(t, y), Eqs. (13.1) and (13.2).
 ///
 ///     y = (q of the free coordinates, their rates, bristles, work of each drive, impact, friction and structural loss)
@@ -42,7 +45,7 @@ class MotionSystem {
   /// valid until the next call.
   [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y, Elimination elimination = Elimination::kMatrix);
   /// Which one is the cheaper for this mechanism.
-  [[nodiscard]] Elimination choose_elimination() const;
+  [[nodiscard]] Elimination choose_elimination(Shifts shifts) const;
   [[nodiscard]] bool can_solve_by_bodies() const { return equations_->can_solve_by_bodies(); }
   /// df/dt of the last linearise(), one for each entry of y.
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }

@@ -106,7 +106,7 @@ void Radau5::extrapolate(double ratio) {
 
 Radau5::Newton Radau5::solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial) {
   if (!linearised_) {
-    trial.status = system.linearise(start.t, start.y, system.choose_elimination());
+    trial.status = system.linearise(start.t, start.y, system.choose_elimination(Shifts::kRealAndComplex));
     if (trial.status != EvaluationStatus::kOk) return Newton::kFailed;
     linearised_ = fresh_ = true;
     factored_dt_ = 0.0;
