@@ -166,8 +166,10 @@ std::vector<Fault> find_value_faults(const json& given) {
       std::ranges::move(find_wear_faults(value), std::back_inserter(faults));
     } else if (const ParameterInfo* info = find_parameter(key)) {
       if (std::string detail = describe_fault(*info, value); !detail.empty()) faults.push_back({pointer_token(key), std::move(detail)});
-    } else {
-      if (key != kLinkageKey) faults.push_back({pointer_token(key), describe_unknown_key(key, known, "GET /v1/parameters")});
+    } else if (key == "parameters") {
+      faults.push_back({pointer_token(key), "unknown key; parameters stand in this object itself"});
+    } else if (key != kLinkageKey) {
+      faults.push_back({pointer_token(key), describe_unknown_key(key, known, "GET /v1/parameters")});
     }
   }
   if (faults.empty() && given.contains(kLinkageKey)) find_linkage_faults(given, faults);

@@ -1,9 +1,13 @@
+#include <algorithm>
+#include <complex>
 #include <cstddef>
 #include <random>
+#include <vector>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "engine/math/complex.h"
 #include "engine/math/dense_matrix.h"
 
 namespace engine {
@@ -39,6 +43,36 @@ TEST(DenseMatrix, SolvesAsEigenDoes) {
       EXPECT_LE((x - reference.solve(b)).norm(), rounding * x.norm());
       EXPECT_LE((transposed - Eigen::VectorXd(A.transpose().fullPivLu().solve(b))).norm(), rounding * transposed.norm());
       EXPECT_NEAR(dense.determinant(), A.determinant(), 1e-13);
+    }
+  }
+}
+
+TEST(DenseMatrix, OfComplexNumbersSolvesAsEigenDoes) {
+  std::mt19937 random(8);
+  for (const Eigen::Index n : {2, 3, 5, 8}) {
+    for (int draw = 0; draw < 20; ++draw) {
+      Eigen::MatrixXcd A(n, n);
+      A.real() = draw_matrix(n, random);
+      A.imag() = draw_matrix(n, random);
+      DenseMatrix<Complex<double>> dense(static_cast<std::size_t>(n));
+      dense.resize(static_cast<std::size_t>(n));
+      std::vector<Complex<double>> x(static_cast<std::size_t>(n));
+      Eigen::VectorXcd b(n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        b[i] = {1.0, static_cast<double>(i)};
+        x[static_cast<std::size_t>(i)] = {b[i].real(), b[i].imag()};
+        for (Eigen::Index j = 0; j < n; ++j) dense(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = {A(i, j).real(), A(i, j).imag()};
+      }
+      ASSERT_TRUE(dense.factor());
+      dense.solve_in_place(x.data());
+      const Eigen::FullPivLU<Eigen::MatrixXcd> reference(A);
+      const Eigen::VectorXcd expected = reference.solve(b);
+      double difference = 0.0;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Complex<double>& found = x[static_cast<std::size_t>(i)];
+        difference = std::max(difference, std::abs(std::complex<double>(found.real, found.imag) - expected[i]));
+      }
+      EXPECT_LE(difference, 1e-14 / reference.rcond() * expected.norm());
     }
   }
 }

@@ -34,6 +34,7 @@ TEST_P(ParameterFault, IsNamedWithItsPlaceAndRange) {
 constexpr FaultCase kFaultCases[] = {
     {"not_an_object", "[1]", "", "object"},
     {"unknown_key", R"({"colour": 1})", "/colour", "unknown key; all are listed at GET /v1/parameters"},
+    {"parameters_one_level_too_deep", R"({"parameters": {"clearance_mm": 1}})", "/parameters", "parameters stand in this object itself"},
     {"near_key_without_unit", R"({"clearance": 1})", "/clearance", "did you mean clearance_mm?"},
     {"near_key_with_a_slip", R"({"crank_velocty_rad_s": 1})", "/crank_velocty_rad_s", "did you mean crank_velocity_rad_s?"},
     {"key_with_a_slash", R"({"a/b~c": 1})", "/a~1b~0c", "unknown key"},
