@@ -52,10 +52,10 @@ Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted) {
 }
 
 double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
-  constexpr double kLongest = 1e-3;          // short enough for the cubic that finds a ring's contact inside a step
-  constexpr double kLongestImplicit = 5e-3;  // of an implicit method without such a joint: short enough for what is read from inside
+  constexpr double kLongest = 1e-3;          // [s]; short enough for the cubic that finds a ring's contact inside a step
+  constexpr double kLongestImplicit = 5e-3;  // [s]; of an implicit method without such a joint: short enough for what is read from inside
   // Friction feeds vibrations of elastic links, measured up to 1.3 kHz, that grow a hundredfold in 5 ms. Longer steps of radau5 damp them as fast.
-  constexpr double kLongestElastic = 4e-4;
+  constexpr double kLongestElastic = 4e-4;  // [s]
   if (!has_clearance(mechanism)) return is_implicit(integrator) ? kLongestImplicit : kLongest;
   return integrator == Integrator::kRadau5 && has_elastic_links(mechanism) ? kLongestElastic : kLongest;
 }
