@@ -252,6 +252,7 @@ int main(int argc, char** argv) {
   }
   const auto parsed = std::ranges::find_if(commands, [](const Command& command) { return command.line->parsed(); });
   return server::commands::run_guarded([&] {
+    server::commands::check_processor();
     server::commands::enter_numerics(numerics, argv);
     return parsed->run();
   });

@@ -1,5 +1,6 @@
 #include "engine/dynamics/equations.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace engine {
@@ -15,20 +16,42 @@ namespace avx512 {
 Equations* make_compiled_equations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles);
 }
 
+namespace {
+
+struct InstructionSet {
+  std::string_view name;
+  bool (*is_supported)();
+  decltype(&baseline::make_compiled_equations) make;
+};
+
+/// What this program was compiled for (RPSUP_INSTRUCTION_SETS), the best one last.
+constexpr InstructionSet kCompiled[] = {
+#ifdef RPSUP_HAS_baseline
+    {"baseline", [] { return true; }, baseline::make_compiled_equations},
+#endif
+#ifdef RPSUP_HAS_avx2
+    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, avx2::make_compiled_equations},
+#endif
+#ifdef RPSUP_HAS_avx512
+    {"avx512", [] { return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"); },
+     avx512::make_compiled_equations},
+#endif
+};
+
+}  // namespace
+
 std::vector<std::string_view> instruction_sets() {
-  std::vector<std::string_view> sets{"baseline"};
-  if (__builtin_cpu_supports("avx2")) sets.push_back("avx2");
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) sets.push_back("avx512");
+  std::vector<std::string_view> sets;
+  for (const InstructionSet& set : kCompiled)
+    if (set.is_supported()) sets.push_back(set.name);
   return sets;
 }
 
 std::unique_ptr<Equations> make_equations(std::string_view instruction_set, const TreeModel& model, const std::vector<ClearanceJoint>& joints) {
   std::size_t bristles = 0;
   for (const ClearanceJoint& joint : joints) bristles += static_cast<std::size_t>(joint.bristle_count());
-  const auto make = instruction_set == "avx512" ? avx512::make_compiled_equations
-                    : instruction_set == "avx2" ? avx2::make_compiled_equations
-                                                : baseline::make_compiled_equations;
-  return std::unique_ptr<Equations>(make(model, joints, bristles));
+  const auto* const set = std::ranges::find(kCompiled, instruction_set, &InstructionSet::name);
+  return std::unique_ptr<Equations>(set->make(model, joints, bristles));
 }
 
 }  // namespace engine

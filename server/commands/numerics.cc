@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/dynamics/equations.h"
 #include "jobs/provenance.h"
 
 namespace server::commands {
@@ -22,6 +23,12 @@ void add_numerics_option(CLI::App& command, std::string& numerics) {
       ->check(CLI::IsMember({"native", "portable"}))
       ->capture_default_str()
       ->envname("RPSUP_NUMERICS");
+}
+
+void check_processor() {
+  if (!engine::instruction_sets().empty()) return;
+  throw std::runtime_error("this program was built for the processor of another machine, which has instructions that this one lacks; "
+                           "build it here, or there with script/build, which serves every x86-64");
 }
 
 void enter_numerics(const std::string& numerics, char** arguments) {
