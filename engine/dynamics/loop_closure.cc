@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -258,10 +259,12 @@ void LoopClosure::take_step(Eigen::VectorXd& coordinates) {
   for (std::size_t k = 0; k < unknown_.size(); ++k) coordinates[unknown_[k]] -= step_[static_cast<Eigen::Index>(k)];
 }
 
-/// Newton from the predicted position. Only steps that contract from the first one on show that the solution is near.
+/// Newton from the predicted position. Only steps that contract from the first one on show that the solution is near. Where an angle has made many
+/// turns, or links are long, the loops do not close better than the coordinates' own rounding lets them.
 bool LoopClosure::close_position(Evaluation& at) {
   constexpr int kMaxNear = 12;
   constexpr double kContraction = 0.25;
+  constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();  // of the largest coordinate
   double last = kMaxStep;
   for (int iteration = 0; iteration < kMaxNear; ++iteration) {
     calc_positions(at);
@@ -270,6 +273,10 @@ bool LoopClosure::close_position(Evaluation& at) {
     step_ = constraints_.Phi;
     take_step(at.q);
     const double size = step_.cwiseAbs().maxCoeff();
+    if (size <= kRounding * at.q.cwiseAbs().maxCoeff()) {
+      calc_positions(at);
+      return factor();
+    }
     if (!(size < kContraction * last)) return false;
     last = size;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace engine {
 
@@ -58,6 +59,13 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
   constexpr double kLongestElastic = 4e-4;  // [s]
   if (!has_clearance(mechanism)) return is_implicit(integrator) ? kLongestImplicit : kLongest;
   return integrator == Integrator::kRadau5 && has_elastic_links(mechanism) ? kLongestElastic : kLongest;
+}
+
+double choose_time_between_looks(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates) {
+  // A look costs as the cube of the coordinates, a step less: so it takes about as large a part of a run with any number of them.
+  constexpr double kForEach = 1e-3;  // [s]
+  if (!has_clearance(mechanism) || !is_implicit(integrator)) return std::numeric_limits<double>::infinity();
+  return kForEach * static_cast<double>(free_coordinates);
 }
 
 double choose_tolerance(const Mechanism& mechanism, double wanted) {

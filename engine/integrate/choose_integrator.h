@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "engine/model/mechanism.h"
 #include "engine/model/run_options.h"
 
@@ -19,6 +21,10 @@ namespace engine {
 /// these that longer steps would damp.
 /// @param integrator  not kAuto
 [[nodiscard]] double choose_longest_step(const Mechanism& mechanism, Integrator integrator);
+
+/// Time between two looks for vibrations that grow (FedVibrations), [s]; infinite if steps damp none or there is no friction to feed any.
+/// @param integrator  not kAuto
+[[nodiscard]] double choose_time_between_looks(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates);
 
 /// The tolerance that Integrator::kAuto takes for the one that is wanted, for the steps' errors and the energy account, so that its peaks are
 /// nearly as right in one mechanism as in another. It is smaller where contacts change inside of steps all the time: those of elements, each of

@@ -49,7 +49,10 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       radau5_(tolerance_, has_clearance(mechanism) ? kImpactWeight : 1.0),
       control_(order_of_error(options_.integrator)),
       samples_(options.output_rate, options.duration),
-      longest_step_(choose_longest_step(mechanism, options_.integrator)) {}
+      longest_step_(choose_longest_step(mechanism, options_.integrator)),
+      look_every_(choose_time_between_looks(mechanism, options_.integrator, system_.free_count())),
+      next_look_(look_every_),
+      longest_fed_(longest_step_) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
   if (!start(assembled)) return run_end_;
@@ -86,6 +89,19 @@ bool Integration::start(const Evaluation& assembled) {
   system_.add_penetrations(start_.at, rings_start_);
   dt_ = kFirstStep;
   return true;
+}
+
+/// Where something touches; elsewhere there is no friction.
+void Integration::look_for_vibrations() {
+  next_look_ = start_.t + look_every_;
+  longest_fed_ = longest_step_;
+  if (std::ranges::none_of(start_.at.joints, [](const JointState& joint) { return joint.load.friction_sum > 0.0; })) return;
+  const Elimination elimination = system_.choose_elimination(options_.integrator == Integrator::kRadau5 ? Shifts::kRealAndComplex : Shifts::kReal);
+  if (system_.linearise(start_.t, start_.y, elimination) != EvaluationStatus::kOk) return forget_equations();
+  longest_fed_ = std::min(longest_step_, fed_vibrations_.find_longest_step(system_));
+  rodas4_.begin_step();
+  rodas5_.begin_step();
+  radau5_.take_jacobian();
 }
 
 /// Bristles follow their contacts; their rates are then those of other elements.
@@ -155,7 +171,8 @@ bool Integration::try_fixed_step() {
 
 bool Integration::try_controlled_step() {
   const double remaining = options_.duration - start_.t;
-  const double dt = std::min({dt_, longest_step_, remaining});
+  if (start_.t >= next_look_) look_for_vibrations();
+  const double dt = std::min({dt_, longest_step_, longest_fed_, remaining});
   prepare(dt);
   const Trial trial = try_step(dt);
   if (!is_accepted(trial, dt)) return false;

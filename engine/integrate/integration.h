@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/integrate/energy_control.h"
+#include "engine/integrate/fed_vibrations.h"
 #include "engine/integrate/observer.h"
 #include "engine/integrate/radau.h"
 #include "engine/integrate/run_end.h"
@@ -34,6 +35,7 @@ class Integration {
   void accept();
   void take_samples();
   [[nodiscard]] EvaluationStatus evaluate_inside(double t);
+  void look_for_vibrations();
   void prepare(double dt);
   void forget_equations();
   void evaluate_again(StepEnd& end);
@@ -58,6 +60,10 @@ class Integration {
   StepEnd sample_;                                ///< the state between steps that was evaluated last
   std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
   double longest_step_;                           ///< [s]
+  FedVibrations fed_vibrations_;
+  double look_every_;                             ///< time between two looks for vibrations, [s]; infinite: there are none
+  double next_look_ = 0.0;
+  double longest_fed_;                            ///< longest step that follows those found at the last look, [s]
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
   RunEnd run_end_;

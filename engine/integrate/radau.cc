@@ -64,6 +64,11 @@ void Radau5::forget() {
   linearised_ = fresh_ = false;
 }
 
+void Radau5::take_jacobian() {
+  factored_dt_ = 0.0;
+  linearised_ = fresh_ = true;
+}
+
 void Radau5::make_room(const MotionSystem& system, const Eigen::VectorXd& y) {
   const Eigen::Index size = y.size();
   weights_.resize(system.controlled_size());

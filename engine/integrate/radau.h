@@ -24,7 +24,9 @@ class Radau5 {
   void accept();
   /// The equations of motion are others than in the last try: nothing that was learned in it holds.
   void forget();
-  /// They are nearly the same: the Jacobian and the polynomial go on to serve, but how well is to be seen anew.
+  /// The system has been linearised, by others, at the start of the next step.
+  void take_jacobian();
+  /// The equations of motion are nearly those of the last try: the Jacobian and the polynomial go on to serve, but how well is to be seen anew.
   void doubt() { contraction_ = kUnknownContraction; }
 
  private:

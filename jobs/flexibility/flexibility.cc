@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kSame = 1e-3;  // how right peaks are: a ratio nearer to 1 says that it makes no difference
 constexpr const char* kLosses[] = {"friction_work_j", "impact_loss_j", "structural_loss_j"};
 
 /// The values of a column in those rows of a group that have this coupler.
@@ -48,8 +49,11 @@ Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coup
 
 json verdict_of(const Pair& pair) {
   if (!pair.ratio) return nullptr;
-  return *pair.largest < 1.0 ? "helps" : *pair.least > 1.0 ? "harms" : "either";
+  return *pair.largest < 1.0 - kSame ? "helps" : *pair.least > 1.0 + kSame ? "harms" : "either";
 }
+
+/// On which side of 1 a ratio is: -1, 1, or 0 if it makes no difference.
+int side_of(double ratio) { return ratio < 1.0 - kSame ? -1 : ratio > 1.0 + kSame ? 1 : 0; }
 
 /// The energy that the coupler's dampers take, and its part of all losses, on the mean over the flexible jobs.
 std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup& group, std::size_t coupler) {
@@ -64,7 +68,7 @@ std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup
   return {*taken, all > 0.0 ? json(*taken / all) : json()};
 }
 
-/// For each group the former value along a column where the ratio was on the other side of 1.
+/// For each group the last value before it along a column at which the ratio made a difference, if it was on the other side of 1 there.
 std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std::vector<Pair>& pairs, std::optional<std::size_t> along) {
   std::vector<json> reversals(groups.size());
   if (!along) return reversals;
@@ -77,9 +81,14 @@ std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std:
     lines[others][*place] = g;
   }
   for (const auto& [others, line] : lines) {
-    for (auto at = line.begin(); at != line.end() && std::next(at) != line.end(); ++at) {
-      const auto after = std::next(at);
-      if ((*pairs[at->second].ratio < 1.0) != (*pairs[after->second].ratio < 1.0)) reversals[after->second] = at->first;
+    int last_side = 0;
+    double last_place = 0.0;
+    for (const auto& [place, group] : line) {
+      const int side = side_of(*pairs[group].ratio);
+      if (side == 0) continue;
+      if (side == -last_side) reversals[group] = last_place;
+      last_side = side;
+      last_place = place;
     }
   }
   return reversals;

@@ -35,7 +35,7 @@ Json make_flexibility() {
                   {"ratio_least", described(kNumberOrNull, "least flexible over largest rigid value")}, {"ratio_largest", kNumberOrNull},
                   {"verdict", {{"enum", {"helps", "harms", "either", nullptr}}}}, {"along", or_null(kText)},
                   {"reverses_from", described(kNumberOrNull,
-                  "the former value of the parameter `along`, if the ratio was on the other side of 1 there")},
+                  "the last value of the parameter `along` at which the ratio was not 1 within 0.1 %, if it was on the other side of 1 there")},
                   {"coupler_loss_j", described(kNumberOrNull, "energy that the coupler's dampers take")},
                   {"coupler_loss_part", described(kNumberOrNull, "its part of all losses")}};
   for (const std::string coupler : {"rigid", "flexible"}) {

@@ -242,5 +242,16 @@ TEST(IdealLinkage, EndsWhereItLocks) {
   EXPECT_FALSE(find_ideal_peak(p, 0.0, 1.0, {}));
 }
 
+// From some 2000 rad on an angle is rounded by more than the loops of small angles close to.
+TEST(IdealLinkage, TurnsAsOftenAsItIsDriven) {
+  RpsupParameters parameters;
+  parameters.c_r = 0.0;
+  parameters.crank_velocity = 1000.0;
+  parameters.run_up = 0.1;
+  const RunResult fast = simulate_rpsup(parameters, {.duration = 3.0, .output_rate = 100.0}, {});
+  ASSERT_EQ(fast.status, RunStatus::kSucceeded) << fast.detail;
+  EXPECT_NEAR(metric(fast, "amplification"), 1.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace engine

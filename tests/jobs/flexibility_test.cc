@@ -61,6 +61,20 @@ TEST(CompareCouplers, PairsRigidAndFlexibleJobsWithTheirSpread) {
   EXPECT_TRUE(cell(table, 2, "reverses_from").is_null());
 }
 
+// Without clearance the ratio is 1 but for rounding: that is no difference, and none to reverse from.
+TEST(CompareCouplers, SaysNothingOfDifferencesThatAreSmallerThanErrors) {
+  const auto table = compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}, {"flexible", 5, 99.9999, 1}, {"rigid", 10, 100, 0}, {"flexible", 10, 130, 1},
+                                                        {"rigid", 11, 100, 0}, {"flexible", 11, 99.95, 1}, {"rigid", 12, 100, 0}, {"flexible", 12, 60, 1}}), kPeak);
+  ASSERT_EQ(table.rows.size(), 4U);
+  EXPECT_EQ(cell(table, 0, "verdict"), "either");
+  EXPECT_EQ(cell(table, 1, "verdict"), "harms");
+  EXPECT_TRUE(cell(table, 1, "reverses_from").is_null());
+  EXPECT_EQ(cell(table, 2, "verdict"), "either");
+  EXPECT_TRUE(cell(table, 2, "reverses_from").is_null());
+  EXPECT_EQ(cell(table, 3, "verdict"), "helps");
+  EXPECT_EQ(cell(table, 3, "reverses_from"), 10.0);
+}
+
 TEST(CompareCouplers, LeavesOutWhatHasNoPartner) {
   const auto table = compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}, {"flexible", 5, nullptr, nullptr}}), kPeak);
   EXPECT_TRUE(cell(table, 0, "ratio").is_null());

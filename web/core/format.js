@@ -1,6 +1,7 @@
 // The one place that writes numbers, names and units.
 
 const suffixes = [
+  ["_n_s_m", "N s/m"], ["_s_m", "s/m"], ["_1_m", "1/m"], ["_1_s", "1/s"], ["_j_m", "J m"],
   ["_m_s2", "m/s²"], ["_rad_s2", "rad/s²"], ["_rad_s", "rad/s"], ["_m_s", "m/s"], ["_n_m", "N m"], ["_kg_m2", "kg m²"], ["_kg", "kg"], ["_mrad", "mrad"],
   ["_rad", "rad"], ["_mm", "mm"], ["_um", "µm"], ["_hz", "Hz"], ["_pa", "Pa"], ["_n", "N"], ["_j", "J"], ["_s", "s"], ["_m", "m"],
 ];
@@ -23,6 +24,7 @@ export function exact(value) {
 }
 
 export function unitOf(column) {
+  if (column.endsWith("stiffness_n_m")) return "N/m"; // of torques the same letters are N m
   return suffixes.find(([suffix]) => column.endsWith(suffix))?.[1] ?? "";
 }
 
