@@ -153,6 +153,15 @@ json without_linkage(json completed) {
   return completed;
 }
 
+/// Of a key that would be right elsewhere.
+std::string describe_misplaced(const std::string& key) {
+  if (key == "parameters") return "unknown key; parameters stand in this object itself";
+  if (key == "sweep" || key == "cases" || key == "design" || key == "replicates")
+    return "unknown key; this is one set of parameters, and what has a " + key + " is a sweep: POST /v1/sweeps, or rpsup sweep";
+  if (key.starts_with("links.")) return "unknown key; here it is written as an object: {\"links\": {\"1,1\": {\"mass_kg\": 0.5}}}";
+  return "";
+}
+
 }  // namespace
 
 std::vector<Fault> find_value_faults(const json& given) {
@@ -166,10 +175,9 @@ std::vector<Fault> find_value_faults(const json& given) {
       std::ranges::move(find_wear_faults(value), std::back_inserter(faults));
     } else if (const ParameterInfo* info = find_parameter(key)) {
       if (std::string detail = describe_fault(*info, value); !detail.empty()) faults.push_back({pointer_token(key), std::move(detail)});
-    } else if (key == "parameters") {
-      faults.push_back({pointer_token(key), "unknown key; parameters stand in this object itself"});
     } else if (key != kLinkageKey) {
-      faults.push_back({pointer_token(key), describe_unknown_key(key, known, "GET /v1/parameters")});
+      const std::string misplaced = describe_misplaced(key);
+      faults.push_back({pointer_token(key), misplaced.empty() ? describe_unknown_key(key, known, "GET /v1/parameters") : misplaced});
     }
   }
   if (faults.empty() && given.contains(kLinkageKey)) find_linkage_faults(given, faults);

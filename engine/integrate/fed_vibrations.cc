@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <complex>
-#include <limits>
 
 namespace engine {
 
@@ -10,21 +9,21 @@ namespace {
 
 constexpr double kShift = 5e4;           // s, [1/s]; journals of the paper's size vibrate at 1e4 to 3e4 rad/s on their bores
 constexpr double kSlowestGrowth = 20.0;  // [1/s]; what grows slower comes to nothing before the contact has changed
-constexpr double kLargestAngle = 1.5;    // of a vibration in a step, [rad]: radau5 takes a thousandth of its amplitude then
 
 }  // namespace
 
-double FedVibrations::find_longest_step(MotionSystem& system) {
-  constexpr double kNoBound = std::numeric_limits<double>::infinity();
-  if (!system.factor(kShift)) return kNoBound;
+FedVibration FedVibrations::find(MotionSystem& system) {
+  FedVibration found;
+  if (!system.factor(kShift)) return found;
   find_response(system);
-  if (!response_.allFinite() || solver_.compute(response_, false).info() != Eigen::Success) return kNoBound;
-  double fastest = 0.0;
+  if (!response_.allFinite() || solver_.compute(response_, false).info() != Eigen::Success) return found;
   for (const std::complex<double>& inverse : solver_.eigenvalues()) {
     const std::complex<double> rate = kShift - 1.0 / inverse;
-    if (rate.real() > kSlowestGrowth && rate.imag() > rate.real()) fastest = std::max(fastest, rate.imag());
+    if (!(rate.real() > kSlowestGrowth && rate.imag() > rate.real())) continue;
+    found.growth = std::max(found.growth, rate.real());
+    found.frequency = std::max(found.frequency, rate.imag());
   }
-  return fastest > 0.0 ? kLargestAngle / fastest : kNoBound;
+  return found;
 }
 
 void FedVibrations::find_response(MotionSystem& system) {

@@ -6,9 +6,14 @@
 
 namespace engine {
 
+/// The vibrations that grow about a state.
+struct FedVibration {
+  double growth = 0.0;     ///< of the one that grows fastest, [1/s]; 0: there is none
+  double frequency = 0.0;  ///< of the fastest, [rad/s]
+};
+
 /// Looks for vibrations that grow: friction feeds some, of what presses on a bore as of elastic links. From nothing that a step's error could show they
-/// become peaks within some 10 ms; but an L-stable method damps whatever vibrates faster than its steps, be it growing or not. So its steps must be
-/// short enough to follow them before they are there.
+/// become peaks within some 10 ms; but an L-stable method damps whatever vibrates faster than its steps, be it growing or not.
 ///
 /// Vibrations about a state are the eigenvalues of the Jacobian J there. With R the part of (s 1 - J)^-1 that takes coordinates and rates to
 /// coordinates and rates, they are s - 1 / eigenvalues of R. Bristles stand in it as they follow a motion of exp(s t): with s larger than most
@@ -16,8 +21,7 @@ namespace engine {
 class FedVibrations {
  public:
   /// @param system  linearised; its factors for a real shift are others afterwards
-  /// @returns the longest step that follows all vibrations that grow, [s]; infinite if none does
-  [[nodiscard]] double find_longest_step(MotionSystem& system);
+  [[nodiscard]] FedVibration find(MotionSystem& system);
 
  private:
   void find_response(MotionSystem& system);

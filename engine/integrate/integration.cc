@@ -17,6 +17,8 @@ constexpr double kImpactWeight = 50.0;  // of radau5's errors where there are im
 constexpr double kWidenBelow = 1e-5;    // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;         // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
+constexpr double kGrownToErrors = 5.0;   // times e; with 0 errors would be followed, with 10 many vibrations too late
+constexpr double kLargestAngle = 1.5;    // of a vibration in a step that follows it, [rad]: radau5 takes a thousandth of its amplitude then
 
 RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   if (options.integrator != Integrator::kAuto) return options;
@@ -51,7 +53,6 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       samples_(options.output_rate, options.duration),
       longest_step_(choose_longest_step(mechanism, options_.integrator)),
       look_every_(choose_time_between_looks(mechanism, options_.integrator, system_.free_count())),
-      next_look_(look_every_),
       longest_fed_(longest_step_) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
@@ -91,17 +92,22 @@ bool Integration::start(const Evaluation& assembled) {
   return true;
 }
 
-/// Where something touches; elsewhere there is no friction.
+/// What follows vibrations that grow makes its errors grow, too, and these are larger than what the vibrations begin from. So they are followed only where
+/// they would have come to be as large. Where nothing touches there is no friction that could feed any.
 void Integration::look_for_vibrations() {
-  next_look_ = start_.t + look_every_;
+  const double since = start_.t - std::exchange(last_look_, start_.t);
   longest_fed_ = longest_step_;
+  const double grown = std::exchange(grown_, 0.0);
   if (std::ranges::none_of(start_.at.joints, [](const JointState& joint) { return joint.load.friction_sum > 0.0; })) return;
   const Elimination elimination = system_.choose_elimination(options_.integrator == Integrator::kRadau5 ? Shifts::kRealAndComplex : Shifts::kReal);
   if (system_.linearise(start_.t, start_.y, elimination) != EvaluationStatus::kOk) return forget_equations();
-  longest_fed_ = std::min(longest_step_, fed_vibrations_.find_longest_step(system_));
+  const FedVibration found = fed_vibrations_.find(system_);
   rodas4_.begin_step();
   rodas5_.begin_step();
   radau5_.take_jacobian();
+  if (found.growth == 0.0) return;
+  grown_ = grown + found.growth * since;
+  if (grown_ >= kGrownToErrors) longest_fed_ = std::min(longest_step_, kLargestAngle / found.frequency);
 }
 
 /// Bristles follow their contacts; their rates are then those of other elements.
@@ -171,7 +177,7 @@ bool Integration::try_fixed_step() {
 
 bool Integration::try_controlled_step() {
   const double remaining = options_.duration - start_.t;
-  if (start_.t >= next_look_) look_for_vibrations();
+  if (start_.t >= last_look_ + look_every_) look_for_vibrations();
   const double dt = std::min({dt_, longest_step_, longest_fed_, remaining});
   prepare(dt);
   const Trial trial = try_step(dt);

@@ -61,9 +61,10 @@ class Integration {
   std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
   double longest_step_;                           ///< [s]
   FedVibrations fed_vibrations_;
-  double look_every_;                             ///< time between two looks for vibrations, [s]; infinite: there are none
-  double next_look_ = 0.0;
-  double longest_fed_;                            ///< longest step that follows those found at the last look, [s]
+  double look_every_;                             ///< time between two looks for vibrations that grow, [s]; infinite: there are none
+  double last_look_ = 0.0;                        ///< [s]
+  double grown_ = 0.0;                            ///< how many times they may have grown by e since they began to
+  double longest_fed_;                            ///< longest step that follows them, [s]
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
   RunEnd run_end_;
