@@ -157,7 +157,7 @@ json without_linkage(json completed) {
 std::string describe_misplaced(const std::string& key) {
   if (key == "parameters") return "unknown key; parameters stand in this object itself";
   if (key == "sweep" || key == "cases" || key == "design" || key == "replicates")
-    return "unknown key; this is one set of parameters, and what has a " + key + " is a sweep: POST /v1/sweeps, or rpsup sweep";
+    return "unknown key; in a sweep (POST /v1/sweeps, rpsup sweep) it stands beside \"parameters\", not among them";
   if (key.starts_with("links.")) return "unknown key; here it is written as an object: {\"links\": {\"1,1\": {\"mass_kg\": 0.5}}}";
   return "";
 }

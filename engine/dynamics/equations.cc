@@ -1,7 +1,9 @@
 #include "engine/dynamics/equations.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
+#include <iterator>
 
 namespace engine {
 
@@ -51,6 +53,7 @@ std::unique_ptr<Equations> make_equations(std::string_view instruction_set, cons
   std::size_t bristles = 0;
   for (const ClearanceJoint& joint : joints) bristles += static_cast<std::size_t>(joint.bristle_count());
   const auto* const set = std::ranges::find(kCompiled, instruction_set, &InstructionSet::name);
+  assert(set != std::end(kCompiled));
   return std::unique_ptr<Equations>(set->make(model, joints, bristles));
 }
 

@@ -61,7 +61,8 @@ class Equations {
   Equations() = default;
 };
 
-/// Names of the instruction sets that this program was compiled for and this machine has; the best one is last.
+/// Names of the instruction sets that this program was compiled for and this machine has; the best one is last. None if the
+/// program was compiled for others alone (RPSUP_INSTRUCTION_SETS).
 [[nodiscard]] std::vector<std::string_view> instruction_sets();
 
 /// @param instruction_set  one of instruction_sets(); results are the same to the last bit

@@ -260,7 +260,7 @@ void LoopClosure::take_step(Eigen::VectorXd& coordinates) {
 }
 
 /// Newton from the predicted position. Only steps that contract from the first one on show that the solution is near. Where an angle has made many
-/// turns, or links are long, the loops do not close better than the coordinates' own rounding lets them.
+/// turns, the loops close no better than its rounding lets them.
 bool LoopClosure::close_position(Evaluation& at) {
   constexpr int kMaxNear = 12;
   constexpr double kContraction = 0.25;

@@ -19,6 +19,8 @@ constexpr double kForJumpingFriction = 30.0;  // across a band of velocities tha
 
 constexpr auto is_elastic = [](const auto& spring) { return spring.stiffness > 0.0; };
 
+bool has_friction(const ClearanceParameters& joint) { return joint.friction && joint.friction->law != FrictionLaw::kNone; }
+
 bool has_slow_friction(const ClearanceParameters& joint) {
   return !joint.worn && joint.friction && joint.friction->law == FrictionLaw::kLuGre && joint.friction->sigma_0 <= kSlowBristles;
 }
@@ -28,7 +30,7 @@ double choose_refinement(const ClearanceParameters& joint, Integrator integrator
     if (joint.form == RadialForm::kContinuum) return 1.0;
     return integrator == Integrator::kRadau5 ? kForElementsWithRadau5 : kForChangingContacts;
   }
-  const bool jumps = joint.friction && joint.friction->law != FrictionLaw::kNone && !has_bristles(joint.friction->law);
+  const bool jumps = has_friction(joint) && !has_bristles(joint.friction->law);
   return jumps ? kForJumpingFriction : kForChangingContacts;
 }
 
@@ -62,10 +64,13 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
 }
 
 double choose_time_between_looks(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates) {
-  // A look costs as the cube of the coordinates, a step less: so it takes about as large a part of a run with any number of them.
+  // A look costs as the cube of the coordinates, a step as their number to their square: so it takes about as large a part of a run with any number.
   constexpr double kForEach = 1e-3;  // [s]
-  if (!has_clearance(mechanism) || !is_implicit(integrator)) return std::numeric_limits<double>::infinity();
-  return kForEach * static_cast<double>(free_coordinates);
+  constexpr double kFew = 28.0;
+  const bool is_fed = std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return joint.clearance && has_friction(*joint.clearance); });
+  if (!is_fed || !is_implicit(integrator) || free_coordinates == 0) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<double>(free_coordinates);
+  return kForEach * n * std::max(1.0, n / kFew);
 }
 
 double choose_tolerance(const Mechanism& mechanism, double wanted) {

@@ -22,7 +22,8 @@ namespace engine {
 /// @param integrator  not kAuto
 [[nodiscard]] double choose_longest_step(const Mechanism& mechanism, Integrator integrator);
 
-/// Time between two looks for vibrations that grow (FedVibrations), [s]; infinite if steps damp none or there is no friction to feed any.
+/// Time between two looks for vibrations that grow (FedVibrations), [s]: what grows and ends between two is not seen. Infinite if steps damp none or
+/// there is no friction to feed any.
 /// @param integrator  not kAuto
 [[nodiscard]] double choose_time_between_looks(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates);
 

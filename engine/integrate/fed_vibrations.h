@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
 #include "engine/dynamics/motion_system.h"
@@ -9,7 +10,7 @@ namespace engine {
 /// The vibrations that grow about a state.
 struct FedVibration {
   double growth = 0.0;     ///< of the one that grows fastest, [1/s]; 0: there is none
-  double frequency = 0.0;  ///< of the fastest, [rad/s]
+  double frequency = 0.0;  ///< the highest of all that grow, [rad/s]
 };
 
 /// Looks for vibrations that grow: friction feeds some, of what presses on a bore as of elastic links. From nothing that a step's error could show they
@@ -20,7 +21,8 @@ struct FedVibration {
 /// frequencies they hardly bend, as in a fast vibration.
 class FedVibrations {
  public:
-  /// @param system  linearised; its factors for a real shift are others afterwards
+  /// @param system  linearised, with free coordinates; its factors for a real shift are others afterwards
+  /// @returns none where the matrix is singular, or its eigenvalues are not found
   [[nodiscard]] FedVibration find(MotionSystem& system);
 
  private:

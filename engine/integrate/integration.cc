@@ -92,8 +92,8 @@ bool Integration::start(const Evaluation& assembled) {
   return true;
 }
 
-/// What follows vibrations that grow makes its errors grow, too, and these are larger than what the vibrations begin from. So they are followed only where
-/// they would have come to be as large. Where nothing touches there is no friction that could feed any.
+/// Steps that are short enough to follow a growing vibration let their own errors grow, too, and these are larger than what the vibration begins from. So
+/// steps are shortened only once it may have grown to that size. Where nothing touches there is no friction that could feed any.
 void Integration::look_for_vibrations() {
   const double since = start_.t - std::exchange(last_look_, start_.t);
   longest_fed_ = longest_step_;
@@ -102,8 +102,8 @@ void Integration::look_for_vibrations() {
   const Elimination elimination = system_.choose_elimination(options_.integrator == Integrator::kRadau5 ? Shifts::kRealAndComplex : Shifts::kReal);
   if (system_.linearise(start_.t, start_.y, elimination) != EvaluationStatus::kOk) return forget_equations();
   const FedVibration found = fed_vibrations_.find(system_);
-  rodas4_.begin_step();
-  rodas5_.begin_step();
+  rodas4_.take_jacobian();
+  rodas5_.take_jacobian();
   radau5_.take_jacobian();
   if (found.growth == 0.0) return;
   grown_ = grown + found.growth * since;

@@ -61,7 +61,7 @@ class Integration {
   std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
   double longest_step_;                           ///< [s]
   FedVibrations fed_vibrations_;
-  double look_every_;                             ///< time between two looks for vibrations that grow, [s]; infinite: there are none
+  double look_every_;                             ///< time between two looks for vibrations that grow, [s]; infinite: never
   double last_look_ = 0.0;                        ///< [s]
   double grown_ = 0.0;                            ///< how many times they may have grown by e since they began to
   double longest_fed_;                            ///< longest step that follows them, [s]

@@ -67,6 +67,8 @@ class Rodas {
 
   /// The next try is from another start, or by other equations of motion, than the last.
   void begin_step() { linearised_ = false; }
+  /// The system has been linearised, by others, at the start of the next step.
+  void take_jacobian() { linearised_ = true; }
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
 
  private:

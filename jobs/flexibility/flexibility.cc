@@ -47,13 +47,13 @@ Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coup
   return pair;
 }
 
-json verdict_of(const Pair& pair) {
-  if (!pair.ratio) return nullptr;
-  return *pair.largest < 1.0 - kSame ? "helps" : *pair.least > 1.0 + kSame ? "harms" : "either";
-}
-
 /// On which side of 1 a ratio is: -1, 1, or 0 if it makes no difference.
 int side_of(double ratio) { return ratio < 1.0 - kSame ? -1 : ratio > 1.0 + kSame ? 1 : 0; }
+
+json verdict_of(const Pair& pair) {
+  if (!pair.ratio) return nullptr;
+  return side_of(*pair.largest) < 0 ? "helps" : side_of(*pair.least) > 0 ? "harms" : "either";
+}
 
 /// The energy that the coupler's dampers take, and its part of all losses, on the mean over the flexible jobs.
 std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup& group, std::size_t coupler) {

@@ -35,7 +35,7 @@ constexpr FaultCase kFaultCases[] = {
     {"not_an_object", "[1]", "", "object"},
     {"unknown_key", R"({"colour": 1})", "/colour", "unknown key; all are listed at GET /v1/parameters"},
     {"parameters_one_level_too_deep", R"({"parameters": {"clearance_mm": 1}})", "/parameters", "parameters stand in this object itself"},
-    {"sweep_for_one_set", R"({"sweep": {"clearance_mm": [0.1, 0.2]}})", "/sweep", "is a sweep: POST /v1/sweeps"},
+    {"sweep_for_one_set", R"({"sweep": {"clearance_mm": [0.1, 0.2]}})", "/sweep", "in a sweep (POST /v1/sweeps, rpsup sweep)"},
     {"link_by_its_path", R"({"links.1,3.mass_kg": 1})", "/links.1,3.mass_kg", "written as an object"},
     {"near_key_without_unit", R"({"clearance": 1})", "/clearance", "did you mean clearance_mm?"},
     {"near_key_with_a_slip", R"({"crank_velocty_rad_s": 1})", "/crank_velocty_rad_s", "did you mean crank_velocity_rad_s?"},

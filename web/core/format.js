@@ -1,7 +1,8 @@
 // The one place that writes numbers, names and units.
 
+// The first that fits counts.
 const suffixes = [
-  ["_n_s_m", "N s/m"], ["_s_m", "s/m"], ["_1_m", "1/m"], ["_1_s", "1/s"], ["_j_m", "J m"],
+  ["_n_m_s_rad", "N m s/rad"], ["_n_m_rad", "N m/rad"], ["_deg", "°"], ["_n_s_m", "N s/m"], ["_s_m", "s/m"], ["_1_m", "1/m"], ["_1_s", "1/s"], ["_j_m", "J m"],
   ["_m_s2", "m/s²"], ["_rad_s2", "rad/s²"], ["_rad_s", "rad/s"], ["_m_s", "m/s"], ["_n_m", "N m"], ["_kg_m2", "kg m²"], ["_kg", "kg"], ["_mrad", "mrad"],
   ["_rad", "rad"], ["_mm", "mm"], ["_um", "µm"], ["_hz", "Hz"], ["_pa", "Pa"], ["_n", "N"], ["_j", "J"], ["_s", "s"], ["_m", "m"],
 ];
