@@ -109,7 +109,7 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
     faults.push_back({pointer, "the parts of links are swept one by one: \"links.1,3.mass_kg\", say"});
   } else {
     const std::vector<std::string_view> views(known.begin(), known.end());
-    faults.push_back({pointer, describe_unknown_key(path, views)});
+    faults.push_back({pointer, describe_unknown_key(path, views, "GET /v1/parameters")});
   }
   return false;
 }

@@ -30,15 +30,15 @@ std::vector<std::string> split_names(std::string_view text, std::span<const std:
   }
 }
 
-std::vector<std::size_t> find_names(const std::vector<std::string>& names, std::span<const std::string> known, const std::string& pointer,
-                                    std::vector<Fault>& faults) {
+std::vector<std::size_t> find_names(const std::vector<std::string>& names, std::span<const std::string> known, std::string_view listed,
+                                    const std::string& pointer, std::vector<Fault>& faults) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto place = static_cast<std::size_t>(std::ranges::find(known, names[i]) - known.begin());
     const std::string where = pointer + "/" + std::to_string(i);
     if (place == known.size()) {
-      faults.push_back({where, "\"" + names[i] + "\": " + describe_unknown_key(names[i], views)});
+      faults.push_back({where, "\"" + names[i] + "\": " + describe_unknown_key(names[i], views, listed)});
     } else if (std::ranges::find(places, place) != places.end()) {
       faults.push_back({where, "\"" + names[i] + "\" is in the list already"});
     } else {

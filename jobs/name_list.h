@@ -14,8 +14,9 @@ namespace jobs {
 [[nodiscard]] std::vector<std::string> split_names(std::string_view text, std::span<const std::string> known);
 
 /// Where each name of a list stands among the known ones. Names that are not there, empty ones and repeated ones are faults.
+/// @param listed  where to read the known ones if they are many; empty: nowhere else
 /// @param pointer  of the list in the request, for the faults
-[[nodiscard]] std::vector<std::size_t> find_names(const std::vector<std::string>& names, std::span<const std::string> known, const std::string& pointer,
-                                                  std::vector<Fault>& faults);
+[[nodiscard]] std::vector<std::size_t> find_names(const std::vector<std::string>& names, std::span<const std::string> known, std::string_view listed,
+                                                  const std::string& pointer, std::vector<Fault>& faults);
 
 }  // namespace jobs

@@ -86,7 +86,7 @@ nlohmann::json canonical_value(const ParameterInfo& info, const nlohmann::json& 
 }
 
 std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known, std::string_view listed) {
-  constexpr std::size_t kFew = 12;  // that a user reads through
+  constexpr std::size_t kFew = 12;  // that a user reads through, if they are listed elsewhere
   std::string_view nearest;
   std::optional<std::size_t> least;
   for (const std::string_view candidate : known) {
@@ -96,7 +96,7 @@ std::string describe_unknown_key(std::string_view key, std::span<const std::stri
     nearest = candidate;
   }
   if (least) return "unknown key; did you mean " + std::string(nearest) + "?";
-  if (known.size() > kFew) return listed.empty() ? "unknown key" : "unknown key; all are listed at " + std::string(listed);
+  if (known.size() > kFew && !listed.empty()) return "unknown key; all are listed at " + std::string(listed);
   std::string text = "unknown key; allowed:";
   for (std::size_t i = 0; i < known.size(); ++i) text.append(i == 0 ? " " : ", ").append(known[i]);
   return text;

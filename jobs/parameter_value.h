@@ -26,8 +26,8 @@ namespace jobs {
 /// A number of a parameter set, which has it, by its key.
 [[nodiscard]] inline double number_at(const nlohmann::json& parameters, std::string_view key) { return parameters.at(key).get<double>(); }
 
-/// What to say of a key that is none of `known`: "unknown key; did you mean clearance_mm?", else, if they are few, all of them.
-/// @param listed  where to read them if they are many
+/// What to say of a key that is none of `known`: "unknown key; did you mean clearance_mm?", else all of them.
+/// @param listed  where to read them if they are many; empty: nowhere else
 [[nodiscard]] std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known, std::string_view listed = {});
 
 /// A key as a part of an RFC 6901 pointer, with its leading slash.

@@ -131,11 +131,14 @@ void append_swept(const std::string& text, std::vector<json>& cells) {
   for (json& value : stored_json(text)) cells.push_back(std::move(value));
 }
 
-/// Appends the values of parameters that are not swept.
-void append_others(const std::string& parameters, const std::vector<std::string>& others, std::vector<json>& cells) {
+/// Appends what a query names beside what all tables have.
+void append_others(const ResultRow& row, const std::vector<std::string>& others, std::vector<json>& cells) {
   if (others.empty()) return;
-  const json completed = stored_json(parameters);
-  for (const std::string& path : others) cells.push_back(value_at_path(completed, path));
+  const json completed = stored_json(row.parameters);
+  for (const std::string& column : others) {
+    if (is_error_column(column)) cells.push_back(value_or_null(column == kErrorColumns.front() ? row.error_reason : row.error_detail));
+    else cells.push_back(value_at_path(completed, column));
+  }
 }
 
 /// What a row brings to its set. Only what has succeeded has metrics, and a peak may be null: the run ended before its window.
@@ -255,7 +258,7 @@ ResultTable result_table(const SweepResults& results, const std::vector<std::str
     if (sweep.replicated) cells.push_back(value_or_null(row.replicate));
     append_swept(row.swept, cells);
     cells.resize(own);
-    append_others(row.parameters, others, cells);
+    append_others(row, others, cells);
     if (row.metrics) put_metrics(*row.metrics, metrics, cells);
     peaks.push_back(replicate_value(row, cells[peak]));
     table.rows.push_back(std::move(cells));

@@ -18,6 +18,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::string_view kListed = "GET /v1/parameters and in the results without fields";
+
 enum class Comparison { kEqual, kGreater, kLess, kGreaterOrEqual, kLessOrEqual };
 
 constexpr std::array<std::pair<std::string_view, Comparison>, 4> kSuffixes{
@@ -39,7 +41,7 @@ struct TextColumn {
 };
 
 TextColumn text_column(const std::string& column) {
-  if (column == "job_id") return {.is_text = true, .words = {}};
+  if (column == "job_id" || is_error_column(column)) return {.is_text = true, .words = {}};
   if (column == "state") return {.is_text = true, .words = {kJobStates.begin(), kJobStates.end()}};
   if (column == "verdict" || column == "parameter" || column == "metric") return {.is_text = true, .words = {}};  // of a search
   if (column == "monotonic") return {.is_text = true, .words = {"true", "false"}};
@@ -115,7 +117,7 @@ class Reader {
       descending.push_back(name.starts_with('-'));
       if (descending.back()) name.erase(0, 1);
     }
-    const auto places = find_names(names, columns_, "/order_by", faults_);
+    const auto places = find_names(names, columns_, kListed, "/order_by", faults_);
     for (std::size_t i = 0; i < places.size() && faults_.empty(); ++i) order.emplace_back(places[i], descending[i]);
     return order;
   }
@@ -124,7 +126,7 @@ class Reader {
   std::vector<std::size_t> fields(const std::string& text, bool replicates) {
     auto known = columns_;
     if (replicates) known.emplace_back("replicates");
-    return find_names(split_names(text, known), known, "/fields", faults_);
+    return find_names(split_names(text, known), known, kListed, "/fields", faults_);
   }
 
   void check() {
@@ -138,7 +140,7 @@ class Reader {
     const auto found = std::ranges::find(columns_, name);
     if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
     const std::vector<std::string_view> known(columns_.begin(), columns_.end());
-    fault(pointer, describe_unknown_key(name, known) + "; a filter is a column of the results, or one with _gt, _lt, _ge or _le");
+    fault(pointer, describe_unknown_key(name, known, kListed) + "; a filter is a column of the results, or one with _gt, _lt, _ge or _le");
     return 0;
   }
 
@@ -199,7 +201,7 @@ void take_columns(const std::vector<std::size_t>& wanted, ResultTable& table) {
 
 }  // namespace
 
-std::vector<std::string> find_other_parameters(const ResultQuery& query, const std::vector<std::string>& swept) {
+std::vector<std::string> find_other_columns(const ResultQuery& query, const std::vector<std::string>& swept) {
   const auto& paths = known_paths();
   std::vector<std::string> names;
   for (const ResultFilter& filter : query.filters) names.push_back(split_key(filter.key, paths).first);
@@ -209,6 +211,9 @@ std::vector<std::string> find_other_parameters(const ResultQuery& query, const s
   std::vector<std::string> others;
   for (const std::string& path : paths) {
     if (std::ranges::find(names, path) != names.end() && std::ranges::find(swept, path) == swept.end()) others.push_back(path);
+  }
+  for (const std::string_view column : kErrorColumns) {
+    if (std::ranges::find(names, column) != names.end()) others.emplace_back(column);
   }
   return others;
 }

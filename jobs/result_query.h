@@ -7,9 +7,9 @@
 
 namespace jobs {
 
-/// The parameters that a query names although the sweep does not vary them: the table needs columns for them.
+/// The columns that a table has only if a query names them: parameters that the sweep does not vary, then kErrorColumns.
 /// @param swept  what the sweep varies
-[[nodiscard]] std::vector<std::string> find_other_parameters(const ResultQuery& query, const std::vector<std::string>& swept);
+[[nodiscard]] std::vector<std::string> find_other_columns(const ResultQuery& query, const std::vector<std::string>& swept);
 
 /// Keeps the rows that pass every filter, orders them, cuts the table off and takes the columns that are wanted.
 /// @throws InvalidRequest with every fault: a name that is no column, a comparison that a column does not know

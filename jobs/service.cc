@@ -157,7 +157,7 @@ class Service::Impl {
   [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id, const ResultQuery& query) const {
     const auto sweep = store_.find_sweep(sweep_id);
     if (!sweep) return std::nullopt;
-    const auto others = find_other_parameters(query, swept_of(*sweep));
+    const auto others = find_other_columns(query, swept_of(*sweep));
     const auto results = store_.find_results(sweep_id, !others.empty());
     if (!results) return std::nullopt;
     ResultTable table = result_table(*results, others);
@@ -272,6 +272,10 @@ class Service::Impl {
 
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const {
     return wait_for_end(at_most, [&] { return store_.has_sweep_ended(id); });
+  }
+
+  bool wait_for_job(const std::string& id, std::chrono::milliseconds at_most) const {
+    return wait_for_end(at_most, [&] { return store_.has_job_ended(id); });
   }
 
   void stop() {
@@ -487,6 +491,7 @@ std::optional<json> Service::cancel_sweep(const std::string& id) { return impl_-
 std::optional<json> Service::cancel_job(const std::string& id) { return impl_->cancel_job(id); }
 bool Service::delete_sweep(const std::string& id) { return impl_->delete_sweep(id); }
 bool Service::wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const { return impl_->wait_for_sweep(id, at_most); }
+bool Service::wait_for_job(const std::string& id, std::chrono::milliseconds at_most) const { return impl_->wait_for_job(id, at_most); }
 void Service::stop() { impl_->stop(); }
 
 Outcome run_job(const json& parameters, const engine::StopQuery& stop_requested) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -71,13 +74,18 @@ struct ResultFilter {
   std::string value;
 };
 
-/// What is wanted of the results of a sweep. Columns are those of its table, and all other parameters.
+/// What is wanted of the results of a sweep. Columns are those of its table, all other parameters, and kErrorColumns.
 struct ResultQuery {
   std::string fields;                 ///< columns, with commas between, in the order in which they are wanted; empty: all
   std::vector<ResultFilter> filters;  ///< rows that have no value of the column pass none
   std::string order_by;               ///< columns, with commas between; one with a leading '-' has its largest values first. Null comes last
   std::optional<std::size_t> limit;   ///< rows
 };
+
+/// Columns of why a job failed, as a word and as a sentence. Tables have them only if a query names them.
+inline constexpr std::array<std::string_view, 2> kErrorColumns{"error_reason", "error_detail"};
+
+[[nodiscard]] inline bool is_error_column(std::string_view column) { return std::ranges::find(kErrorColumns, column) != kErrorColumns.end(); }
 
 /// Flat rows, one a job, in the order in which the sweep was expanded. Columns are the same for JSON and CSV:
 /// job_id, state, replicate (if the sweep has any), the swept parameters, every metric.
@@ -199,6 +207,7 @@ class Service {
 
   /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once if there is none.
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const;
+  bool wait_for_job(const std::string& id, std::chrono::milliseconds at_most) const;                    ///< the same of a job
   bool wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const;  ///< the same of a study
 
   /// Ends the pool: running jobs are stopped and go back to the queue. Nothing can be submitted afterwards.

@@ -91,6 +91,7 @@ struct ResultRow {
   std::optional<std::string> metrics;
   std::string parameters{};  ///< only if they were asked for
   std::int64_t change = 0;   ///< EndedJob::change; 0: it has not ended
+  std::optional<std::string> error_reason{}, error_detail{};  ///< of what failed
 };
 
 /// All jobs of a sweep as one picture of the store has them.
@@ -239,6 +240,7 @@ class Store {
   /// Whether no job of the sweep is left to compute; empty if there is no such sweep. Costs the same for sweeps of any size.
   [[nodiscard]] std::optional<bool> has_sweep_ended(const std::string& id) const;
   [[nodiscard]] std::optional<JobRow> find_job(const std::string& id) const;
+  [[nodiscard]] std::optional<bool> has_job_ended(const std::string& id) const;  ///< empty if there is no such job
   /// Newest first. @param state empty: all  @param before  an id; empty: the newest
   [[nodiscard]] std::vector<SweepRow> list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const;
   [[nodiscard]] std::vector<JobRow> list_jobs(const std::string& state, const std::string& before, std::size_t limit) const;

@@ -105,7 +105,7 @@ JobRow job_row(SQLite::Statement& found) {
 /// @param parameters  SQL of what stands in their column
 std::string result_columns(const std::string& parameters) {
   return "SELECT j.id, j.state, j.swept, j.replicate, r.metrics, " + parameters +
-         ", max(coalesce(j.change, 0), 0) FROM jobs j LEFT JOIN results r ON r.seq = j.result";
+         ", max(coalesce(j.change, 0), 0), r.error_reason, r.error_detail FROM jobs j LEFT JOIN results r ON r.seq = j.result";
 }
 
 constexpr const char* kOfSweep = " WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?)";
@@ -113,7 +113,8 @@ constexpr const char* kOfSweep = " WHERE j.sweep = (SELECT seq FROM sweeps WHERE
 ResultRow result_row(SQLite::Statement& found) {
   return {.job_id = found.getColumn(0).getString(), .state = found.getColumn(1).getString(), .swept = found.getColumn(2).getString(),
           .replicate = optional_int(found.getColumn(3)), .metrics = optional_text(found.getColumn(4)),
-          .parameters = found.getColumn(5).getString(), .change = found.getColumn(6).getInt64()};
+          .parameters = found.getColumn(5).getString(), .change = found.getColumn(6).getInt64(),
+          .error_reason = optional_text(found.getColumn(7)), .error_detail = optional_text(found.getColumn(8))};
 }
 
 }  // namespace
@@ -155,6 +156,14 @@ std::vector<SweepRow> Store::list_sweeps(const std::string& state, const std::st
 
 std::optional<JobRow> Store::find_job(const std::string& id) const {
   return readers_.read([&](const SQLite::Database& database) { return read_job(database, id); });
+}
+
+std::optional<bool> Store::has_job_ended(const std::string& id) const {
+  return readers_.read_often([&](Statements& statements) -> std::optional<bool> {
+    const auto find = statements.use("SELECT state NOT IN ('queued', 'running') FROM jobs WHERE id = ?");
+    find->bindNoCopy(1, id);
+    return find->executeStep() ? std::optional(find->getColumn(0).getInt() != 0) : std::nullopt;
+  });
 }
 
 std::vector<JobRow> Store::list_jobs(const std::string& state, const std::string& before, std::size_t limit) const {

@@ -1,5 +1,6 @@
 #include "server/job_routes.h"
 
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,11 @@ HttpError no_such_job(const std::string& id) { return {404, "there is no job " +
 
 bool has_ended(const nlohmann::json& job) { return job.at("state") != "queued" && job.at("state") != "running"; }
 
+/// Waits for the end of a job, if that is preferred.
+bool wait_as_preferred(const Call& call, const std::string& id, Response& response) {
+  return call.waiting_room.wait(call.request, response, [&](std::chrono::seconds time) { call.service.wait_for_job(id, time); });
+}
+
 std::string trajectory_text(const engine::Trajectory& trajectory, TableFormat format) {
   if (format == TableFormat::kCsv) return jobs::to_csv(trajectory);
   return format == TableFormat::kNpz ? jobs::to_npz(trajectory) : to_json_columns(trajectory);
@@ -28,9 +34,12 @@ std::string trajectory_text(const engine::Trajectory& trajectory, TableFormat fo
 
 Response post_job(const Call& call) {
   Query(call.request, {}).check();
-  const auto job = call.service.submit_job(parse_json(call.request.body), find_key(call.request));
-  Response response = make_json(201, to_text(job));
-  response.headers.emplace_back("Location", "/v1/jobs/" + job.at("id").template get<std::string>());
+  auto job = call.service.submit_job(parse_json(call.request.body), find_key(call.request));
+  const std::string id = job.at("id");
+  Response response = make_json(201, "");
+  if (wait_as_preferred(call, id, response)) job = call.service.find_job(id).value_or(job);
+  response.body = to_text(job) + "\n";
+  response.headers.emplace_back("Location", "/v1/jobs/" + id);
   return response;
 }
 
@@ -40,9 +49,11 @@ Response get_jobs(const Call& call) {
 
 Response get_job(const Call& call) {
   Query(call.request, {}).check();
+  Response response = make_json(200, "");
+  wait_as_preferred(call, call.id, response);
   const auto job = call.service.find_job(call.id);
   if (!job) throw no_such_job(call.id);
-  Response response = make_json(200, to_text(*job));
+  response.body = to_text(*job) + "\n";
   return has_ended(*job) ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
 }
 

@@ -71,7 +71,7 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
   CLI::App* const command = app.add_subcommand("sweep", "Compute a sweep without a server");
   command->add_option("file", options.file, "JSON file with the sweep request; - reads standard input")->required()->type_name("FILE");
   add_store_options(*command, options.store, options.threads);
-  command->add_option("--results", options.results, "CSV file for the table of results; - writes standard output")
+  command->add_option("--results", options.results, "File for the table of results: .json, .ndjson (a row a line), or else CSV; - writes CSV to standard output")
       ->type_name("FILE")
       ->capture_default_str()
       ->envname("RPSUP_RESULTS");

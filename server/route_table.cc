@@ -159,11 +159,11 @@ std::vector<Route> make_job_routes() {
   return {
       {.method = "POST", .pattern = "/v1/jobs", .handler = post_job, .operation_id = "submitJob", .tag = "jobs",
        .summary = "Store one job and queue it, or refuse it with every fault",
-       .headers = {"idempotency_key"}, .body = "Parameters", .success = 201, .answers = {{kJson, "Job"}}, .problems = {409, 422, 429}},
+       .headers = {"idempotency_key", "prefer"}, .body = "Parameters", .success = 201, .answers = {{kJson, "Job"}}, .problems = {409, 422, 429}},
       {.method = "GET", .pattern = "/v1/jobs", .handler = get_jobs, .operation_id = "listJobs", .tag = "jobs",
        .summary = "Jobs, the newest first", .query = {"state", "limit", "cursor", "fields"}, .answers = {{kJson, "JobPage"}}, .problems = {422}},
       {.method = "GET", .pattern = "/v1/jobs/{id}", .handler = get_job, .operation_id = "getJob", .tag = "jobs",
-       .summary = "State, parameters, metrics and error of a job, and how it was run", .headers = {"if_none_match"},
+       .summary = "State, parameters, metrics and error of a job, and how it was run", .headers = {"prefer", "if_none_match"},
        .answers = {{kJson, "Job"}}, .bodiless = {304}, .problems = {404, 422}},
       {.method = "POST", .pattern = "/v1/jobs/{id}/cancel", .handler = cancel_job, .operation_id = "cancelJob", .tag = "jobs",
        .summary = "Cancel a job that has not ended", .answers = {{kJson, "Job"}}, .problems = {404, 409, 422}},

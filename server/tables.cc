@@ -6,7 +6,9 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "server/accept.h"
 #include "server/json_text.h"
 
 namespace server {
@@ -28,17 +30,11 @@ const FormatInfo& info_of(TableFormat format) {
   return *std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatInfo& info) { return info.format == format; });
 }
 
-/// The one of these formats that stands first in an Accept header; JSON if none does.
+/// The one of these formats that an Accept header wants most; the first if it wants none.
 TableFormat accepted(const std::string& accept, std::initializer_list<TableFormat> formats) {
-  TableFormat first = TableFormat::kJson;
-  std::size_t least = std::string::npos;
-  for (const TableFormat format : formats) {
-    const std::size_t place = accept.find(info_of(format).media_type);
-    if (place >= least) continue;
-    least = place;
-    first = format;
-  }
-  return first;
+  std::vector<std::string_view> media_types;
+  for (const TableFormat format : formats) media_types.push_back(info_of(format).media_type);
+  return formats.begin()[find_accepted(accept, media_types).value_or(0)];
 }
 
 TableFormat find_format(const Request& request, Query& query, std::initializer_list<TableFormat> formats, std::initializer_list<std::string_view> words) {

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -61,6 +62,11 @@ nlohmann::ordered_json read_json(const std::string& path) {
   } catch (const BadJson& error) {
     throw BadInput((path == "-" ? "standard input" : path) + ": " + error.what());
   }
+}
+
+void check_folder(const std::string& option, const std::string& path) {
+  const auto folder = std::filesystem::absolute(path).parent_path();
+  if (!std::filesystem::is_directory(folder)) throw BadInput(option + " " + path + ": there is no folder " + folder.string());
 }
 
 void write_text(const std::string& path, const std::string& text) {

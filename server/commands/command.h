@@ -36,6 +36,11 @@ int run_guarded(const std::function<int()>& command);
 /// @throws BadInput if it cannot be read or is no JSON
 [[nodiscard]] nlohmann::ordered_json read_json(const std::string& path);
 
+/// Refuses before the work what could not be written after it.
+/// @param option  that names the file, for the message
+/// @throws BadInput if the file's folder is none
+void check_folder(const std::string& option, const std::string& path);
+
 /// Writes a whole file, "-" for standard output.
 /// @throws CannotWrite if not every byte reached it
 void write_text(const std::string& path, const std::string& text);

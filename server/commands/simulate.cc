@@ -21,22 +21,19 @@ namespace server::commands {
 
 namespace {
 
-/// Refuses before the run what could not be written after it.
 void check_trajectory_file(const std::string& path) {
   if (path.empty()) return;
   const auto extension = std::filesystem::path(path).extension();
   if (extension != ".csv" && extension != ".json" && extension != ".npz") {
     throw BadInput("--trajectory " + path + ": the name must end in .csv, .json or .npz");
   }
-  const auto folder = std::filesystem::absolute(path).parent_path();
-  if (!std::filesystem::is_directory(folder)) throw BadInput("--trajectory " + path + ": there is no folder " + folder.string());
+  check_folder("--trajectory", path);
 }
 
 void check_plot_file(const std::string& plot) {
   if (plot.empty() || plot == "-") return;
   if (!plot.ends_with(".svg")) throw BadInput("--plot " + plot + ": the name must end in .svg; - draws on the terminal");
-  const auto folder = std::filesystem::absolute(plot).parent_path();
-  if (!std::filesystem::is_directory(folder)) throw BadInput("--plot " + plot + ": there is no folder " + folder.string());
+  check_folder("--plot", plot);
 }
 
 /// The size of the terminal at standard error; a usual one if there is none.

@@ -10,6 +10,7 @@
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
 #include "server/commands/signals.h"
+#include "server/tables.h"
 
 namespace server::commands {
 
@@ -41,9 +42,16 @@ int interrupt(jobs::Service& service, const std::string& id) {
   return kInterrupted;
 }
 
+/// That a file's name ends in; CSV for all others.
+TableFormat find_format(const std::string& path) {
+  if (path.ends_with(".json")) return TableFormat::kJson;
+  return path.ends_with(".ndjson") ? TableFormat::kNdjson : TableFormat::kCsv;
+}
+
 }  // namespace
 
 int sweep(const SweepOptions& options) {
+  if (options.results != "-") check_folder("--results", options.results);
   const auto request = read_json(options.file);
   const EndSignals signals;
   jobs::ServiceOptions service_options;
@@ -54,7 +62,7 @@ int sweep(const SweepOptions& options) {
   const auto id = service.submit_sweep(request).at("id").get<std::string>();
   std::cerr << "sweep " << id << " in " << options.store << '\n';
   if (!follow(service, id, signals)) return interrupt(service, id);
-  write_text(options.results, jobs::to_csv(*service.find_results(id)));
+  write_text(options.results, to_text(*service.find_results(id), find_format(options.results)));
   return service.find_sweep(id)->at("state") == "succeeded" ? kDone : kJobFailed;
 }
 

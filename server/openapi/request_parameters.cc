@@ -68,7 +68,7 @@ std::vector<RequestParameter> make_header_parameters() {
        {{"type", "string"}, {"minLength", 1}, {"maxLength", 255}, {"pattern", "^[!-~]+$"}}},
       {"if_none_match", "header", "If-None-Match", "An ETag: 304 if nothing has changed", kText},
       {"last_event_id", "header", "Last-Event-ID", "The id of the last event that was received", kText},
-      {"prefer", "header", "Prefer", "wait=N: the answer waits for the end of the sweep or study, N s at most", kText},
+      {"prefer", "header", "Prefer", "wait=N: the answer waits for the end of the job, sweep or study, N s at most", kText},
   };
 }
 

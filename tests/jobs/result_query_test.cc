@@ -88,7 +88,19 @@ TEST(ResultQuery, KeepsTheStatisticsOfTheRowsThatStay) {
 
 TEST(ResultQuery, FindsTheParametersThatTheSweepDoesNotVary) {
   const jobs::ResultQuery query{.fields = "job_id,links.1,3.mass_kg", .filters = {{"restitution_gt", "0.5"}}, .order_by = "-clearance_mm,peak", .limit = {}};
-  EXPECT_EQ(jobs::find_other_parameters(query, {"clearance_mm"}), (Strings{"restitution", "links.1,3.mass_kg"}));
+  EXPECT_EQ(jobs::find_other_columns(query, {"clearance_mm"}), (Strings{"restitution", "links.1,3.mass_kg"}));
+}
+
+TEST(ResultQuery, FindsTheColumnsOfErrorsIfTheyAreNamed) {
+  const jobs::ResultQuery query{.fields = "job_id,error_detail", .filters = {{"error_reason", "lock_up"}}, .order_by = "restitution", .limit = {}};
+  EXPECT_EQ(jobs::find_other_columns(query, {}), (Strings{"restitution", "error_reason", "error_detail"}));
+  EXPECT_EQ(jobs::find_other_columns({.fields = "job_id", .filters = {}, .order_by = {}, .limit = {}}, {}), Strings{});
+}
+
+TEST(ResultQuery, SaysWhereColumnsAreListed) {
+  const auto faults = faults_of([] { (void)applied({.fields = "stiffness_of_a_spring", .filters = {}, .order_by = {}, .limit = {}}); });
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(faults.front().detail.find("allowed: job_id, state, coupler"), std::string::npos) << faults.front().detail;
 }
 
 }  // namespace

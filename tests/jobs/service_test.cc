@@ -251,6 +251,10 @@ TEST(Service, LeavesASweepRunningWhenAJobFails) {
   EXPECT_EQ(thrown.at("error").at("detail"), "the fake engine broke");
   EXPECT_TRUE(thrown.at("error").at("t_s").is_null());
   EXPECT_FALSE(service.find_trajectory(rows[1][0], {}).has_value());
+  // The same in a table, for those who ask.
+  const auto table = service.find_results(id, {.fields = "restitution,error_reason,error_detail,duration_s", .filters = {}, .order_by = {}, .limit = {}}).value();
+  EXPECT_EQ(json(table.rows), json_of(R"([[0.5, "non_finite", "the fake state is no number", 5.0], [0.4, "internal", "the fake engine broke", 5.0],
+                                          [0.9, null, null, 5.0]])"));
 }
 
 TEST(Service, PutsRunningJobsBackWhenItStopsAndGoesOnWhenItStarts) {

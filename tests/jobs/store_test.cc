@@ -442,7 +442,11 @@ TEST(Store, KnowsWhetherASweepHasEnded) {
   EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one queued
   const auto last = store.claim().value();
   EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one running
+  const auto jobs = store.find_results(sweep, false)->rows;
+  EXPECT_EQ(store.has_job_ended(jobs[0].job_id), true);
+  EXPECT_EQ(store.has_job_ended(jobs[1].job_id), false);
   EXPECT_TRUE(store.record(last, failure()));
+  EXPECT_EQ(store.has_job_ended(jobs[1].job_id), true);
   EXPECT_EQ(store.has_sweep_ended(sweep), true);
 }
 

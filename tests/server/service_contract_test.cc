@@ -102,6 +102,24 @@ TEST(Prefer, WaitsForTheEndOfASweep) {
   EXPECT_EQ(header(created, "Preference-Applied"), "wait=20");
 }
 
+TEST(Prefer, WaitsForTheEndOfAJob) {
+  Bench bench;
+  server::Request request{.method = "POST", .path = "/v1/jobs", .query = {}, .accept = {}, .body = "{}", .id = "test-1"};
+  request.prefer = "wait=20";
+  const auto created = bench.call(request);
+  EXPECT_EQ(created.status, 201);
+  EXPECT_EQ(json::parse(created.body).at("state"), "succeeded");
+  EXPECT_EQ(header(created, "Preference-Applied"), "wait=20");
+  request.body = R"({"clearance_mm": 0.3})";
+  request.prefer = "";
+  const std::string place = header(bench.call(request), "Location");
+  server::Request again{.method = "GET", .path = place, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  again.prefer = "wait=20";
+  const auto found = bench.call(again);
+  EXPECT_EQ(json::parse(found.body).at("state"), "succeeded");
+  EXPECT_EQ(header(found, "Preference-Applied"), "wait=20");
+}
+
 TEST(Prefer, WaitsNoLongerThanItIsTold) {
   Bench bench(endless_run);
   const std::string id = bench.submit(kSweep);
@@ -110,6 +128,10 @@ TEST(Prefer, WaitsNoLongerThanItIsTold) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(json::parse(bench.call(request).body).at("state"), "running");
   EXPECT_GE(std::chrono::steady_clock::now() - start, 1s);
+  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
+  request.path = "/v1/jobs/" + job;
+  EXPECT_EQ(json::parse(bench.call(request).body).at("state"), "running");
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 2s);
 }
 
 TEST(Prefer, LeavesThreadsToOthers) {

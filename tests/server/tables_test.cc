@@ -33,6 +33,24 @@ TEST(FindFormat, TakesTheQueryBeforeTheHeader) {
   EXPECT_THROW(format_of("", "xml"), jobs::InvalidRequest);
 }
 
+TEST(FindFormat, WeighsWhatTheHeaderWants) {
+  EXPECT_EQ(format_of("application/json;q=0.2, text/csv", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("text/csv;q=0.2, application/json", ""), TableFormat::kJson);
+  EXPECT_EQ(format_of("application/json; charset=utf-8 ; Q=0.2,text/csv;q=0.3", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("text/*", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("TEXT/CSV", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("text/html, application/xhtml+xml, application/xml;q=0.9, */*;q=0.8", ""), TableFormat::kJson);  // a browser's
+  // The narrowest range counts.
+  EXPECT_EQ(format_of("*/*, application/json;q=0.1", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("application/json;q=0, */*;q=0.1", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of("application/*;q=0.5, application/x-ndjson", ""), TableFormat::kNdjson);
+  // What cannot be had, or read, changes nothing.
+  EXPECT_EQ(format_of("image/png", ""), TableFormat::kJson);
+  EXPECT_EQ(format_of("text/csv;q=0", ""), TableFormat::kJson);
+  EXPECT_EQ(format_of("text/csv;q=many, application/json;q=0.5", ""), TableFormat::kCsv);
+  EXPECT_EQ(format_of(", ;q=1, /,", ""), TableFormat::kJson);
+}
+
 TEST(JsonRows, HaveEveryColumnInEveryRow) {
   const double third = 1.0 / 3.0;
   const jobs::ResultTable table{{"job_id", "clearance_mm", "peak"}, {{"j\"1", 0.25, third}, {"j2", 0, nullptr}}};

@@ -22,6 +22,15 @@ without_job_id <one.csv | cmp - two.txt
 expect_code 0 "$rpsup" sweep sweep.json --db one.db --results again.csv
 without_job_id <again.csv | cmp - two.txt
 
+# JSON where the name says so. A folder that is missing is said before anything is computed.
+expect_code 0 "$rpsup" sweep sweep.json --db one.db --results one.json
+expect_equal "$(jq -c '[length, .[0].state]' one.json)" '[6,"succeeded"]' "rows of the results as JSON"
+expect_code 0 "$rpsup" sweep sweep.json --db one.db --results one.ndjson
+expect_equal "$(jq -s length one.ndjson)" 6 "rows of the results line by line"
+expect_code 2 "$rpsup" sweep sweep.json --db none.db --results nowhere/one.csv
+expect_text err '^rpsup: --results nowhere/one.csv: there is no folder .*/nowhere$'
+expect_equal "$(test -e none.db && echo there || echo none)" none "store of a sweep whose results have no place"
+
 # Interrupted, then given again: it ends with what an undisturbed sweep gives.
 cat >longer.json <<'JSON'
 {"parameters": {"duration_s": 3, "run_up_s": 0.05, "coupler": "flexible"}, "sweep": {"clearance_mm": [0.1, 0.2, 0.3, 0.4]}}
