@@ -74,6 +74,7 @@ set(page_files
   study/lines.js
   study/parallel.js
   study/selection.js
+  study/span.js
   study/study_list.js
   study/study_view.js
   study/sweep_row.js

@@ -3,6 +3,7 @@ import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, palette } from "/core/theme.js";
 import { groupBy, valuesOf } from "/study/data.js";
+import { extremesOf, widened } from "/study/span.js";
 
 const mostPanels = 12;
 const fewCells = 400;  // with lines between them
@@ -31,12 +32,12 @@ function planOf({ rows, view, selection }) {
   const groups = groupBy(rows, [view.x, view.y, view.panel].filter(Boolean), view.metric).filter((group) => group.mean !== null);
   const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
-  const means = groups.map((group) => group.mean);
+  const ends = extremesOf(groups.map((group) => group.mean));
   if (groups.length === 0) return { cells, option: null };
   return { cells, option: {
     ...gridsOf(view, xs, ys, panels),
     tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
-    visualMap: { min: Math.min(...means), max: Math.max(...means), calculable: true, orient: "horizontal", left: "center", bottom: 0, precision: 3,
+    visualMap: { ...(widened(ends) ?? ends), calculable: true, orient: "horizontal", left: "center", bottom: 0, precision: 3,
       inRange: { color: palette() }, textStyle: { color: colour("text") }, formatter: (value) => number(value, 3), dimension: 2 },
     series: cells.map((groupsOfPanel, index) => ({ type: "heatmap", xAxisIndex: index, yAxisIndex: index,
       itemStyle: { borderColor: colour("card"), borderWidth: groupsOfPanel.length <= fewCells ? 1 : 0 },

@@ -3,6 +3,7 @@ import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { groupBy, none, valuesOf } from "/study/data.js";
+import { fittedAxis } from "/study/span.js";
 
 const mostLines = 30;
 const fewPoints = 400;  // whose marks do not hide the lines
@@ -38,7 +39,7 @@ function planOf({ rows, view, selection, others }) {
     title: { show: all.length > mostLines, text: `The first ${mostLines} of ${all.length} lines: choose fewer values, or another axis for them.`, bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
     xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...axisLook() },
-    yAxis: { type: "value", scale: true, name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
+    yAxis: { ...fittedAxis, name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
     series: lines.flatMap((line, index) => [...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []), lineSeries(line, index, at, few),
       ...chosenSeries(line, index, at, selection)]),
   } };

@@ -3,6 +3,7 @@ import { makeChart } from "/core/charts.js";
 import { exact, number, titleOf } from "/core/format.js";
 import { colour, palette } from "/core/theme.js";
 import { none, valueOf, valuesOf } from "/study/data.js";
+import { extremesOf, widened } from "/study/span.js";
 
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
 
@@ -27,7 +28,8 @@ export function parallelChart(element, study, signal) {
 
 // Beyond the extremes there is room, from where a brush can begin.
 const room = ({ min, max }) => 0.05 * (max - min || Math.abs(max) || 1);
-const roomy = { scale: true, min: (extremes) => extremes.min - room(extremes), max: (extremes) => extremes.max + room(extremes) };
+const ends = (extremes) => widened(extremes) ?? extremes;
+const roomy = { scale: true, min: (extremes) => ends(extremes).min - room(ends(extremes)), max: (extremes) => ends(extremes).max + room(ends(extremes)) };
 
 function planOf({ rows, axes, metrics, view, selection }) {
   const columns = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
@@ -44,7 +46,7 @@ function planOf({ rows, axes, metrics, view, selection }) {
   return { shown, option: {
     parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" }, areaSelectStyle: { color: colour("accent"), opacity: 0.35 } } },
     parallelAxis: dimensions.map((dimension, index) => ({ ...dimension, nameLocation: index % 2 === 0 ? "end" : "start" })),
-    visualMap: { show: false, min: Math.min(...peaks), max: Math.max(...peaks), dimension: columns.indexOf(view.metric), inRange: { color: palette() } },
+    visualMap: { show: false, ...ends(extremesOf(peaks)), dimension: columns.indexOf(view.metric), inRange: { color: palette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
       data: shown.map((row) => {
         const value = columns.map((column) => cellOf(row, column));

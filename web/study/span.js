@@ -1,0 +1,34 @@
+// How far an axis reaches: so far that rounding does not look like an effect, and by decades where values lie decades apart.
+
+const leastSpan = 1e-3;  // of the largest value: what differs by less is drawn as nearly equal
+const decades = 100;
+
+/// The ends of an axis for values that differ by too little to be told apart; null where the values' own will do.
+export function widened({ min, max }) {
+  const least = leastSpan * Math.max(Math.abs(min), Math.abs(max));
+  // Equal values have an axis of their own: there is no difference to be magnified.
+  if (!(max > min && max - min < least)) return null;
+  const step = 10 ** Math.ceil(Math.log10(least));
+  const middle = (min + max) / 2;
+  return { min: Math.floor((middle - least / 2) / step) * step, max: Math.ceil((middle + least / 2) / step) * step };
+}
+
+/// An axis of values that is as wide as they are, and never too narrow.
+export const fittedAxis = { type: "value", scale: true, min: (extremes) => widened(extremes)?.min ?? null, max: (extremes) => widened(extremes)?.max ?? null };
+
+/// The least and the largest of some numbers.
+export function extremesOf(values) {
+  let [min, max] = [Infinity, -Infinity];
+  for (const value of values) {
+    min = Math.min(min, value);
+    max = Math.max(max, value);
+  }
+  return { min, max };
+}
+
+/// Whether the values are positive numbers that lie two decades or more apart.
+export function spansDecades(values) {
+  if (values.some((value) => typeof value !== "number")) return false;
+  const { min, max } = extremesOf(values);
+  return min > 0 && max >= decades * min && Number.isFinite(max);
+}
