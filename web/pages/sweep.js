@@ -160,9 +160,8 @@ class SweepPage {
 
   async compareWith(id) {
     if (!id) { this.others = null; return; }
-    loadCharts().catch(() => {});  // told where a chart would be
-  const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);
-    this.others = { id, name: sweep.name || sweep.id, rows };
+    const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);
+    this.others = { id, name: sweep.name || sweep.id, axes: sweep.axes, rows };
     const picker = this.compare.querySelector("select");
     if (picker) picker.value = id;
     this.drawAll();

@@ -50,6 +50,13 @@ export function groupBy(rows, keys, metric) {
   return [...groups.values()].map((group) => ({ ...group, mean: group.count > 0 ? group.sum / group.count : null }));
 }
 
+/// The axes that a chart does not draw, so that what differs in them lies together in its points; replicates, too.
+export function averagedAxes(groups, { rows, axes, view }) {
+  if (!groups.some((group) => group.count > 1)) return [];
+  const drawn = [view.x, view.y, view.panel];
+  return [...axes, "replicate"].filter((axis) => !drawn.includes(axis) && valuesOf(rows, axis).length > 1);
+}
+
 /// Rows in the order of a column; those without a value stand last either way.
 export function sortedBy(rows, column, descending) {
   const has = (row) => row[column] !== null && row[column] !== undefined;

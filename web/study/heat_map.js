@@ -2,7 +2,7 @@
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, palette } from "/core/theme.js";
-import { groupBy, valuesOf } from "/study/data.js";
+import { averagedAxes, groupBy, valuesOf } from "/study/data.js";
 import { extremesOf, widened } from "/study/span.js";
 
 const mostPanels = 12;
@@ -24,7 +24,8 @@ export function heatMap(element, study, signal) {
   return made;
 }
 
-function planOf({ rows, view, selection }) {
+function planOf(study) {
+  const { rows, view, selection } = study;
   const xs = valuesOf(rows, view.x);
   const ys = view.y ? valuesOf(rows, view.y) : [""];
   const allPanels = view.panel ? valuesOf(rows, view.panel) : [""];
@@ -34,8 +35,10 @@ function planOf({ rows, view, selection }) {
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
   const ends = extremesOf(groups.map((group) => group.mean));
   if (groups.length === 0) return { cells, option: null };
+  const grids = gridsOf(view, xs, ys, panels);
   return { cells, option: {
-    ...gridsOf(view, xs, ys, panels),
+    ...grids,
+    title: [metricTitle(study, groups), ...grids.title],
     tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
     visualMap: { ...(widened(ends) ?? ends), calculable: true, orient: "horizontal", left: "center", bottom: 0, precision: 3,
       inRange: { color: palette() }, textStyle: { color: colour("text") }, formatter: (value) => number(value, 3), dimension: 2 },
@@ -44,6 +47,13 @@ function planOf({ rows, view, selection }) {
       label: { show: xs.length * panels.length <= 14, formatter: ({ value }) => number(value[2], 3) },
       data: groupsOfPanel.map((group) => cellOf(group, view, placeOfX, placeOfY, selection)) })),
   } };
+}
+
+/// What the colours mean, above their scale, and so in the saved pictures, too.
+function metricTitle(study, groups) {
+  const averaged = averagedAxes(groups, study).map((axis) => nameOf(axis).toLowerCase());
+  const text = [titleOf(study.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean).join(", ");
+  return { text, left: "center", bottom: 34, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } };
 }
 
 function cellOf(group, view, xs, ys, selection) {

@@ -2,7 +2,7 @@
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
-import { groupBy, none, valuesOf } from "/study/data.js";
+import { averagedAxes, groupBy, none, valuesOf } from "/study/data.js";
 import { fittedAxis } from "/study/span.js";
 
 const mostLines = 30;
@@ -23,26 +23,39 @@ export function linesChart(element, study, signal) {
   return made;
 }
 
-function planOf({ rows, view, selection, others }) {
+function planOf(study) {
+  const { rows, view, selection, others } = study;
   const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
   const numeric = xs.every((x) => typeof x === "number");
-  const all = [...linesOf(rows, view, ""), ...(others ? linesOf(others.rows, view, others.name) : [])];
+  const [own, theirs] = [linesOf(rows, view, ""), others ? linesOf(others.rows, view, others.name) : []];
+  const all = [...own, ...theirs];
   const lines = all.slice(0, mostLines);
   const few = lines.reduce((sum, line) => sum + line.groups.length, 0) <= fewPoints;
   const at = (value) => (numeric ? value : xs.indexOf(value));
   const x = numeric ? { type: "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
   const groups = lines.map((line) => line.groups);
   if (lines.length === 0) return { groups, option: null };
+  const notes = notesOf(study, own, theirs);
   return { groups, option: {
-    grid: { left: 75, right: 20, top: 40, bottom: all.length > mostLines ? 75 : 50 },
+    grid: { left: 75, right: 20, top: 40, bottom: 50 + 20 * notes.length },
     legend: { top: 0 },
-    title: { show: all.length > mostLines, text: `The first ${mostLines} of ${all.length} lines: choose fewer values, or another axis for them.`, bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
+    // A screen reader is told a chart's title, also where it is not shown: without a note there must be none.
+    title: { show: notes.length > 0, text: notes.join("\n"), bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
     xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...axisLook() },
     yAxis: { ...fittedAxis, name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
     series: lines.flatMap((line, index) => [...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []), lineSeries(line, index, at, few),
       ...chosenSeries(line, index, at, selection)]),
   } };
+}
+
+/// What the lines alone do not say.
+function notesOf(study, own, theirs) {
+  const averagedIn = (lines, sweep) => averagedAxes(lines.flatMap((line) => line.groups), sweep);
+  const averaged = new Set([...averagedIn(own, study), ...averagedIn(theirs, { ...study.others, view: study.view })]);
+  const count = own.length + theirs.length;
+  return [averaged.size > 0 && `Mean over ${[...averaged].map((axis) => nameOf(axis).toLowerCase()).join(", ")}; bars from the least to the largest.`,
+    count > mostLines && `The first ${mostLines} of ${count} lines: choose fewer values, or another axis for them.`].filter(Boolean);
 }
 
 /// @param sweep  its name, where it is not the one that is looked at
