@@ -72,6 +72,7 @@ set(page_files
   study/limit_points.js
   study/limit_view.js
   study/lines.js
+  study/log_axes.js
   study/parallel.js
   study/selection.js
   study/span.js

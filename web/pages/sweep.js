@@ -8,6 +8,7 @@ import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf, valuesOf } from "/study/data.js";
 import { heatMap } from "/study/heat_map.js";
 import { linesChart } from "/study/lines.js";
+import { logBoxes } from "/study/log_axes.js";
 import { parallelChart } from "/study/parallel.js";
 import { Selection } from "/study/selection.js";
 import { ResultTable } from "/study/table.js";
@@ -31,7 +32,8 @@ class SweepPage {
     const varied = [...this.axes].sort((a, b) => valuesOf(rows, b).length - valuesOf(rows, a).length);
     const pick = (key, allowed, otherwise) => (allowed.includes(query.get(key)) ? query.get(key) : otherwise ?? "");
     this.view = { metric: pick("metric", this.metrics, this.metrics[0]), x: pick("x", this.axes, varied[0] ?? "job_id"),
-      y: pick("y", this.axes, query.has("x") ? "" : varied[1]), panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]) };
+      y: pick("y", this.axes, query.has("x") ? "" : varied[1]), panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]),
+      xScale: pick("x_scale", ["linear"]), metricScale: pick("metric_scale", ["log"]) };
     this.selection.set((query.get("jobs") ?? "").split(",").filter(Boolean));
     this.charts = [];
   }
@@ -45,23 +47,25 @@ class SweepPage {
     this.table = new ResultTable(this);
     this.heat = h("div", { class: "chart tall" });
     this.lines = h("div", { class: "chart tall" });
+    this.logs = logBoxes(this, () => this.changed());
     this.parallel = h("div", { class: "chart tall" });
     this.drawHead();
     this.drawPickers();
     return [
       h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status), this.buttons), this.pickers, this.chosen,
-      h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0), this.card("Lines", this.lines, 1)),
-      this.card("Parallel coordinates", this.parallel, 2, "Draw along an axis to select the jobs between; click there to let them go."),
+      h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0), this.card("Lines", this.lines, 1, { tools: this.logs.element })),
+      this.card("Parallel coordinates", this.parallel, 2, { help: "Draw along an axis to select the jobs between; click there to let them go." }),
       h("section", { class: "card" }, h("h2", {}, "Results"), this.table.element)];
   }
 
-  card(title, element, index, help = "") {
+  card(title, element, index, { help = "", tools = "" } = {}) {
     const save = saveButtons(() => this.charts[index], () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
-    return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), save), help && h("p", { class: "quiet small" }, help), element);
+    return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, tools, save)), help && h("p", { class: "quiet small" }, help), element);
   }
 
   start() {
     this.table.draw();
+    this.logs.draw();
     this.drawChosen();
     this.selection.addEventListener("change", () => this.changed());
     this.makeCharts();
@@ -114,13 +118,14 @@ class SweepPage {
 
   drawAll() {
     this.table.draw();
+    this.logs.draw();
     for (const chart of this.charts) chart?.draw();
   }
 
   changed() {
-    const { metric, x, y, panel } = this.view;
+    const { metric, x, y, panel, xScale, metricScale } = this.view;
     const jobs = this.selection.size <= mostInAddress ? this.selection.ids.join(",") : "";
-    rememberQuery({ metric, x, y, panel, jobs, with: this.others?.id });
+    rememberQuery({ metric, x, y, panel, x_scale: xScale === "linear" ? xScale : "", metric_scale: metricScale === "log" ? metricScale : "", jobs, with: this.others?.id });
     this.drawChosen();
     this.drawAll();
   }

@@ -3,6 +3,7 @@ import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { averagedAxes, groupBy, none, valuesOf } from "/study/data.js";
+import { chosenLogs } from "/study/log_axes.js";
 import { fittedAxis } from "/study/span.js";
 
 const mostLines = 30;
@@ -32,7 +33,8 @@ function planOf(study) {
   const lines = all.slice(0, mostLines);
   const few = lines.reduce((sum, line) => sum + line.groups.length, 0) <= fewPoints;
   const at = (value) => (numeric ? value : xs.indexOf(value));
-  const x = numeric ? { type: "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
+  const logs = chosenLogs(study);
+  const x = numeric ? { type: logs.x ? "log" : "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
   const groups = lines.map((line) => line.groups);
   if (lines.length === 0) return { groups, option: null };
   const notes = notesOf(study, own, theirs);
@@ -43,7 +45,7 @@ function planOf(study) {
     title: { show: notes.length > 0, text: notes.join("\n"), bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
     xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...axisLook() },
-    yAxis: { ...fittedAxis, name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
+    yAxis: { ...(logs.metric ? { type: "log" } : fittedAxis), name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
     series: lines.flatMap((line, index) => [...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []), lineSeries(line, index, at, few),
       ...chosenSeries(line, index, at, selection)]),
   } };
