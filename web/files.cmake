@@ -67,12 +67,14 @@ set(page_files
   scene/three.js
   study/data.js
   study/executors.js
+  study/failures.js
   study/heat_map.js
   study/limit_curve.js
   study/limit_points.js
   study/limit_view.js
   study/lines.js
   study/log_axes.js
+  study/missing.js
   study/parallel.js
   study/selection.js
   study/span.js

@@ -23,8 +23,9 @@ function inPageColours(option) {
     tooltip: option.tooltip && { renderMode: "richText", confine: true, backgroundColor: colour("card"), borderColor: colour("line"), textStyle: text, ...option.tooltip } };
 }
 
-function nothingYet() {
-  return { title: { text: "No job has a value of this metric.", left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, fontWeight: "normal" } } };
+/// What is shown where there is nothing to draw. @param why  in a line of its own
+export function nothingYet(why = "") {
+  return { title: { text: ["No job has a value of this metric.", why].filter(Boolean).join("\n"), left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
 }
 
 /// How an axis looks.

@@ -1,15 +1,16 @@
 // One sweep: its metrics over its axes, in parts that share what is selected.
-import { cancelSweep, findResults, findSweep, listSweeps, resultsUrl, retrySweep } from "/core/api.js";
+import { cancelSweep, findResults, findSweep, listSweeps, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify } from "/core/dom.js";
 import { plural, span, titleOf } from "/core/format.js";
 import { follow, isUnderWay, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf, valuesOf } from "/study/data.js";
+import { Failures } from "/study/failures.js";
 import { heatMap } from "/study/heat_map.js";
 import { linesChart } from "/study/lines.js";
 import { logBoxes } from "/study/log_axes.js";
-import { parallelChart } from "/study/parallel.js";
+import { parallelChart, parallelNote } from "/study/parallel.js";
 import { Selection } from "/study/selection.js";
 import { ResultTable } from "/study/table.js";
 
@@ -18,16 +19,16 @@ const reloadMs = 1500;
 
 export async function show(main, { id, query, signal }) {
   loadCharts().catch(() => {});  // told where a chart would be
-  const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal)]);
-  const page = new SweepPage(sweep, rows, query, signal);
+  const [sweep, rows, schema] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal), parameterSchema()]);
+  const page = new SweepPage(sweep, rows, schema, query, signal);
   main.replaceChildren(...page.parts());
   page.start();
   await page.compareWith(query.get("with") ?? "");
 }
 
 class SweepPage {
-  constructor(sweep, rows, query, signal) {
-    Object.assign(this, { sweep, rows, signal, axes: sweep.axes, others: null, reloadTook: 0, selection: new Selection() });
+  constructor(sweep, rows, schema, query, signal) {
+    Object.assign(this, { sweep, rows, schema, signal, axes: sweep.axes, others: null, reloadTook: 0, selection: new Selection(), failures: new Failures() });
     this.metrics = metricsOf(rows, this.axes);
     const varied = [...this.axes].sort((a, b) => valuesOf(rows, b).length - valuesOf(rows, a).length);
     const pick = (key, allowed, otherwise) => (allowed.includes(query.get(key)) ? query.get(key) : otherwise ?? "");
@@ -49,23 +50,24 @@ class SweepPage {
     this.lines = h("div", { class: "chart tall" });
     this.logs = logBoxes(this, () => this.changed());
     this.parallel = h("div", { class: "chart tall" });
+    this.help = h("p", { class: "quiet small" });
     this.drawHead();
     this.drawPickers();
     return [
       h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status), this.buttons), this.pickers, this.chosen,
       h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0), this.card("Lines", this.lines, 1, { tools: this.logs.element })),
-      this.card("Parallel coordinates", this.parallel, 2, { help: "Draw along an axis to select the jobs between; click there to let them go." }),
+      this.card("Parallel coordinates", this.parallel, 2, { help: this.help }),
       h("section", { class: "card" }, h("h2", {}, "Results"), this.table.element)];
   }
 
-  card(title, element, index, { help = "", tools = "" } = {}) {
+  card(title, element, index, { help = null, tools = null } = {}) {
     const save = saveButtons(() => this.charts[index], () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
-    return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, tools, save)), help && h("p", { class: "quiet small" }, help), element);
+    return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, tools, save)), help, element);
   }
 
   start() {
-    this.table.draw();
-    this.logs.draw();
+    this.drawTexts();
+    this.learnFailures();
     this.drawChosen();
     this.selection.addEventListener("change", () => this.changed());
     this.makeCharts();
@@ -110,16 +112,26 @@ class SweepPage {
       [this.sweep, this.rows] = await Promise.all([findSweep(this.sweep.id, this.signal), findResults(this.sweep.id, {}, this.signal)]);
       this.drawHead();
       this.drawAll();
+      this.learnFailures();
       this.reloadTook = performance.now() - start;
     } catch (error) {
       if (error.name !== "AbortError") notify(error.message, "trouble");
     }
   }
 
+  learnFailures() {
+    this.failures.learn(this.sweep.id, this.rows, this.signal).then((news) => news && this.table.draw()).catch(() => {});  // asked again with the next news, or told on the job's page
+  }
+
   drawAll() {
+    this.drawTexts();
+    for (const chart of this.charts) chart?.draw();
+  }
+
+  drawTexts() {
     this.table.draw();
     this.logs.draw();
-    for (const chart of this.charts) chart?.draw();
+    this.help.textContent = `Draw along an axis to select the jobs between; click there to let them go. ${parallelNote(this)}`;
   }
 
   changed() {

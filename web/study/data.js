@@ -1,6 +1,6 @@
 // The rows of a sweep, grouped by its axes.
 
-const notMetrics = new Set(["job_id", "state", "replicate", "replicates", "error_reason", "error_detail", "error_t_s"]);
+const notMetrics = new Set(["job_id", "state", "replicate", "replicates"]);
 
 /// The columns of the rows that are numbers of the result.
 export function metricsOf(rows, axes) {

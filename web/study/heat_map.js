@@ -1,8 +1,9 @@
 // A metric over two axes, one panel for each value of a third.
-import { axisLook, makeChart } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, palette } from "/core/theme.js";
 import { averagedAxes, groupBy, valuesOf } from "/study/data.js";
+import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
 
 const mostPanels = 12;
@@ -34,7 +35,7 @@ function planOf(study) {
   const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
   const ends = extremesOf(groups.map((group) => group.mean));
-  if (groups.length === 0) return { cells, option: null };
+  if (groups.length === 0) return { cells, option: nothingYet(whyEmpty(study)) };
   const grids = gridsOf(view, xs, ys, panels);
   return { cells, option: {
     ...grids,
@@ -52,8 +53,8 @@ function planOf(study) {
 /// What the colours mean, above their scale, and so in the saved pictures, too.
 function metricTitle(study, groups) {
   const averaged = averagedAxes(groups, study).map((axis) => nameOf(axis).toLowerCase());
-  const text = [titleOf(study.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean).join(", ");
-  return { text, left: "center", bottom: 34, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } };
+  const text = [titleOf(study.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean).join("\n");
+  return { text, left: "center", bottom: 58, textStyle: { fontSize: 12, lineHeight: 15, fontWeight: "normal", color: colour("text") } };
 }
 
 function cellOf(group, view, xs, ys, selection) {

@@ -1,19 +1,21 @@
 // A metric over one axis, a line for each value of a second one (and of the panels' axis), with the spread of what lies together.
-import { axisLook, makeChart } from "/core/charts.js";
-import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
+import { axisLook, makeChart, nothingYet } from "/core/charts.js";
+import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { averagedAxes, groupBy, none, valuesOf } from "/study/data.js";
 import { chosenLogs } from "/study/log_axes.js";
+import { whyEmpty, withoutValue } from "/study/missing.js";
 import { fittedAxis } from "/study/span.js";
 
 const mostLines = 30;
 const fewPoints = 400;  // whose marks do not hide the lines
+const widthOfLetter = 6.3;  // of the notes, in pixels: about
 const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow"];
 
 export function linesChart(element, study, signal) {
   let groups = [];
   const made = makeChart(element, () => {
-    const plan = planOf(study);
+    const plan = planOf(study, element.clientWidth);
     groups = plan.groups;
     return plan.option;
   }, "Lines of the metric over one axis; the table below has the same numbers", signal);
@@ -24,7 +26,7 @@ export function linesChart(element, study, signal) {
   return made;
 }
 
-function planOf(study) {
+function planOf(study, width) {
   const { rows, view, selection, others } = study;
   const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
   const numeric = xs.every((x) => typeof x === "number");
@@ -36,19 +38,26 @@ function planOf(study) {
   const logs = chosenLogs(study);
   const x = numeric ? { type: logs.x ? "log" : "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
   const groups = lines.map((line) => line.groups);
-  if (lines.length === 0) return { groups, option: null };
+  if (lines.length === 0) return { groups, option: nothingYet(whyEmpty(study)) };
   const notes = notesOf(study, own, theirs);
+  const noteLines = notes.reduce((sum, note) => sum + Math.ceil((note.length * widthOfLetter) / width), 0);
   return { groups, option: {
-    grid: { left: 75, right: 20, top: 40, bottom: 50 + 20 * notes.length },
+    grid: { left: 75, right: 20, top: 40, bottom: 50 + 18 * noteLines },
     legend: { top: 0 },
     // A screen reader is told a chart's title, also where it is not shown: without a note there must be none.
-    title: { show: notes.length > 0, text: notes.join("\n"), bottom: 0, left: 0, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
+    title: { show: notes.length > 0, text: notes.join("\n"), bottom: 0, left: 0, textStyle: { width, overflow: "break", fontSize: 12, lineHeight: 18, fontWeight: "normal", color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
-    xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...axisLook() },
-    yAxis: { ...(logs.metric ? { type: "log" } : fittedAxis), name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...axisLook() },
+    xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...(logs.x ? logLook() : axisLook()) },
+    yAxis: { name: titleOf(view.metric), nameLocation: "middle", nameGap: 50, ...(logs.metric ? { type: "log", ...logLook() } : { ...fittedAxis, ...axisLook() }) },
     series: lines.flatMap((line, index) => [...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []), lineSeries(line, index, at, few),
       ...chosenSeries(line, index, at, selection)]),
   } };
+}
+
+/// Decades as 1e−6, not as 0.000001.
+function logLook() {
+  const look = axisLook();
+  return { ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } };
 }
 
 /// What the lines alone do not say.
@@ -56,7 +65,9 @@ function notesOf(study, own, theirs) {
   const averagedIn = (lines, sweep) => averagedAxes(lines.flatMap((line) => line.groups), sweep);
   const averaged = new Set([...averagedIn(own, study), ...averagedIn(theirs, { ...study.others, view: study.view })]);
   const count = own.length + theirs.length;
+  const without = withoutValue(study).length;
   return [averaged.size > 0 && `Mean over ${[...averaged].map((axis) => nameOf(axis).toLowerCase()).join(", ")}; bars from the least to the largest.`,
+    without > 0 && `${plural(without, "computed job")} without a value: the table says why.`,
     count > mostLines && `The first ${mostLines} of ${count} lines: choose fewer values, or another axis for them.`].filter(Boolean);
 }
 

@@ -1,8 +1,9 @@
 // Parallel coordinates: a line for each job over the axes and some metrics. Brushing an axis selects jobs.
-import { makeChart } from "/core/charts.js";
-import { exact, number, titleOf } from "/core/format.js";
+import { makeChart, nothingYet } from "/core/charts.js";
+import { exact, number, plural, titleOf } from "/core/format.js";
 import { colour, palette } from "/core/theme.js";
 import { none, valueOf, valuesOf } from "/study/data.js";
+import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
 
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
@@ -31,31 +32,62 @@ const room = ({ min, max }) => 0.05 * (max - min || Math.abs(max) || 1);
 const ends = (extremes) => widened(extremes) ?? extremes;
 const roomy = { scale: true, min: (extremes) => ends(extremes).min - room(ends(extremes)), max: (extremes) => ends(extremes).max + room(ends(extremes)) };
 
-function planOf({ rows, axes, metrics, view, selection }) {
-  const columns = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
-  const shown = rows.filter((row) => row.state === "succeeded");
-  const dimensions = columns.map((column, dim) => {
-    const values = valuesOf(shown, column);
-    const numeric = values.every((value) => typeof value === "number" || value === none);
-    return { dim, name: titleOf(column), nameTextStyle: { color: colour("text") }, axisLabel: { color: colour("text"), formatter: (value) => (numeric ? number(value, 3) : exact(value)), ...(numeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
-      axisLine: { lineStyle: { color: colour("quiet") } }, ...(numeric ? roomy : { type: "category", data: values.map(String) }) };
-  });
-  if (shown.length === 0) return { shown, option: null };
+/// The columns, those that most jobs have a value of first: a line then ends where its job has no further values. One that would lead across a gap
+/// is left out, for there is no way to draw it that tells the truth.
+function layOut({ rows, axes, metrics, view }) {
+  const computed = rows.filter((row) => row.state === "succeeded");
+  const names = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
+  const columns = names.map((name) => {
+    const values = valuesOf(computed, name);
+    const isNumeric = values.every((value) => typeof value === "number" || value === none);
+    const lacks = (row) => isNumeric && typeof row[name] !== "number";
+    return { name, values, isNumeric, lacks, lacking: computed.filter(lacks).length };
+  }).filter(({ name, lacking }) => name === view.metric || lacking < computed.length).sort((a, b) => a.lacking - b.lacking);
+  const hasGap = (row) => columns.some((column, index) => index > 0 && columns[index - 1].lacks(row) && !column.lacks(row));
+  const shown = computed.filter((row) => !hasGap(row));
+  return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => columns.at(-1).lacks(row)).length };
+}
+
+/// What the lines do not show of the jobs; empty where they show all.
+export function parallelNote(study) {
+  const { leftOut, short } = layOut(study);
+  return [short > 0 && `${plural(short, "line")} ${short === 1 ? "ends" : "end"} early, where the job has no further values.`,
+    leftOut > 0 && `${plural(leftOut, "job")} with a gap between values ${leftOut === 1 ? "is" : "are"} left out.`].filter(Boolean).join(" ");
+}
+
+function dimensionOf({ name, values, isNumeric }, dim) {
+  return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start", nameTextStyle: { color: colour("text") }, axisLine: { lineStyle: { color: colour("quiet") } },
+    axisLabel: { color: colour("text"), formatter: (value) => (isNumeric ? number(value) : exact(value)), ...(isNumeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
+    ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
+}
+
+function planOf(study) {
+  const { view, selection } = study;
+  const { columns, shown } = layOut(study);
+  if (shown.length === 0) return { shown, option: nothingYet(whyEmpty(study)) };
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
-  const chosenFew = selection.size > 0;
   return { shown, option: {
     parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" }, areaSelectStyle: { color: colour("accent"), opacity: 0.35 } } },
-    parallelAxis: dimensions.map((dimension, index) => ({ ...dimension, nameLocation: index % 2 === 0 ? "end" : "start" })),
-    visualMap: { show: false, ...ends(extremesOf(peaks)), dimension: columns.indexOf(view.metric), inRange: { color: palette() } },
+    parallelAxis: columns.map(dimensionOf),
+    visualMap: { show: false, ...ends(extremesOf(peaks)), dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: palette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
-      data: shown.map((row) => {
-        const value = columns.map((column) => cellOf(row, column));
-        return chosenFew ? { value, lineStyle: selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 } } : value;
-      }) }],
+      data: shown.map((row) => lineOf(row, columns, view.metric, selection)) }],
   } };
 }
 
-function cellOf(row, column) {
-  const value = valueOf(row, column);
-  return typeof value === "number" ? value : value === none ? "-" : String(value);
+/// A value alone where that is enough: there may be ten thousand.
+function lineOf(row, columns, metric, selection) {
+  const value = columns.map((column) => cellOf(row, column));
+  // The palette knows no colour for what has no value of the metric.
+  const uncoloured = typeof row[metric] === "number" ? null : { color: colour("quiet") };
+  if (!uncoloured && selection.size === 0) return value;
+  const weight = selection.size === 0 ? {} : selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 };
+  return { value, visualMap: uncoloured === null, lineStyle: { ...uncoloured, ...weight } };
+}
+
+/// "-" is what ECharts takes for no number; of words the sign for none is one of the values.
+function cellOf(row, { name, isNumeric }) {
+  const value = valueOf(row, name);
+  if (!isNumeric) return String(value);
+  return value === none ? "-" : value;
 }

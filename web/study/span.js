@@ -8,7 +8,8 @@ export function widened({ min, max }) {
   const least = leastSpan * Math.max(Math.abs(min), Math.abs(max));
   // Equal values have an axis of their own: there is no difference to be magnified.
   if (!(max > min && max - min < least)) return null;
-  const step = 10 ** Math.ceil(Math.log10(least));
+  const power = 10 ** Math.floor(Math.log10(least / 2));
+  const step = least <= 4 * power ? 2 * power : 10 * power;  // round ends for the axis' labels
   const middle = (min + max) / 2;
   return { min: Math.floor((middle - least / 2) / step) * step, max: Math.ceil((middle + least / 2) / step) * step };
 }

@@ -1,8 +1,9 @@
 // The rows of a sweep as a table: sorted by any column, a page at a time.
 import { h } from "/core/dom.js";
-import { nameOf, number, plural, unitOf } from "/core/format.js";
+import { nameOf, number, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { sortedBy, valueOf } from "/study/data.js";
+import { missingText } from "/study/missing.js";
 
 const pageSize = 50;
 
@@ -54,10 +55,8 @@ export class ResultTable {
 
   /// Says why jobs that succeeded have no value of the metric.
   drawMissing() {
-    const { rows, view } = this.study;
-    const without = rows.filter((row) => row.state === "succeeded" && row[view.metric] === null).length;
-    this.missing.hidden = without === 0;
-    this.missing.textContent = `${plural(without, "computed job")} without a value of ${nameOf(view.metric)}: values of the steady part count from run_up_s on, and a run must last longer; those of contacts need a clearance.`;
+    this.missing.textContent = missingText(this.study);
+    this.missing.hidden = this.missing.textContent === "";
   }
 
   visible() {
@@ -85,8 +84,13 @@ export class ResultTable {
 
   cell(row, column) {
     const value = valueOf(row, column);
-    if (column === "state") return h("td", { class: value, title: row.error_detail ?? null }, row.error_reason ? `${value}: ${row.error_reason}` : value);
+    if (column === "state") return this.stateCell(row);
     const given = this.study.axes.includes(column);
     return h("td", { class: typeof value === "number" ? "number" : null }, number(value, given ? 6 : 4));
+  }
+
+  stateCell({ job_id: id, state }) {
+    const error = state === "failed" && this.study.failures.of(id);
+    return h("td", { class: state }, error ? [`${state}: ${error.error_reason}`, h("span", { class: "small reason" }, error.error_detail)] : state);
   }
 }

@@ -1,0 +1,137 @@
+// What the page of a sweep draws and says of rows that no short sweep has: nearly equal, missing, decades apart.   node charts.mjs URL FOLDER
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+
+import { endVisits, expectAccessible, leave, picture, textOf, visit } from "./visitor.mjs";
+
+after(endVisits);
+const metric = "peak_slider_acceleration_m_s2";
+const force = "peak_contact_force_n";
+
+/** A row of a job that was computed. */
+const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", ...values });
+
+/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures */
+async function visitRows(axes, rows, { query = "", parameters = {}, failures = [] } = {}) {
+  const page = await visit("#/wear");
+  const counts = { queued: 0, running: 0, succeeded: rows.length, failed: 0, cancelled: 0, total: rows.length };
+  const sweep = { id: "swp_given", name: "given", state: "succeeded", counts, progress: 1, eta_s: null, axes, request: { parameters } };
+  const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
+  await give("**/v1/sweeps/swp_given", () => sweep);
+  await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
+  await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
+  await page.locator(".chart canvas").nth(2).waitFor();
+  return page;
+}
+
+/** What ECharts has made of a chart: the ends of its axes, its title, and the numbers of its lines. */
+function drawn(page, place) {
+  return page.locator(".chart").nth(place).evaluate(async (element) => {
+    const { getInstanceByDom } = await import("/lib/echarts.js");
+    const model = getInstanceByDom(element).getModel();
+    const axis = (kind) => model.queryComponents({ mainType: kind }).map(({ option, axis: { scale } }) => ({ type: option.type, name: option.name, ends: scale.getExtent() }));
+    return { x: axis("xAxis"), y: axis("yAxis"), parallel: axis("parallelAxis"), titles: model.queryComponents({ mainType: "title" }).map(({ option }) => option.text),
+      colours: model.queryComponents({ mainType: "visualMap" }).map(({ option }) => [option.min, option.max]), series: model.getSeries().map(({ option }) => option.data), said: element.getAttribute("aria-label") };
+  });
+}
+
+test("values that differ in their eighth digit are drawn as equal", async () => {
+  const page = await visitRows(["clearance_mm", "coupler"], [[0, "rigid", 38.9], [0, "flexible", 38.9000004], [1, "rigid", 38.9000001], [1, "flexible", 38.9000003]]
+    .map(([clearance, coupler, value], k) => row(k, { clearance_mm: clearance, coupler, [metric]: value })));
+  const [heat, lines, parallel] = [await drawn(page, 0), await drawn(page, 1), await drawn(page, 2)];
+  for (const [least, largest] of [...heat.colours, lines.y[0].ends, parallel.parallel.at(-1).ends]) {
+    assert.ok(largest - least >= 1e-3 * 38.9 && largest - least < 0.1 * 38.9, `${least} to ${largest}`);
+    assert.ok(least < 38.9 && largest > 38.9000004);
+  }
+  await picture(page, "nearly_equal", { fullPage: true });
+  await leave(page);
+});
+
+test("the least span of an axis leaves other values alone", async () => {
+  const page = await visit("#/wear");
+  const [near, apart, equal, negative, zero] = await page.evaluate(async () => {
+    const { widened } = await import("/study/span.js");
+    return [[100, 100.05], [100, 101], [100, 100], [-100.01, -100], [0, 1e-9]].map(([min, max]) => widened({ min, max }));
+  });
+  assert.ok(Math.abs(near.min - 99.9) < 1e-9 && Math.abs(near.max - 100.1) < 1e-9);
+  assert.equal(apart, null);
+  assert.equal(equal, null);
+  assert.ok(negative.min <= -100.05 && negative.max >= -99.96);
+  assert.equal(zero, null);
+  await leave(page);
+});
+
+test("axes are logarithmic where values lie decades apart, and as they were where somebody says so", async () => {
+  const values = [1e-8, 1e-6, 1e-4];
+  const page = await visitRows(["relative_tolerance"], values.map((tolerance, k) => row(k, { relative_tolerance: tolerance, [metric]: 10 ** k, [force]: k - 1 })));
+  assert.deepEqual([(await drawn(page, 1)).x[0].type, (await drawn(page, 1)).y[0].type], ["log", "value"]);
+  await page.getByLabel("logarithmic peak slider acceleration").check();
+  await page.getByLabel("logarithmic relative tolerance").uncheck();
+  await page.waitForURL(/x_scale=linear&metric_scale=log/);
+  assert.deepEqual([(await drawn(page, 1)).x[0].type, (await drawn(page, 1)).y[0].type], ["value", "log"]);
+  await expectAccessible(page);
+  await picture(page, "logarithmic");
+  // A metric that is not positive everywhere cannot be so.
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
+  await page.getByLabel("logarithmic peak contact force").waitFor({ state: "hidden" });
+  assert.equal((await drawn(page, 1)).y[0].type, "value");
+  await leave(page);
+});
+
+test("what a chart averages over, and of which metric, stands in it", async () => {
+  const rows = [0.1, 0.2].flatMap((clearance) => ["rigid", "flexible"].map((coupler, k) => row(`${clearance}${k}`, { clearance_mm: clearance, coupler, [metric]: clearance + k })));
+  const page = await visitRows(["clearance_mm", "coupler"], rows, { query: "?x=clearance_mm" });
+  assert.equal((await drawn(page, 0)).titles[0], "Peak slider acceleration [m/s²]\nmean over coupler");
+  assert.deepEqual((await drawn(page, 1)).titles, ["Mean over coupler; bars from the least to the largest."]);
+  const svg = await textOf(page, () => page.getByRole("button", { name: "SVG" }).first().click());
+  assert.match(svg.text, /Peak slider acceleration \[m\/s²\][\s\S]*mean over coupler/);
+  await page.getByRole("combobox", { name: "Up, or a line each" }).selectOption("coupler");
+  assert.equal((await drawn(page, 0)).titles[0], "Peak slider acceleration [m/s²]");
+  // A title that is not shown would still be told to those who do not see it.
+  const { titles, said } = await drawn(page, 1);
+  assert.deepEqual(titles, [""]);
+  assert.doesNotMatch(said, /The first|Mean/);
+  await leave(page);
+});
+
+test("more lines than are drawn are counted", async () => {
+  const rows = Array.from({ length: 40 }, (_, k) => [0, 1].map((x) => row(`${k}_${x}`, { x_mm: x, kind: `kind ${k}`, [metric]: k + x }))).flat();
+  const page = await visitRows(["x_mm", "kind"], rows, { query: "?x=x_mm&y=kind" });
+  assert.deepEqual((await drawn(page, 1)).titles, ["The first 30 of 40 lines: choose fewer values, or another axis for them."]);
+  await leave(page);
+});
+
+test("no line leads across a value that is missing", async () => {
+  const rows = [row(0, { clearance_mm: 0, impact_count: 0, [force]: null, [metric]: 1 }), row(1, { clearance_mm: 0.1, impact_count: 5, [force]: 10, [metric]: 2 }),
+    row(2, { clearance_mm: 0.2, impact_count: 6, [force]: 20, [metric]: null }), row(3, { clearance_mm: 0.3, impact_count: 7, [force]: null, [metric]: null }),
+    row(4, { clearance_mm: 0.4, impact_count: 7, [force]: 20, [metric]: 4 })];
+  const page = await visitRows(["clearance_mm"], rows, { query: `?metric=${metric}` });
+  // As many have a force as have the metric; the force stands first, so job 0 would have to be drawn across it.
+  const { parallel, series: [lines] } = await drawn(page, 2);
+  assert.deepEqual(parallel.map(({ name }) => name), ["Clearance [mm]", "Impact count", "Peak contact force [N]", "Peak slider acceleration [m/s²]"]);
+  assert.deepEqual(lines.map((line) => line.value ?? line), [[0.1, 5, 10, 2], [0.2, 6, 20, "-"], [0.3, 7, "-", "-"], [0.4, 7, 20, 4]]);
+  await page.getByText("2 lines end early, where the job has no further values. 1 job with a gap between values is left out.").waitFor();
+  assert.deepEqual((await drawn(page, 1)).titles, ["2 computed jobs without a value: the table says why."]);
+  await picture(page, "gaps", { fullPage: true });
+  await leave(page);
+});
+
+test("a chart without values says why", async () => {
+  const rows = [0.3, 0.4].map((duration, k) => row(k, { duration_s: duration, [metric]: null, [force]: null }));
+  const page = await visitRows(["duration_s"], rows, { parameters: { run_up_s: 0.4 } });
+  for (const place of [0, 1]) assert.deepEqual((await drawn(page, place)).titles, ["No job has a value of this metric.\nThe runs end before their steady part: at or before run_up_s."]);
+  await page.getByText(/^2 computed jobs without a value of Peak slider acceleration: .* from run_up_s on, and these have ended by then/).waitFor();
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
+  assert.deepEqual((await drawn(page, 1)).titles, ["No job has a value of this metric.\nValues of contacts need a clearance."]);
+  await leave(page);
+});
+
+test("the table says why jobs failed", async () => {
+  const rows = [row(0, { clearance_mm: 0.1, [metric]: 1 }), { job_id: "job_1", state: "failed", clearance_mm: 0.2, [metric]: null }];
+  const page = await visitRows(["clearance_mm"], rows, { failures: [{ job_id: "job_1", error_reason: "step_limit", error_detail: "the run needs more than 10 steps" }] });
+  const cell = page.getByRole("cell", { name: "failed: step_limit the run needs more than 10 steps" });
+  await cell.waitFor();
+  await expectAccessible(page);
+  await picture(page, "failures", { fullPage: true });
+  await leave(page);
+});

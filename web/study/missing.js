@@ -1,0 +1,34 @@
+// What is said of jobs that were computed and yet have no value of the metric.
+import { nameOf, plural } from "/core/format.js";
+
+const ofContacts = /contact|penetration|sliding/;
+
+/// The jobs that it is about.
+export const withoutValue = ({ rows, view }) => rows.filter((row) => row.state === "succeeded" && typeof row[view.metric] !== "number");
+
+/// The value of a parameter in a row: swept, given to all jobs, or the default.
+function parameterOf({ sweep, schema }, row, key) {
+  return row[key] ?? sweep.request.parameters?.[key] ?? schema.properties[key]?.default;
+}
+
+/// How many of the jobs end before their steady part begins.
+function countEarly(study, rows) {
+  return rows.filter((row) => parameterOf(study, row, "duration_s") <= parameterOf(study, row, "run_up_s")).length;
+}
+
+/// A sentence on the jobs without a value; empty if all have one.
+export function missingText(study) {
+  const without = withoutValue(study);
+  if (without.length === 0) return "";
+  const early = countEarly(study, without);
+  const many = early === without.length ? "these have ended by then" : `${early.toLocaleString("en")} of these ${early === 1 ? "has" : "have"} ended by then`;
+  return `${plural(without.length, "computed job")} without a value of ${nameOf(study.view.metric)}: values of the steady part count from run_up_s on${early > 0 ? `, and ${many}` : ", and a run must last longer"}; those of contacts need a clearance.`;
+}
+
+/// Why a chart is empty, in few words.
+export function whyEmpty(study) {
+  const without = withoutValue(study);
+  if (without.length === 0) return study.rows.some(({ state }) => state === "failed") ? "Jobs have failed: the table says why." : "";
+  if (ofContacts.test(study.view.metric)) return "Values of contacts need a clearance.";
+  return countEarly(study, without) === without.length ? "The runs end before their steady part: at or before run_up_s." : "";
+}
