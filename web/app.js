@@ -1,6 +1,8 @@
 // Shows the view that the address names, and gives it up when the address changes.
+import { findHealth, isAway } from "/core/api.js";
 import { readRoute } from "/core/route.js";
 import { h } from "/core/dom.js";
+import { pause, persist } from "/core/live.js";
 import { startTheme } from "/core/theme.js";
 
 const pages = {
@@ -16,6 +18,7 @@ const pages = {
 const main = document.querySelector("#main");
 let leave = () => {};
 let shown = 0;
+const againMs = 2000;
 
 function markNavigation(kind) {
   for (const link of document.querySelectorAll("header nav a")) {
@@ -29,19 +32,20 @@ async function show() {
   const { kind, id, query } = readRoute();
   const number = ++shown;
   leave();
-  leave = () => {};
+  const ended = new AbortController();
+  leave = () => ended.abort();
   main.replaceChildren();
   markNavigation(kind);
   try {
     if (!Object.hasOwn(pages, kind)) throw new Error("There is no such view.");
     const page = await pages[kind]();
-    const ended = new AbortController();
-    leave = () => ended.abort();
     if (number === shown) await page.show(main, { id, query, signal: ended.signal });
   } catch (error) {
     if (number !== shown || error.name === "AbortError") return;
-    main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, error.message),
+    const away = isAway(error);
+    main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, away ? `${error.message} Trying again …` : error.message),
       h("p", {}, h("a", { href: "#/" }, "To the sweeps")));
+    if (away) pause(againMs, ended.signal).then(() => persist(() => findHealth(ended.signal), () => {}, ended.signal)).then(show, () => {});
   }
 }
 

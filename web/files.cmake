@@ -54,6 +54,7 @@ set(page_files
   run/plot_card.js
   run/plot_data.js
   run/plot_options.js
+  run/standing.js
   run/time_bar.js
   run/time_plot.js
   run/time_window.js

@@ -10,17 +10,28 @@ export class Refusal extends Error {
   }
 }
 
+/// The service is not there, or something in front of it says so: asking again may help, as while it starts anew.
+export const isAway = (error) => error.name === "Away" || [502, 503, 504].includes(error.status);
+
+class Away extends Error {
+  constructor() {
+    super("The service does not answer.");
+    this.name = "Away";
+  }
+}
+
 export async function ask(path, { method = "GET", body, signal } = {}) {
   const headers = body === undefined ? {} : { "Content-Type": "application/json" };
   let answer;
+  let text;
   try {
     answer = await fetch(path, { method, headers, signal, body: body === undefined ? undefined : JSON.stringify(body) });
+    text = await answer.text();
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new Error("The service does not answer.");
+    throw new Away();
   }
   if (answer.status === 204) return null;
-  const text = await answer.text();
   if (!answer.ok) throw new Refusal(problemOf(text), answer.status);
   return JSON.parse(text);
 }
@@ -40,6 +51,7 @@ const withQuery = (path, query) => {
   return set.length === 0 ? path : `${path}?${new URLSearchParams(set)}`;
 };
 
+export const findHealth = (signal) => ask("/healthz", { signal });
 export const listSweeps = (query, signal) => ask(withQuery("/v1/sweeps", query), { signal });
 export const listExecutors = (signal) => ask("/v1/executors", { signal });
 export const listJobs = (query, signal) => ask(withQuery("/v1/jobs", query), { signal });

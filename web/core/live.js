@@ -1,5 +1,5 @@
 // Follows sweeps and studies as they run: by server-sent events, and by asking again where those are not to be had.
-import { eventsUrl, findSweep } from "/core/api.js";
+import { eventsUrl, findSweep, isAway } from "/core/api.js";
 
 const pollMs = 2000;
 
@@ -46,6 +46,31 @@ async function poll(source, told, signal) {
     await new Promise((resolve) => { setTimeout(resolve, pollMs); });
   }
   return undefined;
+}
+
+/// What the asked function resolves to; it is asked again as long as the service is away.
+/// @param tell  is given what there is to say meanwhile, and "" at the end
+export async function persist(asked, tell, signal) {
+  for (;;) {
+    try {
+      const found = await asked();
+      tell("");
+      return found;
+    } catch (error) {
+      if (!isAway(error)) throw error;
+      tell(`${error.message} Trying again …`);
+    }
+    await pause(pollMs, signal);
+  }
+}
+
+/// Resolves after so many milliseconds. @throws an AbortError when the signal is given
+export function pause(milliseconds, signal) {
+  return new Promise((resolve, reject) => {
+    const stop = () => { clearTimeout(timer); reject(signal.reason); };
+    const timer = setTimeout(() => { signal.removeEventListener("abort", stop); resolve(); }, milliseconds);
+    signal.addEventListener("abort", stop, { once: true });
+  });
 }
 
 /// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and always after the last call.

@@ -1,8 +1,8 @@
 // One job, or several laid over each other: what the slider and the journal did, and why.
-import { cancelJob, findJob, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
+import { cancelJob, findJob, findSweep, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
 import { choice, h, notify } from "/core/dom.js";
 import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
-import { seldom } from "/core/live.js";
+import { pause, persist, seldom } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
 import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, titleOfLinkage } from "/run/described.js";
@@ -13,11 +13,13 @@ import { wearCard } from "/analysis/wear.js";
 import { orbit } from "/run/orbit.js";
 import { overlayPicker } from "/run/overlay.js";
 import { plotCard, tracesOf } from "/run/plot_card.js";
+import { standingCard } from "/run/standing.js";
 import { timeBar } from "/run/time_bar.js";
 import { TimeWindow } from "/run/time_window.js";
 import { linksOf } from "/scene/poses.js";
 import { sceneCard } from "/scene/scene_card.js";
 
+const isWaiting = (state) => state === "queued" || state === "running";
 const sliderAcceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
 const pollMs = 1000;
 const rememberMs = 400;  // browsers refuse to change the address many times a second
@@ -27,9 +29,9 @@ export async function show(main, { id, query, signal }) {
   const [schema, job, ...more] = await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
   document.title = `RPSUP: job ${id.slice(-5)}`;
   const page = new JobPage([job, ...more], schema, query, signal);
+  if (job.state !== "succeeded") return page.waitForEnd(main);
   main.replaceChildren(...page.head());
-  if (job.state === "succeeded") main.append(...await page.body());
-  else await page.waitForEnd();
+  main.append(...await page.body());
 }
 
 class JobPage {
@@ -44,21 +46,35 @@ class JobPage {
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible").map((link) => `flexible ${link}, `).join("");
     const title = isDescribed(job) ? titleOfLinkage(linkage) : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "its sweep") : "no sweep";
-    this.state = h("span", { class: job.state }, job.state);
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
     const links = job.state === "succeeded" ? h("p", { class: "actions" }, ["csv", "json", "npz"].map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
-      : h("p", { class: "actions" }, job.state === "queued" || job.state === "running" ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
+      : h("p", { class: "actions" }, isWaiting(job.state) ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
-      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
+      h("p", { class: "quiet" }, `Job ${job.id}, `, h("span", { class: job.state }, job.state), " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
   }
 
-  async waitForEnd() {
-    while (["queued", "running"].includes(this.job.state) && !this.signal.aborted) {
-      await new Promise((resolve) => { setTimeout(resolve, pollMs); });
-      this.job = await findJob(this.job.id, this.signal);
-      this.state.textContent = this.job.state;
+  /// Shows how the job stands until it has ended, and then what came of it.
+  async waitForEnd(main) {
+    const trouble = h("p", { class: "trouble", role: "status" });
+    const tell = (text) => { trouble.textContent = text; };
+    const standing = h("div");
+    const draw = (sweep) => standing.replaceChildren(standingCard(this.job, sweep, new Date()));
+    const redraw = () => main.replaceChildren(...this.head(), trouble, h("div", { class: "columns even" }, standing, runCard(this.job, this.schema)));
+    redraw();
+    draw(await this.findItsSweep(tell));
+    for (let { state } = this.job; isWaiting(state); ({ state } = this.job)) {
+      await pause(pollMs, this.signal);
+      this.job = await persist(() => findJob(this.job.id, this.signal), tell, this.signal);
+      if (this.job.state === "succeeded") return dispatchEvent(new Event("hashchange"));
+      if (this.job.state !== state) redraw();
+      draw(await this.findItsSweep(tell));
     }
-    if (this.job.state === "succeeded" && !this.signal.aborted) dispatchEvent(new Event("hashchange"));
+    return undefined;
+  }
+
+  findItsSweep(tell) {
+    const { sweep_id: id } = this.job;
+    return id ? persist(() => findSweep(id, this.signal), tell, this.signal) : null;
   }
 
   async body() {

@@ -32,7 +32,7 @@ export function runCard(job, schema) {
   const defaults = (name) => JSON.stringify(schema.properties[name]?.default) === JSON.stringify(job.parameters[name]);
   const set = Object.entries(job.parameters).filter(([, value]) => typeof value !== "object");
   const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)), h("td", { class: "number" }, exact(value)), h("td", {}, schema.properties[name]?.["x-unit"] ?? ""));
-  const facts = job.run ? `${span(job.run.wall_time_s)} on ${job.run.cpu}, ${job.run.host}; version ${job.run.program.version} (${job.run.program.commit}), ${job.run.program.compiler}${job.run.libm ? `; ${job.run.libm}, ${job.run.numerics} numerics` : ""}${job.run.reused ? "; taken from an earlier run" : ""}` : "not run yet";
+  const facts = job.run ? `${span(job.run.wall_time_s)} on ${job.run.cpu}, ${job.run.host}; version ${job.run.program.version} (${job.run.program.commit}), ${job.run.program.compiler}${job.run.libm ? `; ${job.run.libm}, ${job.run.numerics} numerics` : ""}${job.run.reused ? "; taken from an earlier run" : ""}` : "none has ended yet";
   return h("section", { class: "card" }, h("h2", {}, "Parameters"), h("p", { class: "small quiet" }, `Run: ${facts}.`),
     h("table", {}, h("tbody", {}, set.filter(([name]) => !defaults(name)).map(row))),
     h("details", {}, h("summary", {}, "Those left at their defaults"), h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));

@@ -1,6 +1,6 @@
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
 import { h, laidOut } from "/core/dom.js";
-import { seldom, settled } from "/core/live.js";
+import { persist, seldom, settled } from "/core/live.js";
 import { colour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
 import { loadAligned } from "/run/plot_data.js";
@@ -20,18 +20,24 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   let asked = 0;
   let isSeen = true;
   const now = h("div", { class: "now", hidden: true });
+  const trouble = h("p", { class: "trouble", role: "status", hidden: true });
+  const tell = (text) => {
+    trouble.textContent = text;
+    trouble.hidden = text === "";
+    if (text !== "") element.append(trouble);
+  };
 
   async function load() {
     const number = ++asked;
     try {
-      const fresh = await loadAligned(uPlot, traces, times, element.clientWidth, signal);
+      const fresh = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, signal), tell, signal);
       if (number !== asked) return;
       data = fresh;
       if (plot) plot.setData(data, false);
       else make();
       follow();
     } catch (error) {
-      if (error.name !== "AbortError") element.textContent = error.message;
+      if (error.name !== "AbortError") tell(error.message);
     }
   }
 

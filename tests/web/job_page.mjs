@@ -1,0 +1,82 @@
+// The page of a job: while it waits, when it has failed, and when the service was away.   node job_page.mjs URL FOLDER
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+
+import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, url, visit } from "./visitor.mjs";
+
+after(endVisits);
+const away = /ERR_FAILED/;
+
+/** A job that the service does not have, in the sweep of two jobs. */
+const given = (state, more = {}) => ({ id: "job_given", sweep_id: "swp_given", state, error: null, attempts: 1, created_at: "2026-01-01T00:00:00Z", started_at: null, ended_at: null, run: null,
+  parameters: { coupler: "rigid", clearance_mm: 0.25, crank_velocity_rad_s: 10, duration_s: 5 }, metrics: null, ...more });
+const sweepOf = (counts) => ({ id: "swp_given", counts: { queued: 0, running: 0, succeeded: 0, failed: 0, cancelled: 0, total: 2, ...counts }, eta_s: 90 });
+
+/** Answers as if there were such a job. @param told  {job, sweep}, which may change; without a job the service is away */
+async function giveJob(page, told) {
+  const answer = (key) => (route) => (told.job ? route.fulfill({ json: told[key] }) : route.abort());
+  await page.route("**/v1/jobs/job_given", answer("job"));
+  await page.route("**/v1/sweeps/swp_given", answer("sweep"));
+}
+
+/** A job with clearance that has been computed: its sweep's only one. */
+async function computedJob() {
+  const [{ job_id: id }] = await resultsOf(await runSweep({ parameters: { duration_s: 0.4, run_up_s: 0.1, clearance_mm: 0.25 } }));
+  return ask(`/v1/jobs/${id}`);
+}
+
+test("a job that is waited for says how it stands, outlives a service that was away, and says why it failed", async () => {
+  const page = await visit("#/wear");
+  const told = { job: given("queued"), sweep: sweepOf({ queued: 2 }) };
+  await giveJob(page, told);
+  await page.goto(`${url}/#/jobs/job_given`);
+  const row = (name) => page.getByRole("row").filter({ has: page.getByRole("rowheader", { name, exact: true }) });
+  await row("State").getByText("queued").waitFor();
+  await row("Its sweep").getByText("0 of 2 jobs have ended, about 1 min 30 s left for all of them").waitFor();
+  await page.getByRole("heading", { name: "Parameters" }).waitFor();
+  told.job = given("running", { started_at: new Date(Date.now() - 5000).toISOString() });
+  await row("State").getByText("running").waitFor();
+  await row("Computing for").getByText(/^\d+(\.\d)? s$/).waitFor();
+  await expectAccessible(page);
+  told.job = null;
+  await page.getByText("The service does not answer. Trying again …").waitFor();
+  await row("State").getByText("running").waitFor();
+  Object.assign(told, { job: given("failed", { started_at: "2026-01-01T00:00:10Z", ended_at: "2026-01-01T00:00:40Z", error: { reason: "step_limit", detail: "the run needs more than 10 steps", t_s: 1.25 } }),
+    sweep: sweepOf({ succeeded: 1, failed: 1 }) });
+  await page.getByText("step_limit: the run needs more than 10 steps").waitFor();
+  await page.getByText("The service does not answer.").waitFor({ state: "hidden" });
+  await row("The run came to").getByText("1.25 s of 5 s").waitFor();
+  await row("Computed for").getByText("30 s").waitFor();
+  await row("Its sweep").getByText("2 of 2 jobs have ended").waitFor();
+  assert.equal(await page.getByRole("button", { name: "Cancel" }).count(), 0);
+  await expectAccessible(page);
+  await picture(page, "failed_job");
+  await leave(page, away);
+});
+
+test("a view that could not be shown is shown when the service is back", async () => {
+  const page = await visit("#/wear");
+  const told = { job: null, sweep: sweepOf({ failed: 2 }) };
+  await giveJob(page, told);
+  await page.goto(`${url}/#/jobs/job_given`);
+  await page.getByText("The service does not answer. Trying again …").waitFor();
+  told.job = given("cancelled");
+  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await leave(page, away);
+});
+
+test("plots outlive a service that was away", async () => {
+  const { id } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  const plot = page.getByRole("group", { name: /^Contact force, over time/ });
+  await plot.locator(".u-over").waitFor();
+  await page.waitForLoadState("networkidle");
+  await page.route("**/trajectory?**", (route) => route.abort());
+  await plot.focus();
+  await page.keyboard.press("+");
+  await plot.getByText("The service does not answer. Trying again …").waitFor();
+  assert.ok(await plot.locator(".u-over").isVisible());
+  await page.unroute("**/trajectory?**");
+  await plot.getByText("The service does not answer.").waitFor({ state: "hidden" });
+  await leave(page, away);
+});
