@@ -51,6 +51,7 @@ set(page_files
   run/orbit_drawing.js
   run/overlay.js
   run/overview.js
+  run/peaks.js
   run/plot_card.js
   run/plot_data.js
   run/plot_options.js

@@ -1,5 +1,6 @@
 // The page of a job: while it waits, when it has failed, and when the service was away.   node job_page.mjs URL FOLDER
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
 
 import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, url, visit } from "./visitor.mjs";
@@ -79,4 +80,19 @@ test("plots outlive a service that was away", async () => {
   await page.unroute("**/trajectory?**");
   await plot.getByText("The service does not answer.").waitFor({ state: "hidden" });
   await leave(page, away);
+});
+
+test("plots tell the peaks that lie between their samples, and are saved with their names", async () => {
+  const { id, metrics } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  const peak = (key) => String(Number(metrics[key].toPrecision(5)));
+  await page.getByText(`Largest magnitude: ${peak("peak_contact_force_n")} N. It is sought between the samples, too, which the curve joins at 1000 Hz.`).waitFor();
+  await page.getByText(`Largest magnitude: Crank torque ${peak("peak_crank_torque_n_m")} N m; Rod force ${peak("peak_rod_force_n")} N.`).waitFor();
+  await page.getByText(`${peak("peak_slider_acceleration_whole_run_m_s2")} m/s² in the whole run.`).waitFor();
+  const card = page.locator(".card", { has: page.getByRole("heading", { name: "Drive torque and force" }) });
+  const height = await card.locator(".uplot canvas").evaluate((canvas) => canvas.height);
+  const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
+  const png = readFileSync(await download.path());
+  assert.equal(png.readUInt32BE(20), height + 28, "a line for the names");
+  await leave(page);
 });

@@ -12,6 +12,7 @@ import { motionCard } from "/analysis/motion.js";
 import { wearCard } from "/analysis/wear.js";
 import { orbit } from "/run/orbit.js";
 import { overlayPicker } from "/run/overlay.js";
+import { peakNote } from "/run/peaks.js";
 import { plotCard, tracesOf } from "/run/plot_card.js";
 import { standingCard } from "/run/standing.js";
 import { timeBar } from "/run/time_bar.js";
@@ -106,7 +107,7 @@ class JobPage {
   }
 
   card(title, channels, more = {}) {
-    return plotCard(title, { traces: tracesOf(this.jobs, channels), times: this.times, height: 220, signal: this.signal, ...more });
+    return plotCard(title, { traces: tracesOf(this.jobs, channels), note: peakNote(this.jobs, channels), times: this.times, height: 220, signal: this.signal, ...more });
   }
 
   drawAcceleration(ideal) {
@@ -117,7 +118,7 @@ class JobPage {
     this.mainLife?.abort();
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
-    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration", { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], times: this.times, height: 320, signal, tools }));
+    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration", { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], note: peakNote(this.jobs, [acceleration.channel]), times: this.times, height: 320, signal, tools }));
   }
 
   async compare(button) {

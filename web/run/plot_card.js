@@ -6,14 +6,15 @@ import { lineColour } from "/core/theme.js";
 import { labelsOf } from "/run/labels.js";
 import { timePlot } from "/run/time_plot.js";
 
+/// @param note   what stands below the plot; empty: nothing
 /// @param close  is called to take the card away; without it there is no such button
-export function plotCard(title, { traces, times, height, signal, close, tools = [] }) {
+export function plotCard(title, { traces, times, height, signal, note = "", close, tools = [] }) {
   const element = h("div");
   let made = null;
   timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; }).catch((error) => { element.textContent = error.message; });
   return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
     h("span", { class: "actions" }, tools, h("button", { onclick: () => made && saveCanvas(made.canvas(), `${title}.png`) }, "PNG"),
-      close ? h("button", { onclick: close, "aria-label": `Take ${title} away` }, "✕") : null)), element);
+      close ? h("button", { onclick: close, "aria-label": `Take ${title} away` }, "✕") : null)), element, note && h("p", { class: "quiet small" }, note));
 }
 
 /// Traces of some channels for each of the jobs. @param channels  names, or {channel, envelope}

@@ -79,18 +79,27 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   element.setAttribute("aria-label", `${label}, over time. Arrow keys move, plus and minus zoom, 0 shows the whole run.`);
   listenToKeys(element, times);
   await load();
-  return { plot: () => plot, canvas: () => paint(plot) };
+  return { plot: () => plot, canvas: () => paint(plot, label, traces) };
 }
 
-/// The plot on the page's ground, as an image to save.
-function paint(plot) {
+/// The plot on the page's ground, as an image to save: below its title, and the names of its curves if there are several.
+function paint(plot, title, traces) {
   const source = plot.ctx.canvas;
+  const letters = 14 * devicePixelRatio;
+  const head = 2 * letters;
   const copy = document.createElement("canvas");
-  Object.assign(copy, { width: source.width, height: source.height });
+  Object.assign(copy, { width: source.width, height: source.height + head });
   const context = copy.getContext("2d");
   context.fillStyle = colour("card");
   context.fillRect(0, 0, copy.width, copy.height);
-  context.drawImage(source, 0, 0);
+  context.drawImage(source, 0, head);
+  Object.assign(context, { font: `${letters}px system-ui`, textBaseline: "middle" });
+  let left = letters;
+  for (const { name, ink } of [{ name: title, ink: colour("text") }, ...(traces.length > 1 ? traces.map((trace) => ({ name: trace.name, ink: trace.colour() })) : [])]) {
+    context.fillStyle = ink;
+    context.fillText(name, left, letters);
+    left += context.measureText(name).width + letters;
+  }
   return copy;
 }
 
