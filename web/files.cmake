@@ -45,6 +45,7 @@ set(page_files
   pages/wear.js
   run/described.js
   run/facts.js
+  run/fingers.js
   run/ideal.js
   run/labels.js
   run/orbit.js

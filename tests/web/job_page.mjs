@@ -1,4 +1,4 @@
-// The page of a job: while it waits, when it has failed, and when the service was away.   node job_page.mjs URL FOLDER
+// The page of a job: while it waits, when it has failed, when the service was away, and under fingers.   node job_page.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
@@ -7,6 +7,7 @@ import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, 
 
 after(endVisits);
 const away = /ERR_FAILED/;
+const minute = 60000;
 
 /** A job that the service does not have, in the sweep of two jobs. */
 const given = (state, more = {}) => ({ id: "job_given", sweep_id: "swp_given", state, error: null, attempts: 1, created_at: "2026-01-01T00:00:00Z", started_at: null, ended_at: null, run: null,
@@ -94,5 +95,32 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
   const png = readFileSync(await download.path());
   assert.equal(png.readUInt32BE(20), height + 28, "a line for the names");
+  await leave(page);
+});
+
+test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
+  const { id } = await computedJob();
+  const page = await visit(`#/jobs/${id}?from=0.1&to=0.3`, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const over = page.getByRole("group", { name: /^Contact force, over time/ }).locator(".u-over");
+  await over.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await over.boundingBox();
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, parts) => session.send("Input.dispatchTouchEvent", { type, touchPoints: parts.map((part, id) => ({ id, x: x + part * width, y: y + height / 2 })) });
+  const shown = () => page.evaluate(() => ["from", "to"].map((key) => Number(new URLSearchParams(location.hash.split("?")[1]).get(key))));
+  const near = (found, wanted) => found.every((value, k) => Math.abs(value - wanted[k]) < 0.005);
+  const expectShown = async (wanted) => {
+    for (const end = Date.now() + 5000; !near(await shown(), wanted) && Date.now() < end;) await page.waitForTimeout(50);
+    assert.ok(near(await shown(), wanted), `${await shown()} instead of ${wanted}`);
+  };
+  await touch("touchStart", [0.75]);
+  await touch("touchMove", [0.5]);
+  await touch("touchMove", [0.25]);
+  await touch("touchEnd", []);
+  await expectShown([0.2, 0.4]);
+  await touch("touchStart", [0.25, 0.5]);
+  await touch("touchMove", [0.25, 0.6]);
+  await touch("touchMove", [0.25, 0.75]);
+  await touch("touchEnd", []);
+  await expectShown([0.225, 0.325]);
   await leave(page);
 });

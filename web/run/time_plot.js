@@ -3,6 +3,7 @@ import { h, laidOut } from "/core/dom.js";
 import { persist, seldom, settled } from "/core/live.js";
 import { colour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
+import { watchFingers } from "/run/fingers.js";
 import { loadAligned } from "/run/plot_data.js";
 import { plotOptions } from "/run/plot_options.js";
 import { listenToKeys } from "/run/time_window.js";
@@ -46,6 +47,7 @@ export async function timePlot(element, { traces, times, height = 260, label, si
     plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, element);
     plot.over.append(now);
     watchPointer(plot, times);
+    watchFingers(plot.over, times);
   }
 
   function showInstant() {
