@@ -10,6 +10,8 @@ const short = { duration_s: 0.4, run_up_s: 0.1 };
 test("an empty service leads to the form", async () => {
   const page = await visit("");
   await page.getByRole("heading", { name: "There is no sweep here yet" }).waitFor();
+  assert.equal(await page.getByRole("link", { name: "the interface is described" }).getAttribute("href"), "/docs");
+  await expectAccessible(page);
   await picture(page, "empty");
   await page.getByRole("link", { name: "Take the paper's study" }).click();
   await page.getByText("18 jobs").waitFor();
