@@ -256,8 +256,11 @@ test("a sweep is cancelled and retried in the list", async () => {
   const long = await ask("/v1/sweeps", { name: "long", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
   const row = page.getByRole("row").filter({ hasText: "long" });
   await page.getByRole("button", { name: "Retry long" }).waitFor({ state: "hidden" });
+  const again = page.getByRole("link", { name: "Use again: long" });
+  const before = await again.boundingBox();
   await page.getByRole("button", { name: "Cancel long" }).click();
   await row.getByText("3 cancelled").waitFor();
+  assert.deepEqual(await again.boundingBox(), before, "no button moves");
   assert.equal((await ask(`/v1/sweeps/${long.id}`)).state, "cancelled");
   await page.getByRole("button", { name: "Retry long" }).click();
   await row.getByText(/[1-3] (queued|running)/).first().waitFor();
@@ -280,8 +283,11 @@ test("a sweep is followed once, however often its jobs are retried", async () =>
     await page.getByRole("button", { name: "Retry" }).waitFor({ state: "detached" });
   }
   assert.equal(followed, 1);
+  const again = page.getByRole("link", { name: "Use again" });
+  const before = await again.boundingBox();
   await page.getByRole("button", { name: "Cancel" }).click();
   await page.getByText("cancelled: 3 cancelled of 3 jobs").waitFor();
+  assert.deepEqual(await again.boundingBox(), before, "no button moves");
   await page.getByRole("button", { name: "Retry" }).click();
   await page.getByRole("button", { name: "Cancel" }).click();
   await page.getByText("cancelled: 3 cancelled of 3 jobs").waitFor();

@@ -13,6 +13,11 @@ export function h(tag, attributes = {}, ...children) {
   return element;
 }
 
+/// Lets an element be seen or not. Its place is kept: what stands beside it would move under the pointer.
+export function setSeen(element, isSeen) {
+  element.classList.toggle("unseen", !isSeen);
+}
+
 /// A labelled select. @param options  strings, or [value, text]
 export function choice(label, options, value, onchange) {
   const select = h("select", { onchange: () => onchange(select.value) },

@@ -1,7 +1,7 @@
 // One sweep: its metrics over its axes, in parts that share what is selected.
 import { cancelSweep, findResults, findSweep, listSweeps, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
-import { choice, h, notify } from "/core/dom.js";
+import { choice, h, notify, setSeen } from "/core/dom.js";
 import { plural, span, titleOf } from "/core/format.js";
 import { follow, isUnderWay, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
@@ -42,7 +42,7 @@ class SweepPage {
   parts() {
     document.title = `RPSUP: ${this.sweep.name || this.sweep.id}`;
     this.status = h("p", { role: "status" });
-    this.buttons = h("p", { class: "actions" });
+    this.makeButtons();
     this.chosen = h("p", { class: "actions card" });
     this.pickers = h("p", { class: "actions" });
     this.table = new ResultTable(this);
@@ -147,13 +147,20 @@ class SweepPage {
     const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0).map(([state, count]) => `${count.toLocaleString("en")} ${state}`);
     const left = isUnderWay(this.sweep) && eta !== null ? `; about ${span(eta)} left` : "";
     this.status.textContent = `${this.sweep.state}: ${parts.join(", ")} of ${plural(counts.total, "job")}${left}`;
-    const act = (text, run) => h("button", { onclick: () => run(this.sweep.id).then(() => this.update()).catch((error) => notify(error.message, "trouble")) }, text);
-    this.buttons.replaceChildren(...[
-      h("a", { class: "button", href: resultsUrl(this.sweep.id, { format: "csv" }), download: `${this.sweep.name || this.sweep.id}.csv` }, "CSV"),
-      h("a", { class: "button", href: routeTo("analyses", this.sweep.id) }, "What it says"),
-      isUnderWay(this.sweep) ? act("Cancel", cancelSweep) : null,
-      counts.failed + counts.cancelled > 0 ? act("Retry", retrySweep) : null,
-      h("a", { class: "button", href: routeTo("new", "", { from: this.sweep.id }) }, "Use again")].filter(Boolean));
+    setSeen(this.cancel, isUnderWay(this.sweep));
+    setSeen(this.retry, counts.failed + counts.cancelled > 0);
+  }
+
+  /// Once: a button that was made anew would lose the focus, and a click that has begun.
+  makeButtons() {
+    const { id, name } = this.sweep;
+    const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.update()).catch((error) => notify(error.message, "trouble")) }, text);
+    this.cancel = act("Cancel", cancelSweep);
+    this.retry = act("Retry", retrySweep);
+    this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
+      h("a", { class: "button", href: resultsUrl(id, { format: "csv" }), download: `${name || id}.csv` }, "CSV"),
+      h("a", { class: "button", href: routeTo("analyses", id) }, "What it says"),
+      h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Use again"));
   }
 
   drawPickers() {

@@ -40,7 +40,7 @@ class SweepList {
     this.body = h("tbody");
     const headings = ["Name", "State", "Progress", "Jobs", "Least and largest peak", "Created", "Actions"];
     this.table = h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region", "aria-label": "Sweeps" },
-      h("table", {}, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), this.body));
+      h("table", { class: "listing" }, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), this.body));
     this.more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
     this.empty = h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
       h("p", {}, "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits and slides in its bearing, and accelerations and forces have peaks that an ideal linkage has not. "

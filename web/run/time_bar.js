@@ -26,9 +26,9 @@ export function timeBar(times, job, envelope, signal) {
   const peak = job.metrics?.peak_slider_acceleration_time_s;
   const jump = (name, go) => h("button", { onclick: go }, name);
   return h("section", { class: "card tight", "aria-label": "Time" },
-    h("p", { class: "actions" }, h("strong", {}, "Time"), text, jump("Whole run", () => times.reset()),
+    h("p", { class: "actions" }, h("strong", {}, "Time"), jump("Whole run", () => times.reset()),
       runUp < times.end ? jump("Steady part", () => times.set(runUp, times.end)) : null,
-      typeof peak === "number" ? jump("Around the peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null),
+      typeof peak === "number" ? jump("Around the peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null, text),  // last: its length changes
     overview(job, envelope, times, signal),
     h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from), h("label", { class: "small quiet" }, "to", to)),
     h("p", { class: "quiet small" }, "In a plot or in the strip: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run. Keys: ← → + − 0. On a touch screen: two fingers zoom, one moves."));

@@ -1,7 +1,7 @@
 // What the pages of one search and of one wear study have in common: charts beside each other, a table, and actions; up to date by themselves.
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
-import { h, notify } from "/core/dom.js";
+import { h, notify, setSeen } from "/core/dom.js";
 import { followStudy, seldom } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
@@ -37,7 +37,7 @@ export class StudyView {
   parts() {
     document.title = `RPSUP: ${this.name}`;
     this.status = h("p", { role: "status" });
-    this.buttons = h("p", { class: "actions" });
+    this.makeButtons();
     this.body = h("tbody");
     this.places = this.charts().map(([title, make, above], index) => ({ make, element: h("div", { class: "chart tall" }), title, above, index }));
     const card = ({ title, element, above, index }) => h("section", { class: "card" },
@@ -89,17 +89,25 @@ export class StudyView {
   }
 
   drawHead() {
-    const { study } = this;
-    const { api } = this.constructor;
+    const { state } = this.study;
     this.status.textContent = this.statusText();
-    const act = (text, run) => h("button", { onclick: () => run(study.id).then(() => this.reload()).then(() => this.follow()).catch((error) => notify(error.message, "trouble")) }, text);
-    this.buttons.replaceChildren(...[
-      h("a", { class: "button", href: api.resultsUrl(study.id, { format: "csv" }), download: `${this.name}.csv` }, "CSV"),
-      h("a", { class: "button", href: routeTo("sweeps", study.sweep_id) }, "Its jobs"),
-      h("a", { class: "button", href: routeTo(this.constructor.route, "new", { from: study.id }) }, "Use again"),
-      study.state === "running" ? act("Cancel", api.cancel) : null,
-      ["failed", "cancelled"].includes(study.state) ? act("Retry", api.retry) : null,
-      study.state === "running" ? null : h("button", { class: "danger", onclick: () => this.remove() }, "Delete")].filter(Boolean));
+    setSeen(this.cancel, state === "running");
+    setSeen(this.retry, ["failed", "cancelled"].includes(state));
+    setSeen(this.delete, state !== "running");
+  }
+
+  /// Once: a button that was made anew would lose the focus, and a click that has begun.
+  makeButtons() {
+    const { id, sweep_id: sweep } = this.study;
+    const { api, route } = this.constructor;
+    const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.reload()).then(() => this.follow()).catch((error) => notify(error.message, "trouble")) }, text);
+    this.cancel = act("Cancel", api.cancel);
+    this.retry = act("Retry", api.retry);
+    this.delete = h("button", { class: "danger", onclick: () => this.remove() }, "Delete");
+    this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
+      h("a", { class: "button", href: api.resultsUrl(id, { format: "csv" }), download: `${this.name}.csv` }, "CSV"),
+      h("a", { class: "button", href: routeTo("sweeps", sweep) }, "Its jobs"),
+      h("a", { class: "button", href: routeTo(route, "new", { from: id }) }, "Use again"), this.delete);
   }
 
   async remove() {

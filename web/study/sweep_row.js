@@ -1,16 +1,17 @@
 // One sweep in the list: its row is made once and then kept up to date.
 import { findResults } from "/core/api.js";
-import { h } from "/core/dom.js";
+import { h, setSeen } from "/core/dom.js";
 import { moment, nameOf, number, span, unitOf } from "/core/format.js";
 import { isUnderWay } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
 const usualPeak = "peak_slider_acceleration_m_s2";
+const classes = { name: "name", progress: "", jobs: "small" };  // of the cells whose texts may be broken
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 
 /// @param act  is called with "cancel", "retry" or "delete"
 export function sweepRow(act, signal) {
-  const cells = Object.fromEntries(["name", "state", "progress", "jobs", "peaks", "created", "actions"].map((key) => [key, h("td", { class: key === "name" ? "name" : key === "jobs" ? "" : "fixed" })]));
+  const cells = Object.fromEntries(["name", "state", "progress", "jobs", "peaks", "created", "actions"].map((key) => [key, h("td", { class: classes[key] ?? "fixed" })]));
   const element = h("tr", {}, ...Object.values(cells));
   const buttons = {
     cancel: h("button", { onclick: () => act("cancel") }, "Cancel"),
@@ -38,9 +39,9 @@ export function sweepRow(act, signal) {
     percent.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `${part}, about ${span(sweep.eta_s)} left` : part;
     cells.jobs.textContent = jobStates.filter((state) => sweep.counts[state] > 0).map((state) => `${sweep.counts[state].toLocaleString("en")} ${state}`).join(", ");
     cells.created.textContent = moment(sweep.created_at);
-    buttons.cancel.hidden = !isUnderWay(sweep);
-    buttons.retry.hidden = sweep.counts.failed + sweep.counts.cancelled === 0;
-    buttons.delete.hidden = isUnderWay(sweep);
+    setSeen(buttons.cancel, isUnderWay(sweep));
+    setSeen(buttons.retry, sweep.counts.failed + sweep.counts.cancelled > 0);
+    setSeen(buttons.delete, !isUnderWay(sweep));
     for (const [action, button] of Object.entries(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
     again.href = routeTo("new", "", { from: sweep.id });
     again.setAttribute("aria-label", `Use again: ${name}`);
