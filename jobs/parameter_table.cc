@@ -92,7 +92,7 @@ void add_run_rows(Rows& rows) {
                         above(0, 100'000), &O::output_rate));
   rows.push_back(choice<engine::Integrator O::*, engine::Integrator>(
       {"integrator", "integrator", "", kChosen,
-       "auto: radau5 where no step of it misses anything, else rodas5. Error-controlled and L-stable: radau5, Radau IIA of order 5, and rodas5 and rodas4, Rosenbrock 5(4) and 4(3); error-controlled: dopri5, "
+       "auto: radau5, at a tolerance that suits the joint. Error-controlled and L-stable: radau5, Radau IIA of order 5, and rodas5 and rodas4, Rosenbrock 5(4) and 4(3); error-controlled: dopri5, "
        "Dormand-Prince 5(4); with a fixed step: rk4, classical Runge-Kutta (the paper's)"},
       &O::integrator,
       {{"auto", engine::Integrator::kAuto},
@@ -103,7 +103,7 @@ void add_run_rows(Rows& rows) {
        {"rk4", engine::Integrator::kRk4}}));
   rows.push_back(number({"step_s", "step", "s", kChosen, "Step of rk4"}, between(1e-8, 1e-3), &O::step));
   rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen,
-                         "Of the error-controlled integrators; auto takes less where contacts change inside steps"},
+                         "Of the error-controlled integrators; auto takes less with clearance, by 2 to 30 times"},
                         between(1e-13, 1e-2), &O::relative_tolerance));
   rows.push_back(number({"absolute_tolerance", "absolute_tolerance", "", kChosen,
                          "Of the error-controlled integrators, in m, rad and their rates; of the L-stable ones in m and m/s, rotations by the radius of gyration of what they carry"},

@@ -22,7 +22,7 @@ constexpr double kLargestAngle = 1.5;    // of a vibration in a step that follow
 
 RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   if (options.integrator != Integrator::kAuto) return options;
-  options.integrator = choose_integrator(mechanism, options.integrator);
+  options.integrator = choose_integrator(options.integrator);
   options.relative_tolerance = choose_tolerance(mechanism, options.relative_tolerance);
   options.absolute_tolerance = choose_tolerance(mechanism, options.absolute_tolerance);
   return options;

@@ -16,7 +16,7 @@ using K = RadauCoefficients;
 constexpr int kMaxNewtonIterations = 10;
 constexpr double kGoodContraction = 0.05;  // with less, the Jacobian is good for another step
 // In units of the tolerance:
-constexpr double kClose = 3e-4;      // what may be left of the iteration: more is noise to the energy account
+constexpr double kClose = 1e-5;      // what may be left of the iteration: more of it excites the journal on its bore, where little damps that
 constexpr double kNoStep = 40.0;     // error of a step whose iteration does not converge: the next try takes about two fifths of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]

@@ -133,8 +133,12 @@ std::optional<RunStatus> run_drawn(const Linkage& linkage) {
       return run.status;
     }
     const std::vector<QuantityInfo> metrics = linkage_tables(linkage).metrics;
-    const auto imbalance = std::ranges::find(metrics, "energy_imbalance_j", &QuantityInfo::key) - metrics.begin();
-    EXPECT_LT(run.metrics.at(static_cast<std::size_t>(imbalance)), 1e-4);  // [J]; not if it is no number
+    const auto metric = [&](const char* key) {
+      return run.metrics.at(static_cast<std::size_t>(std::ranges::find(metrics, key, &QuantityInfo::key) - metrics.begin()));
+    };
+    // A journal that begins deep in its bore is thrown out with up to 1e10 J: their roundings are more.
+    constexpr double kRounding = 1e-13;
+    EXPECT_TRUE(metric("energy_imbalance_j") < 1e-4 || metric("energy_residual") < kRounding) << metric("energy_imbalance_j");
     return run.status;
   } catch (const InvalidInput& refusal) {
     EXPECT_FALSE(refusal.field().empty());

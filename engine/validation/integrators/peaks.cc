@@ -95,7 +95,11 @@ Findings compute_peaks_of_other_contacts() {
                                         with_bristles(3000.0, 0.25e-3, 5.0),
                                         with_friction("elasto-plastic bristles", FrictionLaw::kElastoPlastic, 0.25e-3, 5.0),
                                         with_friction("smoothed Coulomb friction", FrictionLaw::kCoulomb, 0.25e-3, 8.0),
-                                        with_friction("Ambrosio's friction", FrictionLaw::kAmbrosio, 0.5e-3, 15.0)};
+                                        with_friction("Ambrosio's friction", FrictionLaw::kAmbrosio, 0.5e-3, 15.0),
+                                        with_friction("Dahl's friction", FrictionLaw::kDahl, 0.1e-3, 4.0),
+                                        with_friction("no friction", FrictionLaw::kNone, 0.1e-3, 5.0),
+                                        with_friction("no friction", FrictionLaw::kNone, 0.25e-3, 4.0),
+                                        with_friction("no friction", FrictionLaw::kNone, 0.5e-3, 4.0)};
   Findings findings;
   for (const OtherContact& c : cases) {
     const RunResult tight = run_rpsup(c.parameters, {.duration = 4.0, .output_rate = 10.0, .integrator = Integrator::kDopri5,

@@ -63,7 +63,7 @@ std::vector<Setting> precision_settings() {
     if (integrator.has_fixed_step())
       for (const double step : {1e-5, 5e-6, 2.5e-6}) settings.push_back({integrator.name, step, with_step(options, step)});
     else
-      for (const double tolerance : {3e-4, 1e-4, 3e-5, 1.5e-5, 1e-6, 1e-7})
+      for (const double tolerance : {3e-4, 1e-4, 3e-5, 7.5e-6, 1e-6, 1e-7})
         settings.push_back({integrator.name, tolerance, with_tolerance(options, tolerance)});
   }
   return settings;
