@@ -15,7 +15,7 @@ namespace engine {
 [[nodiscard]] constexpr Integrator choose_integrator(Integrator wanted) { return wanted == Integrator::kAuto ? Integrator::kRadau5 : wanted; }
 
 /// What a step of an error-controlled integrator is at most, [s]. It is shorter with radau5 and clearance where friction is quick, and with elastic links:
-/// there friction feeds vibrations that longer steps would damp.
+/// there friction sets off or feeds vibrations that longer steps would damp.
 /// @param integrator  not kAuto
 [[nodiscard]] double choose_longest_step(const Mechanism& mechanism, Integrator integrator);
 

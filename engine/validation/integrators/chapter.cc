@@ -26,7 +26,7 @@ sets off is left seconds later, when the journal leaves the bore. Initial pertur
 peaks of two to four times its size appear where errors of single steps set off more than they should; what is left of the iterations for the stages
 of `radau5` did, at a tolerance of 1e-7, until they were made ten times finer.
 `radau5` damps vibrations of which a step holds several periods. Stiff bristles, and a force that jumps with
-the velocity, feed those of the journal on its bore, too shortly to be looked for: there its steps are 0.1 ms at most.
+the velocity, set off those of the journal on its bore, which count though they decay: there its steps are 0.1 ms at most.
 Friction also feeds vibrations of flexible links, of up to
 1.3 kHz and for some 10 ms at a time, until the joint bounds them. Their size hangs on what they grow from; that they are there does not: steps of
 `radau5` with flexible links and clearance are 0.4 ms at most, which damps them little.
