@@ -133,8 +133,7 @@ void append_swept(const std::string& text, std::vector<json>& cells) {
 
 /// Appends what a query names beside what all tables have.
 void append_others(const ResultRow& row, const std::vector<std::string>& others, std::vector<json>& cells) {
-  if (others.empty()) return;
-  const json completed = stored_json(row.parameters);
+  const json completed = row.parameters.empty() ? json() : stored_json(row.parameters);
   for (const std::string& column : others) {
     if (is_error_column(column)) cells.push_back(value_or_null(column == kErrorColumns.front() ? row.error_reason : row.error_detail));
     else cells.push_back(value_at_path(completed, column));

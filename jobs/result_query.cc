@@ -18,8 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kListed = "GET /v1/parameters and in the results without fields";
-
 enum class Comparison { kEqual, kGreater, kLess, kGreaterOrEqual, kLessOrEqual };
 
 constexpr std::array<std::pair<std::string_view, Comparison>, 4> kSuffixes{
@@ -89,7 +87,7 @@ std::optional<double> read_number(const std::string& text) {
 /// Reads the names and values of a query against the columns of a table, and gathers what is wrong with them.
 class Reader {
  public:
-  explicit Reader(const std::vector<std::string>& columns) : columns_(columns) {}
+  Reader(const std::vector<std::string>& columns, std::string_view listed) : columns_(columns), listed_(listed) {}
 
   Condition condition(const ResultFilter& filter) {
     const auto [name, comparison] = split_key(filter.key, columns_);
@@ -117,7 +115,7 @@ class Reader {
       descending.push_back(name.starts_with('-'));
       if (descending.back()) name.erase(0, 1);
     }
-    const auto places = find_names(names, columns_, kListed, "/order_by", faults_);
+    const auto places = find_names(names, columns_, listed_, "/order_by", faults_);
     for (std::size_t i = 0; i < places.size() && faults_.empty(); ++i) order.emplace_back(places[i], descending[i]);
     return order;
   }
@@ -126,7 +124,7 @@ class Reader {
   std::vector<std::size_t> fields(const std::string& text, bool replicates) {
     auto known = columns_;
     if (replicates) known.emplace_back("replicates");
-    return find_names(split_names(text, known), known, kListed, "/fields", faults_);
+    return find_names(split_names(text, known), known, listed_, "/fields", faults_);
   }
 
   void check() {
@@ -140,11 +138,12 @@ class Reader {
     const auto found = std::ranges::find(columns_, name);
     if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
     const std::vector<std::string_view> known(columns_.begin(), columns_.end());
-    fault(pointer, describe_unknown_key(name, known, kListed) + "; a filter is a column of the results, or one with _gt, _lt, _ge or _le");
+    fault(pointer, describe_unknown_key(name, known, listed_) + "; a filter is a column of the results, or one with _gt, _lt, _ge or _le");
     return 0;
   }
 
   const std::vector<std::string>& columns_;
+  std::string_view listed_;
   std::vector<Fault> faults_;
 };
 
@@ -218,8 +217,10 @@ std::vector<std::string> find_other_columns(const ResultQuery& query, const std:
   return others;
 }
 
-void apply(const ResultQuery& query, ResultTable& table) {
-  Reader reader(table.columns);
+bool need_parameters(const std::vector<std::string>& others) { return !std::ranges::all_of(others, is_error_column); }
+
+void apply(const ResultQuery& query, ResultTable& table, std::string_view listed) {
+  Reader reader(table.columns, listed);
   std::vector<Condition> conditions;
   for (const ResultFilter& filter : query.filters) conditions.push_back(reader.condition(filter));
   const auto order = reader.order(query.order_by);

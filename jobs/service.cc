@@ -158,10 +158,10 @@ class Service::Impl {
     const auto sweep = store_.find_sweep(sweep_id);
     if (!sweep) return std::nullopt;
     const auto others = find_other_columns(query, swept_of(*sweep));
-    const auto results = store_.find_results(sweep_id, !others.empty());
+    const auto results = store_.find_results(sweep_id, need_parameters(others));
     if (!results) return std::nullopt;
     ResultTable table = result_table(*results, others);
-    jobs::apply(query, table);
+    jobs::apply(query, table, kSweepColumns);
     return table;
   }
 
@@ -480,7 +480,7 @@ std::optional<json> Service::find_study(Study study, const std::string& id) cons
 json Service::list_studies(Study study, const PageQuery& query) const { return impl_->desk(study).list(query); }
 std::optional<ResultTable> Service::find_study_table(Study study, const std::string& id, const ResultQuery& query) const {
   auto table = impl_->desk(study).find_table(id);
-  if (table) jobs::apply(query, *table);
+  if (table) jobs::apply(query, *table, kStudyColumns);
   return table;
 }
 std::optional<json> Service::cancel_study(Study study, const std::string& id) { return impl_->cancel_study(study, id); }

@@ -38,7 +38,8 @@ void check(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < query.channels.size(); ++i) {
     if (std::ranges::find(known, query.channels[i]) != known.end()) continue;
-    faults.push_back({"/channels/" + std::to_string(i), "\"" + query.channels[i] + "\": " + describe_unknown_key(query.channels[i], known)});
+    faults.push_back({"/channels/" + std::to_string(i),
+                      "\"" + query.channels[i] + "\": " + describe_unknown_key(query.channels[i], known, "GET /v1/jobs/{id}/trajectory")});
   }
   if (query.from && std::isnan(*query.from)) faults.push_back({"/from", "must be a number"});
   if (query.to && std::isnan(*query.to)) faults.push_back({"/to", "must be a number"});

@@ -25,8 +25,8 @@ namespace engine {
 [[nodiscard]] double choose_time_between_looks(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates);
 
 /// The tolerance that Integrator::kAuto takes for the one that is wanted, for the steps' errors and the energy account, so that its peaks are
-/// nearly as right in one mechanism as in another. It is smaller with clearance, the more so where friction is other than that of slow bristles,
-/// and where contacts change inside of steps all the time: those of elements, and in worn bores.
+/// nearly as right in one mechanism as in another. It is smaller with clearance, the more so in worn bores and where friction is other than that of
+/// slow bristles; of contact elements, one that begins to touch changes little.
 [[nodiscard]] double choose_tolerance(const Mechanism& mechanism, double wanted);
 
 }  // namespace engine

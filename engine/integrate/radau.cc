@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <utility>
 
 #include "engine/integrate/radau_coefficients.h"
@@ -17,6 +18,7 @@ constexpr int kMaxNewtonIterations = 10;
 constexpr double kGoodContraction = 0.05;  // with less, the Jacobian is good for another step
 // In units of the tolerance:
 constexpr double kClose = 1e-5;      // what may be left of the iteration: more of it excites the journal on its bore, where little damps that
+constexpr double kRoundings = 10.0;  // of a number that may be left whatever the tolerance
 constexpr double kNoStep = 40.0;     // error of a step whose iteration does not converge: the next try takes about two fifths of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
@@ -25,6 +27,11 @@ void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages
 }
 
 }  // namespace
+
+Radau5::Radau5(const Tolerance& tolerance, double error_weight)
+    : tolerance_(tolerance),
+      error_weight_(error_weight),
+      close_(std::max(kClose, kRoundings * std::numeric_limits<double>::epsilon() / tolerance.relative())) {}
 
 Trial Radau5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
@@ -139,7 +146,7 @@ Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, doubl
       contraction_ = std::max(change / last_change, 1e-3);
       if (contraction_ >= 1.0) return Newton::kTooSlow;
     }
-    if (change * contraction_ <= (1.0 - contraction_) * kClose) {
+    if (change * contraction_ <= (1.0 - contraction_) * close_) {
       // One iteration tells nothing new: what was known becomes slowly doubtful.
       contraction_ = std::min(iteration > 0 ? contraction_ : std::pow(contraction_, 0.8), kUnknownContraction);
       return Newton::kConverged;

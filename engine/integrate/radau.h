@@ -16,7 +16,7 @@ namespace engine {
 class Radau5 {
  public:
   /// @param error_weight  by which the error estimate counts more than it says. It is of order 3, and damped where the motion is fast
-  explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0) : tolerance_(tolerance), error_weight_(error_weight) {}
+  explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0);
 
   /// A step from start. Tries from one start may follow each other; between two starts stands accept() or forget().
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
@@ -46,6 +46,7 @@ class Radau5 {
 
   const Tolerance& tolerance_;
   double error_weight_;
+  double close_;               ///< what may be left of Newton's method, in units of the tolerance
   Eigen::VectorXd weights_;    ///< of what error control looks at, at the step's start
   Stages Z_;                   ///< the stages' differences from the start
   Stages f_;                   ///< derivatives there

@@ -16,6 +16,8 @@ class Tolerance {
  public:
   Tolerance(double relative, double absolute) : relative_(relative), absolute_(absolute) {}
 
+  [[nodiscard]] double relative() const { return relative_; }
+
   /// Sets the radii of gyration, from the mechanism in one position. Until then each is 1.
   void set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free, const std::vector<FrameMotion>& frames);
 

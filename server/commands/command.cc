@@ -66,7 +66,9 @@ nlohmann::ordered_json read_json(const std::string& path) {
 
 void check_folder(const std::string& option, const std::string& path) {
   const auto folder = std::filesystem::absolute(path).parent_path();
-  if (!std::filesystem::is_directory(folder)) throw BadInput(option + " " + path + ": there is no folder " + folder.string());
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) throw BadInput(option + " " + path + ": there is no folder " + folder.string());
+  if (std::filesystem::is_directory(path, ignored)) throw BadInput(option + " " + path + ": is a folder");
 }
 
 void write_text(const std::string& path, const std::string& text) {

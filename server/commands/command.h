@@ -36,9 +36,8 @@ int run_guarded(const std::function<int()>& command);
 /// @throws BadInput if it cannot be read or is no JSON
 [[nodiscard]] nlohmann::ordered_json read_json(const std::string& path);
 
-/// Refuses before the work what could not be written after it.
+/// Refuses before the work a file in a folder that is not there, or that is a folder itself.
 /// @param option  that names the file, for the message
-/// @throws BadInput if the file's folder is none
 void check_folder(const std::string& option, const std::string& path);
 
 /// Writes a whole file, "-" for standard output.

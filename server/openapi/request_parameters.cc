@@ -33,7 +33,7 @@ std::vector<RequestParameter> make_query_parameters() {
       {"fields", "query", "fields", "Only these keys, in this order; all if left out", kNames},
       {"order_by", "query", "order_by", "Columns to order by; after a '-' the largest first, and null last", kNames},
       {"filters", "query", "filters",
-       "Any column or parameter as a key: key=value, key_gt=, key_lt=, key_ge=, key_le=. A row stays if all of them hold",
+       "Any column, parameter, error_reason or error_detail as a key: key=value, key_gt=, key_lt=, key_ge=, key_le=. A row stays if all of them hold",
        {{"type", "object"}, {"additionalProperties", kText}}},
       {"columns", "query", "filters", "Any column as a key: key=value, key_gt=, key_lt=, key_ge=, key_le=. A row stays if all of them hold",
        {{"type", "object"}, {"additionalProperties", kText}}},

@@ -112,10 +112,11 @@ Json make_result_row() {
   properties.update(make_metrics());
   properties["replicates_count"] = described(kCount, "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"}) properties[key] = or_null(kNumber);
+  for (const std::string_view column : jobs::kErrorColumns) properties[std::string(column)] = described(or_null(kText), "why a job failed; only if it is named");
   properties["linkage"] = described(kText, "of a described one its name, with a number if another one of the sweep has that name");
   Json row = options_of(std::move(properties));
   row["additionalProperties"] = described(or_null(kNumber), "numbers swept inside a described linkage, and its metrics, which go by the names of its joints");
-  return described(std::move(row), "Every key stands in every row, save those that fields leaves out, and those of what the sweep does not vary");
+  return described(std::move(row), "Every key stands in every row, save those that fields leaves out, those of what the sweep does not vary, and of errors");
 }
 
 Json make_trajectory() {

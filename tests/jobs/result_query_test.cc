@@ -20,7 +20,7 @@ jobs::ResultTable table() {
 
 jobs::ResultTable applied(const jobs::ResultQuery& query) {
   auto result = table();
-  jobs::apply(query, result);
+  jobs::apply(query, result, jobs::kSweepColumns);
   return result;
 }
 
@@ -78,11 +78,11 @@ TEST(ResultQuery, KeepsTheStatisticsOfTheRowsThatStay) {
   auto repeated = table();
   for (std::size_t k = 0; k < 4; ++k) repeated.replicates.push_back({.count = k, .mean = {}, .spread = {}, .min = {}, .max = {}});
   auto some = repeated;
-  jobs::apply({.fields = "job_id,replicates", .filters = {{"peak_gt", "7"}}, .order_by = "peak", .limit = {}}, some);
+  jobs::apply({.fields = "job_id,replicates", .filters = {{"peak_gt", "7"}}, .order_by = "peak", .limit = {}}, some, jobs::kSweepColumns);
   ASSERT_EQ(some.replicates.size(), 2U);
   EXPECT_EQ(some.replicates[0].count, 3U);
   EXPECT_EQ(some.replicates[1].count, 1U);
-  jobs::apply({.fields = "job_id", .filters = {}, .order_by = {}, .limit = {}}, repeated);
+  jobs::apply({.fields = "job_id", .filters = {}, .order_by = {}, .limit = {}}, repeated, jobs::kSweepColumns);
   EXPECT_TRUE(repeated.replicates.empty());
 }
 
@@ -94,6 +94,8 @@ TEST(ResultQuery, FindsTheParametersThatTheSweepDoesNotVary) {
 TEST(ResultQuery, FindsTheColumnsOfErrorsIfTheyAreNamed) {
   const jobs::ResultQuery query{.fields = "job_id,error_detail", .filters = {{"error_reason", "lock_up"}}, .order_by = "restitution", .limit = {}};
   EXPECT_EQ(jobs::find_other_columns(query, {}), (Strings{"restitution", "error_reason", "error_detail"}));
+  EXPECT_TRUE(jobs::need_parameters({"restitution", "error_reason"}));
+  EXPECT_FALSE(jobs::need_parameters({"error_reason", "error_detail"}));
   EXPECT_EQ(jobs::find_other_columns({.fields = "job_id", .filters = {}, .order_by = {}, .limit = {}}, {}), Strings{});
 }
 

@@ -24,7 +24,7 @@ tolerances that are asked for by 2, in worn bores by 7.5; where friction is othe
 contact elements by 7.5. The case without friction and 0.1 mm shows what that is good for. Little damps the journal on its bore there: what one step
 sets off is left seconds later, when the journal leaves the bore. Initial perturbations of 1e-5 move the peak by less than a thousandth, but
 peaks of two to four times its size appear where errors of single steps set off more than they should; what is left of the iterations for the stages
-of `radau5` did, at a tolerance of 1e-7, until they were made ten times finer.
+of `radau5` did, at a tolerance of 1e-7, until they were made thirty times finer.
 `radau5` damps vibrations of which a step holds several periods. Stiff bristles, and a force that jumps with
 the velocity, set off those of the journal on its bore, which count though they decay: there its steps are 0.1 ms at most.
 Friction also feeds vibrations of flexible links, of up to
