@@ -122,5 +122,13 @@ test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
   await touch("touchMove", [0.25, 0.75]);
   await touch("touchEnd", []);
   await expectShown([0.225, 0.325]);
+  // Fingers that meet or cross leave the plot alone, and are followed again once they are apart.
+  await touch("touchStart", [0.25, 0.75]);
+  for (const part of [0.5, 0.26, 0.25, 0.2, 0]) await touch("touchMove", [0.25, part]);
+  await page.waitForTimeout(800);
+  await expectShown([0.2, 0.4]);
+  await touch("touchMove", [0.25, 0.75]);
+  await expectShown([0.225, 0.325]);
+  await touch("touchEnd", []);
   await leave(page);
 });
