@@ -67,6 +67,20 @@ test("a view that could not be shown is shown when the service is back", async (
   await leave(page, away);
 });
 
+test("a view whose module could not be loaded is shown when the service is back", async () => {
+  const page = await visit("#/wear");
+  const told = { job: null, sweep: sweepOf({ failed: 2 }) };
+  await giveJob(page, told);
+  for (const pattern of ["**/pages/job.js", "**/healthz"]) await page.route(pattern, (route) => (told.job ? route.continue() : route.abort()));
+  await page.goto(`${url}/#/jobs/job_given`);
+  await page.getByText("The service does not answer. Trying again …").waitFor();
+  await page.waitForTimeout(3000);
+  assert.ok(await page.getByText("The service does not answer. Trying again …").isVisible());
+  told.job = given("cancelled");
+  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await leave(page, away);
+});
+
 test("plots outlive a service that was away", async () => {
   const { id } = await computedJob();
   const page = await visit(`#/jobs/${id}`);
