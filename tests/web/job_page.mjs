@@ -87,10 +87,20 @@ test("plots outlive a service that was away", async () => {
   const plot = page.getByRole("group", { name: /^Contact force, over time/ });
   await plot.locator(".u-over").waitFor();
   await page.waitForLoadState("networkidle");
-  await page.route("**/trajectory?**", (route) => route.abort());
+  let asked = 0;
+  await page.route("**/trajectory?**", (route) => {
+    if (route.request().url().includes("contact_force")) asked += 1;
+    return route.abort();
+  });
   await plot.focus();
-  await page.keyboard.press("+");
+  for (const key of ["+", "-", "+", "-", "+"]) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(400);
+  }
   await plot.getByText("The service does not answer. Trying again …").waitFor();
+  const before = asked;
+  await page.waitForTimeout(2500);
+  assert.ok(before >= 5 && asked - before <= 2, `${asked - before} requests in 2.5 s after ${before}`);
   assert.ok(await plot.locator(".u-over").isVisible());
   await page.unroute("**/trajectory?**");
   await plot.getByText("The service does not answer.").waitFor({ state: "hidden" });

@@ -19,7 +19,7 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   await laidOut(element, signal);
   let plot = null;
   let data = null;
-  let asked = 0;
+  let loading = new AbortController();  // one at a time: what is overtaken neither asks on nor tells
   let isSeen = true;
   const now = h("div", { class: "now", hidden: true });
   const trouble = h("p", { class: "trouble", role: "status", hidden: true });
@@ -30,11 +30,11 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   };
 
   async function load() {
-    const number = ++asked;
+    loading.abort();
+    loading = new AbortController();
+    const current = AbortSignal.any([signal, loading.signal]);
     try {
-      const fresh = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, signal), tell, signal);
-      if (number !== asked) return;
-      data = fresh;
+      data = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, current), tell, current);
       if (plot) plot.setData(data, false);
       else make();
       follow();
