@@ -12,8 +12,9 @@ const force = "peak_contact_force_n";
 const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", ...values });
 
 /** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures */
-async function visitRows(axes, rows, { query = "", parameters = {}, failures = [] } = {}) {
+async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], isSchemaGone = false } = {}) {
   const page = await visit("#/wear");
+  if (isSchemaGone) await page.route("**/v1/parameters", (route) => route.abort());
   const counts = { queued: 0, running: 0, succeeded: rows.length, failed: 0, cancelled: 0, total: rows.length };
   const sweep = { id: "swp_given", name: "given", state: "succeeded", counts, progress: 1, eta_s: null, axes, request: { parameters } };
   const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
@@ -134,4 +135,10 @@ test("the table says why jobs failed", async () => {
   await expectAccessible(page);
   await picture(page, "failures", { fullPage: true });
   await leave(page);
+});
+
+test("the page of a sweep does without the schema of the parameters", async () => {
+  const page = await visitRows(["clearance_mm"], [0.1, 0.2].map((clearance, k) => row(k, { clearance_mm: clearance, [metric]: k === 0 ? 1 : null })), { isSchemaGone: true });
+  await page.getByText(/^1 computed job without a value of Peak slider acceleration/).waitFor();
+  await leave(page, /ERR_FAILED/);
 });

@@ -19,7 +19,9 @@ const reloadMs = 1500;
 
 export async function show(main, { id, query, signal }) {
   loadCharts().catch(() => {});  // told where a chart would be
-  const [sweep, rows, schema] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal), parameterSchema()]);
+  // Without the schema only a sentence on missing values knows less.
+  const schemaIfAny = parameterSchema().catch(() => ({ properties: {} }));
+  const [sweep, rows, schema] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal), schemaIfAny]);
   const page = new SweepPage(sweep, rows, schema, query, signal);
   main.replaceChildren(...page.parts());
   page.start();
