@@ -79,6 +79,20 @@ test("axes are logarithmic where values lie decades apart, and as they were wher
   await leave(page);
 });
 
+test("a scale is forgotten with its axis or metric", async () => {
+  const values = [1e-8, 1e-6, 1e-4];
+  const rows = values.flatMap((tolerance, k) => values.map((step, i) => row(`${k}${i}`, { relative_tolerance: tolerance, absolute_tolerance: step, [metric]: 10 ** k, [force]: 10 ** i })));
+  const page = await visitRows(["relative_tolerance", "absolute_tolerance"], rows, { query: "?x=relative_tolerance&x_scale=linear&metric_scale=log" });
+  const types = async () => [(await drawn(page, 1)).x[0].type, (await drawn(page, 1)).y[0].type];
+  assert.deepEqual(await types(), ["value", "log"]);
+  await page.getByRole("combobox", { name: "Across" }).selectOption("absolute_tolerance");
+  assert.deepEqual(await types(), ["log", "log"]);
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
+  assert.deepEqual(await types(), ["log", "value"]);
+  await page.waitForURL((address) => !/_scale=/.test(address.href));
+  await leave(page);
+});
+
 test("what a chart averages over, and of which metric, stands in it", async () => {
   const rows = [0.1, 0.2].flatMap((clearance) => ["rigid", "flexible"].map((coupler, k) => row(`${clearance}${k}`, { clearance_mm: clearance, coupler, [metric]: clearance + k })));
   const page = await visitRows(["clearance_mm", "coupler"], rows, { query: "?x=clearance_mm" });

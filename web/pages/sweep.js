@@ -166,7 +166,9 @@ class SweepPage {
   }
 
   drawPickers() {
-    const set = (key) => (value) => { this.view[key] = value; this.changed(); };
+    // A scale was chosen for the axis or the metric that it stood at.
+    const scales = { x: { xScale: "" }, metric: { metricScale: "" } };
+    const set = (key) => (value) => { Object.assign(this.view, { [key]: value, ...scales[key] }); this.changed(); };
     const named = (names) => names.map((name) => [name, titleOf(name)]);
     const axes = named(this.axes);
     this.compare = h("span");
