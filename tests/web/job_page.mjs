@@ -22,8 +22,8 @@ async function giveJob(page, told) {
 }
 
 /** A job with clearance that has been computed: its sweep's only one. */
-async function computedJob() {
-  const [{ job_id: id }] = await resultsOf(await runSweep({ parameters: { duration_s: 0.4, run_up_s: 0.1, clearance_mm: 0.25 } }));
+async function computedJob(parameters = {}) {
+  const [{ job_id: id }] = await resultsOf(await runSweep({ parameters: { duration_s: 0.4, run_up_s: 0.1, clearance_mm: 0.25, ...parameters } }));
   return ask(`/v1/jobs/${id}`);
 }
 
@@ -119,6 +119,15 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
   const png = readFileSync(await download.path());
   assert.equal(png.readUInt32BE(20), height + 28, "a line for the names");
+  await leave(page);
+});
+
+test("a run without a steady part has a peak all the same", async () => {
+  const { id, metrics } = await computedJob({ run_up_s: 0.4 });
+  assert.equal(metrics.peak_slider_acceleration_m_s2, null);
+  const page = await visit(`#/jobs/${id}`);
+  const whole = String(Number(metrics.peak_slider_acceleration_whole_run_m_s2.toPrecision(5)));
+  await page.getByText(`Largest magnitude: ${whole} m/s² in the whole run. It is sought`).waitFor();
   await leave(page);
 });
 
