@@ -137,6 +137,9 @@ test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
   const over = page.getByRole("group", { name: /^Contact force, over time/ }).locator(".u-over");
   await over.scrollIntoViewIfNeeded();
   const { x, y, width, height } = await over.boundingBox();
+  // The strip has no fingers of its own: there the browser scrolls and zooms the page.
+  const touchAction = (area) => area.evaluate((element) => getComputedStyle(element).touchAction);
+  assert.deepEqual([await touchAction(over), await touchAction(page.locator(".overview .u-over"))], ["pan-y", "auto"]);
   const session = await page.context().newCDPSession(page);
   const touch = (type, parts) => session.send("Input.dispatchTouchEvent", { type, touchPoints: parts.map((part, id) => ({ id, x: x + part * width, y: y + height / 2 })) });
   const shown = () => page.evaluate(() => ["from", "to"].map((key) => Number(new URLSearchParams(location.hash.split("?")[1]).get(key))));

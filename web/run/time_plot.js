@@ -14,6 +14,7 @@ const settleMs = 250;  // where it only gets finer
 /// @param traces  a list of {job, channel, name, colour (a function), dash, envelope: [least, largest] or nothing}
 /// @param times   the window that all plots share
 export async function timePlot(element, { traces, times, height = 260, label, signal }) {
+  element.classList.add("time-plot");
   element.style.minHeight = `${height}px`;  // what stands below does not jump when the plot comes
   const uPlot = await loadUplot();
   await laidOut(element, signal);
