@@ -87,6 +87,8 @@ test("plots outlive a service that was away", async () => {
   const plot = page.getByRole("group", { name: /^Contact force, over time/ });
   await plot.locator(".u-over").waitFor();
   await page.waitForLoadState("networkidle");
+  const status = plot.getByRole("status");
+  assert.deepEqual([await status.textContent(), await status.evaluate((element) => element.offsetHeight)], ["", 0]);
   let asked = 0;
   await page.route("**/trajectory?**", (route) => {
     if (route.request().url().includes("contact_force")) asked += 1;

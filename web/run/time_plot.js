@@ -23,12 +23,10 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   let loading = new AbortController();  // one at a time: what is overtaken neither asks on nor tells
   let isSeen = true;
   const now = h("div", { class: "now", hidden: true });
-  const trouble = h("p", { class: "trouble", role: "status", hidden: true });
-  const tell = (text) => {
-    trouble.textContent = text;
-    trouble.hidden = text === "";
-    if (text !== "") element.append(trouble);
-  };
+  const place = h("div");
+  const trouble = h("p", { class: "trouble", role: "status" });  // in the page before it says something, or it would not be read out
+  element.append(place, trouble);
+  const tell = (text) => { trouble.textContent = text; };
 
   async function load() {
     loading.abort();
@@ -46,7 +44,7 @@ export async function timePlot(element, { traces, times, height = 260, label, si
 
   function make() {
     plot?.destroy();
-    plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, element);
+    plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, place);
     plot.over.append(now);
     watchPointer(plot, times);
     watchFingers(plot.over, times);
