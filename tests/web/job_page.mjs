@@ -1,9 +1,10 @@
 // The page of a job: while it waits, when it has failed, when the service was away, and under fingers.   node job_page.mjs URL FOLDER
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, url, visit } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, folder, leave, picture, resultsOf, runSweep, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const away = /ERR_FAILED/;
@@ -117,10 +118,17 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   await page.getByText(`Largest magnitude: Crank torque ${peak("peak_crank_torque_n_m")} N m; Rod force ${peak("peak_rod_force_n")} N.`).waitFor();
   await page.getByText(`${peak("peak_slider_acceleration_whole_run_m_s2")} m/s² in the whole run.`).waitFor();
   const card = page.locator(".card", { has: page.getByRole("heading", { name: "Drive torque and force" }) });
-  const height = await card.locator(".uplot canvas").evaluate((canvas) => canvas.height);
-  const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
-  const png = readFileSync(await download.path());
-  assert.equal(png.readUInt32BE(20), height + 28, "a line for the names");
+  const canvas = card.locator(".uplot canvas");
+  const saved = async () => {
+    const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
+    const png = readFileSync(await download.path());
+    writeFileSync(join(folder, "plot.png"), png);
+    return png.readUInt32BE(20) - await canvas.evaluate(({ height }) => height);
+  };
+  assert.equal(await saved(), 28, "a line for the names");
+  await page.setViewportSize({ width: 340, height: 800 });
+  await page.waitForFunction((element) => element.width < 340, await canvas.elementHandle());
+  assert.equal(await saved(), 56, "two lines where they are too long for one");
   await leave(page);
 });
 
