@@ -37,9 +37,18 @@ test("a job that is waited for says how it stands, outlives a service that was a
   await row("State").getByText("queued").waitFor();
   await row("Its sweep").getByText("0 of 2 jobs have ended, about 1 min 30 s left for all of them").waitFor();
   await page.getByRole("heading", { name: "Parameters" }).waitFor();
+  await page.getByRole("button", { name: "Cancel" }).focus();
+  await row("Submitted").getByRole("cell").evaluate((cell) => getSelection().selectAllChildren(cell));
+  const selected = await page.evaluate(() => getSelection().toString());
+  assert.match(selected, /2026/);
   told.job = given("running", { started_at: new Date(Date.now() - 5000).toISOString() });
   await row("State").getByText("running").waitFor();
+  await page.getByText("Job job_given, running").waitFor();
   await row("Computing for").getByText(/^\d+(\.\d)? s$/).waitFor();
+  await row("Computing for").getByText(/^1\d s$/).waitFor();
+  // Only texts change meanwhile.
+  assert.equal(await page.evaluate(() => getSelection().toString()), selected);
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), "Cancel");
   await expectAccessible(page);
   told.job = null;
   await page.getByText("The service does not answer. Trying again …").waitFor();
