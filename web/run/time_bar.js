@@ -11,7 +11,8 @@ const help = "In a plot: drag across to look closer, turn the wheel to zoom, dra
 /// @param envelope  channels that the strip shows: the least and the largest of one quantity, or one alone
 export function timeBar(times, job, envelope, signal) {
   const slider = (label, moved) => {
-    const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label, oninput: () => moved(Number(input.value)) });
+    const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label,
+      oninput: () => moved(Number(input.value)) });
     return input;
   };
   const from = slider("From [s]", (value) => times.set(value, Math.max(times.to, value + times.least)));
