@@ -134,6 +134,7 @@ test("plots tell the peaks that lie between their samples, and are saved with th
     writeFileSync(join(folder, "plot.png"), png);
     return png.readUInt32BE(20) - await canvas.evaluate(({ height }) => height);
   };
+  await canvas.waitFor();
   assert.equal(await saved(), 28, "a line for the names");
   await page.setViewportSize({ width: 340, height: 800 });
   await page.waitForFunction((element) => element.width < 340, await canvas.elementHandle());
