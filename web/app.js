@@ -1,5 +1,5 @@
 // Shows the view that the address names, and gives it up when the address changes.
-import { findHealth, isAway } from "/core/api.js";
+import { Away, findHealth, isAway } from "/core/api.js";
 import { readRoute } from "/core/route.js";
 import { h } from "/core/dom.js";
 import { pause, persist } from "/core/live.js";
@@ -28,6 +28,18 @@ function markNavigation(kind) {
   }
 }
 
+/// The module of a view. @throws Away if it could not be fetched, which browsers tell as a TypeError
+async function load(kind) {
+  if (!Object.hasOwn(pages, kind)) throw new Error("There is no such view.");
+  return pages[kind]().catch((error) => { throw error instanceof TypeError ? new Away() : error; });
+}
+
+/// Resolves once the service answers. @throws an AbortError when the signal is given
+async function whenBack(signal) {
+  await pause(againMs, signal);
+  await persist(() => findHealth(signal), () => {}, signal);
+}
+
 async function show() {
   const { kind, id, query } = readRoute();
   const number = ++shown;
@@ -36,16 +48,17 @@ async function show() {
   leave = () => ended.abort();
   main.replaceChildren();
   markNavigation(kind);
+  let page = null;
   try {
-    if (!Object.hasOwn(pages, kind)) throw new Error("There is no such view.");
-    const page = await pages[kind]();
+    page = await load(kind);
     if (number === shown) await page.show(main, { id, query, signal: ended.signal });
   } catch (error) {
     if (number !== shown || error.name === "AbortError") return;
     const away = isAway(error);
-    main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, away ? `${error.message} Trying again …` : error.message),
-      h("p", {}, h("a", { href: "#/" }, "To the sweeps")));
-    if (away) pause(againMs, ended.signal).then(() => persist(() => findHealth(ended.signal), () => {}, ended.signal)).then(show, () => {});
+    const told = away ? `${error.message} Trying again …` : error.message;
+    main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, told), h("p", {}, h("a", { href: "#/" }, "To the sweeps")));
+    // A module that failed is kept as such by some browsers: only a new page asks for it again.
+    if (away) whenBack(ended.signal).then(() => (page ? show() : location.reload()), () => {});
   }
 }
 

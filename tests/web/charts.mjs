@@ -11,14 +11,20 @@ const force = "peak_contact_force_n";
 /** A row of a job that was computed. */
 const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", ...values });
 
+/** What asks why jobs have failed. */
+const reasons = "**/v1/sweeps/swp_given/results?state=failed**";
+
 /** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures */
-async function visitRows(axes, rows, { query = "", parameters = {}, failures = [] } = {}) {
+async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], isSchemaGone = false, isAway = false } = {}) {
   const page = await visit("#/wear");
-  const counts = { queued: 0, running: 0, succeeded: rows.length, failed: 0, cancelled: 0, total: rows.length };
+  if (isSchemaGone) await page.route("**/v1/parameters", (route) => route.abort());
+  const count = (state) => rows.filter((each) => each.state === state).length;
+  const counts = { queued: 0, running: 0, succeeded: count("succeeded"), failed: count("failed"), cancelled: 0, total: rows.length };
   const sweep = { id: "swp_given", name: "given", state: "succeeded", counts, progress: 1, eta_s: null, axes, request: { parameters } };
   const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
   await give("**/v1/sweeps/swp_given", () => sweep);
   await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
+  if (isAway) await page.route(reasons, (route) => route.abort());
   await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
   await page.locator(".chart canvas").nth(2).waitFor();
   return page;
@@ -78,6 +84,20 @@ test("axes are logarithmic where values lie decades apart, and as they were wher
   await leave(page);
 });
 
+test("a scale is forgotten with its axis or metric", async () => {
+  const values = [1e-8, 1e-6, 1e-4];
+  const rows = values.flatMap((tolerance, k) => values.map((step, i) => row(`${k}${i}`, { relative_tolerance: tolerance, absolute_tolerance: step, [metric]: 10 ** k, [force]: 10 ** i })));
+  const page = await visitRows(["relative_tolerance", "absolute_tolerance"], rows, { query: "?x=relative_tolerance&x_scale=linear&metric_scale=log" });
+  const types = async () => [(await drawn(page, 1)).x[0].type, (await drawn(page, 1)).y[0].type];
+  assert.deepEqual(await types(), ["value", "log"]);
+  await page.getByRole("combobox", { name: "Across" }).selectOption("absolute_tolerance");
+  assert.deepEqual(await types(), ["log", "log"]);
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
+  assert.deepEqual(await types(), ["log", "value"]);
+  await page.waitForURL((address) => !/_scale=/.test(address.href));
+  await leave(page);
+});
+
 test("what a chart averages over, and of which metric, stands in it", async () => {
   const rows = [0.1, 0.2].flatMap((clearance) => ["rigid", "flexible"].map((coupler, k) => row(`${clearance}${k}`, { clearance_mm: clearance, coupler, [metric]: clearance + k })));
   const page = await visitRows(["clearance_mm", "coupler"], rows, { query: "?x=clearance_mm" });
@@ -134,4 +154,24 @@ test("the table says why jobs failed", async () => {
   await expectAccessible(page);
   await picture(page, "failures", { fullPage: true });
   await leave(page);
+});
+
+test("the table says why jobs failed although the service was away, and anew when they have been retried", async () => {
+  const rows = [{ job_id: "job_1", state: "failed", clearance_mm: 0.2, [metric]: null }];
+  const failures = [{ job_id: "job_1", error_reason: "step_limit", error_detail: "too many steps" }];
+  const page = await visitRows(["clearance_mm"], rows, { failures, isAway: true });
+  await page.getByText("The service does not answer. Trying again …").waitFor();
+  await page.unroute(reasons);
+  await page.getByRole("cell", { name: "failed: step_limit too many steps" }).waitFor();
+  await page.route("**/v1/sweeps/swp_given/retry", (route) => route.fulfill({ json: {} }));
+  failures[0] = { job_id: "job_1", error_reason: "time_limit", error_detail: "too slow" };
+  await page.getByRole("button", { name: "Retry" }).click();
+  await page.getByRole("cell", { name: "failed: time_limit too slow" }).waitFor();
+  await leave(page, /ERR_FAILED/);
+});
+
+test("the page of a sweep does without the schema of the parameters", async () => {
+  const page = await visitRows(["clearance_mm"], [0.1, 0.2].map((clearance, k) => row(k, { clearance_mm: clearance, [metric]: k === 0 ? 1 : null })), { isSchemaGone: true });
+  await page.getByText(/^1 computed job without a value of Peak slider acceleration/).waitFor();
+  await leave(page, /ERR_FAILED/);
 });

@@ -1,9 +1,10 @@
 // The page of a job: while it waits, when it has failed, when the service was away, and under fingers.   node job_page.mjs URL FOLDER
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, url, visit } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, folder, leave, picture, resultsOf, runSweep, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const away = /ERR_FAILED/;
@@ -22,8 +23,8 @@ async function giveJob(page, told) {
 }
 
 /** A job with clearance that has been computed: its sweep's only one. */
-async function computedJob() {
-  const [{ job_id: id }] = await resultsOf(await runSweep({ parameters: { duration_s: 0.4, run_up_s: 0.1, clearance_mm: 0.25 } }));
+async function computedJob(parameters = {}) {
+  const [{ job_id: id }] = await resultsOf(await runSweep({ parameters: { duration_s: 0.4, run_up_s: 0.1, clearance_mm: 0.25, ...parameters } }));
   return ask(`/v1/jobs/${id}`);
 }
 
@@ -36,9 +37,18 @@ test("a job that is waited for says how it stands, outlives a service that was a
   await row("State").getByText("queued").waitFor();
   await row("Its sweep").getByText("0 of 2 jobs have ended, about 1 min 30 s left for all of them").waitFor();
   await page.getByRole("heading", { name: "Parameters" }).waitFor();
+  await page.getByRole("button", { name: "Cancel" }).focus();
+  await row("Submitted").getByRole("cell").evaluate((cell) => getSelection().selectAllChildren(cell));
+  const selected = await page.evaluate(() => getSelection().toString());
+  assert.match(selected, /2026/);
   told.job = given("running", { started_at: new Date(Date.now() - 5000).toISOString() });
   await row("State").getByText("running").waitFor();
+  await page.getByText("Job job_given, running").waitFor();
   await row("Computing for").getByText(/^\d+(\.\d)? s$/).waitFor();
+  await row("Computing for").getByText(/^1\d s$/).waitFor();
+  // Only texts change meanwhile.
+  assert.equal(await page.evaluate(() => getSelection().toString()), selected);
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), "Cancel");
   await expectAccessible(page);
   told.job = null;
   await page.getByText("The service does not answer. Trying again …").waitFor();
@@ -67,16 +77,42 @@ test("a view that could not be shown is shown when the service is back", async (
   await leave(page, away);
 });
 
+test("a view whose module could not be loaded is shown when the service is back", async () => {
+  const page = await visit("#/wear");
+  const told = { job: null, sweep: sweepOf({ failed: 2 }) };
+  await giveJob(page, told);
+  for (const pattern of ["**/pages/job.js", "**/healthz"]) await page.route(pattern, (route) => (told.job ? route.continue() : route.abort()));
+  await page.goto(`${url}/#/jobs/job_given`);
+  await page.getByText("The service does not answer. Trying again …").waitFor();
+  await page.waitForTimeout(3000);
+  assert.ok(await page.getByText("The service does not answer. Trying again …").isVisible());
+  told.job = given("cancelled");
+  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await leave(page, away);
+});
+
 test("plots outlive a service that was away", async () => {
   const { id } = await computedJob();
   const page = await visit(`#/jobs/${id}`);
   const plot = page.getByRole("group", { name: /^Contact force, over time/ });
   await plot.locator(".u-over").waitFor();
   await page.waitForLoadState("networkidle");
-  await page.route("**/trajectory?**", (route) => route.abort());
+  const status = plot.getByRole("status");
+  assert.deepEqual([await status.textContent(), await status.evaluate((element) => element.offsetHeight)], ["", 0]);
+  let asked = 0;
+  await page.route("**/trajectory?**", (route) => {
+    if (route.request().url().includes("contact_force")) asked += 1;
+    return route.abort();
+  });
   await plot.focus();
-  await page.keyboard.press("+");
+  for (const key of ["+", "-", "+", "-", "+"]) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(400);
+  }
   await plot.getByText("The service does not answer. Trying again …").waitFor();
+  const before = asked;
+  await page.waitForTimeout(2500);
+  assert.ok(before >= 5 && asked - before <= 2, `${asked - before} requests in 2.5 s after ${before}`);
   assert.ok(await plot.locator(".u-over").isVisible());
   await page.unroute("**/trajectory?**");
   await plot.getByText("The service does not answer.").waitFor({ state: "hidden" });
@@ -91,10 +127,27 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   await page.getByText(`Largest magnitude: Crank torque ${peak("peak_crank_torque_n_m")} N m; Rod force ${peak("peak_rod_force_n")} N.`).waitFor();
   await page.getByText(`${peak("peak_slider_acceleration_whole_run_m_s2")} m/s² in the whole run.`).waitFor();
   const card = page.locator(".card", { has: page.getByRole("heading", { name: "Drive torque and force" }) });
-  const height = await card.locator(".uplot canvas").evaluate((canvas) => canvas.height);
-  const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
-  const png = readFileSync(await download.path());
-  assert.equal(png.readUInt32BE(20), height + 28, "a line for the names");
+  const canvas = card.locator(".uplot canvas");
+  const saved = async () => {
+    const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
+    const png = readFileSync(await download.path());
+    writeFileSync(join(folder, "plot.png"), png);
+    return png.readUInt32BE(20) - await canvas.evaluate(({ height }) => height);
+  };
+  await canvas.waitFor();
+  assert.equal(await saved(), 28, "a line for the names");
+  await page.setViewportSize({ width: 340, height: 800 });
+  await page.waitForFunction((element) => element.width < 340, await canvas.elementHandle());
+  assert.equal(await saved(), 56, "two lines where they are too long for one");
+  await leave(page);
+});
+
+test("a run without a steady part has a peak all the same", async () => {
+  const { id, metrics } = await computedJob({ run_up_s: 0.4 });
+  assert.equal(metrics.peak_slider_acceleration_m_s2, null);
+  const page = await visit(`#/jobs/${id}`);
+  const whole = String(Number(metrics.peak_slider_acceleration_whole_run_m_s2.toPrecision(5)));
+  await page.getByText(`Largest magnitude: ${whole} m/s² in the whole run. It is sought`).waitFor();
   await leave(page);
 });
 
@@ -104,6 +157,9 @@ test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
   const over = page.getByRole("group", { name: /^Contact force, over time/ }).locator(".u-over");
   await over.scrollIntoViewIfNeeded();
   const { x, y, width, height } = await over.boundingBox();
+  // The strip has no fingers of its own: there the browser scrolls and zooms the page.
+  const touchAction = (area) => area.evaluate((element) => getComputedStyle(element).touchAction);
+  assert.deepEqual([await touchAction(over), await touchAction(page.locator(".overview .u-over"))], ["pan-y", "auto"]);
   const session = await page.context().newCDPSession(page);
   const touch = (type, parts) => session.send("Input.dispatchTouchEvent", { type, touchPoints: parts.map((part, id) => ({ id, x: x + part * width, y: y + height / 2 })) });
   const shown = () => page.evaluate(() => ["from", "to"].map((key) => Number(new URLSearchParams(location.hash.split("?")[1]).get(key))));
@@ -122,5 +178,13 @@ test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
   await touch("touchMove", [0.25, 0.75]);
   await touch("touchEnd", []);
   await expectShown([0.225, 0.325]);
+  // Fingers that meet or cross leave the plot alone, and are followed again once they are apart.
+  await touch("touchStart", [0.25, 0.75]);
+  for (const part of [0.5, 0.26, 0.25, 0.2, 0]) await touch("touchMove", [0.25, part]);
+  await page.waitForTimeout(800);
+  await expectShown([0.2, 0.4]);
+  await touch("touchMove", [0.25, 0.75]);
+  await expectShown([0.225, 0.325]);
+  await touch("touchEnd", []);
   await leave(page);
 });

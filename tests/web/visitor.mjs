@@ -9,7 +9,7 @@ import { chromium } from "playwright-core";
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const [, , url, folder] = process.argv;
 
-export { url };
+export { folder, url };
 
 let browser = null;
 

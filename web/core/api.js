@@ -13,7 +13,8 @@ export class Refusal extends Error {
 /// The service is not there, or something in front of it says so: asking again may help, as while it starts anew.
 export const isAway = (error) => error.name === "Away" || [502, 503, 504].includes(error.status);
 
-class Away extends Error {
+/// There was no answer.
+export class Away extends Error {
   constructor() {
     super("The service does not answer.");
     this.name = "Away";

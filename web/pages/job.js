@@ -23,6 +23,7 @@ import { sceneCard } from "/scene/scene_card.js";
 const isWaiting = (state) => state === "queued" || state === "running";
 const sliderAcceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
 const pollMs = 1000;
+const sweepPolls = 5;  // its sweep is asked for with every fifth
 const rememberMs = 400;  // browsers refuse to change the address many times a second
 
 export async function show(main, { id, query, signal }) {
@@ -47,28 +48,39 @@ class JobPage {
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible").map((link) => `flexible ${link}, `).join("");
     const title = isDescribed(job) ? titleOfLinkage(linkage) : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "its sweep") : "no sweep";
+    this.state = h("span");
+    this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
     const links = job.state === "succeeded" ? h("p", { class: "actions" }, ["csv", "json", "npz"].map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
       : h("p", { class: "actions" }, isWaiting(job.state) ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
-      h("p", { class: "quiet" }, `Job ${job.id}, `, h("span", { class: job.state }, job.state), " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
+      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
+  }
+
+  drawState() {
+    this.state.className = this.job.state;
+    this.state.textContent = this.job.state;
   }
 
   /// Shows how the job stands until it has ended, and then what came of it.
   async waitForEnd(main) {
     const trouble = h("p", { class: "trouble", role: "status" });
     const tell = (text) => { trouble.textContent = text; };
-    const standing = h("div");
-    const draw = (sweep) => standing.replaceChildren(standingCard(this.job, sweep, new Date()));
-    const redraw = () => main.replaceChildren(...this.head(), trouble, h("div", { class: "columns even" }, standing, runCard(this.job, this.schema)));
+    const standing = standingCard();
+    const redraw = () => main.replaceChildren(...this.head(), trouble, h("div", { class: "columns even" }, standing.element, runCard(this.job, this.schema)));
     redraw();
-    draw(await this.findItsSweep(tell));
-    for (let { state } = this.job; isWaiting(state); ({ state } = this.job)) {
+    let sweep = await this.findItsSweep(tell);
+    standing.draw(this.job, sweep, new Date());
+    for (let { state } = this.job, polls = 1; isWaiting(state); ({ state } = this.job), polls += 1) {
       await pause(pollMs, this.signal);
       this.job = await persist(() => findJob(this.job.id, this.signal), tell, this.signal);
       if (this.job.state === "succeeded") return dispatchEvent(new Event("hashchange"));
-      if (this.job.state !== state) redraw();
-      draw(await this.findItsSweep(tell));
+      if (isWaiting(this.job.state)) this.drawState();
+      else redraw();
+      standing.draw(this.job, sweep, new Date());
+      if (this.job.state === state && polls % sweepPolls !== 0) continue;
+      sweep = await this.findItsSweep(tell);
+      standing.draw(this.job, sweep, new Date());
     }
     return undefined;
   }

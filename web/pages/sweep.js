@@ -3,7 +3,7 @@ import { cancelSweep, findResults, findSweep, listSweeps, parameterSchema, resul
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify, setSeen } from "/core/dom.js";
 import { plural, span, titleOf } from "/core/format.js";
-import { follow, isUnderWay, seldom } from "/core/live.js";
+import { follow, isUnderWay, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf, valuesOf } from "/study/data.js";
 import { Failures } from "/study/failures.js";
@@ -16,10 +16,13 @@ import { ResultTable } from "/study/table.js";
 
 const mostInAddress = 20;
 const reloadMs = 1500;
+const tell = (text) => text && notify(text, "trouble");
 
 export async function show(main, { id, query, signal }) {
   loadCharts().catch(() => {});  // told where a chart would be
-  const [sweep, rows, schema] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal), parameterSchema()]);
+  // Without the schema only a sentence on missing values knows less.
+  const schemaIfAny = parameterSchema().catch(() => ({ properties: {} }));
+  const [sweep, rows, schema] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal), schemaIfAny]);
   const page = new SweepPage(sweep, rows, schema, query, signal);
   main.replaceChildren(...page.parts());
   page.start();
@@ -67,7 +70,7 @@ class SweepPage {
 
   start() {
     this.drawTexts();
-    this.learnFailures();
+    this.reloading = this.learnFailures();
     this.drawChosen();
     this.selection.addEventListener("change", () => this.changed());
     this.makeCharts();
@@ -106,21 +109,41 @@ class SweepPage {
     if (!this.signal.aborted && isUnderWay(this.sweep)) this.followIt();
   }
 
-  async reload() {
-    const start = performance.now();
-    try {
-      [this.sweep, this.rows] = await Promise.all([findSweep(this.sweep.id, this.signal), findResults(this.sweep.id, {}, this.signal)]);
-      this.drawHead();
-      this.drawAll();
-      this.learnFailures();
-      this.reloadTook = performance.now() - start;
-    } catch (error) {
-      if (error.name !== "AbortError") notify(error.message, "trouble");
-    }
+  /// One after the other, so that no answer covers a newer one. Who asks while one waits for its turn is given that one.
+  reload() {
+    this.waiting ??= this.reloading.then(() => {
+      this.waiting = null;
+      this.reloading = this.load();
+      return this.reloading;
+    });
+    return this.waiting;
   }
 
-  learnFailures() {
-    this.failures.learn(this.sweep.id, this.rows, this.signal).then((news) => news && this.table.draw()).catch(() => {});  // asked again with the next news, or told on the job's page
+  async load() {
+    if (this.isRetried) this.failures.clear();
+    this.isRetried = false;
+    try {
+      let start = 0;
+      [this.sweep, this.rows] = await persist(() => {
+        start = performance.now();
+        return Promise.all([findSweep(this.sweep.id, this.signal), findResults(this.sweep.id, {}, this.signal)]);
+      }, tell, this.signal);
+      this.drawHead();
+      this.drawAll();
+      this.reloadTook = performance.now() - start;
+    } catch (error) {
+      if (error.name !== "AbortError") tell(error.message);
+      return;
+    }
+    await this.learnFailures();
+  }
+
+  async learnFailures() {
+    try {
+      if (await this.failures.learn(this.sweep.id, this.rows, tell, this.signal)) this.table.draw();
+    } catch (error) {
+      if (error.name !== "AbortError") tell(error.message);
+    }
   }
 
   drawAll() {
@@ -156,7 +179,7 @@ class SweepPage {
     const { id, name } = this.sweep;
     const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.update()).catch((error) => notify(error.message, "trouble")) }, text);
     this.cancel = act("Cancel", cancelSweep);
-    this.retry = act("Retry", retrySweep);
+    this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => { this.isRetried = true; }));
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
       h("a", { class: "button", href: resultsUrl(id, { format: "csv" }), download: `${name || id}.csv` }, "CSV"),
       h("a", { class: "button", href: routeTo("analyses", id) }, "What it says"),
@@ -164,7 +187,9 @@ class SweepPage {
   }
 
   drawPickers() {
-    const set = (key) => (value) => { this.view[key] = value; this.changed(); };
+    // A scale was chosen for the axis or the metric that it stood at.
+    const scales = { x: { xScale: "" }, metric: { metricScale: "" } };
+    const set = (key) => (value) => { Object.assign(this.view, { [key]: value, ...scales[key] }); this.changed(); };
     const named = (names) => names.map((name) => [name, titleOf(name)]);
     const axes = named(this.axes);
     this.compare = h("span");

@@ -14,6 +14,11 @@ const mostSearched = 1000;
 const pollMs = 4000;
 const followed = 3;  // a browser keeps six connections to a service, and the page needs some to ask
 const states = ["queued", "running", "succeeded", "failed", "cancelled"];
+const columns = [["name", "Name"], ["state", "State"], ["progress", "Progress"], ["jobs", "Jobs"],
+  ["peaks", "Least and largest peak"], ["created", "Created"], ["actions", "Actions"]];
+const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits and slides in its bearing, and accelerations and "
+  + "forces have peaks that an ideal linkage has not. A sweep is a set of such simulations over ranges of their parameters; the service computes them in the "
+  + "background and keeps what comes out, and charts and tables fill as it does.";
 
 export async function show(main, { query, signal }) {
   const view = new SweepList(query, signal);
@@ -38,14 +43,14 @@ class SweepList {
     document.title = "RPSUP: sweeps";
     this.status = h("p", { class: "quiet", role: "status" }, "Loading the sweeps …");
     this.body = h("tbody");
-    const headings = ["Name", "State", "Progress", "Jobs", "Least and largest peak", "Created", "Actions"];
+    const headings = columns.map(([key, text]) => h("th", { scope: "col", class: `column-${key}` }, text));
     this.table = h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region", "aria-label": "Sweeps" },
-      h("table", { class: "listing" }, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), this.body));
+      h("table", { class: "listing" }, h("thead", {}, h("tr", {}, headings)), this.body));
     this.more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
     this.empty = h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
-      h("p", {}, "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits and slides in its bearing, and accelerations and forces have peaks that an ideal linkage has not. "
-        + "A sweep is a set of such simulations over ranges of their parameters; the service computes them in the background and keeps what comes out, and charts and tables fill as it does."),
-      h("p", {}, "The paper's study is an example, ready to be submitted. For scripts and notebooks, ", h("a", { href: "/docs" }, "the interface is described"), " on a page to try it with."),
+      h("p", {}, whatItIs),
+      h("p", {}, "The paper's study is an example, ready to be submitted. For scripts and notebooks, ",
+        h("a", { href: "/docs" }, "the interface is described"), " on a page to try it with."),
       h("p", {}, h("a", { class: "button main", href: "#/new" }, "Set one up"), " ",
         h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study")));
     this.executors = executorsPanel();

@@ -1,5 +1,7 @@
 // Fingers on a plot: each holds the instant on which it was put down. One moves the stretch of time, two zoom it as well.
 
+const leastApart = 10;  // pixels between two fingers: nearer ones would zoom without end, crossed ones turn time round
+
 /// @param over  the plot's area  @param times  the window that it shows
 export function watchFingers(over, times) {
   const fingers = new Map();  // where each is, in pixels, and the instant that it holds
@@ -17,14 +19,18 @@ export function watchFingers(over, times) {
     const finger = fingers.get(event.pointerId);
     if (!finger) return;
     finger.x = placeOf(event);
-    times.set(...windowUnder([...fingers.values()], over.clientWidth, times.length));
+    const wanted = windowUnder([...fingers.values()], over.clientWidth, times.length);
+    if (wanted) times.set(...wanted);
   });
   over.addEventListener("pointerup", lift);
   over.addEventListener("pointercancel", lift);
 }
 
-/// The window that has each finger at its instant. @param width  of the plot, in pixels  @param length  of the window that is shown now
+/// The window that has each finger at its instant; null if the fingers are too near each other, or have crossed.
+/// @param width  of the plot, in pixels  @param length  of the window that is shown now
 function windowUnder([first, second], width, length) {
+  if (second && Math.abs(second.x - first.x) < leastApart) return null;
   const perPixel = second ? (second.t - first.t) / (second.x - first.x) : length / width;
+  if (!(perPixel > 0 && Number.isFinite(perPixel))) return null;
   return [first.t - first.x * perPixel, first.t + (width - first.x) * perPixel];
 }

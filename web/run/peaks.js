@@ -8,16 +8,22 @@ const digits = 5;  // as in the table of the metrics
 /// The metrics' peak of a channel in words; null if they have none.
 function peakOf({ metrics }, channel) {
   // Accelerations of a described linkage are called so in the metrics alone.
-  const key = [`peak_${channel}`, `peak_${channel.replace(unitOfAcceleration, "_acceleration_$1")}`].find((name) => typeof metrics?.[name] === "number");
-  if (!key) return null;
-  const text = `${number(metrics[key], digits)} ${unitOf(channel)}`;
-  return unitOfAcceleration.test(key) ? `${text}${steadyText(metrics, key)}` : text;
+  const names = [`peak_${channel}`, `peak_${channel.replace(unitOfAcceleration, "_acceleration_$1")}`];
+  const isKnown = (name) => typeof metrics?.[name] === "number";
+  const textOf = (name) => `${number(metrics[name], digits)} ${unitOf(channel)}`;
+  const key = names.find(isKnown);
+  if (key) return unitOfAcceleration.test(key) ? `${textOf(key)}${steadyText(metrics, key)}` : textOf(key);
+  // A run that ends before its steady part has only this one.
+  const whole = names.map(wholeRunOf).find(isKnown);
+  return whole ? `${textOf(whole)} in the whole run` : null;
 }
+
+const wholeRunOf = (key) => key.replace(unitOfAcceleration, "_whole_run_$1");
 
 /// Accelerations count from run_up_s on; of some it is known when that was.
 function steadyText(metrics, key) {
   const at = metrics[key.replace(unitOfAcceleration, "_time_s")];
-  const whole = metrics[key.replace(unitOfAcceleration, "_whole_run_$1")];
+  const whole = metrics[wholeRunOf(key)];
   return `${typeof at === "number" ? ` at ${number(at, 6)} s` : ""} from run_up_s on, ${number(whole, digits)} ${unitOf(key)} in the whole run`;
 }
 

@@ -5,10 +5,27 @@ import { isUnderWay } from "/core/live.js";
 
 const seconds = (from, to) => (new Date(to) - new Date(from)) / 1000;
 
-/// A table of what is known. @param sweep  the job's, or null
-export function standingCard(job, sweep, now) {
-  return h("section", { class: "card", "aria-label": "State" }, h("h2", {}, "Where it stands"),
-    h("table", {}, h("tbody", {}, standingRows(job, sweep, now).map(([name, value]) => h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, value))))));
+/// A table of what is known, made once: what is selected in it, and the page's focus, stay as its texts change.
+/// @returns {element, draw(job, sweep, now)}; the sweep is the job's, or null
+export function standingCard() {
+  const rows = new Map();  // by what they tell
+  const body = h("tbody");
+  const rowOf = (name) => {
+    if (!rows.has(name)) rows.set(name, h("tr", {}, h("th", { scope: "row" }, name), h("td")));
+    return rows.get(name);
+  };
+
+  function draw(job, sweep, now) {
+    const told = standingRows(job, sweep, now);
+    for (const [name, row] of rows) if (!told.some(([wanted]) => wanted === name)) row.remove();
+    told.forEach(([name, value], place) => {
+      const row = rowOf(name);
+      if (row.lastChild.textContent !== value) row.lastChild.textContent = value;
+      if (body.children[place] !== row) body.insertBefore(row, body.children[place] ?? null);
+    });
+  }
+
+  return { element: h("section", { class: "card", "aria-label": "State" }, h("h2", {}, "Where it stands"), h("table", {}, body)), draw };
 }
 
 /// [what, how it is] of a job; why it failed stands above it.

@@ -4,12 +4,15 @@ import { number } from "/core/format.js";
 import { overview } from "/run/overview.js";
 
 const aroundPeak = 0.02;
+const help = "In a plot: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run; on a touch screen two fingers "
+  + "zoom, one moves. Keys there: ← → + − 0. In the strip: drag across with the mouse for another stretch.";
 
 /// @param job       with parameters and metrics; the buttons lead to its steady window and its peak
 /// @param envelope  channels that the strip shows: the least and the largest of one quantity, or one alone
 export function timeBar(times, job, envelope, signal) {
   const slider = (label, moved) => {
-    const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label, oninput: () => moved(Number(input.value)) });
+    const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label,
+      oninput: () => moved(Number(input.value)) });
     return input;
   };
   const from = slider("From [s]", (value) => times.set(value, Math.max(times.to, value + times.least)));
@@ -31,5 +34,5 @@ export function timeBar(times, job, envelope, signal) {
       typeof peak === "number" ? jump("Around the peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null, text),  // last: its length changes
     overview(job, envelope, times, signal),
     h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from), h("label", { class: "small quiet" }, "to", to)),
-    h("p", { class: "quiet small" }, "In a plot or in the strip: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run. Keys: ← → + − 0. On a touch screen: two fingers zoom, one moves."));
+    h("p", { class: "quiet small" }, help));
 }

@@ -14,27 +14,26 @@ const settleMs = 250;  // where it only gets finer
 /// @param traces  a list of {job, channel, name, colour (a function), dash, envelope: [least, largest] or nothing}
 /// @param times   the window that all plots share
 export async function timePlot(element, { traces, times, height = 260, label, signal }) {
+  element.classList.add("time-plot");
   element.style.minHeight = `${height}px`;  // what stands below does not jump when the plot comes
   const uPlot = await loadUplot();
   await laidOut(element, signal);
   let plot = null;
   let data = null;
-  let asked = 0;
+  let loading = new AbortController();  // one at a time: what is overtaken neither asks on nor tells
   let isSeen = true;
   const now = h("div", { class: "now", hidden: true });
-  const trouble = h("p", { class: "trouble", role: "status", hidden: true });
-  const tell = (text) => {
-    trouble.textContent = text;
-    trouble.hidden = text === "";
-    if (text !== "") element.append(trouble);
-  };
+  const place = h("div");
+  const trouble = h("p", { class: "trouble", role: "status" });  // in the page before it says something, or it would not be read out
+  element.append(place, trouble);
+  const tell = (text) => { trouble.textContent = text; };
 
   async function load() {
-    const number = ++asked;
+    loading.abort();
+    loading = new AbortController();
+    const current = AbortSignal.any([signal, loading.signal]);
     try {
-      const fresh = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, signal), tell, signal);
-      if (number !== asked) return;
-      data = fresh;
+      data = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, current), tell, current);
       if (plot) plot.setData(data, false);
       else make();
       follow();
@@ -45,7 +44,7 @@ export async function timePlot(element, { traces, times, height = 260, label, si
 
   function make() {
     plot?.destroy();
-    plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, element);
+    plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, place);
     plot.over.append(now);
     watchPointer(plot, times);
     watchFingers(plot.over, times);
@@ -89,21 +88,36 @@ export async function timePlot(element, { traces, times, height = 260, label, si
 function paint(plot, title, traces) {
   const source = plot.ctx.canvas;
   const letters = 14 * devicePixelRatio;
-  const head = 2 * letters;
   const copy = document.createElement("canvas");
-  Object.assign(copy, { width: source.width, height: source.height + head });
   const context = copy.getContext("2d");
+  const look = { font: `${letters}px system-ui`, textBaseline: "middle" };
+  Object.assign(context, look);
+  const curves = traces.length > 1 ? traces.map((trace) => ({ name: trace.name, ink: trace.colour() })) : [];
+  const { words, height } = setInLines(context, [{ name: title, ink: colour("text") }, ...curves], source.width, letters);
+  Object.assign(copy, { width: source.width, height: source.height + height });
   context.fillStyle = colour("card");
   context.fillRect(0, 0, copy.width, copy.height);
-  context.drawImage(source, 0, head);
-  Object.assign(context, { font: `${letters}px system-ui`, textBaseline: "middle" });
-  let left = letters;
-  for (const { name, ink } of [{ name: title, ink: colour("text") }, ...(traces.length > 1 ? traces.map((trace) => ({ name: trace.name, ink: trace.colour() })) : [])]) {
+  context.drawImage(source, 0, height);
+  Object.assign(context, look);  // a canvas that has got another size has forgotten it
+  for (const { name, ink, left, middle } of words) {
     context.fillStyle = ink;
-    context.fillText(name, left, letters);
-    left += context.measureText(name).width + letters;
+    context.fillText(name, left, middle, copy.width - 2 * letters);
   }
   return copy;
+}
+
+/// Where names stand that are set side by side, in as many lines as it takes. @param letters  their height
+function setInLines(context, names, width, letters) {
+  let left = letters;
+  let middle = letters;
+  const words = names.map((name) => {
+    const wide = context.measureText(name.name).width;
+    if (left > letters && left + wide > width - letters) [left, middle] = [letters, middle + 2 * letters];
+    const word = { ...name, left, middle };
+    left += wide + letters;
+    return word;
+  });
+  return { words, height: middle + letters };
 }
 
 /// The wheel zooms about the pointer; dragging with Shift, or with two fingers on a pad, moves.

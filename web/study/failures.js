@@ -1,5 +1,6 @@
 // Why the jobs of a sweep failed: asked for apart, for few do.
 import { findResults } from "/core/api.js";
+import { persist } from "/core/live.js";
 
 export class Failures {
   #errors = new Map();
@@ -9,13 +10,18 @@ export class Failures {
     return this.#errors.get(id);
   }
 
-  /// Finds the reasons if there are some that are not known yet. @returns whether there is news
-  async learn(sweep, rows, signal) {
+  /// Forgets what is known: jobs that run again may fail for another reason.
+  clear() {
+    this.#errors.clear();
+  }
+
+  /// Finds the reasons if there are some that are not known yet, and asks on while the service is away. @returns whether there is news
+  async learn(sweep, rows, tell, signal) {
     const failed = new Set(rows.filter(({ state }) => state === "failed").map((row) => row.job_id));
-    // A job that runs again may fail for another reason.
     for (const id of this.#errors.keys()) if (!failed.has(id)) this.#errors.delete(id);
-    if (this.#errors.size === failed.size) return false;
-    const found = await findResults(sweep, { state: "failed", fields: "job_id,error_reason,error_detail" }, signal);
+    if ([...failed].every((id) => this.#errors.has(id))) return false;
+    const query = { state: "failed", fields: "job_id,error_reason,error_detail" };
+    const found = await persist(() => findResults(sweep, query, signal), tell, signal);
     this.#errors = new Map(found.map((row) => [row.job_id, row]));
     return true;
   }

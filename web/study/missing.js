@@ -16,13 +16,20 @@ function countEarly(study, rows) {
   return rows.filter((row) => parameterOf(study, row, "duration_s") <= parameterOf(study, row, "run_up_s")).length;
 }
 
+/// How many of so many jobs without a value have ended too early.
+function earlyText(early, all) {
+  if (early === 0) return "and a run must last longer";
+  if (early === all) return "and these have ended by then";
+  return `and ${early.toLocaleString("en")} of these ${early === 1 ? "has" : "have"} ended by then`;
+}
+
 /// A sentence on the jobs without a value; empty if all have one.
 export function missingText(study) {
   const without = withoutValue(study);
   if (without.length === 0) return "";
-  const early = countEarly(study, without);
-  const many = early === without.length ? "these have ended by then" : `${early.toLocaleString("en")} of these ${early === 1 ? "has" : "have"} ended by then`;
-  return `${plural(without.length, "computed job")} without a value of ${nameOf(study.view.metric)}: values of the steady part count from run_up_s on${early > 0 ? `, and ${many}` : ", and a run must last longer"}; those of contacts need a clearance.`;
+  const early = earlyText(countEarly(study, without), without.length);
+  return `${plural(without.length, "computed job")} without a value of ${nameOf(study.view.metric)}: `
+    + `values of the steady part count from run_up_s on, ${early}; those of contacts need a clearance.`;
 }
 
 /// Why a chart is empty, in few words.

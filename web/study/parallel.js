@@ -56,8 +56,10 @@ export function parallelNote(study) {
 }
 
 function dimensionOf({ name, values, isNumeric }, dim) {
-  return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start", nameTextStyle: { color: colour("text") }, axisLine: { lineStyle: { color: colour("quiet") } },
-    axisLabel: { color: colour("text"), formatter: (value) => (isNumeric ? number(value) : exact(value)), ...(isNumeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
+  return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start", nameTextStyle: { color: colour("text") },
+    axisLine: { lineStyle: { color: colour("quiet") } },
+    axisLabel: { color: colour("text"), formatter: (value) => (isNumeric ? number(value) : exact(value)),
+      ...(isNumeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
 }
 
@@ -67,12 +69,18 @@ function planOf(study) {
   if (shown.length === 0) return { shown, option: nothingYet(whyEmpty(study)) };
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
   return { shown, option: {
-    parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" }, areaSelectStyle: { color: colour("accent"), opacity: 0.35 } } },
+    parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },
     parallelAxis: columns.map(dimensionOf),
     visualMap: { show: false, ...ends(extremesOf(peaks)), dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: palette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
       data: shown.map((row) => lineOf(row, columns, view.metric, selection)) }],
   } };
+}
+
+/// What all axes have in common.
+function axisDefaults() {
+  return { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" },
+    areaSelectStyle: { color: colour("accent"), opacity: 0.35 } };
 }
 
 /// A value alone where that is enough: there may be ten thousand.
@@ -81,8 +89,13 @@ function lineOf(row, columns, metric, selection) {
   // The palette knows no colour for what has no value of the metric.
   const uncoloured = typeof row[metric] === "number" ? null : { color: colour("quiet") };
   if (!uncoloured && selection.size === 0) return value;
-  const weight = selection.size === 0 ? {} : selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 };
-  return { value, visualMap: uncoloured === null, lineStyle: { ...uncoloured, ...weight } };
+  return { value, visualMap: uncoloured === null, lineStyle: { ...uncoloured, ...weightOf(row, selection) } };
+}
+
+/// How a line stands out; as the others do where nothing is selected.
+function weightOf(row, selection) {
+  if (selection.size === 0) return {};
+  return selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 };
 }
 
 /// "-" is what ECharts takes for no number; of words the sign for none is one of the values.
