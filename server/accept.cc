@@ -1,8 +1,8 @@
 #include "server/accept.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <vector>
