@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "engine/analysis/run_result.h"
 #include "engine/model/linkage.h"
-#include "engine/run_result.h"
 
 namespace engine {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "engine/analysis/run_result.h"
 #include "engine/model/rpsup_parameters.h"
-#include "engine/run_result.h"
 
 namespace engine {
 

@@ -9,23 +9,23 @@
 #include <thread>
 #include <utility>
 
+#include "jobs/base/content_id.h"
+#include "jobs/base/keys_in_use.h"
+#include "jobs/base/time_text.h"
 #include "jobs/cluster/slurm_executor.h"
-#include "jobs/content_id.h"
-#include "jobs/expand.h"
-#include "jobs/extend_request.h"
-#include "jobs/keys_in_use.h"
-#include "jobs/local_pool.h"
-#include "jobs/page.h"
-#include "jobs/parameter_value.h"
-#include "jobs/resource_json.h"
-#include "jobs/result_query.h"
-#include "jobs/run_record.h"
+#include "jobs/local/local_pool.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/requests/expand.h"
+#include "jobs/requests/extend_request.h"
+#include "jobs/results/page.h"
+#include "jobs/results/resource_json.h"
+#include "jobs/results/result_query.h"
+#include "jobs/runs/run_record.h"
 #include "jobs/search/limit_study.h"
-#include "jobs/search/study_desk.h"
-#include "jobs/store.h"
-#include "jobs/time_text.h"
-#include "jobs/trajectory_codec.h"
-#include "jobs/trajectory_query.h"
+#include "jobs/store/store.h"
+#include "jobs/studies/study_desk.h"
+#include "jobs/trajectories/trajectory_codec.h"
+#include "jobs/trajectories/trajectory_query.h"
 #include "jobs/wear/wear_study.h"
 
 namespace jobs {
@@ -341,6 +341,9 @@ class Service::Impl {
   }
 
   [[nodiscard]] bool has_cluster() const { return !options_.site.folder.empty(); }
+  [[nodiscard]] StudyRoom study_room() const {
+    return {.max_sweep_jobs = options_.max_sweep_jobs, .max_queued_jobs = options_.max_queued_jobs, .threads = options_.threads};
+  }
   [[nodiscard]] Lane lane_of(std::string_view executor) const { return {.executor = std::string(executor), .default_executor = options_.executor}; }
 
   void check_executor(const std::string& name) const {
@@ -436,8 +439,8 @@ class Service::Impl {
   std::atomic<std::uint64_t> activity_ = 0;
   KeysInUse keys_;
   Store store_;
-  StudyDesk searches_{store_, options_, make_limit_study()};
-  StudyDesk wear_studies_{store_, options_, make_wear_study(store_)};
+  StudyDesk searches_{store_, study_room(), make_limit_study()};
+  StudyDesk wear_studies_{store_, study_room(), make_wear_study(store_)};
   std::vector<std::unique_ptr<Executor>> executors_;  // end before the store they work for; none before start()
   std::mutex stop_mutex_;          // guards the joining of searcher_
   std::jthread searcher_;          // of keep_searching()
@@ -493,12 +496,5 @@ bool Service::delete_sweep(const std::string& id) { return impl_->delete_sweep(i
 bool Service::wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const { return impl_->wait_for_sweep(id, at_most); }
 bool Service::wait_for_job(const std::string& id, std::chrono::milliseconds at_most) const { return impl_->wait_for_job(id, at_most); }
 void Service::stop() { impl_->stop(); }
-
-Outcome run_job(const json& parameters, const engine::StopQuery& stop_requested) {
-  const json completed = complete_parameters(parameters, "");
-  const std::int64_t started_ms = now_unix_ms();
-  RunRecord record = run_and_record(to_job_spec(completed), engine_runner(), stop_requested);
-  return {.job = unstored_job_json(completed, record, started_ms, now_unix_ms()), .trajectory = rounded_to_stored(std::move(record.trajectory))};
-}
 
 }  // namespace jobs

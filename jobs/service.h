@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -10,34 +8,22 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "engine/model/linkage.h"
-#include "engine/simulate_rpsup.h"
+#include "engine/analysis/run_result.h"
 #include "jobs/cluster/site.h"
-#include "jobs/job_limits.h"
-#include "jobs/replicate_statistics.h"
-#include "jobs/store_room.h"
+#include "jobs/results/page.h"
+#include "jobs/results/result_query.h"
+#include "jobs/results/result_table.h"
+#include "jobs/runs/job_limits.h"
+#include "jobs/runs/run_record.h"
+#include "jobs/store/load.h"
+#include "jobs/store/store_room.h"
+#include "jobs/trajectories/trajectory_query.h"
 
 namespace jobs {
-
-/// What one job asks the engine for.
-struct JobSpec {
-  engine::RpsupParameters parameters;
-  engine::RunOptions options;
-  std::optional<engine::Linkage> linkage{};  ///< a described linkage; empty: RPSUP
-};
-
-/// Computes one job; tests put their own in the place of engine::simulate_rpsup.
-using Runner = std::function<engine::RunResult(const JobSpec&, const engine::StopQuery&)>;
-
-struct RunRecord;
-
-/// Told what a run of a job left. Must not throw.
-using RunListener = std::function<void(const JobSpec&, const RunRecord&)>;
 
 /// When a service begins to compute.
 enum class Start { kAtOnce, kWhenTold };
@@ -58,51 +44,6 @@ struct ServiceOptions {
   RunListener ran{};            ///< told, from any thread, of each run on this machine before it is recorded; empty: nobody
 };
 
-/// A page of a listing.
-struct PageQuery {
-  static constexpr std::size_t kLargestLimit = 10'000;
-
-  std::string state;            ///< only these; empty: all
-  std::size_t limit = 50;       ///< 1 .. kLargestLimit
-  std::string cursor;           ///< next_cursor of the page before; empty: the newest
-  std::string fields{};         ///< keys of the items, with commas between; empty: all
-};
-
-/// A condition on the rows of a table.
-struct ResultFilter {
-  std::string key;    ///< a column, for equality, or a column with _gt, _lt, _ge or _le
-  std::string value;
-};
-
-/// What is wanted of the results of a sweep. Columns are those of its table, all other parameters, and kErrorColumns.
-struct ResultQuery {
-  std::string fields;                 ///< columns, with commas between, in the order in which they are wanted; empty: all
-  std::vector<ResultFilter> filters;  ///< rows that have no value of the column pass none
-  std::string order_by;               ///< columns, with commas between; one with a leading '-' has its largest values first. Null comes last
-  std::optional<std::size_t> limit;   ///< rows
-};
-
-/// Columns of why a job failed, as a word and as a sentence. Tables have them only if a query names them.
-inline constexpr std::array<std::string_view, 2> kErrorColumns{"error_reason", "error_detail"};
-
-[[nodiscard]] inline bool is_error_column(std::string_view column) { return std::ranges::find(kErrorColumns, column) != kErrorColumns.end(); }
-
-/// Flat rows, one a job, in the order in which the sweep was expanded. Columns are the same for JSON and CSV:
-/// job_id, state, replicate (if the sweep has any), the swept parameters, every metric.
-struct ResultTable {
-  std::vector<std::string> columns;
-  std::vector<std::vector<nlohmann::json>> rows;  ///< null where a job has no value
-  std::vector<ReplicateStatistics> replicates{};  ///< of each row's set, one a row; empty unless sets were run more than once
-  bool ended = false;  ///< whether the sweep had ended
-};
-
-/// What is wanted of a trajectory.
-struct TrajectoryQuery {
-  std::vector<std::string> channels;  ///< empty: all; t_s always comes first
-  std::optional<double> from, to;     ///< [s], both included
-  std::optional<std::size_t> points{};  ///< at most so many samples, see decimate(); empty: all
-};
-
 /// What has happened to a sweep since a change.
 struct SweepNews {
   /// {"sweep_id", "state", "counts", "progress", "eta_s", "eta_low_s", "eta_high_s"}; of a study {"id", "sweep_id", "state", "counts", "progress"}
@@ -114,12 +55,6 @@ struct SweepNews {
     nlohmann::json job;
   };
   std::vector<EndedJob> jobs;            ///< by change
-};
-
-/// How much there is to do, and what the store takes.
-struct Load {
-  std::int64_t queued = 0, running = 0;  ///< jobs
-  std::int64_t store_bytes = 0;          ///< on disk, with its log
 };
 
 /// A sweep to which evaluations are added as its results ask for them: a search for a limit, a bearing that is worn over the hours.
@@ -217,33 +152,5 @@ class Service {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// JSON Schema (2020-12) of the parameters of a job: type, unit, range, default, where the default comes from.
-[[nodiscard]] nlohmann::json parameter_schema();
-
-/// All parameters of a job with their defaults filled in.
-/// @param pointer  where `given` stands in the request, for the faults
-/// @throws InvalidRequest with every fault
-[[nodiscard]] nlohmann::json complete_parameters(const nlohmann::json& given, const std::string& pointer);
-
-/// The engine's view of completed parameters: the only place where units are converted.
-[[nodiscard]] JobSpec to_job_spec(const nlohmann::json& completed_parameters);
-
-/// The channels of the job's trajectory.
-[[nodiscard]] std::vector<engine::QuantityInfo> channel_table(const JobSpec& spec);
-
-/// A job computed on the spot, without a store.
-struct Outcome {
-  nlohmann::json job;             ///< as GET /v1/jobs/{id} shows it, without an id
-  engine::Trajectory trajectory;  ///< as far as the run came
-};
-
-/// @throws InvalidRequest with every fault
-[[nodiscard]] Outcome run_job(const nlohmann::json& parameters, const engine::StopQuery& stop_requested);
-
-/// CSV of a table or a trajectory: RFC 4180, a header line, numbers that read back exactly, empty cells for null.
-/// The statistics of replicates are the last columns: replicates_count, _mean, _spread, _min, _max.
-[[nodiscard]] std::string to_csv(const ResultTable& table);
-[[nodiscard]] std::string to_csv(const engine::Trajectory& trajectory);
 
 }  // namespace jobs

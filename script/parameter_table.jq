@@ -1,7 +1,7 @@
 # The README's table of parameters, from the JSON Schema that GET /v1/parameters answers:
 #   curl -s http://127.0.0.1:8080/v1/parameters | jq -r -f script/parameter_table.jq
 def range:
-  if .oneOf then "`rpsup`, or an object that describes another: [jobs/LINKAGES.md](jobs/LINKAGES.md)"
+  if .oneOf then "`rpsup`, or an object that describes another: [jobs/linkages/README.md](jobs/linkages/README.md)"
   elif .type == "array" and .items.type == "array" then "lists of \(.items.minItems) to \(.items.maxItems) depths, a list for each ring"
   elif .enum then (.enum | map("`\(.)`") | join(", "))
   else (if has("exclusiveMinimum") then "> \(.exclusiveMinimum)" elif has("minimum") then "≥ \(.minimum)" else "" end)

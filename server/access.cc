@@ -7,7 +7,7 @@
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 
-#include "jobs/content_id.h"
+#include "jobs/base/content_id.h"
 
 namespace server {
 

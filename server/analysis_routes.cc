@@ -6,16 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "jobs/flexibility/flexibility.h"
-#include "jobs/linkage_json.h"
+#include "jobs/linkages/linkage_json.h"
 #include "jobs/motion/lyapunov.h"
 #include "jobs/motion/poincare.h"
 #include "jobs/motion/spectrum.h"
-#include "jobs/npz.h"
+#include "jobs/results/csv.h"
 #include "jobs/sensitivity/row_groups.h"
 #include "jobs/sensitivity/sensitivity.h"
 #include "jobs/surrogate/surrogate.h"
+#include "jobs/trajectories/npz.h"
 #include "jobs/wear/wear.h"
 #include "server/conditional.h"
 #include "server/json_text.h"

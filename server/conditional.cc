@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "jobs/content_id.h"
+#include "jobs/base/content_id.h"
 
 namespace server {
 

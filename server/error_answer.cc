@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "server/json_text.h"
 #include "server/problem.h"
 #include "server/safe_log.h"

@@ -4,7 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "jobs/npz.h"
+#include "jobs/requests/parameter_schema.h"
+#include "jobs/results/csv.h"
+#include "jobs/trajectories/npz.h"
 #include "server/conditional.h"
 #include "server/json_text.h"
 #include "server/listing.h"

@@ -4,7 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/service.h"
+#include "jobs/results/page.h"
+#include "jobs/results/result_query.h"
 #include "server/message.h"
 #include "server/query.h"
 

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "jobs/parameter_help.h"
+#include "jobs/requests/parameter_help.h"
 #include "server/commands/check_cluster.h"
 #include "server/commands/cluster_options.h"
 #include "server/commands/command.h"

@@ -10,8 +10,8 @@
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
 
-#include "jobs/program_info.h"
-#include "jobs/run_record.h"
+#include "jobs/base/program_info.h"
+#include "jobs/runs/run_record.h"
 #include "server/safe_log.h"
 
 namespace server {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "server/message.h"
 
 namespace server {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/errors.h"
-#include "jobs/range.h"
+#include "jobs/base/errors.h"
+#include "jobs/parameters/range.h"
 #include "server/message.h"
 
 namespace server {

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "server/error_answer.h"
 #include "server/query.h"
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/analysis/quantities.h"
+#include "jobs/results/csv.h"
 #include "server/accept.h"
 #include "server/json_text.h"
 

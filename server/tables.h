@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "jobs/service.h"
+#include "engine/analysis/quantities.h"
+#include "jobs/results/result_table.h"
 #include "server/message.h"
 #include "server/query.h"
 

@@ -2,8 +2,8 @@
 
 #include "engine/analysis/run_channels.h"
 #include "engine/analysis/run_metrics.h"
+#include "engine/analysis/run_result.h"
 #include "engine/integrate/observer.h"
-#include "engine/run_result.h"
 
 namespace engine {
 

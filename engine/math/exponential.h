@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/math/lanes.h"
 #include "engine/math/instruction_set.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {

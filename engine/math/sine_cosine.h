@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/math/lanes.h"
 #include "engine/math/instruction_set.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {

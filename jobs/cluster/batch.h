@@ -9,7 +9,7 @@
 
 #include "jobs/cluster/batch_files.h"
 #include "jobs/cluster/reconcile.h"
-#include "jobs/store.h"
+#include "jobs/store/store.h"
 
 namespace jobs::cluster {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "jobs/byte_codec.h"
-#include "jobs/content_id.h"
-#include "jobs/trajectory_codec.h"
+#include "jobs/base/content_id.h"
+#include "jobs/trajectories/byte_codec.h"
+#include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs::cluster {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "jobs/base/provenance.h"
 #include "jobs/cluster/durable_file.h"
 #include "jobs/cluster/task_list.h"
-#include "jobs/job_limits.h"
-#include "jobs/provenance.h"
-#include "jobs/run_record.h"
+#include "jobs/runs/job_limits.h"
+#include "jobs/runs/run_record.h"
 
 namespace jobs::cluster {
 

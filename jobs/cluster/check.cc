@@ -8,11 +8,12 @@
 
 #include <unistd.h>
 
+#include "jobs/base/machine.h"
 #include "jobs/cluster/batch.h"
 #include "jobs/cluster/shared_folder.h"
 #include "jobs/cluster/slurm.h"
-#include "jobs/machine.h"
-#include "jobs/trajectory_codec.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs::cluster {
 namespace {

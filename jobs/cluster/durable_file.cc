@@ -9,8 +9,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "jobs/content_id.h"
-#include "jobs/machine.h"
+#include "jobs/base/content_id.h"
+#include "jobs/base/machine.h"
 
 namespace jobs::cluster {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "jobs/base/content_id.h"
 #include "jobs/cluster/batch_files.h"
-#include "jobs/content_id.h"
-#include "jobs/local_pool.h"
-#include "jobs/trajectory_codec.h"
+#include "jobs/local/local_pool.h"
+#include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs::cluster {
 namespace {

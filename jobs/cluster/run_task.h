@@ -4,7 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "jobs/service.h"
+#include "jobs/runs/run_record.h"
+
 
 namespace jobs::cluster {
 

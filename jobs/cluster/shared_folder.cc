@@ -3,10 +3,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "jobs/base/content_id.h"
+#include "jobs/base/provenance.h"
 #include "jobs/cluster/durable_file.h"
 #include "jobs/cluster/process.h"
-#include "jobs/content_id.h"
-#include "jobs/provenance.h"
 
 namespace jobs::cluster {
 

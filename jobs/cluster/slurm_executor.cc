@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "jobs/base/provenance.h"
 #include "jobs/cluster/shared_folder.h"
-#include "jobs/provenance.h"
 
 namespace jobs::cluster {
 namespace {

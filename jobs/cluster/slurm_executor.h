@@ -16,9 +16,9 @@
 #include "jobs/cluster/plan_tasks.h"
 #include "jobs/cluster/site.h"
 #include "jobs/cluster/slurm.h"
-#include "jobs/executor.h"
-#include "jobs/job_limits.h"
-#include "jobs/store.h"
+#include "jobs/runs/executor.h"
+#include "jobs/runs/job_limits.h"
+#include "jobs/store/store.h"
 
 namespace jobs::cluster {
 

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/axis.h"
-#include "jobs/errors.h"
-#include "jobs/optional_json.h"
-#include "jobs/replicate_statistics.h"
+#include "jobs/base/errors.h"
+#include "jobs/base/optional_json.h"
+#include "jobs/requests/axis.h"
 #include "jobs/sensitivity/row_groups.h"
+#include "jobs/statistics/replicate_statistics.h"
 
 namespace jobs {
 namespace {

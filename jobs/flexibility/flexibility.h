@@ -4,7 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/service.h"
+#include "jobs/results/result_table.h"
+
 
 namespace jobs {
 

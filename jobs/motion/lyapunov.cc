@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "jobs/errors.h"
-#include "jobs/estimate.h"
-#include "jobs/replicate_statistics.h"
+#include "jobs/base/errors.h"
 #include "jobs/sensitivity/row_groups.h"
+#include "jobs/statistics/estimate.h"
+#include "jobs/statistics/replicate_statistics.h"
 
 namespace jobs {
 namespace {

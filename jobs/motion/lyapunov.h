@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "jobs/motion/poincare.h"
-#include "jobs/service.h"
+#include "jobs/results/result_table.h"
 
 namespace jobs {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "jobs/sensitivity/row_groups.h"
 
 namespace jobs {

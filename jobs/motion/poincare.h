@@ -6,7 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/service.h"
+#include "jobs/results/result_table.h"
+#include "jobs/trajectories/trajectory_query.h"
+
 
 namespace jobs {
 

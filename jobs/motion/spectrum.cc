@@ -10,7 +10,7 @@
 
 #include <unsupported/Eigen/FFT>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 
 namespace jobs {
 namespace {

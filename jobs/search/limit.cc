@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "jobs/span.h"
+#include "jobs/parameters/span.h"
 
 namespace jobs {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/ids.h"
+#include "jobs/base/ids.h"
 #include "jobs/search/search_picture.h"
 #include "jobs/search/search_request.h"
 

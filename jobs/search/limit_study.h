@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "jobs/search/study_desk.h"
+#include "jobs/studies/study_desk.h"
 
 namespace jobs {
 

@@ -5,10 +5,10 @@
 
 #include <boost/math/distributions/binomial.hpp>
 
-#include "jobs/axis.h"
-#include "jobs/optional_json.h"
-#include "jobs/resource_json.h"
-#include "jobs/time_text.h"
+#include "jobs/base/optional_json.h"
+#include "jobs/base/time_text.h"
+#include "jobs/requests/axis.h"
+#include "jobs/results/resource_json.h"
 
 namespace jobs {
 namespace {

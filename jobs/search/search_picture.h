@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "jobs/results/result_table.h"
 #include "jobs/search/search_request.h"
 #include "jobs/search/search_tally.h"
-#include "jobs/service.h"
-#include "jobs/store.h"
+#include "jobs/store/store.h"
 
 namespace jobs {
 

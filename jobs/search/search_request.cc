@@ -4,13 +4,12 @@
 #include <cmath>
 #include <set>
 
-#include "jobs/axis.h"
-#include "jobs/parameter_path.h"
-#include "jobs/parameter_table.h"
-#include "jobs/parameter_value.h"
-#include "jobs/parameters.h"
-#include "jobs/service.h"
-#include "jobs/span.h"
+#include "jobs/parameters/parameter_table.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/span.h"
+#include "jobs/requests/axis.h"
+#include "jobs/requests/parameter_path.h"
+#include "jobs/requests/parameters.h"
 
 namespace jobs {
 namespace {

@@ -8,10 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/expand.h"
-#include "jobs/range.h"
+#include "jobs/parameters/range.h"
+#include "jobs/requests/expand.h"
+#include "jobs/requests/sweep_request.h"
 #include "jobs/search/limit.h"
-#include "jobs/sweep_request.h"
 
 namespace jobs {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "jobs/axis.h"
-#include "jobs/resource_json.h"
+#include "jobs/requests/axis.h"
+#include "jobs/results/resource_json.h"
 
 namespace jobs {
 namespace {

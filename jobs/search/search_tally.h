@@ -10,7 +10,7 @@
 
 #include "jobs/search/limit.h"
 #include "jobs/search/search_request.h"
-#include "jobs/store.h"
+#include "jobs/store/store.h"
 
 namespace jobs {
 

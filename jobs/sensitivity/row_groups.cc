@@ -5,11 +5,11 @@
 #include <map>
 #include <string_view>
 
-#include "jobs/errors.h"
-#include "jobs/linkage_json.h"
-#include "jobs/parameter_path.h"
-#include "jobs/parameter_value.h"
-#include "jobs/wear/wear_depth.h"
+#include "jobs/base/errors.h"
+#include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/wear_depth.h"
+#include "jobs/requests/parameter_path.h"
 
 namespace jobs {
 namespace {

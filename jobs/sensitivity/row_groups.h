@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "jobs/service.h"
+#include "jobs/results/result_table.h"
+
 
 namespace jobs {
 

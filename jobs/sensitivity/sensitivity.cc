@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/errors.h"
-#include "jobs/replicate_statistics.h"
-#include "jobs/sampled_designs.h"
-#include "jobs/sensitivity/effect_points.h"
+#include "jobs/base/errors.h"
+#include "jobs/requests/sampled_designs.h"
 #include "jobs/sensitivity/row_groups.h"
+#include "jobs/statistics/effect_points.h"
+#include "jobs/statistics/replicate_statistics.h"
 
 namespace jobs {
 namespace {

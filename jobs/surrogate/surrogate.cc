@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/axis.h"
-#include "jobs/errors.h"
-#include "jobs/parameter_value.h"
+#include "jobs/base/errors.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/requests/axis.h"
 #include "jobs/sensitivity/row_groups.h"
 #include "jobs/surrogate/polynomial_chaos.h"
 

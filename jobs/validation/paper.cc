@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "jobs/replicate_statistics.h"
+#include "jobs/statistics/replicate_statistics.h"
 #include "jobs/validation/paper_figures.h"
 #include "jobs/validation/study_chapters.h"
 #include "jobs/validation/text.h"

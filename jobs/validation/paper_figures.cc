@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "engine/analysis/quantities.h"
 #include "engine/validation/chart.h"
 #include "jobs/validation/text.h"
 

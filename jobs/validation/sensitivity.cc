@@ -1,6 +1,6 @@
 #include <string>
 
-#include "jobs/replicate_statistics.h"
+#include "jobs/statistics/replicate_statistics.h"
 #include "jobs/validation/study_chapters.h"
 #include "jobs/validation/text.h"
 

@@ -7,7 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/service.h"
+#include "engine/analysis/quantities.h"
+#include "jobs/results/result_table.h"
+
 
 namespace jobs::validation {
 

@@ -5,10 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/analysis/quantities.h"
 #include "engine/clearance/worn_bore.h"
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
+#include "jobs/parameters/wear_depth.h"
 #include "jobs/wear/pressed_arc.h"
-#include "jobs/wear/wear_depth.h"
 
 namespace jobs {
 namespace {

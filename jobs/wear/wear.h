@@ -7,8 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/range.h"
-#include "jobs/service.h"
+#include "engine/analysis/quantities.h"
+#include "jobs/parameters/range.h"
+#include "jobs/results/result_table.h"
 
 namespace jobs {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "jobs/optional_json.h"
-#include "jobs/resource_json.h"
-#include "jobs/time_text.h"
+#include "jobs/base/optional_json.h"
+#include "jobs/base/time_text.h"
+#include "jobs/results/resource_json.h"
 
 namespace jobs {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/service.h"
-#include "jobs/store.h"
+#include "jobs/results/result_table.h"
+#include "jobs/store/store.h"
 #include "jobs/wear/wear_course.h"
 #include "jobs/wear/wear_request.h"
 

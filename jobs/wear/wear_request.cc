@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "jobs/linkage_json.h"
-#include "jobs/parameter_value.h"
-#include "jobs/service.h"
-#include "jobs/wear/wear_depth.h"
+#include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/wear_depth.h"
+#include "jobs/requests/parameters.h"
 
 namespace jobs {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/range.h"
-#include "jobs/sweep_request.h"
+#include "jobs/parameters/range.h"
+#include "jobs/requests/sweep_request.h"
 #include "jobs/wear/wear.h"
 #include "jobs/wear/wear_course.h"
 

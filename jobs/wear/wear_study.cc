@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/errors.h"
-#include "jobs/expand.h"
-#include "jobs/ids.h"
-#include "jobs/trajectory_codec.h"
-#include "jobs/trajectory_query.h"
-#include "jobs/wear/wear_depth.h"
+#include "jobs/base/errors.h"
+#include "jobs/base/ids.h"
+#include "jobs/parameters/wear_depth.h"
+#include "jobs/requests/expand.h"
+#include "jobs/trajectories/trajectory_codec.h"
+#include "jobs/trajectories/trajectory_query.h"
 #include "jobs/wear/wear_picture.h"
 #include "jobs/wear/wear_request.h"
 

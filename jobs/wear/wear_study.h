@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "jobs/search/study_desk.h"
-#include "jobs/store.h"
+#include "jobs/store/store.h"
+#include "jobs/studies/study_desk.h"
 
 namespace jobs {
 

@@ -9,7 +9,7 @@
 #include <new>
 #include <system_error>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "server/json_text.h"
 
 namespace server::commands {

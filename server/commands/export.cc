@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "jobs/store.h"
+#include "jobs/store/store.h"
 #include "server/commands/command.h"
 #include "server/commands/signals.h"
 

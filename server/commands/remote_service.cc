@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "server/commands/command.h"
 #include "server/json_text.h"
 #include "server/routes.h"

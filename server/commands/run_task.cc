@@ -5,9 +5,9 @@
 #include <iostream>
 #include <string_view>
 
+#include "jobs/base/provenance.h"
 #include "jobs/cluster/run_task.h"
-#include "jobs/provenance.h"
-#include "jobs/run_record.h"
+#include "jobs/runs/run_record.h"
 #include "server/commands/command.h"
 #include "server/commands/signals.h"
 

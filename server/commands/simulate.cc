@@ -9,9 +9,12 @@
 #include <iostream>
 #include <utility>
 
-#include "jobs/npz.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/results/csv.h"
+#include "jobs/run_job.h"
 #include "jobs/service.h"
-#include "jobs/trajectory_codec.h"
+#include "jobs/trajectories/npz.h"
+#include "jobs/trajectories/trajectory_codec.h"
 #include "server/commands/command.h"
 #include "server/commands/plot.h"
 #include "server/json_text.h"

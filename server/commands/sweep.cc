@@ -5,7 +5,7 @@
 #include <chrono>
 #include <iostream>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "jobs/service.h"
 #include "server/commands/command.h"
 #include "server/commands/progress.h"

@@ -15,7 +15,7 @@
 
 #include "engine/validation/chapters.h"
 #include "engine/validation/report.h"
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "jobs/service.h"
 #include "jobs/validation/compute.h"
 #include "jobs/validation/study_chapters.h"

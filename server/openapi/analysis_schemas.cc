@@ -1,7 +1,7 @@
 #include "server/openapi/analysis_schemas.h"
 
 #include "engine/simulate_rpsup.h"
-#include "jobs/parameter_path.h"
+#include "jobs/requests/parameter_path.h"
 
 namespace server::openapi {
 

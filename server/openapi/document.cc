@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "jobs/program_info.h"
+#include "jobs/base/program_info.h"
 #include "server/openapi/request_parameters.h"
 #include "server/openapi/request_schemas.h"
 #include "server/openapi/resource_schemas.h"

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "jobs/decimate.h"
 #include "jobs/motion/spectrum.h"
-#include "jobs/service.h"
+#include "jobs/results/page.h"
+#include "jobs/trajectories/decimate.h"
 #include "jobs/wear/wear.h"
 
 namespace server::openapi {

@@ -1,13 +1,14 @@
 #include "server/openapi/request_schemas.h"
 
-#include "jobs/axis.h"
-#include "jobs/design_kinds.h"
-#include "jobs/executor.h"
-#include "jobs/parameter_path.h"
-#include "jobs/sampled_designs.h"
+#include "engine/analysis/quantities.h"
+#include "jobs/requests/axis.h"
+#include "jobs/requests/design_kinds.h"
+#include "jobs/requests/parameter_path.h"
+#include "jobs/requests/parameter_schema.h"
+#include "jobs/requests/sampled_designs.h"
+#include "jobs/requests/sweep_request.h"
+#include "jobs/runs/executor.h"
 #include "jobs/search/search_request.h"
-#include "jobs/service.h"
-#include "jobs/sweep_request.h"
 
 namespace server::openapi {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "jobs/parameter_path.h"
+#include "jobs/requests/parameter_path.h"
 
 namespace server::openapi {
 

@@ -1,8 +1,8 @@
 #include "server/openapi/search_schemas.h"
 
-#include "jobs/parameter_path.h"
+#include "jobs/requests/parameter_path.h"
 #include "jobs/search/limit.h"
-#include "jobs/store.h"
+#include "jobs/store/store.h"
 
 namespace server::openapi {
 

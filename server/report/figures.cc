@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/validation/chart.h"
-#include "jobs/axis.h"
-#include "jobs/replicate_statistics.h"
+#include "jobs/requests/axis.h"
 #include "jobs/sensitivity/row_groups.h"
+#include "jobs/statistics/replicate_statistics.h"
 #include "server/report/html.h"
 
 namespace server::report {

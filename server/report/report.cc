@@ -6,11 +6,11 @@
 #include <string_view>
 #include <utility>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "jobs/flexibility/flexibility.h"
-#include "jobs/replicate_statistics.h"
 #include "jobs/sensitivity/row_groups.h"
 #include "jobs/sensitivity/sensitivity.h"
+#include "jobs/statistics/replicate_statistics.h"
 #include "server/json_text.h"
 #include "server/report/figures.h"
 #include "server/report/html.h"

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "jobs/errors.h"
-#include "jobs/expand.h"
-#include "jobs/extend_request.h"
+#include "jobs/base/errors.h"
+#include "jobs/requests/expand.h"
+#include "jobs/requests/extend_request.h"
 #include "jobs/search/search_request.h"
 #include "jobs/wear/wear_request.h"
 #include "server/json_text.h"

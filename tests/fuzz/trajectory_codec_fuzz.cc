@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
-#include "jobs/byte_codec.h"
-#include "jobs/trajectory_codec.h"
+#include "jobs/trajectories/byte_codec.h"
+#include "jobs/trajectories/trajectory_codec.h"
 #include "tests/fuzz/expect.h"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/store.h"
+#include "jobs/store/store.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
 

@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "jobs/content_id.h"
-#include "jobs/parameter_table.h"
-#include "jobs/parameters.h"
+#include "jobs/base/content_id.h"
+#include "jobs/parameters/parameter_table.h"
+#include "jobs/requests/parameters.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "jobs/trajectory_codec.h"
+#include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs_tests {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/service.h"
+#include "jobs/results/csv.h"
+#include "jobs/results/result_table.h"
+
 
 namespace jobs_tests {
 namespace {

@@ -1,4 +1,4 @@
-#include "jobs/decimate.h"
+#include "jobs/trajectories/decimate.h"
 
 #include <algorithm>
 #include <cmath>

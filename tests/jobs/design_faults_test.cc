@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
+#include "jobs/requests/expand.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {

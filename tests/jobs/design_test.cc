@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
-#include "jobs/service.h"
-#include "jobs/unit_points.h"
+#include "jobs/requests/expand.h"
+#include "jobs/statistics/unit_points.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {

@@ -1,4 +1,4 @@
-#include "jobs/sensitivity/effect_points.h"
+#include "jobs/statistics/effect_points.h"
 
 #include <array>
 #include <cmath>

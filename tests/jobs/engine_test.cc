@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "jobs/results/csv.h"
+#include "jobs/run_job.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "jobs/content_id.h"
-#include "jobs/expand.h"
-#include "jobs/program_info.h"
-#include "jobs/service.h"
+#include "jobs/base/content_id.h"
+#include "jobs/base/program_info.h"
+#include "jobs/requests/expand.h"
+#include "jobs/requests/parameters.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {

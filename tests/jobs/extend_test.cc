@@ -1,4 +1,4 @@
-#include "jobs/extend_request.h"
+#include "jobs/requests/extend_request.h"
 
 #include <gtest/gtest.h>
 

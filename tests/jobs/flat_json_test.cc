@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "jobs/flat_json.h"
+#include "jobs/base/flat_json.h"
 
 namespace jobs_tests {
 namespace {

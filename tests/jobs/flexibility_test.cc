@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 
 namespace jobs_tests {
 namespace {

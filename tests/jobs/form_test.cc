@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/service.h"
-#include "jobs/store.h"
+#include "jobs/store/store.h"
 #include "tests/jobs/service_support.h"
 
 namespace jobs_tests {

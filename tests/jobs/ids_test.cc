@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/ids.h"
-#include "jobs/time_text.h"
+#include "jobs/base/ids.h"
+#include "jobs/base/time_text.h"
 
 namespace jobs_tests {
 namespace {

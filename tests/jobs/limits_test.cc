@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
-#include "jobs/job_limits.h"
-#include "jobs/run_record.h"
-#include "jobs/store.h"
+#include "jobs/requests/expand.h"
+#include "jobs/runs/job_limits.h"
+#include "jobs/runs/run_record.h"
+#include "jobs/store/store.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
 

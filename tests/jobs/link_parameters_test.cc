@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/service.h"
+#include "jobs/requests/parameters.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {

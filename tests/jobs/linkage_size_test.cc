@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
-#include "jobs/service.h"
+#include "jobs/requests/expand.h"
+#include "jobs/requests/parameters.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {

@@ -14,7 +14,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/simulate_linkage.h"
-#include "jobs/expand.h"
+#include "engine/simulate_rpsup.h"
+#include "jobs/requests/expand.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/run_job.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "jobs/motion/lyapunov.h"
 #include "jobs/motion/poincare.h"
 #include "jobs/motion/spectrum.h"

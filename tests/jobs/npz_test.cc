@@ -1,4 +1,4 @@
-#include "jobs/npz.h"
+#include "jobs/trajectories/npz.h"
 
 #include <bit>
 #include <cmath>

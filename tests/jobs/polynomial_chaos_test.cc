@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/unit_points.h"
+#include "jobs/statistics/unit_points.h"
 
 namespace jobs_tests {
 namespace {

@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/local_pool.h"
-#include "jobs/trajectory_codec.h"
+#include "jobs/local/local_pool.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/trajectories/trajectory_codec.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
-#include "jobs/store.h"
+#include "jobs/requests/expand.h"
+#include "jobs/store/store.h"
 #include "tests/jobs/losing_disk.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"

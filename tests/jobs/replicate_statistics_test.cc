@@ -1,18 +1,15 @@
-#include "jobs/replicate_statistics.h"
-
+#include "jobs/service.h"
+#include "jobs/statistics/replicate_statistics.h"
+#include "tests/jobs/request_support.h"
+#include "tests/jobs/service_support.h"
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <future>
-#include <limits>
-#include <thread>
-
 #include <gtest/gtest.h>
+#include <limits>
 #include <rapidcheck/gtest.h>
-
-#include "jobs/service.h"
-#include "tests/jobs/request_support.h"
-#include "tests/jobs/service_support.h"
+#include <thread>
 
 namespace jobs_tests {
 namespace {

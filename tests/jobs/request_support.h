@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 
 namespace jobs_tests {
 

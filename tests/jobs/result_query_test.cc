@@ -1,4 +1,4 @@
-#include "jobs/result_query.h"
+#include "jobs/results/result_query.h"
 
 #include <gtest/gtest.h>
 

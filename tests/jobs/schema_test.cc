@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/parameter_table.h"
-#include "jobs/errors.h"
-#include "jobs/service.h"
+#include "jobs/base/errors.h"
+#include "jobs/parameters/parameter_table.h"
+#include "jobs/requests/parameter_schema.h"
+#include "jobs/requests/parameters.h"
 
 namespace jobs_tests {
 namespace {

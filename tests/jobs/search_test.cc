@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "jobs/service.h"
 #include "tests/jobs/service_support.h"
 

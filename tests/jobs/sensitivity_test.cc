@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
-#include "jobs/sampled_designs.h"
+#include "jobs/base/errors.h"
+#include "jobs/requests/sampled_designs.h"
 #include "jobs/sensitivity/row_groups.h"
 #include "tests/jobs/service_support.h"
 

@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "jobs/errors.h"
-#include "jobs/program_info.h"
+#include "jobs/base/errors.h"
+#include "jobs/base/program_info.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/results/csv.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"

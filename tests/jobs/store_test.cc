@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "jobs/expand.h"
-#include "jobs/resource_json.h"
-#include "jobs/store.h"
+#include "jobs/requests/expand.h"
+#include "jobs/results/resource_json.h"
+#include "jobs/store/store.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
-#include "jobs/parameter_path.h"
+#include "jobs/requests/expand.h"
+#include "jobs/requests/parameter_path.h"
 #include "tests/jobs/request_support.h"
 
 namespace jobs_tests {

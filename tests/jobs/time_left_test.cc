@@ -1,4 +1,4 @@
-#include "jobs/time_left.h"
+#include "jobs/results/time_left.h"
 
 #include <cmath>
 

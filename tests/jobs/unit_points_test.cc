@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "jobs/unit_points.h"
+#include "jobs/statistics/unit_points.h"
 
 namespace jobs_tests {
 namespace {

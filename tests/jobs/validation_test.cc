@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
+#include "jobs/requests/expand.h"
 #include "jobs/validation/compute.h"
 #include "jobs/validation/study.h"
 

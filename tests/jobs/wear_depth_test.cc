@@ -1,6 +1,7 @@
 // The parameter of a worn bore: what is refused, and that it is part of what a job is.
 
-#include "jobs/wear/wear_depth.h"
+#include "jobs/parameters/wear_depth.h"
+#include "jobs/requests/parameters.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/expand.h"
+#include "jobs/requests/expand.h"
 #include "jobs/wear/pressed_arc.h"
 #include "jobs/wear/wear.h"
 #include "tests/jobs/request_support.h"

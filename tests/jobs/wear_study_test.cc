@@ -12,7 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
+#include "jobs/requests/parameters.h"
 #include "jobs/service.h"
 #include "tests/jobs/service_support.h"
 

@@ -1,3 +1,4 @@
+#include "engine/analysis/quantities.h"
 #include "jobs/wear/wear.h"
 
 #include <cmath>
@@ -7,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 
 namespace jobs_tests {
 namespace {

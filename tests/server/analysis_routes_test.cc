@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "jobs/run_record.h"
+#include "jobs/runs/run_record.h"
 #include "server/report/report.h"
 #include "tests/server/service_fixture.h"
 

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "tests/server/service_fixture.h"
 
 namespace {

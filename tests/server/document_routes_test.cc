@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "jobs/design_kinds.h"
-#include "jobs/sweep_request.h"
+#include "jobs/requests/design_kinds.h"
+#include "jobs/requests/sweep_request.h"
 #include "server/route_table.h"
 #include "server/web_files.h"
 #include "tests/server/service_fixture.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "server/json_text.h"
 #include "server/problem.h"
 

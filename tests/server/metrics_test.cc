@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/run_record.h"
+#include "jobs/runs/run_record.h"
 #include "tests/server/service_fixture.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/errors.h"
+#include "jobs/base/errors.h"
 #include "server/commands/command.h"
 #include "tests/server/canned_server.h"
 

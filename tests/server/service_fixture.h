@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "jobs/requests/parameters.h"
 #include "jobs/service.h"
 #include "server/message.h"
 #include "server/routes.h"

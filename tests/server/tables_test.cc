@@ -1,3 +1,4 @@
+#include "engine/analysis/quantities.h"
 #include "server/tables.h"
 
 #include <limits>

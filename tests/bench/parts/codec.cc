@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/simulate_rpsup.h"
-#include "jobs/trajectory_codec.h"
+#include "jobs/trajectories/trajectory_codec.h"
 #include "tests/bench/parts/register_parts.h"
 #include "tests/bench/support/cases.h"
 

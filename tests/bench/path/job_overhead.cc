@@ -6,6 +6,11 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "engine/analysis/run_result.h"
+#include "engine/simulate_rpsup.h"
+#include "jobs/parameters/job_spec.h"
+#include "jobs/runs/run_record.h"
+#include "jobs/service.h"
 #include "tests/bench/path/measure.h"
 
 namespace {

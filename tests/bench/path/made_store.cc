@@ -2,6 +2,10 @@
 
 #include <cmath>
 
+#include "engine/analysis/quantities.h"
+#include "engine/analysis/run_result.h"
+#include "jobs/parameters/job_spec.h"
+#include "jobs/service.h"
 #include "tests/bench/path/measure.h"
 
 namespace path_bench {

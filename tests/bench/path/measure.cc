@@ -9,6 +9,11 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "engine/analysis/run_result.h"
+#include "engine/simulate_rpsup.h"
+#include "jobs/parameters/job_spec.h"
+#include "jobs/requests/parameters.h"
+
 namespace path_bench {
 namespace {
 

@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "jobs/service.h"
+#include "engine/analysis/run_result.h"
+
 
 namespace path_bench {
 

@@ -5,6 +5,10 @@
 
 #include <malloc.h>
 
+#include "engine/analysis/quantities.h"
+#include "engine/analysis/run_result.h"
+#include "jobs/parameters/job_spec.h"
+#include "jobs/service.h"
 #include "tests/bench/path/made_store.h"
 #include "tests/bench/path/measure.h"
 

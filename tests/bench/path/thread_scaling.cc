@@ -9,6 +9,10 @@
 #include <thread>
 #include <vector>
 
+#include "engine/analysis/run_result.h"
+#include "engine/simulate_rpsup.h"
+#include "jobs/parameters/job_spec.h"
+#include "jobs/service.h"
 #include "tests/bench/path/measure.h"
 
 namespace {

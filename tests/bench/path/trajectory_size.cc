@@ -1,7 +1,8 @@
 // How large a stored trajectory is beside the JSON that the service answers with, all channels, default output (5 s at 1 kHz).
 // Also what encoding and decoding it costs.
 
-#include "jobs/trajectory_codec.h"
+#include "jobs/run_job.h"
+#include "jobs/trajectories/trajectory_codec.h"
 #include "server/tables.h"
 #include "tests/bench/path/measure.h"
 

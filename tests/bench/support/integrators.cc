@@ -1,6 +1,6 @@
 #include "tests/bench/support/integrators.h"
 
-#include "jobs/parameter_table.h"
+#include "jobs/parameters/parameter_table.h"
 
 namespace bench {
 

@@ -1,4 +1,5 @@
 #include "jobs/cluster/run_task.h"
+#include "jobs/requests/parameters.h"
 
 #include <atomic>
 #include <fstream>
@@ -8,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/cluster/batch.h"
-#include "jobs/run_record.h"
+#include "jobs/runs/run_record.h"
 #include "tests/jobs/service_support.h"
 
 namespace jobs_tests {

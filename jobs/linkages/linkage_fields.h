@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/base/errors.h"
+#include "jobs/parameters/range.h"
+
+namespace jobs {
+
+/// What may stand under a key of a described linkage.
+enum class FieldKind {
+  kNumber,
+  kInteger,
+  kBoolean,
+  kText,     ///< at most 100 bytes
+  kWord,     ///< one of `words`
+  kBody,     ///< a body's name, or "ground"
+  kPoint,    ///< three numbers
+  kInertia,  ///< three numbers, or six: xx, yy, zz, xy, xz, yz
+  kNumbers,  ///< a list of numbers
+  kObject,   ///< an object of its own, checked by itself
+};
+
+/// One key of an object of the description. Checks and the schema read these tables.
+struct LinkageField {
+  std::string_view key;
+  FieldKind kind = FieldKind::kNumber;
+  Range range = {};
+  std::string_view unit = {};
+  std::string_view help = {};
+  bool required = false;
+  std::vector<std::string_view> words = {};
+};
+
+using LinkageFields = std::vector<LinkageField>;
+
+[[nodiscard]] const LinkageFields& linkage_fields();                       ///< of the description itself
+[[nodiscard]] const LinkageFields& body_fields();
+[[nodiscard]] const LinkageFields& beam_fields();
+[[nodiscard]] const LinkageFields& joint_fields();
+[[nodiscard]] const LinkageFields& spring_fields();
+[[nodiscard]] LinkageFields freedom_fields(bool slides);                   ///< of a coordinate that slides or turns
+[[nodiscard]] LinkageFields drive_fields(bool slides, std::string_view law);
+[[nodiscard]] const LinkageFields& clearance_fields();                     ///< the parameters of a job that a clearance joint may have of its own
+
+inline constexpr std::string_view kLaws[] = {"run_up", "rise_return_pause", "cycloidal", "harmonic", "polynomial", "table"};
+
+/// The faults of an object's keys and of the values that can be judged by themselves.
+void check_fields(const nlohmann::json& object, const LinkageFields& fields, const std::string& pointer, std::vector<Fault>& faults);
+
+/// The schema of an object of these keys.
+[[nodiscard]] nlohmann::json schema_of_fields(const LinkageFields& fields);
+
+}  // namespace jobs

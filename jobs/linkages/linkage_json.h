@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/model/linkage.h"
+#include "engine/model/rpsup_parameters.h"
+#include "jobs/base/errors.h"
+
+namespace jobs {
+
+inline constexpr std::string_view kLinkageKey = "linkage";
+inline constexpr std::string_view kRpsupName = "rpsup";
+
+/// Whether a parameter set describes its linkage, instead of naming the RPSUP linkage.
+[[nodiscard]] bool describes_linkage(const nlohmann::json& parameters);
+
+/// The engine's view of a described linkage: the only place where its units are converted.
+/// @param description  value of the key "linkage"
+/// @param defaults     the job's own parameters: of clearance joints, beams, drives and gravity
+/// @param faults       gets every fault, pointers from the parameter set; empty if there are faults
+[[nodiscard]] std::optional<engine::Linkage> read_linkage(const nlohmann::json& description, const engine::RpsupParameters& defaults,
+                                                          std::vector<Fault>& faults);
+
+/// What a fault's field of engine::check_linkage means in the description: "bodies.rod.mass" -> "/linkage/bodies/rod/mass_kg".
+[[nodiscard]] std::string pointer_of_linkage_field(std::string_view field);
+
+/// A description in the one form in which it is stored: all numbers as doubles, -0 as 0.
+[[nodiscard]] nlohmann::json canonical_linkage(const nlohmann::json& description);
+
+/// Freedoms of a joint of a known kind.
+[[nodiscard]] std::size_t count_freedoms(std::string_view kind);
+
+/// JSON Schema of the key "linkage".
+[[nodiscard]] nlohmann::json linkage_schema();
+
+}  // namespace jobs

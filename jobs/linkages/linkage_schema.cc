@@ -1,0 +1,73 @@
+#include <utility>
+
+#include "jobs/linkages/linkage_fields.h"
+#include "jobs/linkages/linkage_json.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+void take_properties(const json& from, json& to) {
+  for (const auto& [key, value] : from.at("properties").items()) to["properties"][key] = value;
+}
+
+json named(json entry, std::string_view what) {
+  return {{"type", "object"}, {"description", what}, {"minProperties", 1}, {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]{0,31}$"}}},
+          {"additionalProperties", std::move(entry)}};
+}
+
+json schema_of_drive(bool slides) {
+  json any = json::array();
+  for (const std::string_view law : kLaws) {
+    json schema = schema_of_fields(drive_fields(slides, law));
+    schema["properties"]["law"] = {{"const", law}};
+    any.push_back(std::move(schema));
+  }
+  return {{"description", "The law by which the coordinate moves; without it it is free"}, {"oneOf", std::move(any)}};
+}
+
+json schema_of_freedom(bool slides) {
+  json schema = schema_of_fields(freedom_fields(slides));
+  schema["properties"]["drive"] = schema_of_drive(slides);
+  return schema;
+}
+
+json schema_of_body() {
+  json schema = schema_of_fields(body_fields());
+  json beam = schema_of_fields(beam_fields());
+  beam["description"] = schema["properties"]["beam"]["description"];
+  schema["properties"]["beam"] = std::move(beam);
+  return schema;
+}
+
+/// Which keys go with which kind is said by refusals: here are those of all kinds.
+json schema_of_joint() {
+  json schema = schema_of_fields(joint_fields());
+  const json turns = schema_of_freedom(false), slides = schema_of_freedom(true);
+  take_properties(slides, schema);
+  take_properties(turns, schema);
+  schema["properties"]["drive"] = {{"anyOf", {schema_of_drive(false), schema_of_drive(true)}}};
+  json clearance = schema_of_fields(clearance_fields());
+  clearance["description"] = schema["properties"]["clearance"]["description"];
+  schema["properties"]["clearance"] = std::move(clearance);
+  json& freedoms = schema["properties"]["freedoms"];
+  freedoms["additionalProperties"] = false;
+  freedoms["properties"] = {{"slide", slides}};
+  for (const char* const name : {"turn", "first", "second", "turn_z", "turn_y", "turn_x"}) freedoms["properties"][name] = turns;
+  for (const char* const name : {"x", "y", "z"}) freedoms["properties"][name] = {{"anyOf", {slides, turns}}};
+  return schema;
+}
+
+}  // namespace
+
+json linkage_schema() {
+  json described = schema_of_fields(linkage_fields());
+  described["properties"]["bodies"] = named(schema_of_body(), "The bodies by their names");
+  described["properties"]["joints"] = named(schema_of_joint(), "The joints by their names");
+  described["properties"]["springs"] = named(schema_of_fields(spring_fields()), "Springs and dampers between points of two bodies, by their names");
+  return {{"description", "The linkage: \"rpsup\", or a description of any other"}, {"default", kRpsupName}, {"x-default-source", "chosen"},
+          {"oneOf", {{{"const", kRpsupName}}, std::move(described)}}};
+}
+
+}  // namespace jobs

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "jobs/runs/executor.h"
+#include "jobs/runs/job_limits.h"
+#include "jobs/runs/run_record.h"
+#include "jobs/store/store.h"
+
+namespace jobs {
+
+/// Where an executor gets its jobs and leaves what became of them. Members may be called from any thread and throw StorageError.
+struct JobSource {
+  /// Hands over a job, if there is one, before anybody else can know that it is running. If taking it throws, or this does afterwards, it is not.
+  std::function<void(const Taken&)> claim;
+  /// May claim the next job at once, if there is somebody to take it, or do nothing at all; if it hands over none, claim() is asked.
+  std::function<void(const ClaimedJob&, const RunRecord&, const Taken&)> record;
+  std::function<void(const ClaimedJob&)> give_back;
+  RunListener ran{};  ///< before the record is left; empty: nobody is told
+};
+
+/// Computes jobs on threads of this process, as many at a time as it has threads. Threads sleep while there is nothing to do.
+class LocalPool : public Executor {
+ public:
+  /// @param log     told what needs a human's eye; must not throw
+  /// @param limits  of each job
+  LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log, const JobLimits& limits = {});
+  ~LocalPool() override;  ///< stop()
+
+  void wake() override;
+  void stop_job(const std::string& id) override;
+  /// Stops all running jobs and gives them back to the source, too.
+  void stop() override;
+  [[nodiscard]] nlohmann::json status() const override;
+
+ private:
+  /// A job of one of the threads.
+  struct Task {
+    ClaimedJob job;
+    std::stop_source stop;
+  };
+
+  void work(const std::stop_token& stop);
+  [[nodiscard]] std::optional<Task> claim_next();
+  /// Does what is to be done for the job. @returns the next one, if that has been claimed on the way
+  [[nodiscard]] std::optional<Task> compute(const Task& task, const std::stop_token& stop);
+  /// Empty if there was no memory even to say so.
+  [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const;
+  /// @param record  empty: the job goes back to the queue
+  [[nodiscard]] std::optional<Task> deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop);
+  /// Calls hand_over(taken) and makes a task of the job that is handed over: one that can be stopped as soon as others know that it runs.
+  template <typename HandOver>
+  [[nodiscard]] std::optional<Task> take(const HandOver& hand_over);
+  void forget(const ClaimedJob& job) noexcept;
+  void tell(const char* what, const std::string& id, const std::exception& error) const noexcept;
+  void pause(std::chrono::milliseconds time, const std::stop_token& stop);
+
+  const JobSource source_;
+  const Runner runner_;
+  const JobLimits limits_;
+  const int slots_;
+  const std::function<void(const std::string&)> log_;
+
+  std::mutex running_mutex_;  // guards running_; taken while the source is locked, so nothing may be asked of that under it
+  /// By id and attempt: a job that was cancelled and queued again may begin before its former attempt has stopped.
+  std::map<std::pair<std::string, std::int64_t>, std::stop_source> running_;
+
+  std::mutex wake_mutex_;  // guards wakes_
+  std::condition_variable_any wake_;
+  std::uint64_t wakes_ = 0;
+
+  std::mutex stop_mutex_;  // guards threads_, which stop() may join but once
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace jobs

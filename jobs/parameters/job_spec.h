@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/model/linkage.h"
+#include "engine/model/rpsup_parameters.h"
+#include "engine/model/run_options.h"
+
+namespace jobs {
+
+/// What one job asks the engine for.
+struct JobSpec {
+  engine::RpsupParameters parameters;
+  engine::RunOptions options;
+  std::optional<engine::Linkage> linkage{};  ///< a described linkage; empty: RPSUP
+};
+
+}  // namespace jobs

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/base/errors.h"
+
+namespace jobs {
+
+/// What lies between two numbers, in equal steps or in equal ratios.
+struct Span {
+  double from = 0.0;
+  double to = 0.0;
+  bool logarithmic = false;  ///< then both ends are above 0
+};
+
+/// What lies between two numbers above 0 in equal ratios, from (to / from)^part: NaN or beyond the ends if to / from is no normal double.
+[[nodiscard]] double geometric_between(double from, double to, double part);
+
+/// Reads {"from", "to", "scale"}; "scale" is "linear" (the default) or "log". Adds the faults of its form.
+/// @param other_keys  what else may stand there; the caller reads it
+[[nodiscard]] std::optional<Span> read_span(const nlohmann::json& span, std::span<const std::string_view> other_keys,
+                                            const std::string& pointer, std::vector<Fault>& faults);
+
+}  // namespace jobs

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/base/errors.h"
+#include "jobs/parameters/range.h"
+
+namespace jobs {
+
+/// How many values one axis may be asked for; far fewer make a sweep that is too large.
+inline constexpr Range kCountRange{.minimum = 1, .maximum = 1e9};
+
+/// One swept parameter and its values, in the order of the request.
+struct Axis {
+  std::string path;                     ///< "clearance_mm", "links.1,3.mass_kg"
+  std::vector<nlohmann::json> values;
+  std::vector<std::string> pointers;    ///< where each value stands in the request
+};
+
+/// Whether a value may stand in an axis twice.
+enum class Repeats { kRefused, kAllowed };
+
+/// Whether an axis may have this path; if not, the fault is added.
+[[nodiscard]] bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults);
+
+/// Whether a path's values are single numbers. @param path  a known one
+[[nodiscard]] bool is_numeric(const std::string& path);
+
+/// A value in the form in which equal values are equal: 5 and 5.0 are one number. @param value  has no faults
+[[nodiscard]] std::string value_identity(const std::string& path, const nlohmann::json& value);
+
+/// How many values an axis has, without making them. 0 if it has faults, which are added.
+/// @param pointer  where the axis stands in the request
+[[nodiscard]] std::uint64_t count_axis_values(const std::string& path, const nlohmann::json& axis, const std::string& pointer,
+                                              std::vector<Fault>& faults);
+
+/// Where a design's values of a path stand in a request.
+[[nodiscard]] std::string pointer_of_axis(std::string_view path);
+
+/// Whether one of an axis' values is this one, without making them.
+/// @param axis   has passed count_axis_values
+/// @param value  has no faults
+[[nodiscard]] bool axis_contains(const std::string& path, const nlohmann::json& axis, const nlohmann::json& value);
+
+/// The values of an axis whose count is known to be affordable. Faults of single values are added.
+///
+///     linear:  (from (n - 1 - k) + to k) / (n - 1),    log:  from (to / from)^(k / (n - 1)),    both with exact ends.
+[[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer, std::vector<Fault>& faults,
+                             Repeats repeats = Repeats::kRefused);
+
+}  // namespace jobs

@@ -1,0 +1,213 @@
+#include "jobs/requests/expand.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "jobs/base/content_id.h"
+#include "jobs/base/provenance.h"
+#include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/parameter_table.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/wear_depth.h"
+#include "jobs/requests/parameter_path.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/requests/plan_budget.h"
+#include "jobs/requests/sweep_request.h"
+#include "jobs/statistics/splitmix64.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kStiffnessKey = "contact_stiffness_scale";
+
+/// Where a point lies in its sweep.
+struct Position {
+  std::size_t case_index = 0;
+  std::size_t design_point = 0;
+  std::vector<std::size_t> values;  ///< one index an axis
+
+  [[nodiscard]] bool is_first_of_case() const {
+    return design_point == 0 && std::ranges::all_of(values, [](std::size_t index) { return index == 0; });
+  }
+
+  /// Moves on to the next point. False after the last.
+  bool advance(const SweepRequest& sweep) {
+    for (std::size_t axis = values.size(); axis-- > 0;) {
+      if (++values[axis] < sweep.axes[axis].values.size()) return true;
+      values[axis] = 0;
+    }
+    if (++design_point < sweep.design.points.size()) return true;
+    design_point = 0;
+    return ++case_index < sweep.cases.size();
+  }
+};
+
+std::uint64_t points_of_a_case(const SweepRequest& sweep) {
+  std::uint64_t points = std::max<std::uint64_t>(1, sweep.design.points.size());
+  for (const Axis& axis : sweep.axes) points *= axis.values.size();
+  return points;
+}
+
+json parameters_at(const SweepRequest& sweep, const Position& position) {
+  json given = sweep.parameters;
+  if (!sweep.cases.empty()) given.merge_patch(sweep.cases[position.case_index]);
+  for (std::size_t i = 0; i < sweep.design.paths.size(); ++i) {
+    set_at_path(given, sweep.design.paths[i], sweep.design.points[position.design_point][i]);
+  }
+  for (std::size_t axis = 0; axis < sweep.axes.size(); ++axis) {
+    set_at_path(given, sweep.axes[axis].path, sweep.axes[axis].values[position.values[axis]]);
+  }
+  return given;
+}
+
+/// What stands for values in a line: of a worn bore the largest depth, of a described linkage its name, with a number where another linkage of
+/// the sweep has that name already.
+class ShownValues {
+ public:
+  explicit ShownValues(const SweepRequest& sweep) {
+    const std::string rpsup(kRpsupName);
+    std::map<json, std::string> names{{json(rpsup), rpsup}};  // by linkage as the cases give it: numbers inside it may be swept beside it
+    std::set<std::string> taken{rpsup};
+    std::map<std::string, int> namesakes;
+    for (const json& given : sweep.cases) {
+      const json linkage = given.value(std::string(kLinkageKey), json(rpsup));
+      const std::string name = linkage.is_object() ? linkage.value("name", std::string("described")) : rpsup;
+      const auto [shown, is_new] = names.try_emplace(linkage, name);
+      while (is_new && !taken.insert(shown->second).second) shown->second = name + " #" + std::to_string(2 + namesakes[name]++);
+      linkages_.push_back(shown->second);
+    }
+  }
+
+  [[nodiscard]] json at(const json& completed, const std::string& path, std::size_t case_index) const {
+    if (path == kLinkageKey) return linkages_[case_index];  // which only cases vary
+    const json& value = value_at_path(completed, path);
+    return path == kWearKey && !value.is_null() ? json(deepest_wear(value)) : value;
+  }
+
+ private:
+  std::vector<std::string> linkages_;  ///< one a case
+};
+
+/// Gathers the faults of points: one entry for each place in the request, however many points share it.
+class PointFaults {
+ public:
+  PointFaults(const SweepRequest& sweep, const ShownValues& shown) : sweep_(sweep), shown_(shown) {}
+
+  void add(const Fault& fault, const Position& position, const json& completed) {
+    const std::string pointer = pointer_in_request(fault.pointer, position);
+    const auto [entry, is_new] = entries_.try_emplace(pointer);
+    if (is_new) entry->second.detail = fault.detail + point_text(completed, position);
+    ++entry->second.points;
+  }
+
+  void throw_if_any() const {
+    if (entries_.empty()) return;
+    std::vector<Fault> faults;
+    for (const auto& [pointer, entry] : entries_) {
+      const std::string others = entry.points > 1 ? "; likewise at " + std::to_string(entry.points - 1) + " more points" : "";
+      faults.push_back({pointer, entry.detail + others});
+    }
+    throw InvalidRequest(std::move(faults));
+  }
+
+ private:
+  struct Entry {
+    std::string detail;
+    std::size_t points = 0;
+  };
+
+  /// The place that gave the parameter its value; defaults stand nowhere, so theirs is where they could be given.
+  [[nodiscard]] std::string pointer_in_request(const std::string& pointer, const Position& position) const {
+    const std::string path = path_of_pointer(pointer);
+    for (const Axis& axis : sweep_.axes) {
+      if (axis.path == path || pointer_of_path(axis.path) == pointer) return "/sweep" + pointer_token(axis.path);
+    }
+    if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end()) return "/design/over" + pointer_token(path);
+    if (!sweep_.cases.empty() && sweep_.cases[position.case_index].contains(json::json_pointer(pointer))) {
+      return "/cases" + pointer_token(std::to_string(position.case_index)) + pointer;
+    }
+    return "/parameters" + pointer;
+  }
+
+  [[nodiscard]] std::string point_text(const json& completed, const Position& position) const {
+    std::string text;
+    for (const std::string& path : sweep_.swept) {
+      text += (text.empty() ? " (at " : ", ") + path + " = " + shown_.at(completed, path, position.case_index).dump();
+    }
+    return text.empty() ? "" : text + ")";
+  }
+
+  const SweepRequest& sweep_;
+  const ShownValues& shown_;
+  std::map<std::string, Entry> entries_;
+};
+
+/// Ideal joints cost a small part of what contact does, and rigid links of flexible ones.
+std::string kind_of(const json& completed) {
+  if (describes_linkage(completed)) return "described";
+  std::string kind = completed.at("coupler").get<std::string>();
+  for (const char* const link : {"crank", "rod", "cross"})
+    if (completed.at(link) == "flexible") kind += std::string(" + ") + link;
+  return kind + (completed.at("clearance_mm").get<double>() > 0.0 ? ", clearance" : ", ideal");
+}
+
+PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicate, std::string swept) {
+  PlannedJob job;
+  job.parameters = canonical_text(completed);
+  job.content_id = content_id(job.parameters, engine_version());
+  job.kind = kind_of(completed);
+  job.replicate = replicate;
+  job.swept = std::move(swept);
+  return job;
+}
+
+/// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the point's checks hold for them.
+/// @param swept  the point's values in all of them, the stiffness too where it is swept: their rows are told apart by `replicate` alone
+void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, SweepPlan& plan) {
+  json replicate = completed;
+  for (std::uint64_t k = 0; k < sweep.replicates.count; ++k) {
+    const double scale = completed.at(kStiffnessKey).get<double>() * replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
+    replicate[kStiffnessKey] = scale;
+    if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty()) {
+      throw InvalidRequest(std::vector<Fault>{{"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
+    }
+    plan.jobs.push_back(make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept.dump()));
+  }
+}
+
+}  // namespace
+
+double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation) {
+  if (k == 0) return 1.0;
+  const double u = static_cast<double>(splitmix64(seed, k) >> 11U) * 0x1p-52 - 1.0;
+  return 1.0 + perturbation * u;
+}
+
+SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs) {
+  const SweepRequest sweep = parse_sweep_request(request, max_jobs);
+  SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse,
+                 .priority = sweep.priority, .executor = sweep.executor, .jobs = {}};
+  const ShownValues shown(sweep);
+  PointFaults faults(sweep, shown);
+  PlanBudget budget(max_jobs);
+  Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
+  do {
+    const json completed = fill_in_defaults(parameters_at(sweep, position));
+    if (position.is_first_of_case()) budget.take(completed, points_of_a_case(sweep), sweep.replicates.count);
+    const auto found = find_combination_faults(completed);
+    for (const Fault& fault : found) faults.add(fault, position, completed);
+    json swept = json::array();
+    for (const std::string& path : plan.swept) swept.push_back(shown.at(completed, path, position.case_index));
+    if (found.empty()) add_jobs(completed, sweep, swept, plan);
+  } while (position.advance(sweep));
+  faults.throw_if_any();
+  return plan;
+}
+
+PlannedJob plan_job(const json& parameters) { return make_job(complete_parameters(parameters, ""), std::nullopt, "[]"); }
+
+}  // namespace jobs

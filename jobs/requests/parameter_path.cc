@@ -1,0 +1,115 @@
+#include "jobs/requests/parameter_path.h"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/link_parameters.h"
+#include "jobs/parameters/parameter_table.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/wear_depth.h"
+
+namespace jobs {
+namespace {
+
+std::vector<std::string> make_known_paths() {
+  std::vector<std::string> paths;
+  for (const ParameterInfo& info : parameter_table()) paths.emplace_back(info.key);
+  for (const std::string_view link : kLinkNames) {
+    for (const std::string_view part : {kMassKey, kInertiaKey}) paths.push_back("links." + std::string(link) + "." + std::string(part));
+  }
+  return paths;
+}
+
+/// "links.1,3.mass_kg" -> "links", "1,3", "mass_kg".
+std::vector<std::string> parts_of(std::string_view path) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', start), path.size());
+    parts.emplace_back(path.substr(start, dot - start));
+    start = dot + 1;
+  }
+  return parts;
+}
+
+/// The member or element of that name; null if there is none. Of a list only places that it has are known: JSON pointers would make others.
+const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& part) {
+  if (whole.is_object()) {
+    const auto found = whole.find(part);
+    return found == whole.end() ? nullptr : &*found;
+  }
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  const bool is_place = error == std::errc() && std::to_string(index) == part && whole.is_array() && index < whole.size();
+  return is_place ? &whole[index] : nullptr;
+}
+
+/// What stands at a path; null if nothing does.
+const nlohmann::json* find_at(const nlohmann::json& parameters, std::string_view path) {
+  const nlohmann::json* found = &parameters;
+  for (const std::string& part : parts_of(path)) {
+    found = find_part(*found, part);
+    if (found == nullptr) break;
+  }
+  return found;
+}
+
+}  // namespace
+
+const std::vector<std::string>& known_paths() {
+  static const std::vector<std::string> paths = make_known_paths();
+  return paths;
+}
+
+std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
+  std::vector<std::string> paths;
+  for (const auto& [key, value] : parameters.items()) {
+    if (find_parameter(key) != nullptr || key == kLinkageKey || key == kWearKey) paths.push_back(key);
+    if (key != "links" || !value.is_object()) continue;
+    for (const auto& [link, parts] : value.items()) {
+      if (std::ranges::find(kLinkNames, link) == kLinkNames.end() || !parts.is_object()) continue;
+      for (const auto& [part, ignored] : parts.items()) {
+        if (part == kMassKey || part == kInertiaKey) paths.push_back(key + "." + link + "." + part);
+      }
+    }
+  }
+  return paths;
+}
+
+bool is_linkage_path(std::string_view path) { return path.starts_with("linkage."); }
+
+std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path) {
+  if (const auto* const value = find_at(parameters, path)) return value->is_number() ? "" : "is no number of the linkage described";
+  // What is left out has a default, and may be swept as well.
+  const auto* const around = find_at(parameters, path.substr(0, path.rfind('.')));
+  return around != nullptr && around->is_object() ? "" : "there is no such place in the linkage described";
+}
+
+std::string pointer_of_path(std::string_view path) {
+  std::string pointer;
+  for (const std::string& part : parts_of(path)) pointer += pointer_token(part);
+  return pointer;
+}
+
+std::string path_of_pointer(std::string_view pointer) {
+  for (const std::string& path : known_paths()) {
+    const std::string whole = pointer_of_path(path);
+    if (pointer == whole || pointer.starts_with(whole + "/")) return path;
+  }
+  return "";
+}
+
+void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value) {
+  nlohmann::json* place = &parameters;
+  for (const std::string& part : parts_of(path)) place = place->is_array() ? &place->at(std::stoul(part)) : &(*place)[part];
+  *place = value;
+}
+
+const nlohmann::json& value_at_path(const nlohmann::json& completed, std::string_view path) {
+  static const nlohmann::json kNone;
+  const nlohmann::json* const found = find_at(completed, path);
+  return found != nullptr ? *found : kNone;
+}
+
+}  // namespace jobs

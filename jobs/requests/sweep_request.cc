@@ -1,0 +1,253 @@
+#include "jobs/requests/sweep_request.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+#include "jobs/parameters/link_parameters.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/requests/parameter_path.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/base/executor_names.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// Whether what stands at a pointer into parameters is one number or word. (Moments of inertia are three.)
+bool takes_one_value(const std::string& pointer) {
+  static const std::set<std::string> pointers = [] {
+    std::set<std::string> found;
+    for (const std::string& path : known_paths())
+      if (!path.ends_with(kInertiaKey)) found.insert(pointer_of_path(path));
+    return found;
+  }();
+  return pointers.contains(pointer);
+}
+
+/// Reads one request; a member function a part of it.
+class SweepParser {
+ public:
+  SweepParser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+
+  SweepRequest parse() {
+    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
+    check_keys();
+    read_name();
+    read_reuse();
+    read_priority();
+    read_executor();
+    read_replicates();
+    read_parameters();
+    check_cases_shape();
+    check_size();
+    read_cases();
+    read_design();
+    read_axes();
+    check_places();
+    check_linkage_paths();
+    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
+    return std::move(sweep_);
+  }
+
+ private:
+  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+
+  void check_keys() {
+    for (const auto& [key, value] : request_.items()) {
+      if (std::ranges::find(kSweepRequestKeys, key) != kSweepRequestKeys.end()) continue;
+      const bool is_parameter = std::ranges::find(known_paths(), key) != known_paths().end();
+      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\"" : describe_unknown_key(key, kSweepRequestKeys));
+    }
+  }
+
+  void read_name() {
+    if (!request_.contains("name")) return;
+    const ordered_json& name = request_.at("name");
+    if (!name.is_string() || name.get_ref<const std::string&>().size() > kLongestName) {
+      fault("/name", "must be a string of at most " + std::to_string(kLongestName) + " bytes");
+    } else {
+      sweep_.name = name.get<std::string>();
+    }
+  }
+
+  void read_reuse() {
+    if (!request_.contains("reuse")) return;
+    if (!request_.at("reuse").is_boolean()) return fault("/reuse", "must be true or false");
+    sweep_.reuse = request_.at("reuse").get<bool>();
+  }
+
+  void read_priority() {
+    if (!request_.contains("priority")) return;
+    const json priority = request_.at("priority");
+    const std::string detail = describe_integer_fault(kPriorityRange, priority);
+    if (!detail.empty()) return fault("/priority", detail);
+    sweep_.priority = priority.get<std::int64_t>();
+  }
+
+  void read_executor() {
+    if (!request_.contains("executor")) return;
+    const ordered_json& name = request_.at("executor");
+    if (!name.is_string() || std::ranges::find(kExecutorNames, name.get<std::string>()) == kExecutorNames.end()) {
+      return fault("/executor", "must be \"local\" or \"slurm\"");
+    }
+    sweep_.executor = name.get<std::string>();
+  }
+
+  void read_replicates() {
+    if (!request_.contains("replicates")) return;
+    const json replicates = request_.at("replicates");
+    if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation and seed");
+    constexpr std::array<std::string_view, 3> kKeys{"count", "perturbation", "seed"};
+    const std::size_t before = faults_.size();
+    for (const auto& [key, value] : replicates.items()) {
+      const std::string detail = key == "count"          ? describe_integer_fault(kCountRange, value)
+                                 : key == "perturbation" ? describe_number_fault(kPerturbationRange, "", value)
+                                 : key == "seed"         ? describe_integer_fault(kSeedRange, value)
+                                                         : describe_unknown_key(key, kKeys);
+      if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
+    }
+    if (!replicates.contains("count")) fault("/replicates/count", "is missing");
+    if (faults_.size() > before) return;
+    sweep_.replicates = {.requested = true,
+                         .count = replicates.at("count").get<std::uint64_t>(),
+                         .perturbation = replicates.value("perturbation", Replicates{}.perturbation),
+                         .seed = replicates.value("seed", Replicates{}.seed)};
+  }
+
+  void read_parameters() {
+    if (!request_.contains("parameters")) return;
+    sweep_.parameters = request_.at("parameters");
+    if (!check_values(sweep_.parameters, "/parameters")) sweep_.parameters = json::object();  // what follows may rely on them
+  }
+
+  /// Faults of the parameters at a pointer. Who gives one of them several values is told where those stand.
+  /// @returns true if there are none
+  bool check_values(const json& given, const std::string& pointer) {
+    const std::vector<Fault> found = find_value_faults(given);
+    for (const Fault& each : found) {
+      const bool several = takes_one_value(each.pointer) && given.at(json::json_pointer(each.pointer)).is_structured();
+      fault(pointer + each.pointer, each.detail + (several ? "; several values stand under \"sweep\"" : ""));
+    }
+    return found.empty();
+  }
+
+  void check_cases_shape() {
+    if (!request_.contains("cases")) return;
+    const ordered_json& cases = request_.at("cases");
+    if (!cases.is_array() || cases.empty()) return fault("/cases", "must be a list of one parameter object or more");
+    case_count_ = cases.size();
+  }
+
+  /// Multiplies what has been counted, and ends here if that is too much.
+  void check_size() {
+    std::uint64_t jobs = case_count_;
+    bool overflow = __builtin_mul_overflow(jobs, sweep_.replicates.count, &jobs);
+    if (request_.contains("sweep")) {
+      if (!request_.at("sweep").is_object()) return fault("/sweep", "must be an object of axes");
+      for (const auto& [path, axis] : request_.at("sweep").items()) {
+        const std::uint64_t values = count_axis_values(path, axis, "/sweep" + pointer_token(path), faults_);
+        overflow |= values > 0 && __builtin_mul_overflow(jobs, values, &jobs);
+      }
+    }
+    if (request_.contains("design")) {
+      design_points_ = count_design_points(request_.at("design"), sweep_.parameters, faults_);
+      overflow |= design_points_ > 0 && __builtin_mul_overflow(jobs, design_points_, &jobs);
+    }
+    if (!overflow && jobs <= max_jobs_) return;
+    const std::string size = overflow ? "more than " + std::to_string(std::numeric_limits<std::uint64_t>::max()) : std::to_string(jobs);
+    const char* const pointer = request_.contains("sweep")    ? "/sweep"
+                                : request_.contains("design") ? "/design"
+                                : request_.contains("cases")  ? "/cases"
+                                                              : "/replicates/count";
+    fault(pointer, "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed");
+    throw InvalidRequest(std::move(faults_));
+  }
+
+  void read_cases() {
+    if (!request_.contains("cases") || !request_.at("cases").is_array()) return;
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < request_.at("cases").size(); ++i) {
+      json given = request_.at("cases")[i];
+      const std::string pointer = "/cases" + pointer_token(std::to_string(i));
+      check_values(given, pointer);
+      if (!seen.insert(given.dump()).second) fault(pointer, "is in the list already");
+      sweep_.cases.push_back(std::move(given));
+    }
+  }
+
+  void read_design() {
+    if (design_points_ == 0) return;
+    sweep_.design = make_design(request_.at("design"), sweep_.parameters, faults_);
+    sweep_.swept = sweep_.design.paths;
+  }
+
+  void read_axes() {
+    if (!request_.contains("sweep") || !request_.at("sweep").is_object()) return;
+    for (const auto& [path, axis] : request_.at("sweep").items()) {
+      const std::string pointer = "/sweep" + pointer_token(path);
+      std::vector<Fault> known;  // those that counting has reported already
+      if (count_axis_values(path, axis, pointer, known) == 0) continue;
+      sweep_.axes.push_back(make_axis(path, axis, pointer, faults_));
+      sweep_.swept.push_back(path);
+    }
+  }
+
+  /// Every value has one place: parameters, the design, an axis, or the cases.
+  void check_places() {
+    std::set<std::string> fixed;
+    if (request_.contains("parameters")) {
+      for (const std::string& path : paths_of(request_.at("parameters"))) fixed.insert(path);
+    }
+    const std::set<std::string> design(sweep_.design.paths.begin(), sweep_.design.paths.end());
+    for (const std::string& path : design) {
+      if (fixed.contains(path)) fault("/design/over" + pointer_token(path), "stands in parameters, too");
+    }
+    std::set<std::string> axes;
+    for (const Axis& axis : sweep_.axes) {
+      axes.insert(axis.path);
+      if (fixed.contains(axis.path)) fault("/sweep" + pointer_token(axis.path), "stands in parameters, too");
+      if (design.contains(axis.path)) fault("/sweep" + pointer_token(axis.path), "stands in the design, too");
+    }
+    for (std::size_t i = 0; i < sweep_.cases.size(); ++i) {
+      for (const std::string& path : paths_of(request_.at("cases")[i])) {
+        const std::string pointer = "/cases" + pointer_token(std::to_string(i)) + pointer_of_path(path);
+        if (fixed.contains(path)) fault(pointer, "stands in parameters, too");
+        if (axes.contains(path)) fault(pointer, "is an axis of sweep, too");
+        if (design.contains(path)) fault(pointer, "stands in the design, too");
+        if (std::ranges::find(sweep_.swept, path) == sweep_.swept.end()) sweep_.swept.push_back(path);
+      }
+    }
+  }
+
+  /// Numbers inside a description can only be swept where there is one that has them.
+  void check_linkage_paths() {
+    const auto check = [&](const std::string& path, const std::string& pointer) {
+      if (!is_linkage_path(path)) return;
+      for (std::size_t i = 0; i < std::max<std::size_t>(1, sweep_.cases.size()); ++i) {
+        json given = sweep_.parameters;
+        if (!sweep_.cases.empty()) given.merge_patch(sweep_.cases[i]);
+        const std::string detail = describe_linkage_path_fault(given, path);
+        if (!detail.empty()) return fault(pointer, detail);
+      }
+    };
+    for (const Axis& axis : sweep_.axes) check(axis.path, "/sweep" + pointer_token(axis.path));
+    for (const std::string& path : sweep_.design.paths) check(path, "/design/over" + pointer_token(path));
+  }
+
+  const ordered_json& request_;
+  std::size_t max_jobs_;
+  std::uint64_t case_count_ = 1;
+  std::uint64_t design_points_ = 0;  ///< 0: there is no design, or it has faults
+  SweepRequest sweep_;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+SweepRequest parse_sweep_request(const ordered_json& request, std::size_t max_jobs) { return SweepParser(request, max_jobs).parse(); }
+
+}  // namespace jobs

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/requests/axis.h"
+#include "jobs/requests/design.h"
+
+namespace jobs {
+
+/// What a request may hold.
+inline constexpr std::array<std::string_view, 9> kSweepRequestKeys{"name",       "parameters", "sweep",    "design",  "cases",
+                                                                    "replicates", "reuse",      "priority", "executor"};
+
+inline constexpr std::size_t kLongestName = 200;  ///< bytes
+inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
+inline constexpr Range kPriorityRange{.minimum = -100, .maximum = 100};
+
+/// How often each point of a sweep is run, with slightly different contact stiffness.
+struct Replicates {
+  bool requested = false;       ///< whether rows carry `replicate`
+  std::uint64_t count = 1;
+  double perturbation = 1e-6;   ///< relative, of contact_stiffness_scale
+  std::uint64_t seed = 1;
+};
+
+/// A sweep as it was asked for, checked as far as that can be done value by value.
+struct SweepRequest {
+  std::string name;
+  nlohmann::json parameters = nlohmann::json::object();  ///< of all points
+  std::vector<nlohmann::json> cases;                     ///< empty: none were given, which counts as one
+  std::vector<Axis> axes;
+  Design design;
+  std::vector<std::string> swept;                        ///< paths that differ from job to job: the design's, the axes', those of the cases
+  Replicates replicates;
+  bool reuse = true;
+  std::int64_t priority = 0;
+  std::string executor;                                  ///< empty: none was named
+};
+
+/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority", "executor"}; all are optional.
+/// The number of jobs is counted before anything of that size is made.
+/// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
+[[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);
+
+}  // namespace jobs

@@ -1,0 +1,86 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "engine/analysis/quantities.h"
+#include "jobs/results/result_table.h"
+
+
+namespace jobs {
+namespace {
+
+constexpr const char* kLineEnd = "\r\n";
+
+/// A text cell. One that a spreadsheet would take for a formula is made plain text by a leading apostrophe.
+std::string text_cell(std::string text) {
+  constexpr std::string_view kFormulaStarts = "=+-@\t\r";
+  if (!text.empty() && kFormulaStarts.find(text.front()) != std::string_view::npos) text.insert(0, "'");
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+void append_number_cell(std::string& csv, double x) {
+  if (!std::isfinite(x)) return;
+  std::array<char, 32> digits;  // the longest double takes 24 characters
+  csv.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr);
+}
+
+void append_cell(std::string& csv, const nlohmann::json& value) {
+  if (value.is_null()) return;
+  if (value.is_number_float()) return append_number_cell(csv, value.get<double>());
+  csv += value.is_string() ? text_cell(value.get<std::string>()) : value.is_structured() ? text_cell(value.dump()) : value.dump();
+}
+
+constexpr std::array<const char*, 5> kReplicateColumns{"replicates_count", "replicates_mean", "replicates_spread", "replicates_min", "replicates_max"};
+
+/// Their cells, each after a comma: other columns stand before them.
+void append_replicate_cells(std::string& csv, const ReplicateStatistics& set) {
+  csv += "," + std::to_string(set.count);
+  for (const auto& value : {set.mean, set.spread, set.min, set.max}) {
+    csv += ',';
+    if (value) append_number_cell(csv, *value);
+  }
+}
+
+}  // namespace
+
+std::string to_csv(const ResultTable& table) {
+  std::string csv;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) csv += (i > 0 ? "," : "") + text_cell(table.columns[i]);
+  if (!table.replicates.empty()) {
+    for (const char* column : kReplicateColumns) csv += std::string(",") + column;
+  }
+  csv += kLineEnd;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const auto& row = table.rows[r];
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i > 0) csv += ',';
+      append_cell(csv, row[i]);
+    }
+    if (!table.replicates.empty()) append_replicate_cells(csv, table.replicates.at(r));
+    csv += kLineEnd;
+  }
+  return csv;
+}
+
+std::string to_csv(const engine::Trajectory& trajectory) {
+  std::string csv;
+  for (std::size_t i = 0; i < trajectory.channels.size(); ++i) csv += (i > 0 ? "," : "") + text_cell(trajectory.channels[i].key);
+  csv += kLineEnd;
+  const std::size_t samples = trajectory.columns.empty() ? 0 : trajectory.columns.front().size();
+  for (std::size_t k = 0; k < samples; ++k) {
+    for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
+      if (i > 0) csv += ',';
+      append_number_cell(csv, trajectory.columns[i][k]);
+    }
+    csv += kLineEnd;
+  }
+  return csv;
+}
+
+}  // namespace jobs

@@ -1,0 +1,271 @@
+#include "jobs/results/resource_json.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <string_view>
+
+#include "engine/simulate_linkage.h"
+#include "jobs/base/flat_json.h"
+#include "jobs/base/optional_json.h"
+#include "jobs/base/provenance.h"
+#include "jobs/base/time_text.h"
+#include "jobs/linkages/linkage_json.h"
+#include "jobs/requests/parameter_path.h"
+#include "jobs/requests/parameters.h"
+#include "jobs/results/result_query.h"
+#include "jobs/results/time_left.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+
+json time_or_null(const std::optional<std::int64_t>& unix_ms) { return unix_ms ? json(time_text(*unix_ms)) : json(); }
+
+json text_or_null(const std::string& text) { return text.empty() ? json() : json(text); }
+
+json error_json(const std::string& reason, const std::string& detail, const std::optional<double>& t_s) {
+  return {{"reason", reason}, {"detail", detail}, {"t_s", value_or_null(t_s)}};
+}
+
+json run_json(const RunRow& run, std::int64_t attempts, bool reused) {
+  return {{"wall_time_s", run.wall_time_s}, {"cpu_time_s", run.cpu_time_s}, {"attempts", attempts}, {"host", run.host}, {"cpu", run.cpu},
+          {"libm", text_or_null(run.libm)}, {"numerics", text_or_null(run.numerics)},
+          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}, {"engine", run.engine}}},
+          {"reused", reused}};
+}
+
+json job_links(const JobRow& row) {
+  const std::string self = "/v1/jobs/" + row.id;
+  return {{"self", self}, {"trajectory", self + "/trajectory"}, {"sweep", row.sweep_id ? json("/v1/sweeps/" + *row.sweep_id) : json()}};
+}
+
+json counts_json(const StateCounts& counts) {
+  json object = json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) object[kJobStates[i]] = counts[i];
+  object["total"] = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  return object;
+}
+
+double progress(const StateCounts& counts) {
+  const auto total = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  const auto left = counts[static_cast<std::size_t>(JobState::kQueued)] + counts[static_cast<std::size_t>(JobState::kRunning)];
+  return static_cast<double>(total - left) / static_cast<double>(total);
+}
+
+json time_left_json(const SweepRow& row, int threads) {
+  const auto left = estimate_time_left(row, threads);
+  if (!left) return {{"eta_s", nullptr}, {"eta_low_s", nullptr}, {"eta_high_s", nullptr}};
+  return {{"eta_s", left->expected_s}, {"eta_low_s", left->low_s}, {"eta_high_s", left->high_s}};
+}
+
+std::vector<std::string> keys_of(const json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+/// Where the metrics stand in a row of a table, by their keys.
+using MetricColumns = std::map<std::string, std::size_t, std::less<>>;
+
+MetricColumns metric_columns(const std::vector<std::string>& keys, std::size_t first) {
+  MetricColumns columns;
+  for (const std::string& key : keys) columns.emplace(key, first++);
+  return columns;
+}
+
+/// The metrics of a sweep: those of all the linkages that its cases have, each key once.
+std::vector<std::string> metric_keys_of(const SweepRow& sweep) {
+  const json request = stored_json(sweep.request);
+  const json common = request.value("parameters", json::object());
+  std::vector<std::string> keys;
+  const auto add = [&](const auto& table) {
+    for (const engine::QuantityInfo& metric : table)
+      if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
+  };
+  const auto add_of = [&](const json& given) {
+    if (describes_linkage(given)) add(engine::linkage_tables(*to_job_spec(fill_in_defaults(given)).linkage).metrics);
+    else add(engine::metric_table());
+  };
+  bool every_case = true;
+  for (const json& each : request.value("cases", json::array())) {
+    if (each.contains(kLinkageKey)) add_of({{kLinkageKey, each.at(kLinkageKey)}});
+    else every_case = false;
+  }
+  if (keys.empty() || !every_case) add_of(describes_linkage(common) ? json{{kLinkageKey, common.at(kLinkageKey)}} : json::object());
+  return keys;
+}
+
+/// Puts the metrics of a result into the cells of its row. False if the text is not as simple as it should be.
+bool put_flat_metrics(std::string_view text, const MetricColumns& columns, std::vector<json>& cells) {
+  FlatJson flat(text);
+  if (!flat.open('{')) return false;
+  auto expected = columns.begin();  // the text has them in the same order, unless another program wrote it
+  for (std::string_view key; flat.next_key(key);) {
+    auto value = flat.value();
+    if (!value) return false;
+    if (expected == columns.end() || expected->first != key) expected = columns.find(key);
+    if (expected == columns.end()) continue;
+    cells[expected->second] = std::move(*value);
+    ++expected;
+  }
+  return flat.close('}');
+}
+
+void put_metrics(const std::string& text, const MetricColumns& columns, std::vector<json>& cells) {
+  if (put_flat_metrics(text, columns, cells)) return;
+  const json metrics = stored_json(text);
+  for (const auto& [key, column] : columns) cells[column] = metrics.value(key, json());
+}
+
+/// Appends the values of what is swept.
+void append_swept(const std::string& text, std::vector<json>& cells) {
+  FlatJson flat(text);
+  const std::size_t before = cells.size();
+  if (flat.open('[')) {
+    for (json value; flat.next_value(value);) cells.push_back(std::move(value));
+    if (flat.close(']')) return;
+  }
+  cells.resize(before);
+  for (json& value : stored_json(text)) cells.push_back(std::move(value));
+}
+
+/// Appends what a query names beside what all tables have.
+void append_others(const ResultRow& row, const std::vector<std::string>& others, std::vector<json>& cells) {
+  const json completed = row.parameters.empty() ? json() : stored_json(row.parameters);
+  for (const std::string& column : others) {
+    if (is_error_column(column)) cells.push_back(value_or_null(column == kErrorColumns.front() ? row.error_reason : row.error_detail));
+    else cells.push_back(value_at_path(completed, column));
+  }
+}
+
+/// What a row brings to its set. Only what has succeeded has metrics, and a peak may be null: the run ended before its window.
+ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
+  return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)), .value = peak.is_number() ? std::optional(peak.get<double>()) : std::nullopt};
+}
+
+}  // namespace
+
+std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+json stored_json(const std::string& text) {
+  json value = json::parse(text, nullptr, false);
+  if (value.is_discarded()) throw StorageError("the store holds a text that is no JSON; it is damaged", 0, false);
+  return value;
+}
+
+json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& wanted) {
+  json job = json::object();
+  const auto put = [&](const char* key, const auto& make) {
+    if (wanted.empty() || std::ranges::find(wanted, key) != wanted.end()) job[key] = make();
+  };
+  put("id", [&] { return json(row.id); });
+  put("sweep_id", [&] { return value_or_null(row.sweep_id); });
+  put("state", [&] { return json(row.state); });
+  put("error", [&] { return row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json(); });
+  put("attempts", [&] { return json(row.attempts); });
+  put("created_at", [&] { return json(time_text(row.created_ms)); });
+  put("started_at", [&] { return time_or_null(row.started_ms); });
+  put("ended_at", [&] { return time_or_null(row.ended_ms); });
+  put("run", [&] { return row.run ? run_json(*row.run, row.attempts, row.reused) : json(); });
+  put("links", [&] { return job_links(row); });
+  if (row.replicate) job["replicate"] = *row.replicate;
+  if (detail == Detail::kFull) {
+    job["parameters"] = stored_json(row.parameters);
+    job["metrics"] = row.metrics ? stored_json(*row.metrics) : json();
+  }
+  return job;
+}
+
+json sweep_json(const SweepRow& row, int threads, Detail detail) {
+  const std::string self = "/v1/sweeps/" + row.id;
+  json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)},
+             {"progress", progress(row.counts)}, {"priority", row.priority}, {"executor", row.executor},
+             {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
+             {"axes", stored_json(row.swept)},
+             {"links", {{"self", self}, {"results", self + "/results"}, {"events", self + "/events"}, {"cancel", self + "/cancel"},
+                        {"retry", self + "/retry"}, {"extend", self + "/extend"}, {"move", self + "/move"}}}};
+  sweep.update(time_left_json(row, threads));
+  if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
+  return sweep;
+}
+
+json unstored_job_json(const json& parameters, const RunRecord& record, std::int64_t started_ms, std::int64_t ended_ms) {
+  JobState state = JobState::kSucceeded;
+  json error;
+  if (record.end == RunRecord::End::kStopped) state = JobState::kCancelled;
+  if (record.end == RunRecord::End::kFailed) {
+    state = JobState::kFailed;
+    error = error_json(record.error_reason, record.error_detail, record.error_t_s);
+  }
+  const Provenance& own = own_provenance();
+  const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = own.host, .cpu = own.cpu, .version = own.version,
+                   .commit = own.commit, .compiler = own.compiler, .engine = own.engine, .libm = own.libm, .numerics = own.numerics};
+  return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics}, {"error", error},
+          {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)}, {"ended_at", time_text(ended_ms)},
+          {"run", run_json(run, 1, false)}};
+}
+
+json progress_json(const SweepRow& row, int threads) {
+  json progress_now{{"sweep_id", row.id}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)}, {"progress", progress(row.counts)}};
+  progress_now.update(time_left_json(row, threads));
+  return progress_now;
+}
+
+std::vector<std::string> swept_of(const SweepRow& sweep) { return stored_json(sweep.swept).get<std::vector<std::string>>(); }
+
+const std::vector<std::string>& sweep_listing_keys() {
+  static const std::vector<std::string> keys = [] {
+    SweepRow row;
+    row.swept = "[]";
+    return keys_of(sweep_json(row, 1, Detail::kListing));
+  }();
+  return keys;
+}
+
+const std::vector<std::string>& job_listing_keys() {
+  static const std::vector<std::string> keys = [] {
+    JobRow row;
+    row.replicate = 0;
+    return keys_of(job_json(row, Detail::kListing));
+  }();
+  return keys;
+}
+
+ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others) {
+  const SweepRow& sweep = results.sweep;
+  const auto swept = swept_of(sweep);
+  ResultTable table{.columns = {"job_id", "state"}, .rows = {}, .ended = has_ended(sweep.counts)};
+  if (sweep.replicated) table.columns.emplace_back("replicate");
+  table.columns.insert(table.columns.end(), swept.begin(), swept.end());
+  const std::vector<std::string> keys = metric_keys_of(sweep);
+  const MetricColumns metrics = metric_columns(keys, table.columns.size());
+  const auto replicated = metrics.find(kReplicateMetric);
+  const std::size_t peak = replicated == metrics.end() ? table.columns.size() : replicated->second;
+  table.columns.insert(table.columns.end(), keys.begin(), keys.end());
+  const std::size_t own = table.columns.size();
+  table.columns.insert(table.columns.end(), others.begin(), others.end());
+  table.rows.reserve(results.rows.size());
+  std::vector<ReplicateValue> peaks;
+  peaks.reserve(results.rows.size());
+  for (const ResultRow& row : results.rows) {
+    std::vector<json> cells;
+    cells.reserve(table.columns.size());
+    cells.emplace_back(row.job_id);
+    cells.emplace_back(row.state);
+    if (sweep.replicated) cells.push_back(value_or_null(row.replicate));
+    append_swept(row.swept, cells);
+    cells.resize(own);
+    append_others(row, others, cells);
+    if (row.metrics) put_metrics(*row.metrics, metrics, cells);
+    peaks.push_back(replicate_value(row, cells[peak]));
+    table.rows.push_back(std::move(cells));
+  }
+  const bool repeated = std::ranges::any_of(peaks, [](const ReplicateValue& value) { return value.replicate > 0; });
+  if (repeated) table.replicates = calc_statistics_by_row(peaks);
+  return table;
+}
+
+}  // namespace jobs

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/base/executor_names.h"
+
+namespace jobs {
+
+/// Takes jobs from the store, computes them, and leaves their results there. Nothing above it knows how. All members may be called from any thread.
+class Executor {
+ public:
+  Executor() = default;
+  virtual ~Executor() = default;
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+
+  /// There may be new jobs, or some that are not wanted any more.
+  virtual void wake() = 0;
+  /// Stops the job if it is being computed; its record comes to nothing unless the store still wants it.
+  virtual void stop_job(const std::string& id) = 0;
+  /// Ends the executor's own threads. Returns when that is done.
+  virtual void stop() = 0;
+  /// {"name", "slots": how many jobs it can compute at a time, "tasks": {"pending", "running"}, "nodes": [...], "waiting": [...],
+  /// "problems": [...]}: what it does beside computing jobs, what its tasks wait for, and what a human should know.
+  [[nodiscard]] virtual nlohmann::json status() const = 0;
+};
+
+/// Whose jobs an executor takes.
+struct Lane {
+  std::string executor{kLocalExecutor};
+  std::string default_executor{kLocalExecutor};  ///< of sweeps that name none, and of single jobs
+};
+
+}  // namespace jobs

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+namespace jobs {
+
+/// How much there is to do, and what the store takes.
+struct Load {
+  std::int64_t queued = 0, running = 0;  ///< jobs
+  std::int64_t store_bytes = 0;          ///< on disk, with its log
+};
+
+}  // namespace jobs

@@ -1,0 +1,247 @@
+// Jobs that are given to a cluster, many at a time.
+
+#include "jobs/store/store_batches.h"
+
+#include <algorithm>
+#include <set>
+
+#include "jobs/base/time_text.h"
+#include "jobs/store/store.h"
+#include "jobs/store/store_insert.h"
+#include "jobs/store/store_quota.h"
+#include "jobs/store/store_results.h"
+#include "jobs/store/store_turns.h"
+
+namespace jobs {
+namespace {
+
+constexpr std::string_view kBatchPrefix = "bat_";
+
+/// A job that may be taken for a batch.
+struct Candidate {
+  std::int64_t seq = 0, content = 0;
+  bool reuse = true;
+};
+
+/// The first queued jobs of a sweep that need not wait for others of the same content, nor for each other.
+std::vector<Candidate> find_candidates(Statements& statements, std::int64_t sweep, std::size_t most) {
+  static const std::string query = std::string("SELECT j.seq, j.content, j.reuse FROM jobs j "
+                                               "WHERE j.state = 'queued' AND j.batch IS NULL AND j.sweep IS ?1 AND ") +
+                                   kNobodyComputesIt + " ORDER BY j.seq LIMIT ?2";
+  const auto list = statements.use(query.c_str());
+  if (sweep != kSingleJobs) list->bind(1, sweep);
+  list->bind(2, static_cast<std::int64_t>(most));
+  std::vector<Candidate> candidates;
+  std::set<std::int64_t> contents;
+  while (list->executeStep()) {
+    const Candidate next{.seq = list->getColumn(0).getInt64(), .content = list->getColumn(1).getInt64(), .reuse = list->getColumn(2).getInt() != 0};
+    if (contents.insert(next.content).second || !next.reuse) candidates.push_back(next);
+  }
+  return candidates;
+}
+
+std::string find_sweep_id(Statements& statements, std::int64_t sweep) {
+  const auto find = statements.use("SELECT id FROM sweeps WHERE seq = ?");
+  find->bind(1, sweep);
+  return find->executeStep() ? find->getColumn(0).getString() : "";
+}
+
+BatchRow insert_batch(Statements& statements, std::string id, std::string sweep_id, std::int64_t now_ms) {
+  const auto add = statements.use("INSERT INTO batches (id, sweep_id, engine_version, created_ms) VALUES (?, ?, ?, ?) RETURNING seq");
+  add->bind(1, id);
+  if (!sweep_id.empty()) add->bind(2, sweep_id);
+  add->bind(3, engine_version());
+  add->bind(4, now_ms);
+  add->executeStep();
+  const std::int64_t seq = add->getColumn(0).getInt64();
+  add->executeStep();
+  return {.seq = seq, .id = std::move(id), .sweep_id = std::move(sweep_id)};
+}
+
+void give_place(Statements& statements, std::int64_t job, std::int64_t batch, std::size_t place) {
+  const auto take = statements.use("UPDATE jobs SET batch = ?, place = ? WHERE seq = ?");
+  take->bind(1, batch);
+  take->bind(2, static_cast<std::int64_t>(place));
+  take->bind(3, job);
+  take->exec();
+}
+
+/// A job that still has its place, and whose content is of the engine that has computed it.
+struct Found {
+  std::int64_t seq = 0, content = 0;
+};
+
+std::optional<Found> find_at(Statements& statements, std::int64_t batch, std::uint32_t place, const std::string& engine) {
+  const auto find = statements.use(
+      "SELECT j.seq, j.content, c.engine_version FROM jobs j JOIN contents c ON c.seq = j.content WHERE j.batch = ? AND j.place = ?");
+  find->bind(1, batch);
+  find->bind(2, static_cast<std::int64_t>(place));
+  if (!find->executeStep() || find->getColumn(2).getString() != engine) return std::nullopt;
+  return Found{.seq = find->getColumn(0).getInt64(), .content = find->getColumn(1).getInt64()};
+}
+
+void end_placed(Statements& statements, std::int64_t job, JobState state, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
+  const auto end = statements.use(
+      "UPDATE jobs SET state = ?1, result = ?2, attempt = max(attempt, 1), started_ms = coalesce(started_ms, max(?3, created_ms)), "
+      "ended_ms = max(?3, coalesce(started_ms, created_ms)), change = ?4, batch = NULL, place = NULL WHERE seq = ?5");
+  end->bind(1, std::string(state_name(state)));
+  end->bind(2, result);
+  end->bind(3, now_ms);
+  end->bind(4, change);
+  end->bind(5, job);
+  end->exec();
+}
+
+}  // namespace
+
+void release_batches_of_other_engines(SQLite::Database& database) {
+  SQLite::Statement release(database,
+                            "UPDATE jobs SET state = 'queued', started_ms = NULL, batch = NULL, place = NULL "
+                            "WHERE batch IN (SELECT seq FROM batches WHERE engine_version <> ?)");
+  release.bind(1, engine_version());
+  release.exec();
+}
+
+std::optional<BatchRow> Store::claim_batch(const Lane& lane, std::size_t most_jobs) {
+  return writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
+    for (const std::int64_t sweep : find_turns(statements, lane, served_)) {
+      const auto candidates = find_candidates(statements, sweep, most_jobs);
+      if (candidates.empty()) continue;
+      const std::int64_t now_ms = now_unix_ms();
+      const BatchRow batch = insert_batch(statements, ids_.make(kBatchPrefix, now_ms), find_sweep_id(statements, sweep), now_ms);
+      for (std::size_t place = 0; place < candidates.size(); ++place) give_place(statements, candidates[place].seq, batch.seq, place);
+      served_[sweep] = ++claims_;
+      return batch;
+    }
+    return std::nullopt;
+  });
+}
+
+std::vector<BatchRow> Store::find_batches() const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database, "SELECT seq, id, coalesce(sweep_id, '') FROM batches ORDER BY seq");
+    std::vector<BatchRow> batches;
+    while (list.executeStep()) {
+      batches.push_back({.seq = list.getColumn(0).getInt64(), .id = list.getColumn(1).getString(), .sweep_id = list.getColumn(2).getString()});
+    }
+    return batches;
+  });
+}
+
+std::vector<std::uint32_t> Store::find_wanted(std::int64_t batch) const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database, "SELECT place FROM jobs WHERE batch = ? ORDER BY place");
+    list.bind(1, batch);
+    std::vector<std::uint32_t> places;
+    while (list.executeStep()) places.push_back(list.getColumn(0).getUInt());
+    return places;
+  });
+}
+
+std::vector<PlacedJob> Store::find_placed(std::int64_t batch) const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database,
+                           "SELECT j.place, c.parameters, j.kind, json_extract(c.parameters, '$.duration_s') FROM jobs j "
+                           "JOIN contents c ON c.seq = j.content WHERE j.batch = ? ORDER BY j.place");
+    list.bind(1, batch);
+    std::vector<PlacedJob> placed;
+    while (list.executeStep()) {
+      placed.push_back({.place = list.getColumn(0).getUInt(), .parameters = list.getColumn(1).getString(), .kind = list.getColumn(2).getString(),
+                        .duration_s = list.getColumn(3).getDouble()});
+    }
+    return placed;
+  });
+}
+
+std::size_t Store::record_placed(std::int64_t batch, const Provenance& provenance, const std::vector<PlacedRecord>& records) {
+  return writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
+    const std::int64_t now_ms = now_unix_ms();
+    std::size_t stored = 0;
+    ++changes_;
+    for (const PlacedRecord& each : records) {
+      const auto found = find_at(statements, batch, each.place, provenance.engine);
+      if (!found) continue;
+      const bool succeeded = each.record->end == RunRecord::End::kSucceeded;
+      const std::string metrics = succeeded ? each.record->metrics.dump() : "";
+      const std::int64_t result = insert_result(statements, found->content, *each.record, metrics, provenance);
+      if (!each.packed_trajectory->empty()) insert_trajectory(statements, result, *each.packed_trajectory);
+      end_placed(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, changes_);
+      if (succeeded) settle_waiting(statements, found->content, result, now_ms, changes_);
+      ++stored;
+    }
+    check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
+    return stored;
+  });
+}
+
+void Store::mark_placed(std::int64_t batch, const std::vector<std::uint32_t>& running, const std::vector<std::uint32_t>& waiting) {
+  writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+    for (const std::uint32_t place : running) {
+      const auto begin = statements.use(
+          "UPDATE jobs SET state = 'running', attempt = attempt + 1, started_ms = max(?, created_ms) "
+          "WHERE batch = ? AND place = ? AND state = 'queued'");
+      begin->bind(1, now_unix_ms());
+      begin->bind(2, batch);
+      begin->bind(3, static_cast<std::int64_t>(place));
+      begin->exec();
+    }
+    for (const std::uint32_t place : waiting) {
+      const auto wait = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE batch = ? AND place = ? AND state = 'running'");
+      wait->bind(1, batch);
+      wait->bind(2, static_cast<std::int64_t>(place));
+      wait->exec();
+    }
+  });
+}
+
+void Store::end_batch(std::int64_t batch) {
+  writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
+    const auto release = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL, batch = NULL, place = NULL WHERE batch = ?");
+    release->bind(1, batch);
+    release->exec();
+    const auto forget = statements.use("DELETE FROM batches WHERE seq = ?");
+    forget->bind(1, batch);
+    forget->exec();
+  });
+}
+
+std::map<std::string, double> Store::find_cost_rates() const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database,
+                           "SELECT j.kind, avg(r.wall_time_s / json_extract(c.parameters, '$.duration_s')) "
+                           "FROM (SELECT seq, content, wall_time_s FROM results WHERE error_reason IS NULL ORDER BY seq DESC LIMIT 500) r "
+                           "JOIN contents c ON c.seq = r.content JOIN jobs j ON j.result = r.seq AND j.reused = 0 GROUP BY j.kind");
+    std::map<std::string, double> rates;
+    while (list.executeStep()) rates.emplace(list.getColumn(0).getString(), list.getColumn(1).getDouble());
+    return rates;
+  });
+}
+
+std::string Store::find_identity() const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement find(database, "SELECT id FROM identity");
+    find.executeStep();
+    return find.getColumn(0).getString();
+  });
+}
+
+bool Store::move_sweep(const std::string& id, const std::string& executor) {
+  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    const auto sweep = find_sweep_seq(database, id);
+    if (!sweep) return false;
+    SQLite::Statement left(database, "SELECT 1 FROM jobs WHERE sweep = ? AND state IN ('queued', 'running') LIMIT 1");
+    left.bind(1, *sweep);
+    if (!left.executeStep()) throw WrongState("the sweep has ended");
+    left.reset();
+    SQLite::Statement move(database, "UPDATE sweeps SET executor = ? WHERE seq = ?");
+    move.bind(1, executor);
+    move.bind(2, *sweep);
+    move.exec();
+    SQLite::Statement release(database, "UPDATE jobs SET batch = NULL, place = NULL WHERE sweep = ? AND state = 'queued' AND batch IS NOT NULL");
+    release.bind(1, *sweep);
+    release.exec();
+    return true;
+  });
+}
+
+}  // namespace jobs

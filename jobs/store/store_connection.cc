@@ -1,0 +1,174 @@
+#include "jobs/store/store_connection.h"
+
+#include <cerrno>
+#include <cstring>
+#include <limits>
+
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "jobs/store/store_schema.h"
+
+namespace jobs {
+namespace {
+
+constexpr int kBusyTimeout_ms = 5000;
+constexpr mode_t kOwnerOnly = 0600;
+
+StorageError system_error(const std::string& what) { return {what + ": " + std::strerror(errno), 0, is_no_room(errno)}; }
+
+/// What both kinds of connection need before they see a row: nothing in the file may run code of its own.
+void harden(SQLite::Database& database) {
+  for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                      {SQLITE_DBCONFIG_DQS_DML, 0}, {SQLITE_DBCONFIG_DQS_DDL, 0}}) {
+    sqlite3_db_config(database.getHandle(), option, value, nullptr);
+  }
+  database.exec("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA temp_store = MEMORY");
+}
+
+/// What the system last said to a write to a store's log. Of the connection as a whole SQLite tells only what came after that.
+int last_error_of_log(const SQLite::Database& database) {
+  sqlite3_file* log = nullptr;
+  int system_error = 0;
+  sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_JOURNAL_POINTER, &log);
+  if (log != nullptr && log->pMethods != nullptr) log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &system_error);
+  return system_error;
+}
+
+bool has_content(const std::filesystem::path& file) {
+  std::error_code missing;
+  const auto size = std::filesystem::file_size(file, missing);
+  return !missing && size > 0;
+}
+
+/// SQLite would delete a log that lies beside no store, and with it what had not been moved into the store yet.
+void check_log_has_store(const std::filesystem::path& store) {
+  const std::string log = store.string() + "-wal";
+  if (has_content(store) || !has_content(log)) return;
+  throw StorageError("the store " + store.string() + " is missing or empty, but its log " + log +
+                         " is there and may hold results: put the store back beside it, or move the log away; it has been left as it is",
+                     SQLITE_CORRUPT, false);
+}
+
+/// A store that was copied or restored may be open to all who use the machine.
+void keep_from_others(const std::string& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || (status.st_mode & 077U) == 0) return;
+  if (::chmod(file.c_str(), kOwnerOnly) == 0) return;
+  throw system_error("others than its owner may read or write " + file + ", and its mode cannot be changed to 0600");
+}
+
+/// SQLite would make the file readable for all; its log and index files copy the file's mode.
+SQLite::Database open_for_writing(const std::filesystem::path& store) {
+  check_log_has_store(store);
+  const int file = ::open(store.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kOwnerOnly);
+  if (file >= 0) {
+    ::close(file);
+  } else if (errno != EEXIST) {
+    throw system_error("cannot make the store " + store.string());
+  }
+  for (const char* suffix : {"", "-wal", "-shm"}) keep_from_others(store.string() + suffix);
+  return with_storage_errors([&] { return SQLite::Database(store.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms); });
+}
+
+}  // namespace
+
+bool is_no_room(int system_error) { return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG; }
+
+bool is_damage(int sqlite_code) {
+  const int primary = sqlite_code & 0xff;
+  return primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB;
+}
+
+bool is_full(const SQLite::Exception& error, const SQLite::Database* database) {
+  if (error.getErrorCode() == SQLITE_FULL) return true;
+  return error.getErrorCode() == SQLITE_IOERR && database != nullptr && is_no_room(last_error_of_log(*database));
+}
+
+StoreLock::StoreLock(const std::filesystem::path& store) {
+  // One lock for one file, whichever of its names is used.
+  const std::string path = std::filesystem::weakly_canonical(store).string() + ".lock";
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
+  if (file_ < 0) throw system_error("cannot open " + path);
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    const bool held = errno == EWOULDBLOCK;
+    const StorageError error = held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY, false)
+                                    : system_error("cannot lock " + path);
+    ::close(file_);
+    throw error;
+  }
+}
+
+StoreLock::~StoreLock() { ::close(file_); }
+
+void roll_back_unfinished(SQLite::Database& database) noexcept {
+  if (sqlite3_get_autocommit(database.getHandle()) == 0) database.tryExec("ROLLBACK");
+}
+
+Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {
+  with_storage_errors([&] {
+    harden(database_);
+    // A store that is refused stays as it is: nothing is added to its log before all is known to go well, and closing must not move it into the file.
+    database_.exec("PRAGMA cache_spill = OFF");
+    sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    prepare_schema(database_, store);
+    // Freed pages are not wiped: results are no secrets, and wiping makes deleting slow.
+    database_.exec("PRAGMA foreign_keys = ON; PRAGMA secure_delete = OFF; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 67108864");
+  });
+}
+
+Writer::~Writer() {
+  // Nothing is lost if this fails: the log is read at the next start.
+  if (accepted_) database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+void Writer::accept() {
+  with_storage_errors([&] { database_.exec("PRAGMA cache_spill = ON"); });
+  sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
+  accepted_ = true;
+}
+
+void Writer::set_durability(Durability durability) {
+  if (durability == durability_) return;
+  database_.exec(durability == Durability::kSurvivesPowerLoss ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+  durability_ = durability;
+}
+
+void Writer::release_free_pages() {
+  int before = std::numeric_limits<int>::max();
+  for (int now = before - 1; now > 0 && now < before;) {
+    const std::lock_guard lock(mutex_);
+    with_storage_errors([&] {
+      database_.exec("PRAGMA incremental_vacuum(2048)");
+      before = std::exchange(now, database_.execAndGet("PRAGMA freelist_count").getInt());
+    }, &database_);
+  }
+}
+
+ReaderPool::Connection::Connection(const std::filesystem::path& store) : database(store.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms) {
+  harden(database);
+  database.exec("PRAGMA query_only = ON");
+}
+
+std::unique_ptr<ReaderPool::Connection> ReaderPool::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      auto connection = std::move(idle_.back());
+      idle_.pop_back();
+      return connection;
+    }
+  }
+  return std::make_unique<Connection>(store_);
+}
+
+void ReaderPool::put_back(std::unique_ptr<Connection> connection) {
+  constexpr std::size_t kMostIdle = 8;
+  const std::lock_guard lock(mutex_);
+  if (idle_.size() < kMostIdle) idle_.push_back(std::move(connection));
+}
+
+}  // namespace jobs

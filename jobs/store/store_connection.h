@@ -1,0 +1,212 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "jobs/base/errors.h"
+
+namespace jobs {
+
+/// The lock that a process holds as long as it has a store open: <store>.lock. The kernel drops it when the process dies.
+class StoreLock {
+ public:
+  /// @throws StorageError if another process (or another store of this one) holds it
+  explicit StoreLock(const std::filesystem::path& store);
+  ~StoreLock();
+  StoreLock(const StoreLock&) = delete;
+  StoreLock& operator=(const StoreLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+/// Whether a system call failed for want of room: the disk is full, or what this user or process may take of it.
+[[nodiscard]] bool is_no_room(int system_error);
+
+/// Whether SQLite says that there is no room left. It has no code of its own for other limits than the disk's: the system call tells.
+/// @param database  that failed; null: unknown
+[[nodiscard]] bool is_full(const SQLite::Exception& error, const SQLite::Database* database);
+
+/// Whether a code of SQLite's, extended or not, says that the file is damaged or no database.
+[[nodiscard]] bool is_damage(int sqlite_code);
+
+/// Runs database work and throws StorageError in the place of SQLite's exceptions.
+/// @param database  that the work is done with; null: one of its own
+template <typename Work>
+auto with_storage_errors(Work&& work, const SQLite::Database* database = nullptr) {
+  try {
+    return std::forward<Work>(work)();
+  } catch (const SQLite::Exception& error) {
+    throw StorageError(std::string("the store failed: ") + error.what(), error.getExtendedErrorCode(), is_full(error, database));
+  }
+}
+
+/// How sure a commit must be before it returns.
+enum class Durability {
+  kSurvivesProcess,    ///< of what can be computed again
+  kSurvivesPowerLoss,  ///< of what has been promised to a user
+};
+
+/// The statements of a connection that are run again and again, each prepared once.
+class Statements {
+ public:
+  explicit Statements(SQLite::Database& database) : database_(database) {}
+
+  /// A statement that is being run, with null for every parameter at first. Done with at the end of its scope: one that waits
+  /// for its next row would keep the log from being moved into the file.
+  class Use {
+   public:
+    explicit Use(SQLite::Statement& statement) : statement_(statement) { statement_.clearBindings(); }
+    ~Use() { statement_.tryReset(); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    SQLite::Statement* operator->() const { return &statement_; }
+
+   private:
+    SQLite::Statement& statement_;
+  };
+
+  /// @param sql  a literal: it is told from others by its address
+  [[nodiscard]] Use use(const char* sql) { return Use(prepared_.try_emplace(sql, database_, sql).first->second); }
+
+ private:
+  SQLite::Database& database_;
+  std::map<const char*, SQLite::Statement> prepared_;
+};
+
+/// Rolls back a transaction that has not been committed, if there is one. SQLite itself has done it after some failures; without memory even this
+/// may fail, and is then for whoever uses the connection next.
+void roll_back_unfinished(SQLite::Database& database) noexcept;
+
+/// Like SQLite::Transaction, for connections that must go on whatever fails.
+class Transaction {
+ public:
+  /// @param begin  the statement that begins it
+  Transaction(SQLite::Database& database, const char* begin) : database_(database) {
+    roll_back_unfinished(database_);
+    database_.exec(begin);
+  }
+  ~Transaction() { roll_back_unfinished(database_); }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void commit() { database_.exec("COMMIT"); }
+
+ private:
+  SQLite::Database& database_;
+};
+
+/// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before 3.51.3 a
+/// checkpoint beside another connection's commit can damage a store, so no second connection may do either.
+class Writer {
+ public:
+  explicit Writer(const std::filesystem::path& store);
+  ~Writer();  ///< moves the log into the file, if accept() was called
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  /// Runs work(database) in one transaction: all of it, or nothing if it throws.
+  template <typename Work>
+  auto write(Durability durability, Work&& work) {
+    return write_with(durability, std::forward<Work>(work), database_);
+  }
+
+  /// The same for work(statements), which is done often.
+  template <typename Work>
+  auto write_often(Durability durability, Work&& work) {
+    return write_with(durability, std::forward<Work>(work), statements_);
+  }
+
+  /// Says that the store has shown no damage. Until then its file is left as it is, however this ends.
+  void accept();
+
+  /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their turn.
+  void release_free_pages();
+
+ private:
+  template <typename Work, typename With>
+  auto write_with(Durability durability, Work&& work, With& with) {
+    const std::lock_guard lock(mutex_);
+    return with_storage_errors([&] {
+      roll_back_unfinished(database_);
+      set_durability(durability);
+      Transaction transaction(database_, "BEGIN IMMEDIATE");
+      if constexpr (std::is_void_v<decltype(work(with))>) {
+        work(with);
+        transaction.commit();
+      } else {
+        auto result = work(with);
+        transaction.commit();
+        return result;
+      }
+    }, &database_);
+  }
+
+  void set_durability(Durability durability);
+
+  std::mutex mutex_;  // guards the rest
+  SQLite::Database database_;
+  Statements statements_{database_};
+  Durability durability_ = Durability::kSurvivesPowerLoss;
+  bool accepted_ = false;
+};
+
+/// Read-only connections, kept for the next who needs one.
+class ReaderPool {
+ public:
+  explicit ReaderPool(std::filesystem::path store) : store_(std::move(store)) {}
+
+  /// Runs work(database) on one consistent picture of the store.
+  template <typename Work>
+  auto read(Work&& work) {
+    return with_storage_errors([&] {
+      Lease lease(*this);
+      Transaction transaction(lease.connection->database, "BEGIN");
+      return work(static_cast<const SQLite::Database&>(lease.connection->database));
+    });
+  }
+
+  /// The same for work(statements), which is done often, and reads one thing.
+  template <typename Work>
+  auto read_often(Work&& work) {
+    return with_storage_errors([&] {
+      Lease lease(*this);
+      roll_back_unfinished(lease.connection->database);
+      return work(lease.connection->statements);
+    });
+  }
+
+ private:
+  struct Connection {
+    explicit Connection(const std::filesystem::path& store);
+
+    SQLite::Database database;
+    Statements statements{database};
+  };
+  struct Lease {
+    explicit Lease(ReaderPool& owner) : pool(owner), connection(owner.take()) {}
+    ~Lease() { pool.put_back(std::move(connection)); }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+
+    ReaderPool& pool;
+    std::unique_ptr<Connection> connection;
+  };
+
+  std::unique_ptr<Connection> take();
+  void put_back(std::unique_ptr<Connection> connection);
+
+  const std::filesystem::path store_;
+  std::mutex mutex_;  // guards idle_
+  std::vector<std::unique_ptr<Connection>> idle_;
+};
+
+}  // namespace jobs

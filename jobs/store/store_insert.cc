@@ -1,0 +1,117 @@
+#include "jobs/store/store_insert.h"
+
+#include <utility>
+#include <vector>
+
+#include "jobs/base/content_id.h"
+#include "jobs/base/provenance.h"
+#include "jobs/store/store.h"
+
+namespace jobs {
+
+JobInserter::JobInserter(SQLite::Database& database, IdMaker& ids, std::int64_t now_ms, std::int64_t change)
+    : ids_(ids),
+      now_ms_(now_ms),
+      change_(change),
+      add_content_(database, "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING"),
+      find_content_(database, "SELECT seq FROM contents WHERE content_id = ?"),
+      find_result_(database, "SELECT max(seq) FROM results WHERE content = ? AND error_reason IS NULL"),
+      add_job_(database,
+               "INSERT INTO jobs (id, sweep, replicate, swept, content, kind, reuse, created_ms, state, result, reused, started_ms, ended_ms, change) "
+               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
+
+std::string JobInserter::insert(const PlannedJob& job, std::optional<std::int64_t> sweep, bool reuse) {
+  const std::int64_t content = content_of(job);
+  const auto result = reuse ? known_result(content) : std::nullopt;
+  std::string id = ids_.make(kJobPrefix, now_ms_);
+  add_job_.reset();
+  add_job_.clearBindings();  // what is not bound below is null
+  add_job_.bind(1, id);
+  if (sweep) add_job_.bind(2, *sweep);
+  if (job.replicate) add_job_.bind(3, static_cast<std::int64_t>(*job.replicate));
+  add_job_.bind(4, job.swept);
+  add_job_.bind(5, content);
+  add_job_.bind(6, job.kind);
+  add_job_.bind(7, reuse ? 1 : 0);
+  add_job_.bind(8, now_ms_);
+  add_job_.bind(9, std::string(state_name(result ? JobState::kSucceeded : JobState::kQueued)));
+  add_job_.bind(11, result ? 1 : 0);
+  if (result) {
+    add_job_.bind(10, *result);
+    add_job_.bind(12, now_ms_);
+    add_job_.bind(13, now_ms_);
+    add_job_.bind(14, change_);
+  }
+  add_job_.exec();
+  return id;
+}
+
+std::int64_t JobInserter::content_of(const PlannedJob& job) {
+  add_content_.reset();
+  add_content_.bind(1, job.content_id);
+  add_content_.bind(2, engine_version());
+  add_content_.bind(3, job.parameters);
+  add_content_.exec();
+  find_content_.reset();
+  find_content_.bind(1, job.content_id);
+  find_content_.executeStep();
+  return find_content_.getColumn(0).getInt64();
+}
+
+std::optional<std::int64_t> JobInserter::known_result(std::int64_t content) {
+  find_result_.reset();
+  find_result_.bind(1, content);
+  find_result_.executeStep();
+  const SQLite::Column result = find_result_.getColumn(0);
+  return result.isNull() ? std::nullopt : std::optional(result.getInt64());
+}
+
+std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms) {
+  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms, executor) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  add.bind(1, id);
+  add.bind(2, plan.name);
+  add.bind(3, request);
+  add.bind(4, nlohmann::json(plan.swept).dump());
+  add.bind(5, plan.replicated ? 1 : 0);
+  add.bind(6, plan.priority);
+  add.bind(7, now_ms);
+  if (!plan.executor.empty()) add.bind(8, plan.executor);
+  add.exec();
+  return database.getLastInsertRowid();
+}
+
+void check_room(SQLite::Database& database, std::size_t max_queued) {
+  const auto queued = database.execAndGet(kQueuedCount).getInt64();
+  if (static_cast<std::size_t>(queued) > max_queued) {
+    throw QueueFull("with these, " + std::to_string(queued) + " jobs would be waiting; at most " + std::to_string(max_queued) + " may");
+  }
+}
+
+void rename_queued_contents(SQLite::Database& database) {
+  SQLite::Statement old(database,
+                        "SELECT DISTINCT c.seq, c.parameters FROM jobs j JOIN contents c ON c.seq = j.content "
+                        "WHERE j.state = 'queued' AND c.engine_version <> ?");
+  old.bind(1, engine_version());
+  std::vector<std::pair<std::int64_t, std::string>> contents;
+  while (old.executeStep()) contents.emplace_back(old.getColumn(0).getInt64(), old.getColumn(1).getString());
+  for (const auto& [seq, parameters] : contents) {
+    const std::string name = content_id(parameters, engine_version());
+    SQLite::Statement add(database, "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING");
+    add.bind(1, name);
+    add.bind(2, engine_version());
+    add.bind(3, parameters);
+    add.exec();
+    SQLite::Statement move(database, "UPDATE jobs SET content = (SELECT seq FROM contents WHERE content_id = ?) WHERE content = ? AND state = 'queued'");
+    move.bind(1, name);
+    move.bind(2, seq);
+    move.exec();
+  }
+}
+
+std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, "SELECT seq FROM sweeps WHERE id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(find.getColumn(0).getInt64()) : std::nullopt;
+}
+
+}  // namespace jobs

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "jobs/base/ids.h"
+#include "jobs/requests/expand.h"
+
+namespace jobs {
+
+/// Stores jobs inside one transaction; its statements are prepared once.
+class JobInserter {
+ public:
+  /// @param change  of the jobs that succeed at once
+  JobInserter(SQLite::Database& database, IdMaker& ids, std::int64_t now_ms, std::int64_t change);
+
+  /// Stores a job, as succeeded if its result is known and may be used. Returns its id.
+  std::string insert(const PlannedJob& job, std::optional<std::int64_t> sweep, bool reuse);
+
+ private:
+  std::int64_t content_of(const PlannedJob& job);
+  std::optional<std::int64_t> known_result(std::int64_t content);
+
+  IdMaker& ids_;
+  std::int64_t now_ms_;
+  std::int64_t change_;
+  SQLite::Statement add_content_, find_content_, find_result_, add_job_;
+};
+
+/// Stores a sweep without its jobs. Returns its number.
+std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms);
+/// How many jobs wait, here or in the queue of a cluster: both counts walk an index that holds little else.
+inline constexpr const char* kQueuedCount =
+    "SELECT (SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NULL) + "
+    "(SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NOT NULL)";
+
+/// Throws QueueFull, and so undoes the transaction, if there is no room for what has just been added.
+void check_room(SQLite::Database& database, std::size_t max_queued);
+
+/// Jobs that a former version of the engine was to compute have results of that version as theirs; gives them new names.
+void rename_queued_contents(SQLite::Database& database);
+
+[[nodiscard]] std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database, const std::string& id);
+
+}  // namespace jobs

@@ -1,0 +1,236 @@
+#include "jobs/store/store_rows.h"
+
+namespace jobs {
+namespace {
+
+std::optional<std::int64_t> optional_int(const SQLite::Column& column) { return column.isNull() ? std::nullopt : std::optional(column.getInt64()); }
+std::optional<double> optional_double(const SQLite::Column& column) { return column.isNull() ? std::nullopt : std::optional(column.getDouble()); }
+std::optional<std::string> optional_text(const SQLite::Column& column) { return column.isNull() ? std::nullopt : std::optional(column.getString()); }
+
+std::size_t state_index(const std::string& state) {
+  for (std::size_t i = 0; i < kJobStates.size(); ++i) {
+    if (state == kJobStates[i]) return i;
+  }
+  throw StorageError("the store holds an unknown state: " + state, 0, false);
+}
+
+void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
+  SQLite::Statement count(database, "SELECT state, count(*), min(started_ms), max(ended_ms) FROM jobs WHERE sweep = ? GROUP BY state");
+  count.bind(1, sweep);
+  while (count.executeStep()) {
+    row.counts[state_index(count.getColumn(0).getString())] = count.getColumn(1).getInt64();
+    const auto started = optional_int(count.getColumn(2));
+    const auto ended = optional_int(count.getColumn(3));
+    if (started) row.started_ms = std::min(*started, row.started_ms.value_or(*started));
+    if (ended) row.ended_ms = std::max(*ended, row.ended_ms.value_or(*ended));
+  }
+  if (!has_ended(row.counts)) row.ended_ms.reset();
+}
+
+void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
+  SQLite::Statement cost(database,
+                         "SELECT j.kind, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT NULL), total(r.wall_time_s), "
+                         "total(r.wall_time_s * r.wall_time_s) FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
+                         "WHERE j.sweep = ? GROUP BY j.kind");
+  cost.bind(1, sweep);
+  while (cost.executeStep()) {
+    row.costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(), .running = cost.getColumn(2).getInt64(),
+                                                .computed = cost.getColumn(3).getInt64(), .wall_time_s = cost.getColumn(4).getDouble(),
+                                                .wall_time_squares_s2 = cost.getColumn(5).getDouble()};
+  }
+}
+
+/// @param request  SQL of what stands in its column
+std::string sweep_columns(const std::string& request) {
+  return "SELECT seq, id, name, " + request + ", swept, replicated, priority, created_ms, coalesce(executor, '') FROM sweeps";
+}
+
+SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
+  SweepRow row;
+  const std::int64_t seq = found.getColumn(0).getInt64();
+  row.id = found.getColumn(1).getString();
+  row.name = found.getColumn(2).getString();
+  row.request = found.getColumn(3).getString();
+  row.swept = found.getColumn(4).getString();
+  row.replicated = found.getColumn(5).getInt() != 0;
+  row.priority = found.getColumn(6).getInt64();
+  row.created_ms = found.getColumn(7).getInt64();
+  row.executor = found.getColumn(8).getString();
+  read_counts(database, seq, row);
+  if (!has_ended(row.counts)) read_costs(database, seq, row);
+  return row;
+}
+
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id, const std::string& request) {
+  SQLite::Statement find(database, sweep_columns(request) + " WHERE id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(sweep_row(database, find)) : std::nullopt;
+}
+
+/// @param parameters, metrics  SQL of what stands in their columns
+std::string job_columns(const std::string& parameters, const std::string& metrics) {
+  return "SELECT j.id, s.id, j.replicate, j.state, j.created_ms, j.started_ms, j.ended_ms, j.attempt, j.reused, r.error_reason, r.error_detail, "
+         "r.error_t_s, r.seq, r.wall_time_s, r.cpu_time_s, r.host, r.cpu, r.version, r.\"commit\", r.compiler, c.engine_version, r.libm, r.numerics, " +
+         parameters + ", " + metrics +
+         " FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep LEFT JOIN results r ON r.seq = j.result JOIN contents c ON c.seq = j.content";
+}
+
+RunRow read_run(SQLite::Statement& found) {
+  return {.wall_time_s = found.getColumn(13).getDouble(), .cpu_time_s = found.getColumn(14).getDouble(),
+          .host = found.getColumn(15).getString(), .cpu = found.getColumn(16).getString(), .version = found.getColumn(17).getString(),
+          .commit = found.getColumn(18).getString(), .compiler = found.getColumn(19).getString(),
+          .engine = found.getColumn(20).getString(), .libm = found.getColumn(21).getString(), .numerics = found.getColumn(22).getString()};
+}
+
+JobRow job_row(SQLite::Statement& found) {
+  JobRow row;
+  row.id = found.getColumn(0).getString();
+  row.sweep_id = optional_text(found.getColumn(1));
+  row.replicate = optional_int(found.getColumn(2));
+  row.state = found.getColumn(3).getString();
+  row.created_ms = found.getColumn(4).getInt64();
+  row.started_ms = optional_int(found.getColumn(5));
+  row.ended_ms = optional_int(found.getColumn(6));
+  row.attempts = found.getColumn(7).getInt64();
+  row.reused = found.getColumn(8).getInt() != 0;
+  row.error_reason = optional_text(found.getColumn(9));
+  row.error_detail = found.getColumn(10).getString();
+  row.error_t_s = optional_double(found.getColumn(11));
+  if (!found.getColumn(12).isNull()) row.run = read_run(found);
+  row.parameters = found.getColumn(23).getString();
+  row.metrics = optional_text(found.getColumn(24));
+  return row;
+}
+
+/// @param parameters  SQL of what stands in their column
+std::string result_columns(const std::string& parameters) {
+  return "SELECT j.id, j.state, j.swept, j.replicate, r.metrics, " + parameters +
+         ", max(coalesce(j.change, 0), 0), r.error_reason, r.error_detail FROM jobs j LEFT JOIN results r ON r.seq = j.result";
+}
+
+constexpr const char* kOfSweep = " WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?)";
+
+ResultRow result_row(SQLite::Statement& found) {
+  return {.job_id = found.getColumn(0).getString(), .state = found.getColumn(1).getString(), .swept = found.getColumn(2).getString(),
+          .replicate = optional_int(found.getColumn(3)), .metrics = optional_text(found.getColumn(4)),
+          .parameters = found.getColumn(5).getString(), .change = found.getColumn(6).getInt64(),
+          .error_reason = optional_text(found.getColumn(7)), .error_detail = optional_text(found.getColumn(8))};
+}
+
+}  // namespace
+
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) { return read_sweep(database, id, "request"); }
+
+std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, job_columns("c.parameters", "r.metrics") + " WHERE j.id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(job_row(find)) : std::nullopt;
+}
+
+std::optional<SweepRow> Store::find_sweep(const std::string& id) const {
+  return readers_.read([&](const SQLite::Database& database) { return read_sweep(database, id); });
+}
+
+std::optional<bool> Store::has_sweep_ended(const std::string& id) const {
+  return readers_.read_often([&](Statements& statements) -> std::optional<bool> {
+    const auto find = statements.use("SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') "
+                                     "OR EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') FROM sweeps s WHERE s.id = ?");
+    find->bindNoCopy(1, id);
+    return find->executeStep() ? std::optional(find->getColumn(0).getInt() == 0) : std::nullopt;
+  });
+}
+
+std::vector<SweepRow> Store::list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database, sweep_columns("''") + " WHERE ?1 = '' OR id < ?1 ORDER BY id DESC");
+    list.bind(1, before);
+    std::vector<SweepRow> rows;
+    // A sweep's state is made of its jobs', so it cannot be asked for in SQL without counting them for every sweep.
+    while (rows.size() < limit && list.executeStep()) {
+      SweepRow row = sweep_row(database, list);
+      if (state.empty() || sweep_state(row.counts) == state) rows.push_back(std::move(row));
+    }
+    return rows;
+  });
+}
+
+std::optional<JobRow> Store::find_job(const std::string& id) const {
+  return readers_.read([&](const SQLite::Database& database) { return read_job(database, id); });
+}
+
+std::optional<bool> Store::has_job_ended(const std::string& id) const {
+  return readers_.read_often([&](Statements& statements) -> std::optional<bool> {
+    const auto find = statements.use("SELECT state NOT IN ('queued', 'running') FROM jobs WHERE id = ?");
+    find->bindNoCopy(1, id);
+    return find->executeStep() ? std::optional(find->getColumn(0).getInt() != 0) : std::nullopt;
+  });
+}
+
+std::vector<JobRow> Store::list_jobs(const std::string& state, const std::string& before, std::size_t limit) const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database, job_columns("''", "NULL") + " WHERE (?1 = '' OR j.id < ?1) AND (?2 = '' OR j.state = ?2) ORDER BY j.id DESC LIMIT ?3");
+    list.bind(1, before);
+    list.bind(2, state);
+    list.bind(3, static_cast<std::int64_t>(limit));
+    std::vector<JobRow> rows;
+    while (list.executeStep()) rows.push_back(job_row(list));
+    return rows;
+  });
+}
+
+std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id, bool parameters) {
+  auto sweep = read_sweep(database, sweep_id);
+  if (!sweep) return std::nullopt;
+  SweepResults results{.sweep = std::move(*sweep), .rows = {}};
+  const std::string contents = parameters ? " JOIN contents c ON c.seq = j.content" : "";
+  SQLite::Statement list(database, result_columns(parameters ? "c.parameters" : "''") + contents + kOfSweep + " ORDER BY j.seq");
+  list.bind(1, sweep_id);
+  while (list.executeStep()) results.rows.push_back(result_row(list));
+  return results;
+}
+
+std::optional<SweepResults> Store::find_results(const std::string& sweep_id, bool parameters) const {
+  return readers_.read([&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
+}
+
+std::vector<ResultRow> Store::find_ended(const std::string& sweep_id, std::int64_t after) const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database, result_columns("''") + kOfSweep + " AND j.change > ? ORDER BY j.change, j.seq");
+    list.bind(1, sweep_id);
+    list.bind(2, after);
+    std::vector<ResultRow> rows;
+    while (list.executeStep()) rows.push_back(result_row(list));
+    return rows;
+  });
+}
+
+std::optional<SweepChanges> Store::find_changes(const std::string& sweep_id, std::int64_t after) const {
+  return readers_.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
+    auto sweep = read_sweep(database, sweep_id, "''");
+    if (!sweep) return std::nullopt;
+    SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
+    SQLite::Statement list(database,
+                           "SELECT j.change, j.id, j.state, r.error_reason, j.ended_ms, j.reused FROM jobs j LEFT JOIN results r ON r.seq = j.result "
+                           "WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) AND j.change > ? ORDER BY j.change, j.seq");
+    list.bind(1, sweep_id);
+    list.bind(2, after);
+    while (list.executeStep()) {
+      changes.ended.push_back({.change = list.getColumn(0).getInt64(), .id = list.getColumn(1).getString(), .state = list.getColumn(2).getString(),
+                               .error_reason = optional_text(list.getColumn(3)), .ended_ms = list.getColumn(4).getInt64(),
+                               .reused = list.getColumn(5).getInt() != 0});
+    }
+    return changes;
+  });
+}
+
+std::optional<std::string> Store::find_trajectory(const std::string& job_id) const {
+  return readers_.read([&](const SQLite::Database& database) -> std::optional<std::string> {
+    SQLite::Statement find(database, "SELECT t.data FROM jobs j JOIN trajectories t ON t.result = j.result WHERE j.id = ?");
+    find.bind(1, job_id);
+    if (!find.executeStep()) return std::nullopt;
+    const SQLite::Column data = find.getColumn(0);
+    return std::string(static_cast<const char*>(data.getBlob()), static_cast<std::size_t>(data.getBytes()));
+  });
+}
+
+}  // namespace jobs

@@ -1,0 +1,93 @@
+// Searches as they are stored: each belongs to the sweep that its evaluations are the jobs of, and goes with it.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "jobs/base/time_text.h"
+#include "jobs/store/store.h"
+#include "jobs/store/store_insert.h"
+#include "jobs/store/store_rows.h"
+
+namespace jobs {
+namespace {
+
+constexpr const char* kSearchColumns =
+    "SELECT c.id, s.id, s.name, c.request, c.state, c.error, s.created_ms, c.ended_ms FROM searches c JOIN sweeps s ON s.seq = c.sweep";
+
+SearchRow search_row(SQLite::Statement& found) {
+  SearchRow row;
+  row.id = found.getColumn(0).getString();
+  row.sweep_id = found.getColumn(1).getString();
+  row.name = found.getColumn(2).getString();
+  row.request = found.getColumn(3).getString();
+  row.state = found.getColumn(4).getString();
+  if (!found.getColumn(5).isNull()) row.error = found.getColumn(5).getString();
+  row.created_ms = found.getColumn(6).getInt64();
+  if (!found.getColumn(7).isNull()) row.ended_ms = found.getColumn(7).getInt64();
+  return row;
+}
+
+}  // namespace
+
+std::string Store::add_search(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
+                              std::size_t max_queued, const KeptAnswer<StudyRow>& kept) {
+  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    const std::int64_t now_ms = now_unix_ms();
+    const std::string sweep_id = ids_.make(kSweepPrefix, now_ms);
+    const std::int64_t sweep = insert_sweep(database, sweep_id, plan, sweep_request, now_ms);
+    JobInserter inserter(database, ids_, now_ms, ++changes_);
+    for (const PlannedJob& job : plan.jobs) inserter.insert(job, sweep, plan.reuse);
+    check_room(database, max_queued);
+    std::string id = ids_.make(prefix, now_ms);
+    SQLite::Statement add(database, "INSERT INTO searches (sweep, id, request) VALUES (?, ?, ?)");
+    add.bind(1, sweep);
+    add.bind(2, id);
+    add.bind(3, request);
+    add.exec();
+    if (!kept.key.empty()) {
+      keep_answer(database, kept.key, kept.request,
+                  kept.make_text({.search = read_search(database, id).value(), .results = read_results(database, sweep_id, false).value()}));
+    }
+    check_quota_of(database);
+    return id;
+  });
+}
+
+std::optional<SearchRow> read_search(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, std::string(kSearchColumns) + " WHERE c.id = ?");
+  find.bind(1, id);
+  return find.executeStep() ? std::optional(search_row(find)) : std::nullopt;
+}
+
+std::optional<SearchRow> Store::find_search(const std::string& id) const {
+  return readers_.read([&](const SQLite::Database& database) { return read_search(database, id); });
+}
+
+std::vector<SearchRow> Store::list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {
+  return readers_.read([&](const SQLite::Database& database) {
+    SQLite::Statement list(database,
+        std::string(kSearchColumns) +
+            " WHERE (?1 = '' OR c.id < ?1) AND (?2 = '' OR c.state = ?2) AND substr(c.id, 1, length(?4)) = ?4 ORDER BY c.id DESC LIMIT ?3");
+    list.bind(1, before);
+    list.bind(2, state);
+    list.bind(3, static_cast<std::int64_t>(limit));
+    list.bind(4, std::string(prefix));
+    std::vector<SearchRow> rows;
+    while (list.executeStep()) rows.push_back(search_row(list));
+    return rows;
+  });
+}
+
+bool Store::set_search_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error) {
+  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    SQLite::Statement set(database,
+        "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE ?3 END WHERE id = ?4 AND state = ?5");
+    set.bind(1, state);
+    if (error) set.bind(2, *error);
+    set.bind(3, now_unix_ms());
+    set.bind(4, id);
+    set.bind(5, former);
+    return set.exec() > 0;
+  });
+}
+
+}  // namespace jobs

@@ -1,0 +1,250 @@
+#include "jobs/trajectories/trajectory_codec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <optional>
+
+#include "jobs/trajectories/byte_codec.h"
+#include "jobs/trajectories/single_column.h"
+
+namespace jobs {
+namespace {
+
+constexpr std::uint8_t kOldestVersion = 1;  // has no packed singles and no copies
+constexpr std::uint8_t kVersion = 2;
+constexpr std::size_t kLargestHeader = 1U << 20U;
+constexpr std::uint64_t kMostSamples = 10'000'000;
+
+// kSingle is of the oldest version: floats, shuffled like doubles.
+enum class Encoding : std::uint8_t { kUniformTime, kDouble, kSingle, kPackedSingle, kCopy };
+enum Flags : std::uint8_t { kInteger = 1, kSinglePrecision = 2 };
+
+/// t_k = k / rate but for the last one, which may fall between two.
+struct UniformTime {
+  double rate = 0.0;
+  double last = 0.0;
+};
+
+std::vector<double> times_of(const UniformTime& time, std::size_t samples) {
+  std::vector<double> column(samples);
+  for (std::size_t k = 0; k + 1 < samples; ++k) column[k] = static_cast<double>(k) / time.rate;
+  if (samples > 0) column.back() = time.last;
+  return column;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+std::optional<UniformTime> find_uniform_time(const std::vector<double>& column) {
+  if (column.size() < 3 || !(column[1] > 0.0)) return std::nullopt;
+  for (const double rate : {std::round(1.0 / column[1]), 1.0 / column[1]}) {
+    const UniformTime time{rate, column.back()};
+    if (rate > 0.0 && same_bits(times_of(time, column.size()), column)) return time;
+  }
+  return std::nullopt;
+}
+
+std::size_t count_samples(const engine::Trajectory& trajectory) { return trajectory.columns.empty() ? 0 : trajectory.columns.front().size(); }
+
+template <typename T>
+std::string_view bytes_of(const std::vector<T>& items) {
+  return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
+}
+
+/// A column as it is stored, before it is made a frame.
+struct EncodedColumn {
+  Encoding encoding = Encoding::kDouble;
+  std::string bytes;
+  std::size_t copied = 0;  ///< kCopy: the channel that has the same column
+};
+
+EncodedColumn encode_column(const engine::QuantityInfo& channel, const std::vector<double>& column, SinglePacker& packer) {
+  if (channel.single_precision) return {Encoding::kPackedSingle, std::string(packer.pack(column))};
+  if (const auto time = channel.key == "t_s" ? find_uniform_time(column) : std::nullopt) {
+    ByteWriter writer;
+    writer.number(time->rate);
+    writer.number(time->last);
+    return {Encoding::kUniformTime, writer.bytes()};
+  }
+  return {Encoding::kDouble, shuffle(bytes_of(column), sizeof(double))};
+}
+
+/// The first channel before the i-th that has the same numbers and is kept as precisely; i if there is none.
+std::size_t find_original(const engine::Trajectory& trajectory, std::size_t i) {
+  std::size_t k = 0;
+  while (k < i && (trajectory.channels[k].single_precision != trajectory.channels[i].single_precision ||
+                   !same_bits(trajectory.columns[k], trajectory.columns[i]))) {
+    ++k;
+  }
+  return k;
+}
+
+/// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a copy of it; numbers that
+/// are the same when rounded are seen by their bytes.
+std::vector<EncodedColumn> encode_columns(const engine::Trajectory& trajectory) {
+  SinglePacker packer;
+  std::vector<EncodedColumn> blocks;
+  blocks.reserve(trajectory.columns.size());
+  const auto copy_of = [](std::size_t original) { return EncodedColumn{Encoding::kCopy, {}, original}; };
+  for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
+    if (const std::size_t original = find_original(trajectory, i); original < i) {
+      blocks.push_back(copy_of(original));
+      continue;
+    }
+    EncodedColumn block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
+    const auto is_same = [&](const EncodedColumn& other) { return other.encoding == block.encoding && other.bytes == block.bytes; };
+    const auto same = std::ranges::find_if(blocks, is_same);
+    if (same != blocks.end()) block = copy_of(static_cast<std::size_t>(same - blocks.begin()));
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+/// What the header says of a channel.
+struct StoredChannel {
+  engine::QuantityInfo info;
+  Encoding encoding = Encoding::kDouble;
+  std::span<const std::byte> block;  ///< a frame; of a copy, that of its original
+};
+
+struct Contents {
+  std::size_t samples = 0;
+  std::vector<StoredChannel> entries;
+};
+
+/// @param before  the channels that a copy may be of
+StoredChannel read_entry(ByteReader& header, ByteReader& blob, std::span<const StoredChannel> before) {
+  StoredChannel entry;
+  entry.info.key = header.text();
+  entry.info.help = header.text();
+  const auto flags = header.number<std::uint8_t>();
+  entry.info.integer = (flags & kInteger) != 0;
+  entry.info.single_precision = (flags & kSinglePrecision) != 0;
+  const auto encoding = header.number<std::uint8_t>();
+  if (encoding > static_cast<std::uint8_t>(Encoding::kCopy)) throw DamagedTrajectory("the trajectory has a block of an unknown kind");
+  entry.encoding = static_cast<Encoding>(encoding);
+  const auto number = header.number<std::uint32_t>();
+  if (entry.encoding != Encoding::kCopy) {
+    entry.block = blob.take(number);
+  } else if (number < before.size()) {
+    entry.encoding = before[number].encoding;
+    entry.block = before[number].block;
+  } else {
+    throw DamagedTrajectory("the trajectory has a copy of a channel that it does not have");
+  }
+  return entry;
+}
+
+Contents read_contents(std::span<const std::byte> bytes) {
+  ByteReader blob(bytes);
+  const auto version = blob.number<std::uint8_t>();
+  if (version < kOldestVersion || version > kVersion) throw DamagedTrajectory("the trajectory is of an unknown version");
+  const std::string header_bytes = decompress(blob.take(blob.number<std::uint32_t>()), kLargestHeader);
+  ByteReader header(std::as_bytes(std::span(header_bytes)));
+  const auto samples = header.number<std::uint64_t>();
+  if (samples > kMostSamples) throw DamagedTrajectory("the trajectory is too long");
+  Contents contents{.samples = static_cast<std::size_t>(samples), .entries = {}};
+  const auto channels = header.number<std::uint32_t>();
+  for (std::uint32_t i = 0; i < channels; ++i) contents.entries.push_back(read_entry(header, blob, contents.entries));
+  if (!blob.at_end() || !header.at_end()) throw DamagedTrajectory("the trajectory has bytes after its end");
+  return contents;
+}
+
+template <typename T>
+std::vector<double> decode_items(std::span<const std::byte> block, std::size_t samples) {
+  const std::string bytes = unshuffle(decompress(block, samples * sizeof(T)), sizeof(T));
+  if (bytes.size() != samples * sizeof(T)) throw DamagedTrajectory("a column of the trajectory has a wrong length");
+  std::vector<T> items(samples);
+  if (samples > 0) std::memcpy(items.data(), bytes.data(), bytes.size());
+  return {items.begin(), items.end()};
+}
+
+std::vector<double> decode_column(const StoredChannel& entry, std::size_t samples) {
+  switch (entry.encoding) {
+    case Encoding::kSingle: return decode_items<float>(entry.block, samples);
+    case Encoding::kDouble: return decode_items<double>(entry.block, samples);
+    case Encoding::kPackedSingle: return unpack_singles(decompress(entry.block, largest_packed_size(samples)), samples);
+    case Encoding::kUniformTime:
+    case Encoding::kCopy: break;  // an entry has the encoding of what it copies
+  }
+  const std::string bytes = decompress(entry.block, sizeof(UniformTime));
+  ByteReader reader(std::as_bytes(std::span(bytes)));
+  const auto rate = reader.number<double>();
+  const auto last = reader.number<double>();
+  return times_of({rate, last}, samples);
+}
+
+}  // namespace
+
+void check_is_table(const engine::Trajectory& trajectory) {
+  const std::size_t samples = count_samples(trajectory);
+  const bool is_table = trajectory.columns.size() == trajectory.channels.size() &&
+                        std::ranges::all_of(trajectory.columns, [&](const auto& column) { return column.size() == samples; });
+  if (!is_table) throw std::invalid_argument("a trajectory must have one column for each channel, all of one length");
+}
+
+engine::Trajectory rounded_to_stored(engine::Trajectory trajectory) {
+  check_is_table(trajectory);
+  for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
+    if (!trajectory.channels[i].single_precision) continue;
+    for (double& x : trajectory.columns[i]) x = static_cast<double>(static_cast<float>(x));
+  }
+  return trajectory;
+}
+
+std::string encode_trajectory(const engine::Trajectory& trajectory) {
+  check_is_table(trajectory);
+  thread_local Compressor compressor;  // takes longer to make than a short trajectory to compress
+  ByteWriter header;
+  header.number(std::uint64_t{count_samples(trajectory)});
+  header.number(static_cast<std::uint32_t>(trajectory.channels.size()));
+  const std::vector<EncodedColumn> blocks = encode_columns(trajectory);
+  std::string frames;
+  const auto add_room = [](std::size_t sum, const EncodedColumn& block) { return sum + block.bytes.size() + 32; };
+  frames.reserve(std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, add_room));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const engine::QuantityInfo& channel = trajectory.channels[i];
+    const Effort effort = blocks[i].encoding == Encoding::kPackedSingle ? Effort::kLittle : Effort::kFull;
+    header.text(channel.key);
+    header.text(channel.help);
+    header.number(static_cast<std::uint8_t>((channel.integer ? kInteger : 0) | (channel.single_precision ? kSinglePrecision : 0)));
+    header.number(static_cast<std::uint8_t>(blocks[i].encoding));
+    header.number(static_cast<std::uint32_t>(blocks[i].encoding == Encoding::kCopy ? blocks[i].copied
+                                                                                  : compressor.append_frame(blocks[i].bytes, effort, frames)));
+  }
+  std::string packed_header;
+  compressor.append_frame(header.bytes(), Effort::kFull, packed_header);
+  ByteWriter blob;
+  blob.number(kVersion);
+  blob.number(static_cast<std::uint32_t>(packed_header.size()));
+  std::string bytes = blob.bytes();
+  bytes.reserve(bytes.size() + packed_header.size() + frames.size());
+  return bytes.append(packed_header).append(frames);
+}
+
+engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<const std::string> keys) {
+  const Contents contents = read_contents(blob);
+  engine::Trajectory trajectory;
+  const auto add = [&](const StoredChannel& entry) {
+    trajectory.channels.push_back(entry.info);
+    trajectory.columns.push_back(decode_column(entry, contents.samples));
+  };
+  if (keys.empty()) std::ranges::for_each(contents.entries, add);
+  for (const std::string& key : keys) {
+    const auto found = std::ranges::find(contents.entries, key, [](const StoredChannel& entry) { return entry.info.key; });
+    if (found != contents.entries.end()) add(*found);
+  }
+  return trajectory;
+}
+
+std::vector<engine::QuantityInfo> decode_channels(std::span<const std::byte> blob) {
+  std::vector<engine::QuantityInfo> channels;
+  for (StoredChannel& entry : read_contents(blob).entries) channels.push_back(std::move(entry.info));
+  return channels;
+}
+
+}  // namespace jobs

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/analysis/run_result.h"
+
+namespace jobs {
+
+/// What is wanted of a trajectory.
+struct TrajectoryQuery {
+  std::vector<std::string> channels;  ///< empty: all; t_s always comes first
+  std::optional<double> from, to;     ///< [s], both included
+  std::optional<std::size_t> points{};  ///< at most so many samples, see decimate(); empty: all
+};
+
+/// The part of a stored trajectory that is wanted.
+/// @param blob  as encode_trajectory makes it
+/// @throws InvalidRequest with every fault of the query; DamagedTrajectory
+[[nodiscard]] engine::Trajectory read_trajectory(std::span<const std::byte> blob, const TrajectoryQuery& query);
+
+}  // namespace jobs
