@@ -5,11 +5,11 @@
 #include <limits>
 #include <set>
 
+#include "jobs/base/executor_names.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
-#include "jobs/base/executor_names.h"
 
 namespace jobs {
 namespace {

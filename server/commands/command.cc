@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "jobs/base/errors.h"
-#include "server/json_text.h"
+#include "server/messages/json_text.h"
 
 namespace server::commands {
 

@@ -7,8 +7,8 @@
 
 #include "jobs/base/errors.h"
 #include "server/commands/command.h"
-#include "server/json_text.h"
-#include "server/routes.h"
+#include "server/messages/json_text.h"
+#include "server/routing/call.h"
 
 namespace server::commands {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/http_client.h"
+#include "server/http/http_client.h"
 
 namespace server::commands {
 

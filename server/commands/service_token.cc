@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "server/access.h"
 #include "server/commands/command.h"
+#include "server/http/access.h"
 
 namespace server::commands {
 

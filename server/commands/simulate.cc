@@ -17,8 +17,8 @@
 #include "jobs/trajectories/trajectory_codec.h"
 #include "server/commands/command.h"
 #include "server/commands/plot.h"
-#include "server/json_text.h"
-#include "server/tables.h"
+#include "server/messages/json_text.h"
+#include "server/routes/tables.h"
 
 namespace server::commands {
 

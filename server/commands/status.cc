@@ -5,7 +5,7 @@
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
 #include "server/commands/remote_commands.h"
-#include "server/json_text.h"
+#include "server/messages/json_text.h"
 
 namespace server::commands {
 

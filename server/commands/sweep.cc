@@ -10,7 +10,7 @@
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
 #include "server/commands/signals.h"
-#include "server/tables.h"
+#include "server/routes/tables.h"
 
 namespace server::commands {
 

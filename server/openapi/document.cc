@@ -7,12 +7,11 @@
 #include <string>
 
 #include "jobs/base/program_info.h"
+#include "server/messages/problem.h"
 #include "server/openapi/request_parameters.h"
 #include "server/openapi/request_schemas.h"
 #include "server/openapi/resource_schemas.h"
 #include "server/openapi/schema_parts.h"
-#include "server/problem.h"
-#include "server/route_table.h"
 
 namespace server::openapi {
 
@@ -102,9 +101,9 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-Json make_paths() {
+Json make_paths(std::span<const Route> routes) {
   Json paths = Json::object();
-  for (const Route& route : route_table()) paths[std::string(route.pattern)][lower_case(route.method)] = make_operation(route);
+  for (const Route& route : routes) paths[std::string(route.pattern)][lower_case(route.method)] = make_operation(route);
   return paths;
 }
 
@@ -119,9 +118,9 @@ Json make_parameters() {
   return parameters;
 }
 
-Json make_problem_answers() {
+Json make_problem_answers(std::span<const Route> routes) {
   std::set<int> met;
-  for (const Route& route : route_table()) met.merge(problems_of(route));
+  for (const Route& route : routes) met.merge(problems_of(route));
   Json answers = Json::object();
   for (const int status : met) answers[problem_name(status)] = make_problem_answer(status);
   return answers;
@@ -141,7 +140,7 @@ Json make_security_schemes() {
 
 }  // namespace
 
-nlohmann::ordered_json make_document() {
+nlohmann::ordered_json make_document(std::span<const Route> routes) {
   return {{"openapi", "3.1.0"},
           {"info",
            {{"title", "RPSUP parameter studies"},
@@ -150,9 +149,9 @@ nlohmann::ordered_json make_document() {
                             "the names; whatever answers GET answers HEAD, too."}}},
           {"servers", {{{"url", "/"}}}},
           {"security", {Json::object(), {{"bearer", Json::array()}}, {{"basic", Json::array()}}}},
-          {"paths", make_paths()},
+          {"paths", make_paths(routes)},
           {"components",
-           {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"headers", make_headers()}, {"responses", make_problem_answers()},
+           {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"headers", make_headers()}, {"responses", make_problem_answers(routes)},
             {"securitySchemes", make_security_schemes()}}}};
 }
 

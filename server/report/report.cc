@@ -11,7 +11,7 @@
 #include "jobs/sensitivity/row_groups.h"
 #include "jobs/sensitivity/sensitivity.h"
 #include "jobs/statistics/replicate_statistics.h"
-#include "server/json_text.h"
+#include "server/messages/json_text.h"
 #include "server/report/figures.h"
 #include "server/report/html.h"
 

@@ -28,7 +28,7 @@ http='httplib'
 forbid engine "(\.\./)*(jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CLI|zstd|openssl|prometheus"
 forbid jobs "(\.\./)*(server|web|tests)/|$http|spdlog|CLI|prometheus"
 forbid server "(\.\./)*(web|tests)/|$sqlite|zstd"
-forbid server "$http" '^server/http(_[a-z]+)?\.(h|cc)$'
+forbid server "$http" '^server/http/http(_[a-z]+)?\.(h|cc)$'
 # Positions and rates come before forces.
 forbid engine/kinematics 'engine/dynamics/'
 forbid engine/model 'engine/(kinematics|dynamics)/'

@@ -12,8 +12,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include "server/http_guard.h"
-#include "server/problem.h"
+#include "server/http/http_guard.h"
+#include "server/messages/problem.h"
 #include "tests/fuzz/expect.h"
 
 namespace {

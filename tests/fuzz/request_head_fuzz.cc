@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/request_head.h"
+#include "server/http/request_head.h"
 #include "tests/fuzz/expect.h"
 
 namespace {

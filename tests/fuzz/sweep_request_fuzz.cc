@@ -9,7 +9,7 @@
 #include "jobs/requests/extend_request.h"
 #include "jobs/search/search_request.h"
 #include "jobs/wear/wear_request.h"
-#include "server/json_text.h"
+#include "server/messages/json_text.h"
 #include "tests/fuzz/expect.h"
 
 namespace {

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/message.h"
+#include "server/messages/message.h"
 
 namespace server_tests {
 

@@ -13,8 +13,8 @@
 
 #include "jobs/requests/parameters.h"
 #include "jobs/service.h"
-#include "server/message.h"
-#include "server/routes.h"
+#include "server/messages/message.h"
+#include "server/routes/routes.h"
 #include "tests/server/exchange_log.h"
 
 namespace server_tests {

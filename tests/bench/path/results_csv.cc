@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "server/http.h"
-#include "server/routes.h"
+#include "server/http/http.h"
+#include "server/routes/routes.h"
 #include "tests/bench/path/made_store.h"
 #include "tests/bench/path/measure.h"
 

@@ -3,7 +3,7 @@
 
 #include "jobs/run_job.h"
 #include "jobs/trajectories/trajectory_codec.h"
-#include "server/tables.h"
+#include "server/routes/tables.h"
 #include "tests/bench/path/measure.h"
 
 namespace {

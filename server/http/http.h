@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/routes/routes.h"
+
+namespace server {
+
+struct HttpOptions {
+  std::string address = "127.0.0.1";  ///< an IP address, not a name
+  int port = 8080;                    ///< 0: any free one
+  std::vector<std::string> cors_origins{};  ///< other sites whose pages may ask, as "https://lab.example.org", in lower case
+  std::vector<std::string> names{};         ///< other names under which clients reach this server, as "rpsup.example.org", in lower case
+  std::string token{};                      ///< that every request must carry, see AccessCheck; empty: none
+};
+
+struct HttpLimits;
+
+/// Serves routes over HTTP/1.1: one request a connection, within limits, to clients that may ask.
+class HttpServer {
+ public:
+  /// @param routes  outlives this
+  HttpServer(const Routes& routes, const HttpOptions& options);
+  HttpServer(const Routes& routes, const HttpOptions& options, const HttpLimits& limits);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  /// Binds; clients may connect from here on.
+  /// @returns the port; 0 if it could not be bound, because another process has it say
+  int bind();
+
+  /// Serves until stop(). False if it could not.
+  bool listen();
+
+  /// Ends listen() within HttpLimits::drain_time, after the answers that are under way. From any thread; bind() came before.
+  void stop();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace server

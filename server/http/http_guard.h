@@ -1,0 +1,68 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/http/event_hub.h"
+#include "server/http/http_stream.h"
+#include "server/http/reception.h"
+#include "server/http/worker_pool.h"
+#include "server/messages/message.h"
+
+namespace server {
+
+/// The library's server behind a guard. As it stands, the library reads heads without end, waits without end, believes
+/// Range headers to the last one, keeps its few threads for clients that do nothing, and ends when it cannot accept a
+/// connection or has no memory for one; here a connection carries one request, within HttpLimits, and is closed.
+class GuardedServer final : public httplib::Server {
+ public:
+  /// @param limits        of every connection
+  /// @param make_refusal  turns a status and a sentence into the answer to a request whose head is not served
+  GuardedServer(const HttpLimits& limits, std::function<Response(int status, const std::string& detail)> make_refusal);
+
+  ~GuardedServer() override;
+
+  /// Binds to an address (no name) and starts to queue connections.
+  /// @param port  0: any free one
+  /// @returns the port; 0 if it could not be bound, because another process has it say
+  int bind(const std::string& address, int port);
+
+  /// Accepts connections until stop_accepting(), and returns when all of them have been served. False if it could not go on.
+  bool accept_connections();
+  /// From any thread, also before accept_connections(); bind() came before.
+  void stop_accepting();
+
+  /// From now on every connection has HttpLimits::drain_time left, and those with events none.
+  void start_draining() {
+    draining_ = true;
+    hub_.stop();
+  }
+
+  /// Whether one more connection may stay open, for these events.
+  [[nodiscard]] bool admit(const std::shared_ptr<EventSource>& events) { return hub_.admit(events); }
+
+  /// Called by the handler of a request: once its answer's head has been sent, the connection stays open for these events.
+  static void follow_with(std::shared_ptr<EventSource> events);
+
+ private:
+  void hand_over(Arrival arrival) noexcept;
+  void serve_and_close(Arrival arrival) noexcept;
+  /// Answers, whatever goes wrong.
+  void serve_guarded(HttpStream& stream) noexcept;
+  void serve(HttpStream& stream);
+  void refuse(HttpStream& stream, int status, const std::string& detail);
+  [[nodiscard]] std::string refusal_text(int status, const std::string& detail, bool head_alone) const;
+
+  HttpLimits limits_;
+  std::function<Response(int, const std::string&)> make_refusal_;
+  const std::string no_memory_answer_;  ///< made while there is memory
+  std::atomic<bool> draining_ = false;
+  std::atomic<int> waiting_ = 0;  ///< connections that no thread has taken yet
+  EventHub hub_;
+  WorkerPool pool_;  // its tasks use what stands above
+  Reception reception_;
+};
+
+}  // namespace server

@@ -1,0 +1,178 @@
+#include "server/http/request_head.h"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <utility>
+
+#include "server/messages/trimmed.h"
+
+namespace server {
+
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
+  return result;
+}
+
+bool has_control_character(std::string_view line) {
+  return std::any_of(line.begin(), line.end(), [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
+}
+
+/// What the header lines say about the length of the body and the name of the host.
+struct Framing {
+  int host_count = 0;
+  int length_count = 0;
+  std::string length;
+  int encoding_count = 0;
+  std::string encoding;
+};
+
+std::optional<Refusal> read_header_line(std::string_view line, Framing& framing) {
+  const auto colon = line.find(':');
+  if (colon == std::string_view::npos || colon == 0 || line.find_first_of(" \t") < colon) {
+    return Refusal{400, "a header line has no name"};
+  }
+  const std::string name = lower(line.substr(0, colon));
+  const std::string_view value = trimmed(line.substr(colon + 1));
+  if (name == "host") ++framing.host_count;
+  if (name == "content-length") {
+    ++framing.length_count;
+    framing.length = value;
+  }
+  // The library drops headers without a value: the request would be taken as one without a key, and stored again when it comes again.
+  if (name == "idempotency-key" && value.empty()) return Refusal{400, "Idempotency-Key has no value"};
+  if (name == "transfer-encoding") {
+    ++framing.encoding_count;
+    framing.encoding = lower(value);
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> find_fault_in_length(const std::string& text, std::size_t body_bytes) {
+  if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos) {
+    return Refusal{400, "Content-Length is no number"};
+  }
+  std::size_t length = 0;
+  const auto error = std::from_chars(text.data(), text.data() + text.size(), length).ec;
+  if (error != std::errc{} || length > body_bytes) {
+    return Refusal{413, "the body is larger than " + std::to_string(body_bytes) + " bytes"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> find_fault_in_framing(const Framing& framing, std::size_t body_bytes) {
+  if (framing.host_count != 1) return Refusal{400, "a request names its host once"};
+  if (framing.length_count + framing.encoding_count > 1) return Refusal{400, "the length of the body is given twice"};
+  if (framing.encoding_count == 1 && framing.encoding != "chunked") {
+    return Refusal{501, "the only transfer encoding understood is chunked"};
+  }
+  if (framing.length_count == 1) return find_fault_in_length(framing.length, body_bytes);
+  return std::nullopt;
+}
+
+std::optional<Refusal> find_fault_in_request_line(std::string_view line) {
+  const auto start = line.find(' ');
+  if (start == std::string_view::npos) return Refusal{400, "the request line is incomplete"};
+  const auto end = line.find_first_of(" ?#", start + 1);
+  if (end == std::string_view::npos) return Refusal{400, "the request line is incomplete"};
+  if (line[start + 1] != '/') return Refusal{400, "the path does not start with /"};
+  if (end - start - 1 > kMaxPathBytes) {
+    return Refusal{414, "the path is longer than " + std::to_string(kMaxPathBytes) + " bytes"};
+  }
+  return std::nullopt;
+}
+
+/// The name in a Host header: no port, no brackets, no dot at its end, in lower case.
+std::string bare_host(const std::string& host) {
+  std::string name = lower(host);
+  if (name.starts_with('[')) {
+    const auto end = name.find(']');
+    return end == std::string::npos ? "" : name.substr(1, end - 1);
+  }
+  name = name.substr(0, name.find(':'));
+  if (name.ends_with('.')) name.pop_back();
+  return name;
+}
+
+}  // namespace
+
+std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes) {
+  Framing framing;
+  bool first = true;
+  while (!head.empty()) {
+    const auto end = head.find("\r\n");
+    if (end == std::string_view::npos) return Refusal{400, "the head is incomplete"};
+    const std::string_view line = head.substr(0, end);
+    head.remove_prefix(end + 2);
+    if (has_control_character(line)) return Refusal{400, "the head holds a control character"};
+    if (line.empty()) break;
+    if (line.size() > kMaxLineBytes) {
+      return Refusal{first ? 414 : 431, "a line of the head is longer than " + std::to_string(kMaxLineBytes) + " bytes"};
+    }
+    auto fault = first ? find_fault_in_request_line(line) : read_header_line(line, framing);
+    if (fault) return fault;
+    first = false;
+  }
+  return find_fault_in_framing(framing, body_bytes);
+}
+
+std::string without_header(std::string_view head, std::string_view name) {
+  std::string kept;
+  while (!head.empty()) {
+    const std::string_view line = head.substr(0, head.find("\r\n") + 2);
+    head.remove_prefix(line.size());
+    if (lower(line.substr(0, line.find(':'))) != name) kept += line;
+  }
+  return kept;
+}
+
+OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed, std::vector<std::string> names)
+    : bound_host_(lower(bound_host)), allowed_(std::move(allowed)), names_(std::move(names)) {}
+
+bool OriginCheck::is_allowed(const std::string& origin) const { return std::ranges::find(allowed_, lower(origin)) != allowed_.end(); }
+
+std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
+  if (!names_this_server(headers.host)) return Refusal{403, "this service does not answer under the name in Host"};
+  if (is_allowed(headers.origin)) return std::nullopt;
+  if (!headers.origin.empty() && !is_own(headers.origin, headers.host)) {
+    return Refusal{403, "requests of other sites are refused"};
+  }
+  const std::string& site = headers.fetch_site;
+  if (site.empty() || site == "same-origin" || site == "none") return std::nullopt;
+  // A link on another page may be followed: it changes nothing and the other page does not see the answer.
+  const bool follows_link = (headers.method == "GET" || headers.method == "HEAD") && headers.fetch_mode == "navigate";
+  if (follows_link) return std::nullopt;
+  return Refusal{403, "requests of other sites are refused"};
+}
+
+bool OriginCheck::names_this_server(const std::string& host) const {
+  const std::string name = bare_host(host);
+  return name == "localhost" || name == "127.0.0.1" || name == "::1" || (!name.empty() && name == bound_host_) ||
+         std::ranges::find(names_, name) != names_.end();
+}
+
+bool OriginCheck::is_own(const std::string& origin, const std::string& host) const {
+  if (lower(origin) == "http://" + lower(host)) return true;
+  // A proxy that speaks https passes its own name on.
+  return std::ranges::find(names_, bare_host(host)) != names_.end() && lower(origin) == "https://" + lower(host);
+}
+
+bool is_address(const std::string& host) {
+  in6_addr address{};  // the larger of the two
+  return inet_pton(AF_INET, host.c_str(), &address) == 1 || inet_pton(AF_INET6, host.c_str(), &address) == 1;
+}
+
+bool is_loopback(const std::string& host) {
+  in_addr v4{};
+  if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return (ntohl(v4.s_addr) >> 24) == 127;
+  in6_addr v6{};
+  if (inet_pton(AF_INET6, host.c_str(), &v6) == 1) return IN6_IS_ADDR_LOOPBACK(&v6) != 0;
+  return host == "localhost";
+}
+
+}  // namespace server

@@ -1,0 +1,85 @@
+#include "server/messages/accept.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "server/messages/trimmed.h"
+
+namespace server {
+
+namespace {
+
+struct MediaRange {
+  std::string name;  ///< in small letters
+  double weight = 1.0;
+};
+
+/// What stands before the first of these, which is taken from the text with it.
+std::string_view take_until(char separator, std::string_view& text) {
+  const std::size_t end = std::min(text.find(separator), text.size());
+  const std::string_view taken = trimmed(text.substr(0, end));
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return taken;
+}
+
+std::string to_small_letters(std::string_view text) {
+  std::string small(text);
+  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return small;
+}
+
+/// A weight that cannot be read counts as none said.
+double find_weight(std::string_view parameters) {
+  while (!parameters.empty()) {
+    std::string_view value = take_until(';', parameters);
+    const std::string_view name = take_until('=', value);
+    if (name != "q" && name != "Q") continue;
+    double weight = 1.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), weight);
+    return error == std::errc{} && end == value.data() + value.size() && weight >= 0.0 && weight <= 1.0 ? weight : 1.0;
+  }
+  return 1.0;
+}
+
+std::vector<MediaRange> read_ranges(std::string_view accept) {
+  std::vector<MediaRange> ranges;
+  while (!accept.empty()) {
+    std::string_view item = take_until(',', accept);
+    const std::string name = to_small_letters(take_until(';', item));
+    ranges.push_back({name, find_weight(item)});
+  }
+  return ranges;
+}
+
+/// The place of the narrowest range that a type is in: itself, its kind, or all; past the end if there is none.
+std::size_t find_range(const std::vector<MediaRange>& ranges, std::string_view media_type) {
+  const std::string kind = std::string(media_type.substr(0, media_type.find('/'))) + "/*";
+  for (const std::string_view name : {media_type, std::string_view(kind), std::string_view("*/*")}) {
+    const auto found = std::ranges::find(ranges, name, &MediaRange::name);
+    if (found != ranges.end()) return static_cast<std::size_t>(found - ranges.begin());
+  }
+  return ranges.size();
+}
+
+}  // namespace
+
+std::optional<std::size_t> find_accepted(std::string_view accept, std::span<const std::string_view> media_types) {
+  const std::vector<MediaRange> ranges = read_ranges(accept);
+  std::optional<std::size_t> best;
+  std::size_t best_place = 0;
+  for (std::size_t i = 0; i < media_types.size(); ++i) {
+    const std::size_t place = find_range(ranges, media_types[i]);
+    if (place == ranges.size() || ranges[place].weight == 0.0) continue;
+    const bool wins = !best || ranges[place].weight > ranges[best_place].weight || (ranges[place].weight == ranges[best_place].weight && place < best_place);
+    if (!wins) continue;
+    best = i;
+    best_place = place;
+  }
+  return best;
+}
+
+}  // namespace server

@@ -1,0 +1,45 @@
+#include "server/messages/conditional.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "jobs/base/content_id.h"
+
+namespace server {
+
+namespace {
+
+/// Whether a list of tags has this one, or is "*". Tags marked as weak count: bodies are the same to the byte or differ.
+bool has_tag(std::string_view list, std::string_view tag) {
+  while (!list.empty()) {
+    const auto comma = std::min(list.find(','), list.size());
+    std::string_view item = list.substr(0, comma);
+    list.remove_prefix(std::min(comma + 1, list.size()));
+    while (item.starts_with(' ') || item.starts_with('\t')) item.remove_prefix(1);
+    while (item.ends_with(' ') || item.ends_with('\t')) item.remove_suffix(1);
+    if (item.starts_with("W/")) item.remove_prefix(2);
+    if (item == tag || item == "*") return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Response with_etag(const Request& request, Response response) {
+  const std::string tag = "\"" + jobs::sha256_hex(response.content_type + "\n", response.body).substr(0, 32) + "\"";
+  response.headers.emplace_back("ETag", tag);
+  response.headers.emplace_back("Cache-Control", "private, no-cache");
+  if (!has_tag(request.if_none_match, tag)) return response;
+  response.status = 304;
+  response.content_type.clear();
+  response.body.clear();
+  return response;
+}
+
+Response without_etag(Response response) {
+  response.headers.emplace_back("Cache-Control", "no-store");
+  return response;
+}
+
+}  // namespace server

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "server/messages/message.h"
+
+namespace server {
+
+/// Marks an answer about something that has ended with what names its content, and turns it into 304 without a body if the client has
+/// that content. A retry or an extension may start it again, so the client has to ask each time.
+[[nodiscard]] Response with_etag(const Request& request, Response response);
+
+/// Marks an answer about something that still changes.
+[[nodiscard]] Response without_etag(Response response);
+
+}  // namespace server

@@ -1,0 +1,126 @@
+#include "server/messages/json_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace server {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 4> kNonFiniteWords{"NaN", "-Infinity", "Infinity", "-NaN"};
+
+/// Reads a text without keeping it, and ends at the first thing that passes a bound. A part of it that is no JSON is for the next reader to tell.
+class Bounds : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return open(); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+  bool key(string_t& key) override {
+    if (!open_.back().insert(key).second) throw BadJson("the key \"" + key + "\" stands twice in one object");
+    if (open_.back().size() > kMaxObjectKeys) {
+      throw BadJson("more than " + std::to_string(kMaxObjectKeys) + " keys in one object");
+    }
+    return true;
+  }
+
+ private:
+  bool open() {
+    open_.emplace_back();
+    if (open_.size() > kMaxJsonDepth) throw BadJson("nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  std::vector<std::set<std::string>> open_;  ///< the keys met so far, of every object or array that is open
+};
+
+/// The text with the words NaN and Infinity, which Python and others write for numbers that JSON cannot hold, as null:
+/// then the fault is reported where it stands, as any other value of a wrong type.
+std::string without_non_finite_words(std::string_view text) {
+  std::string result;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_string && text[i] == '\\' && i + 1 < text.size()) {
+      result += text[i++];
+    } else if (text[i] == '"') {
+      in_string = !in_string;
+    } else if (!in_string) {
+      const auto word = std::ranges::find_if(kNonFiniteWords, [&](std::string_view w) { return text.substr(i).starts_with(w); });
+      if (word != kNonFiniteWords.end()) {
+        result += "null";
+        i += word->size() - 1;
+        continue;
+      }
+    }
+    result += text[i];
+  }
+  return result;
+}
+
+/// The message of the parser without its bracketed name, which means nothing to a user.
+std::string plain_message(const std::string& what) {
+  const auto end = what.find("] ");
+  return end == std::string::npos ? what : what.substr(end + 2);
+}
+
+Json parse_strictly(std::string_view text) {
+  // Twice: a callback of the parser could watch it, but then the parser looks, for every object that ends, at all before it in their list.
+  Bounds bounds;
+  Json::sax_parse(text.begin(), text.end(), &bounds);
+  try {
+    return Json::parse(text.begin(), text.end());
+  } catch (const Json::parse_error& error) {
+    throw BadJson("not JSON at byte " + std::to_string(error.byte) + ": " + plain_message(error.what()));
+  } catch (const Json::exception& error) {
+    throw BadJson(plain_message(error.what()));
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json parse_json(std::string_view text) {
+  if (text.empty()) throw BadJson("there is no JSON: the text is empty");
+  // The parser takes it for the end of the text, whatever comes after.
+  if (const auto nul = text.find('\0'); nul != std::string_view::npos) throw BadJson("not JSON at byte " + std::to_string(nul + 1) + ": a NUL character");
+  try {
+    return parse_strictly(text);
+  } catch (const BadJson&) {
+    const std::string mended = without_non_finite_words(text);
+    if (mended == text) throw;
+    return parse_strictly(mended);
+  }
+}
+
+void append_number_to(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += "null";
+    return;
+  }
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, end);
+}
+
+void append_string_to(std::string& text, const std::string& value) { text += to_text(nlohmann::json(value)); }
+
+}  // namespace server

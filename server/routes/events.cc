@@ -1,0 +1,91 @@
+#include "server/routes/events.h"
+
+#include <charconv>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "server/messages/json_text.h"
+#include "server/messages/problem.h"
+#include "server/messages/query.h"
+
+namespace server {
+
+namespace {
+
+constexpr std::string_view kDoneSuffix = "-done";
+
+/// Where a client stands: the last change that it knows of, and whether it has had `done` after it.
+struct Place {
+  std::int64_t change = 0;
+  bool done = false;
+};
+
+Place read_place(std::string_view last_event_id) {
+  Place place;
+  if (last_event_id.empty()) return place;
+  place.done = last_event_id.ends_with(kDoneSuffix);
+  if (place.done) last_event_id.remove_suffix(kDoneSuffix.size());
+  const char* const end = last_event_id.data() + last_event_id.size();
+  const auto [stop, error] = std::from_chars(last_event_id.data(), end, place.change);
+  if (error != std::errc{} || stop != end || place.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this one");
+  return place;
+}
+
+std::string event_text(const char* name, const nlohmann::json& data, const std::string& id) {
+  return (id.empty() ? "" : "id: " + id + "\n") + "event: " + name + "\ndata: " + to_text(data) + "\n\n";
+}
+
+class Events final : public EventSource {
+ public:
+  Events(const jobs::Service& service, FindNews find_news, std::int64_t after) : service_(service), find_news_(std::move(find_news)), after_(after) {}
+
+  std::string next() override {
+    const std::uint64_t activity = service_.activity();
+    if (seen_ && *seen_ == activity) return "";
+    seen_ = activity;
+    const auto news = find_news_(after_);
+    if (!news) {  // it has been deleted
+      ended_ = true;
+      return "";
+    }
+    std::string text;
+    for (std::size_t i = 0; i < news->jobs.size(); ++i) {
+      // An id stands at the last of those that ended together: who resumes from it has had them all.
+      const bool last = i + 1 == news->jobs.size() || news->jobs[i + 1].change != news->jobs[i].change;
+      text += event_text("job", news->jobs[i].job, last ? std::to_string(news->jobs[i].change) : "");
+      after_ = news->jobs[i].change;
+    }
+    if (news->progress != progress_) text += event_text("progress", progress_ = news->progress, "");
+    ended_ = news->ended;
+    if (ended_) text += event_text("done", progress_, std::to_string(after_) + std::string(kDoneSuffix));
+    return text;
+  }
+
+  [[nodiscard]] bool has_ended() const override { return ended_; }
+
+ private:
+  const jobs::Service& service_;
+  const FindNews find_news_;
+  std::int64_t after_;
+  std::optional<std::uint64_t> seen_;  ///< the service's activity at the last look
+  nlohmann::json progress_;            ///< as it was last told
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Response answer_events(const Call& call, FindNews find_news, const HttpError& missing) {
+  Query(call.request, {}).check();
+  const Place place = read_place(call.request.last_event_id);
+  const auto news = find_news(place.change);
+  if (!news) throw missing;
+  if (place.done && news->ended && news->jobs.empty()) return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
+  Response response{.status = 200, .content_type = "text/event-stream", .body = {}, .headers = {{"Cache-Control", "no-store"}}};
+  response.events = std::make_shared<Events>(call.service, std::move(find_news), place.change);
+  return response;
+}
+
+}  // namespace server

@@ -1,0 +1,87 @@
+#include "server/routes/job_routes.h"
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "jobs/requests/parameter_schema.h"
+#include "jobs/results/csv.h"
+#include "jobs/trajectories/npz.h"
+#include "server/messages/conditional.h"
+#include "server/messages/json_text.h"
+#include "server/messages/problem.h"
+#include "server/messages/query.h"
+#include "server/routes/listing.h"
+#include "server/routes/resource.h"
+#include "server/routes/tables.h"
+
+namespace server {
+
+namespace {
+
+HttpError no_such_job(const std::string& id) { return {404, "there is no job " + id}; }
+
+bool has_ended(const nlohmann::json& job) { return job.at("state") != "queued" && job.at("state") != "running"; }
+
+Resource job_resource(const Call& call) {
+  jobs::Service& service = call.service;
+  return {.path = "/v1/jobs/",
+          .find = [&service](const std::string& id) { return service.find_job(id); },
+          .wait_for = [&service](const std::string& id, std::chrono::seconds at_most) { service.wait_for_job(id, at_most); },
+          .has_ended = has_ended,
+          .missing = no_such_job};
+}
+
+std::string trajectory_text(const engine::Trajectory& trajectory, TableFormat format) {
+  if (format == TableFormat::kCsv) return jobs::to_csv(trajectory);
+  return format == TableFormat::kNpz ? jobs::to_npz(trajectory) : to_json_columns(trajectory);
+}
+
+}  // namespace
+
+Response post_job(const Call& call) {
+  Query(call.request, {}).check();
+  return answer_made(call, job_resource(call), call.service.submit_job(parse_json(call.request.body), find_key(call.request)));
+}
+
+Response get_jobs(const Call& call) {
+  return make_json(200, to_text(list_page(call.request, [&](const jobs::PageQuery& page) { return call.service.list_jobs(page); })));
+}
+
+Response get_job(const Call& call) {
+  Query(call.request, {}).check();
+  return answer_found(call, job_resource(call));
+}
+
+Response cancel_job(const Call& call) {
+  Query(call.request, {}).check();
+  const auto job = call.service.cancel_job(call.id);
+  if (!job) throw no_such_job(call.id);
+  return make_json(200, to_text(*job));
+}
+
+Response get_trajectory(const Call& call) {
+  Query query(call.request, {"channels", "from", "to", "points", "format"});
+  const TableFormat format = find_column_format(call.request, query);
+  jobs::TrajectoryQuery wanted;
+  wanted.channels = query.list("channels");
+  wanted.from = query.number("from");
+  wanted.to = query.number("to");
+  wanted.points = query.count("points");
+  const auto trajectory = query.check_and([&] { return call.service.find_trajectory(call.id, wanted); });
+  if (!trajectory) {
+    const auto job = call.service.find_job(call.id);
+    if (!job) throw no_such_job(call.id);
+    throw HttpError(404, "job " + call.id + " is " + job->at("state").template get<std::string>() +
+                             " and has no trajectory");
+  }
+  // Only what has ended has a trajectory.
+  return with_etag(call.request, make_table(format, trajectory_text(*trajectory, format), "job-" + call.id));
+}
+
+Response get_parameters(const Call& call) {
+  Query(call.request, {}).check();
+  return make_json(200, to_text(jobs::parameter_schema()));
+}
+
+}  // namespace server

@@ -1,0 +1,40 @@
+#include "server/routes/page_routes.h"
+
+#include <string>
+
+#include "server/messages/conditional.h"
+#include "server/messages/error_answer.h"
+#include "server/messages/problem.h"
+#include "server/messages/query.h"
+#include "server/routes/web_files.h"
+
+namespace server {
+
+Response make_file_answer(const Request& request, std::string_view path) {
+  const WebFile* file = find_web_file(path);
+  if (file == nullptr) throw HttpError(404, "there is nothing at " + std::string(path));
+  return with_etag(request, {.status = 200, .content_type = std::string(file->content_type), .body = std::string(file->content), .headers = {}});
+}
+
+bool is_page_file(std::string_view path) { return find_web_file(path) != nullptr; }
+
+Response get_page_file(const Call& call) { return make_file_answer(call.request, call.request.path == "/" ? "/index.html" : call.request.path); }
+
+Response get_health(const Call&) { return make_json(200, R"({"status":"ok"})"); }
+
+Response get_readiness(const Call& call) {
+  if (call.draining) return make_retry_later(503, "the service is shutting down");
+  // Throws if the store cannot be read.
+  static_cast<void>(call.service.list_sweeps({.state = {}, .limit = 1, .cursor = {}}));
+  return make_json(200, R"({"status":"ready"})");
+}
+
+Response get_metrics(const Call& call) {
+  Query(call.request, {}).check();
+  return {.status = 200,
+          .content_type = "text/plain; version=0.0.4; charset=utf-8",
+          .body = call.metrics.text(call.service.find_load(), call.service.list_executors()),
+          .headers = {{"Cache-Control", "no-store"}}};
+}
+
+}  // namespace server

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+#include "server/messages/message.h"
+#include "server/routing/call.h"
+
+namespace server {
+
+/// A file of web/ as an answer; 304 if the client has it already. @throws HttpError 404 if there is none of that path
+[[nodiscard]] Response make_file_answer(const Request& request, std::string_view path);
+
+/// Whether there is a file of web/ of that path.
+[[nodiscard]] bool is_page_file(std::string_view path);
+
+Response get_page_file(const Call& call);  ///< a file of the page, by its path; it is part of the program
+Response get_health(const Call& call);     ///< 200 as long as the program answers at all
+Response get_readiness(const Call& call);  ///< 200 if requests can be served: the store reads, and the service is not ending
+Response get_metrics(const Call& call);    ///< what Metrics has counted, for Prometheus
+
+}  // namespace server

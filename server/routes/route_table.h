@@ -1,0 +1,12 @@
+#pragma once
+
+#include <span>
+
+#include "server/routing/route.h"
+
+namespace server {
+
+/// All routes.
+[[nodiscard]] std::span<const Route> route_table();
+
+}  // namespace server

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "jobs/service.h"
+#include "server/messages/message.h"
+#include "server/messages/preference.h"
+#include "server/routing/copy_room.h"
+#include "server/routing/metrics.h"
+
+namespace server {
+
+/// Answers requests: the one place that knows which route does what and which error is which status.
+/// May be called from any thread.
+class Routes {
+ public:
+  /// @param metrics  counts the requests
+  explicit Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>());
+
+  /// Whatever goes wrong becomes an answer of type application/problem+json.
+  /// @throws std::bad_alloc only, if there is no memory even for that
+  [[nodiscard]] Response answer(const Request& request) const;
+
+  /// From now on nothing new is taken: whatever would change something is answered with 503, and /readyz too.
+  void start_draining() { draining_ = true; }
+
+ private:
+  /// @param pattern  set to that of the route, if there is one
+  [[nodiscard]] Response dispatch(const Request& request, std::string_view& pattern) const;
+
+  jobs::Service& service_;
+  std::shared_ptr<Metrics> metrics_;
+  std::atomic<bool> draining_ = false;
+  mutable WaitingRoom waiting_room_;
+  mutable CopyRoom copy_room_;
+};
+
+}  // namespace server

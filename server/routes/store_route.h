@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+#include "server/messages/message.h"
+#include "server/routing/call.h"
+
+namespace server {
+
+/// Removes the copy that a process left when it died; its name is this service's own. Nobody may be copying.
+void remove_left_over_copy(const std::filesystem::path& store);
+
+Response get_store(const Call& call);  ///< a consistent copy of the whole store, as an SQLite file
+
+}  // namespace server

@@ -1,0 +1,35 @@
+#include "server/routing/call.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "server/messages/problem.h"
+
+namespace server {
+
+bool is_id(const std::string& text) {
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  });
+}
+
+std::string find_key(const Request& request) {
+  constexpr std::size_t kLongest = 255;
+  if (!request.idempotency_key) return "";
+  std::string_view key = *request.idempotency_key;
+  if (key.size() > 2 && key.front() == '"' && key.back() == '"') key = key.substr(1, key.size() - 2);
+  const bool visible = std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+  if (key.empty() || key.size() > kLongest || !visible) {
+    throw HttpError(400, "Idempotency-Key must be 1 to " + std::to_string(kLongest) + " visible ASCII characters");
+  }
+  return std::string(key);
+}
+
+Response make_json(int status, std::string text) {
+  return {.status = status, .content_type = "application/json", .body = std::move(text) + "\n", .headers = {}};
+}
+
+}  // namespace server

@@ -1,0 +1,124 @@
+#include "server/commands/remote_service.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "jobs/base/errors.h"
+#include "server/commands/command.h"
+#include "tests/server/commands/canned_server.h"
+
+namespace {
+
+using server::parse_service_url;
+using server::Unreachable;
+using server::commands::BadInput;
+using server::commands::RemoteService;
+using server_tests::canned;
+using server_tests::CannedServer;
+
+constexpr const char* kProblem = "application/problem+json";
+
+TEST(ServiceUrl, IsTakenApart) {
+  const auto plain = parse_service_url("http://127.0.0.1:8080");
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->origin, "http://127.0.0.1:8080");
+  EXPECT_EQ(plain->prefix, "");
+  const auto behind = parse_service_url("https://lab.example.org/rpsup//");
+  ASSERT_TRUE(behind);
+  EXPECT_EQ(behind->origin, "https://lab.example.org");
+  EXPECT_EQ(behind->prefix, "/rpsup");
+  EXPECT_TRUE(parse_service_url("http://[::1]:80/"));
+}
+
+TEST(ServiceUrl, IsRefusedIfItIsAnotherThing) {
+  for (const char* const url : {"", "127.0.0.1:8080", "ftp://a", "http://", "http://:80", "http://a b", "http://user:pw@host", "http://a?b=c", "http://a/b#c",
+                                "http://a/\r\nX: y"}) {
+    EXPECT_FALSE(parse_service_url(url)) << url;
+  }
+}
+
+TEST(RemoteService, SendsTheTokenAndThePrefix) {
+  const std::string sweep = R"({"id": "swp_1", "state": "queued"})";
+  CannedServer server({canned("201 Created", "application/json", sweep), canned("200 OK", "application/json", sweep)});
+  RemoteService with({.url = server.url() + "/lab", .token = "s3cret"});
+  EXPECT_EQ(with.submit(RemoteService::Kind::kSweep, {{"name", "a"}}).at("id"), "swp_1");
+  RemoteService without({.url = server.url(), .token = ""});
+  EXPECT_EQ(without.find("swp_1").json.at("state"), "queued");
+  ASSERT_EQ(server.heads().size(), 2U);
+  EXPECT_TRUE(server.heads()[0].starts_with("POST /lab/v1/sweeps HTTP/1.1\r\n")) << server.heads()[0];
+  EXPECT_NE(server.heads()[0].find("\r\nAuthorization: Bearer s3cret\r\n"), std::string::npos) << server.heads()[0];
+  EXPECT_EQ(server.heads()[1].find("Authorization"), std::string::npos) << server.heads()[1];
+}
+
+TEST(RemoteService, RefusesATokenThatWouldBreakTheHead) {
+  EXPECT_THROW(RemoteService({.url = "http://127.0.0.1", .token = "a\r\nX: b"}), BadInput);
+  EXPECT_THROW(RemoteService({.url = "127.0.0.1", .token = ""}), BadInput);
+}
+
+TEST(RemoteService, PassesEveryFaultOn) {
+  CannedServer server({canned("422 Unprocessable Content", kProblem,
+                              R"({"status": 422, "detail": "two", "errors": [{"pointer": "/a", "detail": "x"}, {"pointer": "/b", "detail": "y"}]})")});
+  RemoteService service({.url = server.url(), .token = ""});
+  try {
+    static_cast<void>(service.submit(RemoteService::Kind::kJob, {}));
+    FAIL() << "accepted";
+  } catch (const jobs::InvalidRequest& error) {
+    ASSERT_EQ(error.faults().size(), 2U);
+    EXPECT_EQ(error.faults()[1].pointer, "/b");
+    EXPECT_EQ(error.faults()[1].detail, "y");
+  }
+}
+
+/// What a user is told of an answer, and with which exit code.
+struct Told {
+  int code;
+  std::string words;
+};
+
+Told tell(const std::string& answer) {
+  CannedServer server({answer});
+  testing::internal::CaptureStderr();
+  const int code = server::commands::run_guarded([&]() -> int {
+    static_cast<void>(RemoteService({.url = server.url(), .token = ""}).list_sweeps());
+    return server::commands::kDone;
+  });
+  return {code, testing::internal::GetCapturedStderr()};
+}
+
+TEST(RemoteService, TellsTheUsersFaultsFromTheServices) {
+  const Told conflict = tell(canned("409 Conflict", kProblem, R"({"detail": "the sweep has ended"})"));
+  EXPECT_EQ(conflict.code, server::commands::kBadInput);
+  EXPECT_EQ(conflict.words, "rpsup: the sweep has ended\n");
+  const Told unauthorized = tell(canned("401 Unauthorized", "text/html", "<html>"));
+  EXPECT_EQ(unauthorized.code, server::commands::kBadInput);
+  EXPECT_NE(unauthorized.words.find("RPSUP_TOKEN"), std::string::npos) << unauthorized.words;
+  const Told full = tell(canned("507 Insufficient Storage", kProblem, R"({"detail": "the disk is full"})"));
+  EXPECT_EQ(full.code, server::commands::kMachineFailed);
+  EXPECT_NE(full.words.find("the disk is full"), std::string::npos) << full.words;
+  EXPECT_EQ(tell(canned("429 Too Many Requests", kProblem, R"({"detail": "later"})")).code, server::commands::kMachineFailed);
+}
+
+TEST(RemoteService, NoticesThatSomethingElseAnswers) {
+  for (const std::string& answer : {canned("200 OK", "text/html", "<html>"), canned("200 OK", "application/json", "[]"),
+                                    canned("404 Not Found", "text/html", "<html>"), canned("404 Not Found", kProblem, "{}")}) {
+    const Told told = tell(answer);
+    EXPECT_EQ(told.code, server::commands::kMachineFailed);
+    EXPECT_NE(told.words.find("not as this service does"), std::string::npos) << told.words;
+  }
+}
+
+TEST(RemoteService, SaysThatNothingAnswers) {
+  int port = 0;
+  {
+    const CannedServer gone({});
+    port = std::stoi(gone.url().substr(17));
+  }
+  RemoteService service({.url = "http://127.0.0.1:" + std::to_string(port), .token = ""});
+  EXPECT_THROW(static_cast<void>(service.list_sweeps()), Unreachable);
+  // Half an answer is none.
+  CannedServer half({"HTTP/1.1 200 OK\r\nContent-Length: 100\r\n\r\n{"});
+  EXPECT_THROW(static_cast<void>(RemoteService({.url = half.url(), .token = ""}).list_sweeps()), Unreachable);
+}
+
+}  // namespace

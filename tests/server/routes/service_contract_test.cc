@@ -1,0 +1,254 @@
+// What the routes promise beyond their bodies: idempotency, conditional requests, waiting, forms of a table.
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "server/messages/preference.h"
+#include "tests/server/service_fixture.h"
+
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+using server_tests::Bench;
+using server_tests::endless_run;
+using server_tests::header;
+
+const char* const kSweep = R"({"sweep": {"clearance_mm": [0.1, 0.2, 0.3]}})";
+
+server::Request with_key(const std::string& path, const std::string& body, const std::string& key) {
+  server::Request request{.method = "POST", .path = path, .query = {}, .accept = {}, .body = body, .id = "test-1"};
+  request.idempotency_key = key;
+  return request;
+}
+
+TEST(IdempotencyKey, GivesTheSameBytesAgain) {
+  Bench bench;
+  for (const std::string path : {"/v1/sweeps", "/v1/jobs"}) {
+    const std::string body = path == "/v1/jobs" ? R"({"clearance_mm": 0.1})" : kSweep;
+    const auto first = bench.call(with_key(path, body, "key-of" + path));
+    const auto again = bench.call(with_key(path, body, "\"key-of" + path + "\""));
+    EXPECT_EQ(first.status, 201);
+    EXPECT_EQ(again.status, 201);
+    EXPECT_EQ(again.body, first.body);
+    EXPECT_EQ(header(again, "Location"), header(first, "Location"));
+    EXPECT_EQ(bench.call(with_key(path, "{}", "key-of" + path)).status, 422);
+  }
+}
+
+TEST(IdempotencyKey, HasToBeAKey) {
+  Bench bench;
+  for (const std::string& key : {std::string(), std::string("a b"), std::string("\x01"), std::string(256, 'k')}) {
+    EXPECT_EQ(bench.call(with_key("/v1/sweeps", kSweep, key)).status, 400) << key;
+  }
+}
+
+server::Response get_if_none_match(Bench& bench, const std::string& path, const std::string& tags) {
+  server::Request request{.method = "GET", .path = path, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  request.if_none_match = tags;
+  return bench.call(request);
+}
+
+TEST(ETag, SparesWhatTheClientHas) {
+  Bench bench;
+  const std::string id = bench.run(kSweep);
+  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
+  for (const std::string& path : {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results", "/v1/jobs/" + job, "/v1/jobs/" + job + "/trajectory", std::string("/"),
+                                  std::string("/app.js")}) {
+    const std::string tag = header(bench.call("GET", path), "ETag");
+    ASSERT_FALSE(tag.empty()) << path;
+    const auto spared = get_if_none_match(bench, path, "\"other\", W/" + tag);
+    EXPECT_EQ(spared.status, 304) << path;
+    EXPECT_TRUE(spared.body.empty());
+    EXPECT_EQ(header(spared, "ETag"), tag);
+    EXPECT_EQ(get_if_none_match(bench, path, "\"other\"").status, 200);
+    EXPECT_EQ(get_if_none_match(bench, path, "*").status, 304);
+  }
+  const std::string results = "/v1/sweeps/" + id + "/results";
+  EXPECT_NE(header(bench.call("GET", results), "ETag"), header(bench.call("GET", results, "", {{"format", "csv"}}), "ETag"));
+}
+
+TEST(ETag, IsNotOfWhatStillChanges) {
+  Bench bench(endless_run);
+  const std::string id = bench.submit(kSweep);
+  for (const std::string& path : {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results"}) {
+    const auto response = bench.call("GET", path);
+    EXPECT_EQ(header(response, "ETag"), "");
+    EXPECT_EQ(header(response, "Cache-Control"), "no-store");
+    EXPECT_EQ(get_if_none_match(bench, path, "*").status, 200);
+  }
+}
+
+TEST(Prefer, IsReadFromItsList) {
+  EXPECT_EQ(server::find_wait("respond-async, wait=10"), 10s);
+  EXPECT_EQ(server::find_wait("wait = 5"), 5s);
+  EXPECT_EQ(server::find_wait("Wait=5"), 5s);
+  EXPECT_EQ(server::find_wait("wait=100000"), 60s);
+  for (const char* none : {"", "wait", "wait=", "wait=-1", "wait=1.5", "waiting=3", "handling=lenient"}) EXPECT_FALSE(server::find_wait(none).has_value()) << none;
+}
+
+TEST(Prefer, WaitsForTheEndOfASweep) {
+  Bench bench;
+  server::Request request{.method = "POST", .path = "/v1/sweeps", .query = {}, .accept = {}, .body = kSweep, .id = "test-1"};
+  request.prefer = "wait=20";
+  const auto created = bench.call(request);
+  EXPECT_EQ(created.status, 201);
+  EXPECT_EQ(json::parse(created.body).at("state"), "succeeded");
+  EXPECT_EQ(header(created, "Preference-Applied"), "wait=20");
+}
+
+TEST(Prefer, WaitsForTheEndOfAJob) {
+  Bench bench;
+  server::Request request{.method = "POST", .path = "/v1/jobs", .query = {}, .accept = {}, .body = "{}", .id = "test-1"};
+  request.prefer = "wait=20";
+  const auto created = bench.call(request);
+  EXPECT_EQ(created.status, 201);
+  EXPECT_EQ(json::parse(created.body).at("state"), "succeeded");
+  EXPECT_EQ(header(created, "Preference-Applied"), "wait=20");
+  request.body = R"({"clearance_mm": 0.3})";
+  request.prefer = "";
+  const std::string place = header(bench.call(request), "Location");
+  server::Request again{.method = "GET", .path = place, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  again.prefer = "wait=20";
+  const auto found = bench.call(again);
+  EXPECT_EQ(json::parse(found.body).at("state"), "succeeded");
+  EXPECT_EQ(header(found, "Preference-Applied"), "wait=20");
+}
+
+TEST(Prefer, WaitsNoLongerThanItIsTold) {
+  Bench bench(endless_run);
+  const std::string id = bench.submit(kSweep);
+  server::Request request{.method = "GET", .path = "/v1/sweeps/" + id, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  request.prefer = "wait=1";
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(json::parse(bench.call(request).body).at("state"), "running");
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 1s);
+  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
+  request.path = "/v1/jobs/" + job;
+  EXPECT_EQ(json::parse(bench.call(request).body).at("state"), "running");
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 2s);
+}
+
+TEST(Prefer, LeavesThreadsToOthers) {
+  Bench bench(endless_run);
+  const std::string id = bench.submit(kSweep);
+  server::WaitingRoom room;
+  server::Request request{};
+  request.prefer = "wait=60";
+  const auto wait = [&] {
+    server::Response response{};
+    return room.wait(request, response, [&](std::chrono::seconds time) { bench.service().wait_for_sweep(id, time); });
+  };
+  std::vector<std::jthread> waiting;
+  for (int k = 0; k < 8; ++k) waiting.emplace_back([&] { EXPECT_TRUE(wait()); });
+  std::this_thread::sleep_for(200ms);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_FALSE(wait());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 5s);
+  bench.service().stop();  // ends all waiting
+}
+
+TEST(GetResults, TakesFieldsFiltersAndOrder) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kSweep) + "/results";
+  const auto rows = bench.call("GET", path, "", {{"fields", "clearance_mm"}, {"order_by", "-clearance_mm"}, {"clearance_mm_lt", "0.3"}});
+  EXPECT_EQ(json::parse(rows.body), json::parse(R"([{"clearance_mm": 0.2}, {"clearance_mm": 0.1}])"));
+  EXPECT_EQ(bench.call("GET", path, "", {{"fields", "clearance_mm"}, {"limit", "1"}, {"format", "ndjson"}}).body, "{\"clearance_mm\":0.1}\n");
+  EXPECT_EQ(bench.call("GET", path, "", {{"clearance_mm_gt", "1"}, {"format", "ndjson"}}).body, "");
+  const auto faulty = bench.call("GET", path, "", {{"fields", ""}, {"limit", "-1"}});
+  EXPECT_EQ(json::parse(faulty.body).at("errors").size(), 2U);
+  EXPECT_EQ(bench.call("GET", path, "", {{"clearance_mm_gt", "much"}}).status, 422);
+}
+
+/// The places of all faults of an answer, with blanks between.
+std::string pointers_of(const server::Response& answer) {
+  std::string pointers;
+  const json problem = json::parse(answer.body);  // must outlive the loop
+  for (const json& error : problem.at("errors")) pointers += (pointers.empty() ? "" : " ") + error.at("pointer").get<std::string>();
+  return pointers;
+}
+
+TEST(Query, IsRefusedWithFaultsOfFormAndOfMeaningAtOnce) {
+  Bench bench;
+  const std::string results = "/v1/sweeps/" + bench.run(kSweep) + "/results";
+  const std::string job = json::parse(bench.call("GET", results).body)[0].at("job_id");
+  EXPECT_EQ(pointers_of(bench.call("GET", results, "", {{"limit", "x"}, {"fields", "nope"}, {"clearance_mm_gt", "much"}})), "/limit /clearance_mm_gt /fields/0");
+  EXPECT_EQ(pointers_of(bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"format", "xml"}, {"channels", "t_s,,nope"}, {"from", "1"}, {"to", "0"}})),
+            "/format /channels/1 /channels/2 /to");
+  for (const char* const list : {"/v1/sweeps", "/v1/jobs"}) {
+    EXPECT_EQ(pointers_of(bench.call("GET", list, "", {{"limit", "x"}, {"state", "lost"}, {"cursor", "c"}, {"fields", "nope"}})), "/limit /cursor /state /fields/0");
+  }
+}
+
+TEST(GetResults, TakesTheFormThatIsAcceptedFirst) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kSweep) + "/results";
+  EXPECT_EQ(bench.call("GET", path, "", {}, "application/x-ndjson, */*").content_type, "application/x-ndjson");
+  EXPECT_EQ(bench.call("GET", path, "", {}, "application/json, text/csv").content_type, "application/json");
+  EXPECT_EQ(bench.call("GET", path, "", {{"format", "npz"}}).status, 422);
+}
+
+TEST(GetTrajectory, IsAFileOfNumPy) {
+  Bench bench;
+  const std::string id = bench.run(R"({"sweep": {"clearance_mm": [0.1]}})");
+  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
+  const auto npz = bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"format", "npz"}});
+  EXPECT_EQ(npz.body.substr(0, 2), "PK");
+  EXPECT_NE(header(npz, "Content-Disposition").find(".npz\""), std::string::npos);
+  EXPECT_EQ(bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"points", "3"}, {"channels", "slider_position_m"}}).status, 422);
+  const auto few = bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"points", "4"}, {"channels", "slider_position_m"}});
+  EXPECT_EQ(json::parse(few.body).at("columns").at("t_s").size(), 4U);
+}
+
+TEST(RetryAndExtend, AnswerWithTheSweep) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kSweep);
+  EXPECT_EQ(json::parse(bench.call("POST", path + "/retry").body).at("counts").at("succeeded"), 3);
+  const auto extended = bench.call("POST", path + "/extend", R"({"sweep": {"clearance_mm": [0.4]}})");
+  EXPECT_EQ(extended.status, 200);
+  EXPECT_EQ(json::parse(extended.body).at("counts").at("total"), 4);
+  EXPECT_EQ(bench.call("POST", path + "/extend", "{}").status, 422);
+  EXPECT_EQ(bench.call("POST", path + "/extend", "").status, 400);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps/swp_none/extend", "{}").status, 404);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps/swp_none/retry").status, 404);
+}
+
+TEST(GetStore, IsAFileThatNobodyElseSees) {
+  Bench bench;
+  (void)bench.run(kSweep);
+  const auto copy = bench.call("GET", "/v1/store");
+  EXPECT_EQ(copy.status, 200);
+  EXPECT_EQ(copy.content_type, "application/vnd.sqlite3");
+  ASSERT_NE(copy.file, nullptr);
+  std::string start(16, '\0');
+  EXPECT_EQ(copy.file->read(0, start.data(), start.size()), start.size());
+  EXPECT_EQ(start, std::string("SQLite format 3") + '\0');
+  EXPECT_FALSE(std::filesystem::exists(bench.service().store_file().string() + ".rpsup-copy"));
+  EXPECT_EQ(bench.call("GET", "/v1/store", "", {{"format", "csv"}}).status, 422);
+}
+
+TEST(GetStore, HasOneCopyOnTheDiskAtATime) {
+  Bench bench;
+  auto copy = bench.call("GET", "/v1/store");
+  ASSERT_EQ(copy.status, 200);
+  const auto second = bench.call("GET", "/v1/store");
+  EXPECT_EQ(second.status, 503) << "while the first is being sent";
+  EXPECT_NE(header(second, "Retry-After"), "");
+  copy.file.reset();
+  EXPECT_EQ(bench.call("GET", "/v1/store").status, 200);
+}
+
+TEST(GetStore, LeavesNoCopyOfAProcessThatDied) {
+  Bench bench;
+  const std::filesystem::path left = bench.service().store_file().string() + ".rpsup-copy";
+  std::ofstream(left) << "half of it";
+  const server::Routes next_process(bench.service());
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
+}  // namespace
