@@ -16,7 +16,7 @@ namespace jobs {
 /// @throws InvalidRequest with every fault
 [[nodiscard]] nlohmann::json complete_parameters(const nlohmann::json& given, const std::string& pointer);
 
-/// The engine's view of completed parameters: the only place where units are converted.
+/// The engine's view of completed parameters: their units become SI on this way only.
 [[nodiscard]] JobSpec to_job_spec(const nlohmann::json& completed_parameters);
 
 /// The channels of the job's trajectory.

@@ -41,7 +41,7 @@ struct TextColumn {
 TextColumn text_column(const std::string& column) {
   if (column == "job_id" || is_error_column(column)) return {.is_text = true, .words = {}};
   if (column == "state") return {.is_text = true, .words = {kJobStates.begin(), kJobStates.end()}};
-  if (column == "verdict" || column == "parameter" || column == "metric") return {.is_text = true, .words = {}};  // of a search
+  if (column == "verdict" || column == "lost_reason" || column == "parameter" || column == "metric") return {.is_text = true, .words = {}};  // of a search
   if (column == "monotonic") return {.is_text = true, .words = {"true", "false"}};
   const ParameterInfo* const info = find_parameter(column);
   if (info == nullptr || info->kind != ParameterKind::kChoice) return {};

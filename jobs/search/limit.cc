@@ -35,13 +35,13 @@ Judged judge(const Evaluation& evaluation, const LimitRule& rule) {
   return {.x = evaluation.x, .within = calc_quantile(evaluation.values, rule.quantile) <= rule.bound, .least = least, .most = most};
 }
 
-/// Whether what is missing could change what is refined: it lies before the first value that is beyond the bound, or is needed to know that one.
-bool is_lost(const std::vector<Evaluation>& evaluations, const LimitRule& rule) {
+/// What is missing and could change what is refined: it lies before the first value that is beyond the bound, or is needed to know that one.
+const Evaluation* find_lost(const std::vector<Evaluation>& evaluations, const LimitRule& rule) {
   for (const Evaluation& evaluation : evaluations) {
-    if (evaluation.lost > 0) return true;
-    if (!judge(evaluation, rule).within) return false;
+    if (evaluation.lost > 0) return &evaluation;
+    if (!judge(evaluation, rule).within) return nullptr;
   }
-  return false;
+  return nullptr;
 }
 
 void take_bands(const std::vector<Judged>& judged, const LimitRule& rule, Limit& limit) {
@@ -115,8 +115,9 @@ Limit find_limit(const SearchPath& path, const LimitRule& rule, std::vector<Eval
     if (std::ranges::find(evaluations, x, &Evaluation::x) == evaluations.end()) limit.next.push_back(x);
   }
   if (!limit.next.empty()) return limit;
-  if (is_lost(evaluations, rule)) {
+  if (const Evaluation* const lost = find_lost(evaluations, rule)) {
     limit.verdict = Verdict::kLost;
+    limit.lost_reason = lost->lost_reason;
     return limit;
   }
   const auto beyond = std::ranges::find(judged, false, &Judged::within);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Evaluation {
   double x = 0.0;
   std::size_t pending = 0;     ///< jobs that wait or run
   std::size_t lost = 0;        ///< jobs that have ended without a value
+  std::optional<std::string> lost_reason{};  ///< of the first of them, in any words
   std::vector<double> values;  ///< of the others, in any order
 };
 
@@ -53,6 +55,7 @@ struct Limit {
   std::optional<double> beyond;   ///< the first value at which it does
   std::optional<double> band_from;  ///< up to here every replicate stays within the bound
   std::optional<double> band_to;    ///< from here on none does
+  std::optional<std::string> lost_reason{};  ///< of kLost: that of the evaluation in the way
   std::vector<Fall> falls;
   std::vector<double> next;       ///< values to evaluate now; empty while jobs are pending
 };

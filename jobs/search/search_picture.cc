@@ -29,7 +29,7 @@ json part_within_json(std::size_t within, std::size_t count) {
 
 json evaluation_json(const Evaluation& evaluation, const std::vector<std::string>& job_ids, const LimitRule& rule) {
   json made{{"value", evaluation.x}, {"count", evaluation.values.size()}, {"pending", evaluation.pending}, {"lost", evaluation.lost},
-      {"job_ids", job_ids},
+            {"lost_reason", value_or_null(evaluation.lost_reason)}, {"job_ids", job_ids},
             {"quantile", nullptr}, {"min", nullptr}, {"max", nullptr}, {"within", nullptr}, {"part_within_low", nullptr},
             {"part_within_high", nullptr}};
   if (evaluation.values.empty()) return made;
@@ -47,7 +47,8 @@ json limit_json(const CombinationPicture& combination, const SearchRequest& sear
   const Limit& limit = combination.limit;
   json made = json::object();
   for (std::size_t i = 0; i < combination.values.size(); ++i) made[search.common.axes[i].path] = combination.values[i];
-  made.update({{"verdict", verdict_name(limit.verdict)}, {"limit", value_or_null(limit.within)}, {"limit_beyond", value_or_null(limit.beyond)},
+  made.update({{"verdict", verdict_name(limit.verdict)}, {"lost_reason", value_or_null(limit.lost_reason)},
+               {"limit", value_or_null(limit.within)}, {"limit_beyond", value_or_null(limit.beyond)},
                {"band_from", value_or_null(limit.band_from)}, {"band_to", value_or_null(limit.band_to)},
                {"evaluations", combination.evaluations.size()}, {"monotonic", limit.falls.empty()}});
   return made;
@@ -125,7 +126,7 @@ json search_json(const SearchRow& row, const SearchRequest& search, const SweepR
 ResultTable limit_table(const SearchRow& row, const SearchRequest& search, const SweepResults& results) {
   ResultTable table{.columns = paths_of_axes(search), .rows = {}, .ended = row.state != "running"};
   for (const char* const column : {"parameter", "metric", "bound", "quantile", "verdict", "limit", "limit_beyond", "band_from", "band_to",
-      "evaluations", "monotonic"}) {
+      "evaluations", "monotonic", "lost_reason"}) {
     table.columns.emplace_back(column);
   }
   const json common{{"parameter", search.parameter}, {"metric", search.metric}, {"bound", search.rule.bound}, {"quantile", search.rule.quantile}};

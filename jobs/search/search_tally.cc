@@ -26,6 +26,11 @@ std::size_t place_of(double x, CombinationPicture& combination) {
 
 bool is_pending(const ResultRow& job) { return job.state == "queued" || job.state == "running"; }
 
+/// What a job that has no value failed by, or that it was cancelled, or that it succeeded and the metric does not apply to it.
+std::string loss_of(const ResultRow& job) {
+  return job.state == "succeeded" ? std::string(kNoValue) : job.error_reason.value_or(job.state);
+}
+
 json metric_of(const ResultRow& job, const std::string& metric) {
   return job.metrics ? stored_json(*job.metrics).value(metric, json()) : json();
 }
@@ -105,7 +110,7 @@ void SearchTally::take_result(const ResultRow& job, const Place& place) {
   combination.cancelled |= job.state == "cancelled";
   const json value = metric_of(job, search_.metric);
   if (value.is_number()) evaluation.values.push_back(value.get<double>());
-  else ++evaluation.lost;
+  else if (++evaluation.lost == 1) evaluation.lost_reason = loss_of(job);
 }
 
 }  // namespace jobs

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -33,6 +34,9 @@ struct SearchPicture {
 
 /// Part of the evaluations that a search may need which it has, 0 .. 1.
 [[nodiscard]] double calc_progress(const SearchPicture& picture, const SearchRequest& search);
+
+/// The lost_reason of an evaluation whose job succeeded, and has no value of the metric. Others are a job's error_reason, or the state in which it ended: "cancelled".
+inline constexpr std::string_view kNoValue = "no_value";
 
 /// Sorts the jobs of a search into its combinations, each once when it is added and once when it ends.
 class SearchTally {

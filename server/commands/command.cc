@@ -9,6 +9,9 @@
 #include <new>
 #include <system_error>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "jobs/base/errors.h"
 #include "server/messages/json_text.h"
 
@@ -30,6 +33,8 @@ std::string read_all(std::istream& in) { return {std::istreambuf_iterator<char>(
 
 std::string read_text(const std::string& path) {
   if (path == "-") return read_all(std::cin);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw BadInput("cannot read " + path + ": it is a folder");
   std::ifstream file(path, std::ios::binary);
   std::string text = file ? read_all(file) : "";
   if (!file) throw BadInput("cannot read " + path + ": " + std::strerror(errno));
@@ -64,11 +69,15 @@ nlohmann::ordered_json read_json(const std::string& path) {
   }
 }
 
-void check_folder(const std::string& option, const std::string& path) {
+void check_output_file(const std::string& option, const std::string& path) {
   const auto folder = std::filesystem::absolute(path).parent_path();
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) throw BadInput(option + " " + path + ": there is no folder " + folder.string());
-  if (std::filesystem::is_directory(path, ignored)) throw BadInput(option + " " + path + ": is a folder");
+  if (std::filesystem::is_directory(path, ignored)) throw BadInput(option + " " + path + ": it is a folder");
+  const bool exists = std::filesystem::exists(path, ignored);
+  if (faccessat(AT_FDCWD, exists ? path.c_str() : folder.c_str(), exists ? W_OK : W_OK | X_OK, AT_EACCESS) != 0) {
+    throw CannotWrite(option + " " + path + ": cannot be written: " + std::strerror(errno));
+  }
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -36,9 +36,10 @@ int run_guarded(const std::function<int()>& command);
 /// @throws BadInput if it cannot be read or is no JSON
 [[nodiscard]] nlohmann::ordered_json read_json(const std::string& path);
 
-/// Refuses before the work a file in a folder that is not there, or that is a folder itself.
+/// Refuses before the work a file that could not be written after it.
 /// @param option  that names the file, for the message
-void check_folder(const std::string& option, const std::string& path);
+/// @throws BadInput if it is a folder or is to be in one that is not there, CannotWrite if it may not be written
+void check_output_file(const std::string& option, const std::string& path);
 
 /// Writes a whole file, "-" for standard output.
 /// @throws CannotWrite if not every byte reached it

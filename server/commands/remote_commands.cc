@@ -16,6 +16,7 @@ int submit(const SubmitOptions& options) {
 }
 
 int results(const ResultsOptions& options) {
+  if (options.output != "-") check_output_file("--output", options.output);
   const std::string media_type = options.format == "csv" ? "text/csv" : options.format == "ndjson" ? "application/x-ndjson" : "application/json";
   write_text(options.output, RemoteService(options.remote).results(options.sweep, media_type));
   return kDone;

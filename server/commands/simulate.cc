@@ -30,13 +30,13 @@ void check_trajectory_file(const std::string& path) {
   if (extension != ".csv" && extension != ".json" && extension != ".npz") {
     throw BadInput("--trajectory " + path + ": the name must end in .csv, .json or .npz");
   }
-  check_folder("--trajectory", path);
+  check_output_file("--trajectory", path);
 }
 
 void check_plot_file(const std::string& plot) {
   if (plot.empty() || plot == "-") return;
   if (!plot.ends_with(".svg")) throw BadInput("--plot " + plot + ": the name must end in .svg; - draws on the terminal");
-  check_folder("--plot", plot);
+  check_output_file("--plot", plot);
 }
 
 /// The size of the terminal at standard error; a usual one if there is none.

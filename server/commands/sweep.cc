@@ -51,7 +51,7 @@ TableFormat find_format(const std::string& path) {
 }  // namespace
 
 int sweep(const SweepOptions& options) {
-  if (options.results != "-") check_folder("--results", options.results);
+  if (options.results != "-") check_output_file("--results", options.results);
   const auto request = read_json(options.file);
   const EndSignals signals;
   jobs::ServiceOptions service_options;

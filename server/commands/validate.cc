@@ -70,13 +70,12 @@ void check_options(const ValidateOptions& options) {
   if (options.quick && !(options.report.empty() && options.check.empty()))
     throw BadInput("--quick leaves out part of the report: it goes with neither --report nor --check");
   if (options.report.empty()) return;
-  const auto report = std::filesystem::absolute(options.report);
-  if (!std::filesystem::is_directory(report.parent_path()))
-    throw BadInput("--report " + options.report + ": there is no folder " + report.parent_path().string());
-  if (options.report == "-" || std::filesystem::is_directory(report)) throw BadInput("--report " + options.report + ": must be a file's name");
+  if (options.report == "-") throw BadInput("--report " + options.report + ": must be a file's name");
+  check_output_file("--report", options.report);
+  const auto figures = std::filesystem::absolute(options.report).parent_path() / kFigureFolder;
   std::error_code error;
-  std::filesystem::create_directories(report.parent_path() / kFigureFolder, error);
-  if (error || access(report.parent_path().c_str(), W_OK) != 0) throw CannotWrite("cannot write to " + report.parent_path().string());
+  std::filesystem::create_directories(figures, error);
+  if (error) throw CannotWrite("--report " + options.report + ": cannot make the folder " + figures.string() + ": " + error.message());
 }
 
 std::vector<std::string> read_lines(const std::string& path) {

@@ -18,6 +18,19 @@ bool names_wait(std::string_view item) {
   return std::ranges::equal(item.substr(0, 4), std::string_view("wait"), [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
+/// Held by a client for as long as it waits, whatever ends that.
+struct Place {
+  explicit Place(std::atomic<int>& taken) : number(++taken), taken_(taken) {}
+  ~Place() { --taken_; }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  const int number;
+
+ private:
+  std::atomic<int>& taken_;
+};
+
 }  // namespace
 
 std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
@@ -39,11 +52,11 @@ std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
 bool WaitingRoom::wait(const Request& request, Response& response, const std::function<void(std::chrono::seconds)>& wait_for) {
   const auto time = find_wait(request.prefer);
   if (!time) return false;
-  const bool room = ++waiting_ <= kPlaces;
-  if (room) wait_for(*time);
-  --waiting_;
-  if (room) response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(time->count()));
-  return room;
+  const Place place(waiting_);
+  if (place.number > kPlaces) return false;
+  wait_for(*time);
+  response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(time->count()));
+  return true;
 }
 
 }  // namespace server

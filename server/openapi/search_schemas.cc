@@ -14,7 +14,11 @@ Json make_verdict() {
   return {{"type", "string"}, {"enum", std::move(names)},
           {"description", "open: not known yet; found; never_exceeded: within the bound at all values tried; "
                           "always_exceeded: beyond it at the first already; "
-                          "lost: a job that has failed is in the way"}};
+                          "lost: a job without a value is in the way, see lost_reason"}};
+}
+
+Json make_lost_reason() {
+  return described(or_null(kText), "the error_reason of a failed job, cancelled, or no_value: the job succeeded and the metric does not apply to it");
 }
 
 Json make_limit() {
@@ -24,6 +28,7 @@ Json make_limit() {
           {"band_from", described(or_null(kNumber), "up to here every replicate stays within the bound")},
           {"band_to", described(or_null(kNumber), "from here on none does")},
           {"evaluations", kCount},
+          {"lost_reason", make_lost_reason()},
           {"monotonic", described({{"type", "boolean"}}, "whether the metric never falls along the way")}};
 }
 
@@ -34,6 +39,7 @@ Json with_axes(Json properties) {
 
 Json make_point() {
   return object_of({{"value", kNumber}, {"count", described(kCount, "replicates that have a value")}, {"pending", kCount}, {"lost", kCount},
+                    {"lost_reason", make_lost_reason()},
                     {"quantile", described(or_null(kNumber), "of the metric over the replicates")}, {"min", or_null(kNumber)},
                     {"max", or_null(kNumber)},
                     {"within", described(or_null(kCount), "replicates that stay within the bound")},

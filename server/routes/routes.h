@@ -13,7 +13,7 @@
 
 namespace server {
 
-/// Answers requests: the one place that knows which route does what and which error is which status.
+/// Answers requests: finds the route, calls it, and turns what it throws into an answer.
 /// May be called from any thread.
 class Routes {
  public:

@@ -42,6 +42,13 @@ expect_refused jobs/store.cc '#include "engine/validation/report.h"'
 expect_refused engine/kinematics/frame_motion.h '#include "engine/dynamics/equations.h"'
 expect_refused engine/model/mechanism.h '#include "engine/kinematics/frame_motion.h"'
 
+rm -rf "${tree:?}"/*
+mkdir -p "$tree/engine" "$tree/jobs" "$tree/server"
+if bash "$circles" "$tree" 2>"$tree/told" || ! grep -q 'no folder includes another' "$tree/told"; then
+  echo "an empty tree passes without a word"
+  exit 1
+fi
+
 expect_circle() {
   plant "$1" "$2"
   if bash "$circles" "$tree" >/dev/null; then

@@ -74,7 +74,7 @@ expect_code 2 "$rpsup" watch ../../healthz
 expect_code 2 "$rpsup" status --url 127.0.0.1:8080
 expect_text err 'must be like http://'
 expect_code 2 "$rpsup" results "$id" --format xml
-expect_code 3 "$rpsup" results "$id" --output nowhere/rows.csv
+expect_code 2 "$rpsup" results "$id" --output nowhere/rows.csv
 
 # Interrupted, watching ends and the sweep goes on. A service that is started again is found again.
 echo '{"parameters": {"duration_s": 300}, "sweep": {"clearance_mm": [0.3, 0.4]}}' >longer.json

@@ -31,7 +31,7 @@ expect_code 2 "$rpsup" sweep sweep.json --db none.db --results nowhere/one.csv
 expect_text err '^rpsup: --results nowhere/one.csv: there is no folder .*/nowhere$'
 mkdir folder
 expect_code 2 "$rpsup" sweep sweep.json --db none.db --results folder
-expect_text err '^rpsup: --results folder: is a folder$'
+expect_text err '^rpsup: --results folder: it is a folder$'
 expect_equal "$(test -e none.db && echo there || echo none)" none "store of a sweep whose results have no place"
 
 # Interrupted, then given again: it ends with what an undisturbed sweep gives.

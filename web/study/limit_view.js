@@ -6,7 +6,10 @@ import { limitCurve } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
 
-const verdicts = { open: "not known yet", found: "found", never_exceeded: "never exceeded", always_exceeded: "exceeded from the start", lost: "a failed job is in the way" };
+const verdicts = { open: "not known yet", found: "found", never_exceeded: "never exceeded", always_exceeded: "exceeded from the start", lost: "a job without a value is in the way" };
+
+const verdictOf = ({ verdict, lost_reason: reason }) =>
+  verdicts[verdict] + (reason === "no_value" ? ": the metric does not apply to it" : reason ? `: ${reason}` : "");
 
 /// The combination of a limit: "10 rad/s, flexible".
 const combinationOf = (search, limit) => search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
@@ -52,7 +55,7 @@ export class LimitView extends StudyView {
   row(limit) {
     const falls = limit.falls.map(({ from, to, within_again: again }) => `${number(from)} to ${number(to)}${again ? " (within the bound again)" : ""}`).join("; ");
     const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}` : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
-    return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))), h("td", {}, verdicts[limit.verdict]), h("td", {}, between),
+    return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))), h("td", {}, verdictOf(limit)), h("td", {}, between),
       h("td", { class: "number" }, number(limit.band_from)), h("td", { class: "number" }, number(limit.band_to)), h("td", { class: "number" }, String(limit.evaluations)),
       h("td", {}, falls || "nowhere"));
   }

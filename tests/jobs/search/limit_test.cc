@@ -129,10 +129,16 @@ TEST(FindLimit, WaitsForWhatIsPendingAndStopsAtWhatIsLost) {
   EXPECT_TRUE(find_limit(path, rule, pending).next.empty());
   EXPECT_EQ(find_limit(path, rule, pending).verdict, Verdict::kOpen);
   std::vector<Evaluation> lost = pending;
-  lost[1] = {.x = 1.0, .lost = 1, .values = {}};
+  lost[1] = {.x = 1.0, .lost = 1, .lost_reason = "step_limit", .values = {}};
   EXPECT_EQ(find_limit(path, rule, lost).verdict, Verdict::kLost);
+  EXPECT_EQ(find_limit(path, rule, lost).lost_reason, "step_limit");
+  // The first on the way tells its reason.
+  std::vector<Evaluation> twice = lost;
+  twice.insert(twice.begin(), {.x = 2.0, .lost = 1, .lost_reason = "cancelled", .values = {}});
+  EXPECT_EQ(find_limit(path, rule, twice).lost_reason, "step_limit");
   // Beyond the first crossing it is not in the way.
   EXPECT_EQ(find_limit(path, {.bound = -0.5}, lost).verdict, Verdict::kAlwaysExceeded);
+  EXPECT_EQ(find_limit(path, {.bound = -0.5}, lost).lost_reason, std::nullopt);
 }
 
 TEST(CalcQuantile, IsTheSmallestValueWithThatPartBelowIt) {

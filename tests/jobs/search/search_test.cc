@@ -199,8 +199,29 @@ TEST(Search, SaysWhichCombinationIsLostToAFailedJob) {
   request["sweep"] = {{"restitution", {0.5, 0.9}}};
   const json ended = wait_for_end(service, service.submit_study(jobs::Study::kLimit, request).at("id"));
   EXPECT_EQ(ended.at("state"), "failed");
-  EXPECT_EQ(ended.at("limits").at(0).at("verdict"), "lost");
+  const json& lost = ended.at("limits").at(0);
+  EXPECT_EQ(lost.at("verdict"), "lost");
+  EXPECT_EQ(lost.at("lost_reason"), "non_finite");
+  EXPECT_EQ(lost.at("points").at(0).at("lost_reason"), "non_finite");
   EXPECT_EQ(ended.at("limits").at(1).at("verdict"), "found");
+  EXPECT_EQ(ended.at("limits").at(1).at("lost_reason"), nullptr);
+}
+
+// The second metric applies to none of the fake engine's jobs.
+TEST(Search, SaysThatItsMetricDoesNotApply) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  ordered_json request = request_for(5.3);
+  request["metric"] = engine::metric_table()[1].key;
+  const std::string id = service.submit_study(jobs::Study::kLimit, request).at("id");
+  const json ended = wait_for_end(service, id);
+  EXPECT_EQ(ended.at("counts").at("succeeded"), 5);
+  EXPECT_EQ(ended.at("limits").at(0).at("verdict"), "lost");
+  EXPECT_EQ(ended.at("limits").at(0).at("lost_reason"), "no_value");
+  const jobs::ResultTable table = service.find_study_table(jobs::Study::kLimit, id).value();
+  ASSERT_EQ(table.columns.back(), "lost_reason");
+  EXPECT_EQ(table.rows.at(0).back(), "no_value");
 }
 
 TEST(Search, IsRefusedWithEveryFault) {

@@ -1,5 +1,6 @@
 #include "server/commands/command.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <new>
@@ -7,6 +8,8 @@
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +55,54 @@ TEST(ReadJson, NamesTheFileAndThePlace) {
     EXPECT_EQ(std::string(error.what()).find(path + ": not JSON at byte 4"), 0U) << error.what();
   }
   EXPECT_THROW(static_cast<void>(read_json(folder / "missing.json")), BadInput);
+}
+
+TEST(ReadJson, SaysThatAFolderIsNoFile) {
+  const server_tests::TemporaryFolder folder;
+  const std::string path = folder / "sweeps";
+  std::filesystem::create_directory(path);
+  try {
+    static_cast<void>(read_json(path));
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(error.what(), "cannot read " + path + ": it is a folder");
+  }
+}
+
+/// Somebody who may not write everywhere, which root may.
+class Nobody {
+ public:
+  Nobody() : was_(geteuid()) {
+    constexpr uid_t kNobody = 65534;
+    if (was_ == 0) {
+      EXPECT_EQ(seteuid(kNobody), 0);
+    }
+  }
+  ~Nobody() { EXPECT_EQ(seteuid(was_), 0); }
+  Nobody(const Nobody&) = delete;
+  Nobody& operator=(const Nobody&) = delete;
+
+ private:
+  uid_t was_;
+};
+
+TEST(CheckOutputFile, RefusesBeforeTheWorkWhatCannotBeWritten) {
+  const server_tests::TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  const fs::path open = folder / "open";
+  const fs::path closed = folder / "closed";
+  for (const fs::path& each : {open, closed}) fs::create_directory(each);
+  std::ofstream(open / "kept.csv") << "kept";
+  fs::permissions(folder / "", fs::perms::all);
+  fs::permissions(open, fs::perms::all);
+  fs::permissions(open / "kept.csv", fs::perms::all & ~(fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write));
+  fs::permissions(closed, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  const Nobody nobody;
+  EXPECT_NO_THROW(check_output_file("--results", open / "new.csv"));
+  EXPECT_THROW(check_output_file("--results", open), BadInput);
+  EXPECT_THROW(check_output_file("--results", open / "none" / "new.csv"), BadInput);
+  EXPECT_THROW(check_output_file("--results", closed / "new.csv"), CannotWrite);
+  EXPECT_THROW(check_output_file("--results", open / "kept.csv"), CannotWrite);
 }
 
 TEST(WriteText, WritesEveryByteOrThrows) {

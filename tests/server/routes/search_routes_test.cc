@@ -49,7 +49,7 @@ TEST(Searches, FindLimitsAndHandThemOutAsRows) {
   EXPECT_EQ(rows.at(1).at("limit"), search.at("limits").at(1).at("limit"));
   const auto csv = bench.call("GET", path + "/results", "", {{"format", "csv"}});
   EXPECT_EQ(csv.body.substr(0, csv.body.find('\r')),
-      "coupler,parameter,metric,bound,quantile,verdict,limit,limit_beyond,band_from,band_to,evaluations,monotonic");
+      "coupler,parameter,metric,bound,quantile,verdict,limit,limit_beyond,band_from,band_to,evaluations,monotonic,lost_reason");
   EXPECT_EQ(bench.call("GET", path + "/results", "", {{"format", "ndjson"}}).content_type, "application/x-ndjson");
   EXPECT_EQ(bench.call("GET", path + "/results", "", {{"format", "npz"}}).status, 422);
   const auto chosen = bench.call("GET", path + "/results", "", {{"fields", "coupler,limit"}, {"order_by", "-coupler"}, {"verdict", "found"}, {"limit_gt", "0"}});
@@ -57,6 +57,7 @@ TEST(Searches, FindLimitsAndHandThemOutAsRows) {
   EXPECT_EQ(json::parse(chosen.body), expected);
   EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "false"}}).body), json::array());
   EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "true"}, {"limit", "1"}}).body).size(), 1U);
+  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"lost_reason", "no_value"}}).body), json::array());
   EXPECT_EQ(bench.call("GET", path + "/results", "", {{"limits", "1"}, {"fields", "state"}, {"monotonic_gt", "1"}}).status, 422);
   EXPECT_FALSE(header(bench.call("GET", path), "ETag").empty());
   EXPECT_EQ(json::parse(bench.call("GET", "/v1/searches").body).at("items").at(0).at("id"), search.at("id"));

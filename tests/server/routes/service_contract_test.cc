@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -151,6 +152,18 @@ TEST(Prefer, LeavesThreadsToOthers) {
   EXPECT_FALSE(wait());
   EXPECT_LT(std::chrono::steady_clock::now() - start, 5s);
   bench.service().stop();  // ends all waiting
+}
+
+TEST(Prefer, FreesThePlaceOfAWaitThatFailed) {
+  server::WaitingRoom room;
+  server::Request request{};
+  request.prefer = "wait=60";
+  server::Response response{};
+  constexpr int kMoreThanThereArePlaces = 9;
+  for (int k = 0; k < kMoreThanThereArePlaces; ++k) {
+    EXPECT_THROW(room.wait(request, response, [](std::chrono::seconds) { throw std::runtime_error("the store cannot be read"); }), std::runtime_error);
+  }
+  EXPECT_TRUE(room.wait(request, response, [](std::chrono::seconds) {}));
 }
 
 TEST(GetResults, TakesFieldsFiltersAndOrder) {
