@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, textOf, url, visit } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, resultsOf, runSweep, textOf, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const short = { duration_s: 0.4, run_up_s: 0.1 };
@@ -248,6 +248,24 @@ test("the list follows, searches, and deletes after asking", async () => {
   await page.getByRole("button", { name: "Delete", exact: true }).click();
   await page.getByText("No sweep is like that").waitFor();
   assert.equal((await fetch(`${url}/v1/sweeps/${later.id}`)).status, 404);
+  await leave(page);
+});
+
+test("the list needs no more width than there is, and has each id in one line", async () => {
+  const { id } = await runSweep({ parameters: short, sweep: { clearance_mm: [0.15] } });
+  const page = await visit("");
+  const link = page.locator(`a[title="${id}"]`);
+  await link.waitFor();
+  const listed = page.getByRole("region", { name: "Sweeps" });
+  for (const width of [1400, 1200, 1000, 800, 390]) {
+    await page.setViewportSize({ width, height: 844 });
+    const [content, window_] = await listed.evaluate(({ scrollWidth, clientWidth }) => [scrollWidth, clientWidth]);
+    assert.ok(content <= window_, `${content} pixels wide in ${window_}, in a window of ${width}`);
+    await expectNoSideways(page);
+    assert.equal(await link.evaluate((element) => element.getClientRects().length), 1, `lines of an id in a window of ${width}`);
+    await picture(page, `list_${width}`);
+  }
+  await expectAccessible(page);
   await leave(page);
 });
 
