@@ -132,7 +132,22 @@ test("no line leads across a value that is missing", async () => {
   assert.deepEqual(lines.map((line) => line.value ?? line), [[0.1, 5, 10, 2], [0.2, 6, 20, "-"], [0.3, 7, "-", "-"], [0.4, 7, 20, 4]]);
   await page.getByText("2 lines end early, where the job has no further values. 1 job with a gap between values is left out.").waitFor();
   assert.deepEqual((await drawn(page, 1)).titles, ["2 computed jobs without a value: the table says why."]);
+  assert.deepEqual((await drawn(page, 1)).series[0], [[0, 1], [0.1, 2], [0.2, "-"], [0.3, "-"], [0.4, 4]]);
   await picture(page, "gaps", { fullPage: true });
+  await leave(page);
+});
+
+test("a value between two that are missing is seen, also where marks would hide the lines", async () => {
+  const hasValue = (k) => k === 0 || k === 5 || k === 250 || (k > 300 && k < 500);
+  const rows = Array.from({ length: 500 }, (_, k) => row(k, { x_mm: k, [metric]: hasValue(k) ? 2 : null }));
+  const page = await visitRows(["x_mm"], rows, { query: "?x=x_mm" });
+  const marked = await page.locator(".chart").nth(1).evaluate(async (element) => {
+    const { getInstanceByDom } = await import("/lib/echarts.js");
+    const data = getInstanceByDom(element).getModel().getSeriesByIndex(0).getData();
+    return Array.from({ length: data.count() }, (_, place) => place).filter((place) => data.getItemGraphicEl(place));
+  });
+  assert.deepEqual(marked, [0, 5, 250]);
+  await picture(page, "lonely_values");
   await leave(page);
 });
 
