@@ -14,15 +14,15 @@ const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", 
 /** What asks why jobs have failed. */
 const reasons = "**/v1/sweeps/swp_given/results?state=failed**";
 
-/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures */
-async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], isSchemaGone = false, isAway = false } = {}) {
+/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures, more of the sweep */
+async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {}, isSchemaGone = false, isAway = false } = {}) {
   const page = await visit("#/wear");
   if (isSchemaGone) await page.route("**/v1/parameters", (route) => route.abort());
   const count = (state) => rows.filter((each) => each.state === state).length;
   const counts = { queued: 0, running: 0, succeeded: count("succeeded"), failed: count("failed"), cancelled: 0, total: rows.length };
   const sweep = { id: "swp_given", name: "given", state: "succeeded", counts, progress: 1, eta_s: null, axes, request: { parameters } };
   const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
-  await give("**/v1/sweeps/swp_given", () => sweep);
+  await give("**/v1/sweeps/swp_given", () => ({ ...sweep, ...more }));
   await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
   if (isAway) await page.route(reasons, (route) => route.abort());
   await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
@@ -183,6 +183,18 @@ test("the table says why jobs failed although the service was away, and anew whe
   await page.getByRole("button", { name: "Retry" }).click();
   await page.getByRole("cell", { name: "failed: time_limit too slow" }).waitFor();
   await leave(page, /ERR_FAILED/);
+});
+
+test("a retry that was made elsewhere is followed", async () => {
+  const rows = [{ job_id: "job_1", state: "failed", clearance_mm: 0.2, [metric]: null }];
+  const failures = [{ job_id: "job_1", error_reason: "step_limit", error_detail: "too many steps" }];
+  const more = { ended_at: "2026-01-01T00:00:00Z" };
+  const page = await visitRows(["clearance_mm"], rows, { failures, more });
+  await page.getByRole("cell", { name: "failed: step_limit too many steps" }).waitFor();
+  failures[0] = { job_id: "job_1", error_reason: "time_limit", error_detail: "too slow" };
+  more.ended_at = "2026-01-01T00:01:00Z";
+  await page.getByRole("cell", { name: "failed: time_limit too slow" }).waitFor({ timeout: 20_000 });
+  await leave(page);
 });
 
 test("the page of a sweep does without the schema of the parameters", async () => {
