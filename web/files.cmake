@@ -18,6 +18,7 @@ set(page_files
   core/download.js
   core/format.js
   core/live.js
+  core/modules.js
   core/route.js
   core/theme.js
   core/uplot.js

@@ -91,6 +91,35 @@ test("a view whose module could not be loaded is shown when the service is back"
   await leave(page, away);
 });
 
+test("a module that stays missing is asked for ever more seldom, and then no more", async () => {
+  const page = await visit("#/wear");
+  await giveJob(page, { job: given("cancelled"), sweep: sweepOf({ cancelled: 1 }) });
+  let asked = 0;
+  await page.route("**/pages/job.js", (route) => { asked += 1; return route.abort(); });
+  await page.clock.install();
+  await page.goto(`${url}/#/jobs/job_given`);
+  for (const [times, seconds] of [[1, 2], [2, 5], [3, 15], [4, 45]]) {
+    await page.getByText("A part of this page could not be loaded, although the service answers. Trying again …").waitFor();
+    assert.equal(asked, times);
+    const renewed = page.waitForEvent("load");
+    await page.clock.fastForward(1000 * (seconds - 1));
+    assert.equal(asked, times, `not within ${seconds - 1} s`);
+    await page.clock.fastForward(1100);
+    await renewed;
+  }
+  await page.getByText(/It has been tried several times/).waitFor();
+  await page.getByText(/pages\/job\.js/).waitFor();
+  await page.clock.fastForward(600_000);
+  await page.waitForTimeout(500);
+  assert.equal(asked, 5);
+  await expectAccessible(page);
+  await picture(page, "missing_module");
+  await page.unroute("**/pages/job.js");
+  await page.getByRole("button", { name: "Try again" }).click();
+  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await leave(page, away);
+});
+
 test("plots outlive a service that was away", async () => {
   const { id } = await computedJob();
   const page = await visit(`#/jobs/${id}`);
