@@ -44,6 +44,7 @@ set(page_files
   pages/sweep.js
   pages/sweeps.js
   pages/wear.js
+  run/captioned.js
   run/described.js
   run/facts.js
   run/fingers.js

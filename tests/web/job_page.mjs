@@ -171,6 +171,27 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   await leave(page);
 });
 
+test("an orbit is saved with what it shows", async () => {
+  const { id } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  const canvas = page.locator("canvas.orbit[data-samples]");
+  await canvas.waitFor();
+  await page.evaluate(() => {
+    window.written = [];
+    const { fillText } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...place) { window.written.push(text); return fillText.call(this, text, ...place); };
+  });
+  const card = page.locator(".card", { has: page.getByRole("heading", { name: "Journal orbit" }) });
+  const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
+  const png = readFileSync(await download.path());
+  writeFileSync(join(folder, "orbit.png"), png);
+  assert.ok(png.readUInt32BE(20) - await canvas.evaluate(({ height }) => height) >= 28, "lines above the orbit");
+  const caption = ["Journal orbit", "Journal x [mm] across, Journal y [mm] up", "colour: time, 0 s to 0.4 s", "clearance 0.25 mm", id];
+  const written = await page.evaluate(() => window.written);
+  assert.deepEqual(written.filter((text) => caption.includes(text)), caption);  // other plots are still being drawn
+  await leave(page);
+});
+
 test("a run without a steady part has a peak all the same", async () => {
   const { id, metrics } = await computedJob({ run_up_s: 0.4 });
   assert.equal(metrics.peak_slider_acceleration_m_s2, null);
