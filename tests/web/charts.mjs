@@ -152,6 +152,9 @@ test("a value between two that are missing is seen, also where marks would hide 
 });
 
 test("a chart without values says why", async () => {
+  // What stands for a missing number stands where the numbers do, below their heading.
+  const looks = await page.locator("table").evaluate((table) => [...table.rows].map(({ cells }) => [...cells].at(-1)).map((cell) => [cell.textContent, getComputedStyle(cell).textAlign]));
+  assert.deepEqual(looks, ["Peak contact force [N]", "–", "10", "20", "–", "20"].map((text) => [text, "right"]));
   const rows = [0.3, 0.4].map((duration, k) => row(k, { duration_s: duration, [metric]: null, [force]: null }));
   const page = await visitRows(["duration_s"], rows, { parameters: { run_up_s: 0.4 } });
   for (const place of [0, 1]) assert.deepEqual((await drawn(page, place)).titles, ["No job has a value of this metric.\nThe runs end before their steady part: at or before run_up_s."]);

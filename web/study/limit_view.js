@@ -30,7 +30,9 @@ export class LimitView extends StudyView {
 
   columns() {
     const { study: search } = this;
-    return [...search.axes.map((axis) => titleOf(axis)), "Verdict", `Limit [${unitOf(search.parameter) || "1"}]`, "All within up to", "None within from", "Evaluations", "Where the metric falls"];
+    const unit = `[${unitOf(search.parameter) || "1"}]`;
+    return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`], [`All within up to ${unit}`, "number"], [`None within from ${unit}`, "number"],
+      ["Evaluations", "number"], [`Where the metric falls ${unit}`]];
   }
 
   statusText() {
