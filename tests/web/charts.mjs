@@ -67,6 +67,25 @@ test("the least span of an axis leaves other values alone", async () => {
   await leave(page);
 });
 
+test("no line is as dark as the dark page", async () => {
+  const page = await visitRows(["clearance_mm"], [0.1, 0.2].map((clearance, k) => row(k, { clearance_mm: clearance, [metric]: k + 1 })));
+  await page.getByLabel("Colours").selectOption("dark");
+  for (const name of ["viridis", "cividis"]) {
+    await page.getByLabel("Palette").selectOption(name);
+    const contrasts = await page.locator(".chart").nth(2).evaluate(async (element) => {
+      const { getInstanceByDom } = await import("/lib/echarts.js");
+      const { colour } = await import("/core/theme.js");
+      const light = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4))
+        .reduce((sum, part, k) => sum + [0.2126, 0.7152, 0.0722][k] * part, 0);
+      const [{ option }] = getInstanceByDom(element).getModel().queryComponents({ mainType: "visualMap" });
+      return option.inRange.color.map((stop) => (light(stop) + 0.05) / (light(colour("card")) + 0.05));
+    });
+    assert.ok(contrasts.length > 3 && Math.min(...contrasts) > 2.4, `${name}: ${contrasts.map((contrast) => contrast.toFixed(2))}`);
+  }
+  await picture(page, "dark_lines", { fullPage: true });
+  await leave(page);
+});
+
 test("axes are logarithmic where values lie decades apart, and as they were where somebody says so", async () => {
   const values = [1e-8, 1e-6, 1e-4];
   const page = await visitRows(["relative_tolerance"], values.map((tolerance, k) => row(k, { relative_tolerance: tolerance, [metric]: 10 ** k, [force]: k - 1 })));
@@ -133,6 +152,9 @@ test("no line leads across a value that is missing", async () => {
   await page.getByText("2 lines end early, where the job has no further values. 1 job with a gap between values is left out.").waitFor();
   assert.deepEqual((await drawn(page, 1)).titles, ["2 computed jobs without a value: the table says why."]);
   assert.deepEqual((await drawn(page, 1)).series[0], [[0, 1], [0.1, 2], [0.2, "-"], [0.3, "-"], [0.4, 4]]);
+  // What stands for a missing number stands where the numbers do, below their heading.
+  const looks = await page.locator("table").evaluate((table) => [...table.rows].map(({ cells }) => [...cells].at(-1)).map((cell) => [cell.textContent, getComputedStyle(cell).textAlign]));
+  assert.deepEqual(looks, ["Peak contact force [N]", "–", "10", "20", "–", "20"].map((text) => [text, "right"]));
   await picture(page, "gaps", { fullPage: true });
   await leave(page);
 });
@@ -152,9 +174,6 @@ test("a value between two that are missing is seen, also where marks would hide 
 });
 
 test("a chart without values says why", async () => {
-  // What stands for a missing number stands where the numbers do, below their heading.
-  const looks = await page.locator("table").evaluate((table) => [...table.rows].map(({ cells }) => [...cells].at(-1)).map((cell) => [cell.textContent, getComputedStyle(cell).textAlign]));
-  assert.deepEqual(looks, ["Peak contact force [N]", "–", "10", "20", "–", "20"].map((text) => [text, "right"]));
   const rows = [0.3, 0.4].map((duration, k) => row(k, { duration_s: duration, [metric]: null, [force]: null }));
   const page = await visitRows(["duration_s"], rows, { parameters: { run_up_s: 0.4 } });
   for (const place of [0, 1]) assert.deepEqual((await drawn(page, place)).titles, ["No job has a value of this metric.\nThe runs end before their steady part: at or before run_up_s."]);
