@@ -439,6 +439,14 @@ test("a sweep says what its results mean", async () => {
   await page.locator(".chart canvas").nth(1).waitFor();
   await expectAccessible(page);
   await picture(page, "sensitivity", { fullPage: true });
+  // One that predicts worse than a mean is not praised with a part of the variance.
+  await page.route("**/surrogate?**", async (route) => {
+    const answer = await route.fetch();
+    const made = await answer.json();
+    await route.fulfill({ json: { ...made, surfaces: made.surfaces.map((surface) => ({ ...surface, predicted_part: -0.05 })) } });
+  });
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption("peak_contact_force_n");
+  await page.getByText(/predicts a point from all others to .* which the mean of the others does as well: it is of no use here/).waitFor();
   await leave(page);
 });
 
