@@ -326,15 +326,15 @@ test("a search is begun in its form, draws its limits and is deleted", async () 
   // By the keyboard alone, as far as that goes.
   await page.getByLabel("Name", { exact: true }).focus();
   await page.keyboard.type("how far");
-  for (const [label, text] of [["From", "0.05"], ["To", "0.5"], ["Tolerance", "0.1"], ["Values at first", "3"], ["Bound", "low"]]) {
+  for (const [label, text] of [["From [mm]", "0.05"], ["To [mm]", "0.5"], ["Tolerance [mm]", "0.1"], ["Values at first", "3"], ["Bound [m/s²]", "low"]]) {
     await page.getByLabel(label, { exact: true }).focus();
     await page.keyboard.type(text);
   }
   await page.getByLabel("Metric", { exact: true }).selectOption("max_penetration_um");
-  const bound = page.locator(".field", { has: page.getByLabel("Bound", { exact: true }) });
+  const bound = page.locator(".field", { has: page.getByLabel("Bound [µm]", { exact: true }) });
   await bound.getByText("must be a number", { exact: true }).waitFor();
   assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
-  await page.getByLabel("Bound", { exact: true }).fill("4");
+  await page.getByLabel("Bound [µm]", { exact: true }).fill("4");
   await page.getByLabel("Quantile", { exact: true }).fill("2");
   for (const [key, value] of Object.entries(short)) await page.locator(`[data-path="${key}"] input[type="text"]`).fill(String(value));
   await page.getByLabel("Crank velocity: how it is given").selectOption("list");
