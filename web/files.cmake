@@ -74,6 +74,7 @@ set(page_files
   study/executors.js
   study/failures.js
   study/heat_map.js
+  study/legend.js
   study/limit_curve.js
   study/limit_points.js
   study/limit_view.js

@@ -14,9 +14,9 @@ const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", 
 /** What asks why jobs have failed. */
 const reasons = "**/v1/sweeps/swp_given/results?state=failed**";
 
-/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures, more of the sweep */
-async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {}, isSchemaGone = false, isAway = false } = {}) {
-  const page = await visit("#/wear");
+/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures, more of the sweep, the window's width */
+async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {}, width = 1360, isSchemaGone = false, isAway = false } = {}) {
+  const page = await visit("#/wear", { viewport: { width, height: 1000 } });
   if (isSchemaGone) await page.route("**/v1/parameters", (route) => route.abort());
   const count = (state) => rows.filter((each) => each.state === state).length;
   const counts = { queued: 0, running: 0, succeeded: count("succeeded"), failed: count("failed"), cancelled: 0, total: rows.length };
@@ -131,6 +131,29 @@ test("what a chart averages over, and of which metric, stands in it", async () =
   assert.deepEqual(titles, [""]);
   assert.doesNotMatch(said, /The first|Mean/);
   await leave(page);
+});
+
+test("the names of all lines stand above them, and in the saved picture", async () => {
+  const rows = [5, 10, 12].flatMap((velocity) => ["rigid", "flexible"].flatMap((coupler) => [0, 1].map((clearance) =>
+    row(`${velocity}${coupler}${clearance}`, { clearance_mm: clearance, crank_velocity_rad_s: velocity, coupler, [metric]: velocity + clearance }))));
+  const names = [5, 10, 12].flatMap((velocity) => ["rigid", "flexible"].map((coupler) => `${velocity} rad/s, ${coupler}`));
+  for (const width of [1440, 390]) {
+    const page = await visitRows(["clearance_mm", "crank_velocity_rad_s", "coupler"], rows, { query: "?x=clearance_mm&y=crank_velocity_rad_s&panel=coupler", width });
+    const [type, bottom, top] = await page.locator(".chart").nth(1).evaluate(async (element) => {
+      const { getInstanceByDom } = await import("/lib/echarts.js");
+      const chart = getInstanceByDom(element);
+      const [legend, grid] = ["legend", "grid"].map((mainType) => chart.getModel().queryComponents({ mainType })[0]);
+      const { group } = chart.getViewOfComponentModel(legend);
+      const box = group.getBoundingRect();
+      return [legend.option.type, group.y + box.y + box.height, grid.coordinateSystem.getRect().y];
+    });
+    assert.equal(type, "plain", "none is turned away");
+    assert.ok(bottom <= top, `names down to ${bottom}, the chart from ${top} pixels on`);
+    const svg = await textOf(page, () => page.getByRole("button", { name: "SVG" }).nth(1).click());
+    assert.deepEqual(names.filter((name) => !svg.text.includes(`>${name}<`)), []);
+    await picture(page, `names_${width}`, { fullPage: true });
+    await leave(page);
+  }
 });
 
 test("more lines than are drawn are counted", async () => {

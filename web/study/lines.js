@@ -3,6 +3,7 @@ import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { averagedAxes, groupBy, none, valuesOf } from "/study/data.js";
+import { legendOf } from "/study/legend.js";
 import { chosenLogs } from "/study/log_axes.js";
 import { whyEmpty, withoutValue } from "/study/missing.js";
 import { fittedAxis } from "/study/span.js";
@@ -41,9 +42,10 @@ function planOf(study, width) {
   if (lines.length === 0) return { groups, option: nothingYet(whyEmpty(study)) };
   const notes = notesOf(study, own, theirs);
   const noteLines = notes.reduce((sum, note) => sum + Math.ceil((note.length * widthOfLetter) / width), 0);
+  const legend = legendOf(lines.map(({ name }) => name), width);
   return { groups, option: {
-    grid: { left: 75, right: 20, top: 40, bottom: 50 + 18 * noteLines },
-    legend: { top: 0 },
+    grid: { left: 75, right: 20, top: 16 + legend.height, bottom: 50 + 18 * noteLines },
+    legend: legend.option,
     // A screen reader is told a chart's title, also where it is not shown: without a note there must be none.
     title: { show: notes.length > 0, text: notes.join("\n"), bottom: 0, left: 0, textStyle: { width, overflow: "break", fontSize: 12, lineHeight: 18, fontWeight: "normal", color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
