@@ -37,7 +37,7 @@ export class LimitView extends StudyView {
 
   statusText() {
     const { state, progress, counts, error } = this.study;
-    return `${state}: ${Math.floor(100 * progress)} %, ${plural(counts.succeeded, "run")} of ${plural(counts.total, "job")} so far${error ? `; ${error}` : ""}`;
+    return `${state}: ${Math.floor(100 * progress)} %, ${plural(counts.succeeded, "run")} of ${plural(counts.total, "job")}${state === "running" ? " so far" : ""}${error ? `; ${error}` : ""}`;
   }
 
   drawChoices() {
