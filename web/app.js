@@ -1,8 +1,9 @@
 // Shows the view that the address names, and gives it up when the address changes.
-import { Away, findHealth, isAway } from "/core/api.js";
+import { findHealth, isAway } from "/core/api.js";
 import { readRoute } from "/core/route.js";
 import { h } from "/core/dom.js";
 import { pause, persist } from "/core/live.js";
+import { Missing, loadModule, nextWait, tryAgain } from "/core/modules.js";
 import { startTheme } from "/core/theme.js";
 
 const pages = {
@@ -28,16 +29,31 @@ function markNavigation(kind) {
   }
 }
 
-/// The module of a view. @throws Away if it could not be fetched, which browsers tell as a TypeError
-async function load(kind) {
+/// The module of a view.
+async function load(kind, signal) {
   if (!Object.hasOwn(pages, kind)) throw new Error("There is no such view.");
-  return pages[kind]().catch((error) => { throw error instanceof TypeError ? new Away() : error; });
+  return loadModule(pages[kind], signal);
 }
 
 /// Resolves once the service answers. @throws an AbortError when the signal is given
 async function whenBack(signal) {
   await pause(againMs, signal);
   await persist(() => findHealth(signal), () => {}, signal);
+}
+
+/// Says why a view is not shown. @param more  what can be done about it
+function say(told, ...more) {
+  main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, told), ...more, h("p", {}, h("a", { href: "#/" }, "To the sweeps")));
+}
+
+function sayMissing(error, signal) {
+  const wait = nextWait();
+  if (wait === null) {
+    return say(`${error.message} It has been tried several times: a file may be missing where the service is installed, or something between it and this browser holds it back.`,
+      h("p", { class: "quiet small" }, error.reason), h("p", {}, h("button", { onclick: tryAgain }, "Try again")));
+  }
+  say(`${error.message} Trying again …`);
+  return pause(wait, signal).then(tryAgain, () => {});
 }
 
 async function show() {
@@ -50,15 +66,15 @@ async function show() {
   markNavigation(kind);
   let page = null;
   try {
-    page = await load(kind);
+    page = await load(kind, ended.signal);
     if (number === shown) await page.show(main, { id, query, signal: ended.signal });
   } catch (error) {
     if (number !== shown || error.name === "AbortError") return;
-    const away = isAway(error);
-    const told = away ? `${error.message} Trying again …` : error.message;
-    main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, told), h("p", {}, h("a", { href: "#/" }, "To the sweeps")));
-    // A module that failed is kept as such by some browsers: only a new page asks for it again.
-    if (away) whenBack(ended.signal).then(() => (page ? show() : location.reload()), () => {});
+    if (error instanceof Missing) sayMissing(error, ended.signal);
+    else if (isAway(error)) {
+      say(`${error.message} Trying again …`);
+      whenBack(ended.signal).then(() => (page ? show() : location.reload()), () => {});
+    } else say(error.message);
   }
 }
 

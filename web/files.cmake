@@ -18,6 +18,7 @@ set(page_files
   core/download.js
   core/format.js
   core/live.js
+  core/modules.js
   core/route.js
   core/theme.js
   core/uplot.js
@@ -43,6 +44,7 @@ set(page_files
   pages/sweep.js
   pages/sweeps.js
   pages/wear.js
+  run/captioned.js
   run/described.js
   run/facts.js
   run/fingers.js
@@ -72,6 +74,7 @@ set(page_files
   study/executors.js
   study/failures.js
   study/heat_map.js
+  study/legend.js
   study/limit_curve.js
   study/limit_points.js
   study/limit_view.js

@@ -14,15 +14,15 @@ const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", 
 /** What asks why jobs have failed. */
 const reasons = "**/v1/sweeps/swp_given/results?state=failed**";
 
-/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures */
-async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], isSchemaGone = false, isAway = false } = {}) {
-  const page = await visit("#/wear");
+/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures, more of the sweep, the window's width */
+async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {}, width = 1360, isSchemaGone = false, isAway = false } = {}) {
+  const page = await visit("#/wear", { viewport: { width, height: 1000 } });
   if (isSchemaGone) await page.route("**/v1/parameters", (route) => route.abort());
   const count = (state) => rows.filter((each) => each.state === state).length;
   const counts = { queued: 0, running: 0, succeeded: count("succeeded"), failed: count("failed"), cancelled: 0, total: rows.length };
   const sweep = { id: "swp_given", name: "given", state: "succeeded", counts, progress: 1, eta_s: null, axes, request: { parameters } };
   const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
-  await give("**/v1/sweeps/swp_given", () => sweep);
+  await give("**/v1/sweeps/swp_given", () => ({ ...sweep, ...more }));
   await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
   if (isAway) await page.route(reasons, (route) => route.abort());
   await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
@@ -64,6 +64,25 @@ test("the least span of an axis leaves other values alone", async () => {
   assert.equal(equal, null);
   assert.ok(negative.min <= -100.05 && negative.max >= -99.96);
   assert.equal(zero, null);
+  await leave(page);
+});
+
+test("no line is as dark as the dark page", async () => {
+  const page = await visitRows(["clearance_mm"], [0.1, 0.2].map((clearance, k) => row(k, { clearance_mm: clearance, [metric]: k + 1 })));
+  await page.getByLabel("Colours").selectOption("dark");
+  for (const name of ["viridis", "cividis"]) {
+    await page.getByLabel("Palette").selectOption(name);
+    const contrasts = await page.locator(".chart").nth(2).evaluate(async (element) => {
+      const { getInstanceByDom } = await import("/lib/echarts.js");
+      const { colour } = await import("/core/theme.js");
+      const light = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4))
+        .reduce((sum, part, k) => sum + [0.2126, 0.7152, 0.0722][k] * part, 0);
+      const [{ option }] = getInstanceByDom(element).getModel().queryComponents({ mainType: "visualMap" });
+      return option.inRange.color.map((stop) => (light(stop) + 0.05) / (light(colour("card")) + 0.05));
+    });
+    assert.ok(contrasts.length > 3 && Math.min(...contrasts) > 2.4, `${name}: ${contrasts.map((contrast) => contrast.toFixed(2))}`);
+  }
+  await picture(page, "dark_lines", { fullPage: true });
   await leave(page);
 });
 
@@ -114,6 +133,29 @@ test("what a chart averages over, and of which metric, stands in it", async () =
   await leave(page);
 });
 
+test("the names of all lines stand above them, and in the saved picture", async () => {
+  const rows = [5, 10, 12].flatMap((velocity) => ["rigid", "flexible"].flatMap((coupler) => [0, 1].map((clearance) =>
+    row(`${velocity}${coupler}${clearance}`, { clearance_mm: clearance, crank_velocity_rad_s: velocity, coupler, [metric]: velocity + clearance }))));
+  const names = [5, 10, 12].flatMap((velocity) => ["rigid", "flexible"].map((coupler) => `${velocity} rad/s, ${coupler}`));
+  for (const width of [1440, 390]) {
+    const page = await visitRows(["clearance_mm", "crank_velocity_rad_s", "coupler"], rows, { query: "?x=clearance_mm&y=crank_velocity_rad_s&panel=coupler", width });
+    const [type, bottom, top] = await page.locator(".chart").nth(1).evaluate(async (element) => {
+      const { getInstanceByDom } = await import("/lib/echarts.js");
+      const chart = getInstanceByDom(element);
+      const [legend, grid] = ["legend", "grid"].map((mainType) => chart.getModel().queryComponents({ mainType })[0]);
+      const { group } = chart.getViewOfComponentModel(legend);
+      const box = group.getBoundingRect();
+      return [legend.option.type, group.y + box.y + box.height, grid.coordinateSystem.getRect().y];
+    });
+    assert.equal(type, "plain", "none is turned away");
+    assert.ok(bottom <= top, `names down to ${bottom}, the chart from ${top} pixels on`);
+    const svg = await textOf(page, () => page.getByRole("button", { name: "SVG" }).nth(1).click());
+    assert.deepEqual(names.filter((name) => !svg.text.includes(`>${name}<`)), []);
+    await picture(page, `names_${width}`, { fullPage: true });
+    await leave(page);
+  }
+});
+
 test("more lines than are drawn are counted", async () => {
   const rows = Array.from({ length: 40 }, (_, k) => [0, 1].map((x) => row(`${k}_${x}`, { x_mm: x, kind: `kind ${k}`, [metric]: k + x }))).flat();
   const page = await visitRows(["x_mm", "kind"], rows, { query: "?x=x_mm&y=kind" });
@@ -132,7 +174,25 @@ test("no line leads across a value that is missing", async () => {
   assert.deepEqual(lines.map((line) => line.value ?? line), [[0.1, 5, 10, 2], [0.2, 6, 20, "-"], [0.3, 7, "-", "-"], [0.4, 7, 20, 4]]);
   await page.getByText("2 lines end early, where the job has no further values. 1 job with a gap between values is left out.").waitFor();
   assert.deepEqual((await drawn(page, 1)).titles, ["2 computed jobs without a value: the table says why."]);
+  assert.deepEqual((await drawn(page, 1)).series[0], [[0, 1], [0.1, 2], [0.2, "-"], [0.3, "-"], [0.4, 4]]);
+  // What stands for a missing number stands where the numbers do, below their heading.
+  const looks = await page.locator("table").evaluate((table) => [...table.rows].map(({ cells }) => [...cells].at(-1)).map((cell) => [cell.textContent, getComputedStyle(cell).textAlign]));
+  assert.deepEqual(looks, ["Peak contact force [N]", "–", "10", "20", "–", "20"].map((text) => [text, "right"]));
   await picture(page, "gaps", { fullPage: true });
+  await leave(page);
+});
+
+test("a value between two that are missing is seen, also where marks would hide the lines", async () => {
+  const hasValue = (k) => k === 0 || k === 5 || k === 250 || (k > 300 && k < 500);
+  const rows = Array.from({ length: 500 }, (_, k) => row(k, { x_mm: k, [metric]: hasValue(k) ? 2 : null }));
+  const page = await visitRows(["x_mm"], rows, { query: "?x=x_mm" });
+  const marked = await page.locator(".chart").nth(1).evaluate(async (element) => {
+    const { getInstanceByDom } = await import("/lib/echarts.js");
+    const data = getInstanceByDom(element).getModel().getSeriesByIndex(0).getData();
+    return Array.from({ length: data.count() }, (_, place) => place).filter((place) => data.getItemGraphicEl(place));
+  });
+  assert.deepEqual(marked, [0, 5, 250]);
+  await picture(page, "lonely_values");
   await leave(page);
 });
 
@@ -168,6 +228,18 @@ test("the table says why jobs failed although the service was away, and anew whe
   await page.getByRole("button", { name: "Retry" }).click();
   await page.getByRole("cell", { name: "failed: time_limit too slow" }).waitFor();
   await leave(page, /ERR_FAILED/);
+});
+
+test("a retry that was made elsewhere is followed", async () => {
+  const rows = [{ job_id: "job_1", state: "failed", clearance_mm: 0.2, [metric]: null }];
+  const failures = [{ job_id: "job_1", error_reason: "step_limit", error_detail: "too many steps" }];
+  const more = { ended_at: "2026-01-01T00:00:00Z" };
+  const page = await visitRows(["clearance_mm"], rows, { failures, more });
+  await page.getByRole("cell", { name: "failed: step_limit too many steps" }).waitFor();
+  failures[0] = { job_id: "job_1", error_reason: "time_limit", error_detail: "too slow" };
+  more.ended_at = "2026-01-01T00:01:00Z";
+  await page.getByRole("cell", { name: "failed: time_limit too slow" }).waitFor({ timeout: 20_000 });
+  await leave(page);
 });
 
 test("the page of a sweep does without the schema of the parameters", async () => {

@@ -91,6 +91,35 @@ test("a view whose module could not be loaded is shown when the service is back"
   await leave(page, away);
 });
 
+test("a module that stays missing is asked for ever more seldom, and then no more", async () => {
+  const page = await visit("#/wear");
+  await giveJob(page, { job: given("cancelled"), sweep: sweepOf({ cancelled: 1 }) });
+  let asked = 0;
+  await page.route("**/pages/job.js", (route) => { asked += 1; return route.abort(); });
+  await page.clock.install();
+  await page.goto(`${url}/#/jobs/job_given`);
+  for (const [times, seconds] of [[1, 2], [2, 5], [3, 15], [4, 45]]) {
+    await page.getByText("A part of this page could not be loaded, although the service answers. Trying again …").waitFor();
+    assert.equal(asked, times);
+    const renewed = page.waitForEvent("load");
+    await page.clock.fastForward(1000 * (seconds - 1));
+    assert.equal(asked, times, `not within ${seconds - 1} s`);
+    await page.clock.fastForward(1100);
+    await renewed;
+  }
+  await page.getByText(/It has been tried several times/).waitFor();
+  await page.getByText(/pages\/job\.js/).waitFor();
+  await page.clock.fastForward(600_000);
+  await page.waitForTimeout(500);
+  assert.equal(asked, 5);
+  await expectAccessible(page);
+  await picture(page, "missing_module");
+  await page.unroute("**/pages/job.js");
+  await page.getByRole("button", { name: "Try again" }).click();
+  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await leave(page, away);
+});
+
 test("plots outlive a service that was away", async () => {
   const { id } = await computedJob();
   const page = await visit(`#/jobs/${id}`);
@@ -139,6 +168,27 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   await page.setViewportSize({ width: 340, height: 800 });
   await page.waitForFunction((element) => element.width < 340, await canvas.elementHandle());
   assert.equal(await saved(), 56, "two lines where they are too long for one");
+  await leave(page);
+});
+
+test("an orbit is saved with what it shows", async () => {
+  const { id } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  const canvas = page.locator("canvas.orbit[data-samples]");
+  await canvas.waitFor();
+  await page.evaluate(() => {
+    window.written = [];
+    const { fillText } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...place) { window.written.push(text); return fillText.call(this, text, ...place); };
+  });
+  const card = page.locator(".card", { has: page.getByRole("heading", { name: "Journal orbit" }) });
+  const [download] = await Promise.all([page.waitForEvent("download"), card.getByRole("button", { name: "PNG" }).click()]);
+  const png = readFileSync(await download.path());
+  writeFileSync(join(folder, "orbit.png"), png);
+  assert.ok(png.readUInt32BE(20) - await canvas.evaluate(({ height }) => height) >= 28, "lines above the orbit");
+  const caption = ["Journal orbit", "Journal x [mm] across, Journal y [mm] up", "colour: time, 0 s to 0.4 s", "clearance 0.25 mm", id];
+  const written = await page.evaluate(() => window.written);
+  assert.deepEqual(written.filter((text) => caption.includes(text)), caption);  // other plots are still being drawn
   await leave(page);
 });
 

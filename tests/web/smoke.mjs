@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, leave, picture, resultsOf, runSweep, textOf, url, visit } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, resultsOf, runSweep, textOf, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const short = { duration_s: 0.4, run_up_s: 0.1 };
@@ -251,6 +251,24 @@ test("the list follows, searches, and deletes after asking", async () => {
   await leave(page);
 });
 
+test("the list needs no more width than there is, and has each id in one line", async () => {
+  const { id } = await runSweep({ parameters: short, sweep: { clearance_mm: [0.15] } });
+  const page = await visit("");
+  const link = page.locator(`a[title="${id}"]`);
+  await link.waitFor();
+  const listed = page.getByRole("region", { name: "Sweeps" });
+  for (const width of [1400, 1200, 1000, 800, 390]) {
+    await page.setViewportSize({ width, height: 844 });
+    const [content, window_] = await listed.evaluate(({ scrollWidth, clientWidth }) => [scrollWidth, clientWidth]);
+    assert.ok(content <= window_, `${content} pixels wide in ${window_}, in a window of ${width}`);
+    await expectNoSideways(page);
+    assert.equal(await link.evaluate((element) => element.getClientRects().length), 1, `lines of an id in a window of ${width}`);
+    await picture(page, `list_${width}`);
+  }
+  await expectAccessible(page);
+  await leave(page);
+});
+
 test("a sweep is cancelled and retried in the list", async () => {
   const page = await visit("");
   const long = await ask("/v1/sweeps", { name: "long", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
@@ -308,15 +326,15 @@ test("a search is begun in its form, draws its limits and is deleted", async () 
   // By the keyboard alone, as far as that goes.
   await page.getByLabel("Name", { exact: true }).focus();
   await page.keyboard.type("how far");
-  for (const [label, text] of [["From", "0.05"], ["To", "0.5"], ["Tolerance", "0.1"], ["Values at first", "3"], ["Bound", "low"]]) {
+  for (const [label, text] of [["From [mm]", "0.05"], ["To [mm]", "0.5"], ["Tolerance [mm]", "0.1"], ["Values at first", "3"], ["Bound [m/s²]", "low"]]) {
     await page.getByLabel(label, { exact: true }).focus();
     await page.keyboard.type(text);
   }
   await page.getByLabel("Metric", { exact: true }).selectOption("max_penetration_um");
-  const bound = page.locator(".field", { has: page.getByLabel("Bound", { exact: true }) });
+  const bound = page.locator(".field", { has: page.getByLabel("Bound [µm]", { exact: true }) });
   await bound.getByText("must be a number", { exact: true }).waitFor();
   assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
-  await page.getByLabel("Bound", { exact: true }).fill("4");
+  await page.getByLabel("Bound [µm]", { exact: true }).fill("4");
   await page.getByLabel("Quantile", { exact: true }).fill("2");
   for (const [key, value] of Object.entries(short)) await page.locator(`[data-path="${key}"] input[type="text"]`).fill(String(value));
   await page.getByLabel("Crank velocity: how it is given").selectOption("list");
@@ -421,6 +439,14 @@ test("a sweep says what its results mean", async () => {
   await page.locator(".chart canvas").nth(1).waitFor();
   await expectAccessible(page);
   await picture(page, "sensitivity", { fullPage: true });
+  // One that predicts worse than a mean is not praised with a part of the variance.
+  await page.route("**/surrogate?**", async (route) => {
+    const answer = await route.fetch();
+    const made = await answer.json();
+    await route.fulfill({ json: { ...made, surfaces: made.surfaces.map((surface) => ({ ...surface, predicted_part: -0.05 })) } });
+  });
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption("peak_contact_force_n");
+  await page.getByText(/predicts a point from all others to .* which the mean of the others does as well: it is of no use here/).waitFor();
   await leave(page);
 });
 

@@ -38,8 +38,9 @@ function judgement(surface, { metric, x, y, inputs }) {
   if (surface.degree === null) return `${surface.points} points are too few for a surrogate; there must be 6.`;
   const others = inputs.filter(({ parameter }) => parameter !== x && parameter !== y).map(({ parameter, middle }) => `${nameOf(parameter)} ${number(middle)} ${unitOf(parameter)}`);
   const at = others.length > 0 ? `; drawn at ${others.join(", ")}, points at all their values` : "";
+  const part = surface.predicted_part > 0 ? `${number(100 * surface.predicted_part, 3)} % of the variance` : "which the mean of the others does as well: it is of no use here";
   return `Degree ${surface.degree}, ${surface.terms} terms on ${surface.points} points: predicts a point from all others to ${[number(surface.cross_validation_error), unitOf(metric)].join(" ").trim()}, `
-    + `${number(100 * surface.predicted_part, 3)} % of the variance${at}.`;
+    + `${part}${at}.`;
 }
 
 function optionOf(made, surface) {
@@ -63,7 +64,9 @@ function surfaceOption({ metric, x, y }, { x_values: xs, y_values: ys, values, a
   const all = [...cells, ...points].map(([, , value]) => value);
   const edge = (list, i) => [(list[i] + list[Math.max(i - 1, 0)]) / 2, (list[i] + list[Math.min(i + 1, list.length - 1)]) / 2];
   return {
-    grid: { left: 75, right: 20, top: 20, bottom: 95 }, tooltip: { formatter: ({ value }) => `${titleOf(x)} ${number(value[0])}\n${titleOf(y)} ${number(value[1])}\n${nameOf(metric)} ${number(value[2])} ${unitOf(metric)}` },
+    grid: { left: 75, right: 20, top: 20, bottom: 125 },
+    title: { text: titleOf(metric), left: "center", bottom: 58, textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
+    tooltip: { formatter: ({ value }) => `${titleOf(x)} ${number(value[0])}\n${titleOf(y)} ${number(value[1])}\n${nameOf(metric)} ${number(value[2])} ${unitOf(metric)}` },
     xAxis: acrossAxis(titleOf(x)), yAxis: valueAxis(titleOf(y)),
     visualMap: { min: Math.min(...all), max: Math.max(...all), dimension: 2, calculable: true, orient: "horizontal", left: "center", bottom: 0, precision: 3, inRange: { color: palette() },
       textStyle: { color: colour("text") }, formatter: (value) => number(value, 3) },

@@ -46,7 +46,7 @@ function optionOf(rows) {
   return {
     legend: { top: 0 }, polar: { radius: ["25%", "80%"] }, tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
     angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false, axisLabel: { ...text, interval: sectors.length / 12 - 1 }, axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { name: "depth [µm]", nameTextStyle: text, axisLabel: { ...text, formatter: (value) => number(value, 2) }, splitLine: { lineStyle: { color: colour("line") } } },
+    radiusAxis: { name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text, axisLabel: { ...text, formatter: (value) => number(value, 2) }, splitLine: { lineStyle: { color: colour("line") } } },
     series: rings.map((ring, index) => ({ type: "bar", coordinateSystem: "polar", name: `ring at ${number(rows.find((row) => row.ring === ring).position_mm)} mm`, color: lineColour(index), barGap: "0%",
       data: rows.filter((row) => row.ring === ring).map((row) => row.depth_um) })),
   };

@@ -14,7 +14,7 @@ export class Refusal extends Error {
 export const isAway = (error) => error.name === "Away" || [502, 503, 504].includes(error.status);
 
 /// There was no answer.
-export class Away extends Error {
+class Away extends Error {
   constructor() {
     super("The service does not answer.");
     this.name = "Away";

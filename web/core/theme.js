@@ -55,6 +55,11 @@ export function palette() {
   return palettes[document.querySelector("#palette").value];
 }
 
+/// The palette for lines: on dark ground without its dark end, which would not be seen.
+export function linePalette() {
+  return isDark() ? palette().slice(3) : palette();
+}
+
 export function lineColour(index) {
   const colours = lineColours[isDark() ? "dark" : "light"];
   return colours[index % colours.length];
@@ -62,9 +67,9 @@ export function lineColour(index) {
 
 const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 
-/// The palette's colour at a part of its length, 0 to 1.
+/// The colour for lines at a part of the palette's length, 0 to 1.
 export function paletteColour(part) {
-  const stops = palette();
+  const stops = linePalette();
   const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1);
   const left = Math.min(Math.floor(at), stops.length - 2);
   const [from, to] = [channels(stops[left]), channels(stops[left + 1])];

@@ -42,6 +42,10 @@ export class RequestForm {
     return row.element;
   }
 
+  nameField() {
+    return this.text("Name", this.state, "name", { size: 40 });
+  }
+
   text(label, object, key, attributes = {}) {
     const input = h("input", { type: "text", value: object[key], ...attributes, oninput: () => { object[key] = input.value; this.update(); } });
     return h("label", { class: "choice" }, h("span", {}, label), input);
@@ -55,12 +59,13 @@ export class RequestForm {
     const input = options ? h("select", attributes, options.map(([value, text]) => h("option", { value }, text))) : h("input", { type: "text", ...attributes });
     input.value = object[key];
     const fault = h("p", { class: "trouble small", id: `${id}-fault`, hidden: true });
-    this.rows.set(name, { complain: (text) => {
+    const labelled = h("label", { for: id }, label);
+    this.rows.set(name, { rename: (text) => { labelled.textContent = text; }, complain: (text) => {
       fault.textContent = text;
       fault.hidden = text === "";
       input.setAttribute("aria-invalid", text === "" ? "false" : "true");
     } });
-    return h("div", { class: "field" }, h("label", { for: id }, label), h("span"), h("div", { class: "values" }, input), h("p", { class: "quiet small", id: `${id}-help` }, help), fault);
+    return h("div", { class: "field" }, labelled, h("span"), h("div", { class: "values" }, input), h("p", { class: "quiet small", id: `${id}-help` }, help), fault);
   }
 
   linkage() {

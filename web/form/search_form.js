@@ -5,6 +5,9 @@ import { nameOf, plural, titleOf, unitOf } from "/core/format.js";
 import { countJobs } from "/form/request.js";
 import { addNumber, helpOf, StudyForm } from "/form/study_form.js";
 
+/// A name with the unit of a parameter or metric: "From [mm]".
+const inUnit = (name, of) => (unitOf(of) ? `${name} [${unitOf(of)}]` : name);
+
 export class SearchForm extends StudyForm {
   static api = searches;
   static route = "searches";
@@ -25,7 +28,7 @@ export class SearchForm extends StudyForm {
     const numbers = this.fields.filter(({ kind }) => kind === "number" || kind === "integer").map(({ path }) => path);
     const metrics = this.schema.metric.enum.map((metric) => [metric, titleOf(metric)]);
     const help = (key) => helpOf(this.way[key]);
-    return [this.text("Name", this.state, "name"),
+    return [this.nameField(),
       h("h2", {}, "What is looked for"),
       this.told("over.parameter", "Parameter", over, "parameter", "The one whose largest value is looked for", numbers.map((path) => [path, titleOf(path)])),
       this.told("over.from", "From", over, "from", "Where the metric is within its bound"),
@@ -52,6 +55,8 @@ export class SearchForm extends StudyForm {
   drawCount(request) {
     const limits = countJobs({ sweep: request.sweep });
     const unit = unitOf(request.metric);
+    const measured = { "over.from": ["From", this.state.over.parameter], "over.to": ["To", this.state.over.parameter], "over.tolerance": ["Tolerance", this.state.over.parameter], bound: ["Bound", request.metric] };
+    for (const [row, [name, of]] of Object.entries(measured)) this.rows.get(row).rename(inUnit(name, of));
     this.count.textContent = `${plural(limits, "limit")} to find`;
     this.cost.textContent = `${plural(request.replicates?.count ?? 1, "run")} at each value that is tried; ${nameOf(request.metric).toLowerCase()}${unit ? ` in ${unit}` : ""}.`;
   }

@@ -14,7 +14,7 @@ export class WearForm extends StudyForm {
   static schema = "WearStudyRequest";
 
   parts() {
-    return [this.text("Name", this.state, "name"),
+    return [this.nameField(),
       h("h2", {}, "How long and how finely"), numbers.map((key) => this.number(key, units[key] ?? "", names[key])),
       h("h2", {}, "Linkage"), ...this.parameterFields(),
       h("details", {}, h("summary", {}, "Order"), h("p", { class: "actions" }, ...this.orderFields()))];

@@ -42,7 +42,7 @@ class SweepForm extends RequestForm {
     return [h("h1", {}, "New sweep"),
       h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study"), h("a", { class: "button", href: "#/new" }, "Start empty"),
         choice("Take another linkage", [["", "choose …"], ...examples], this.example, (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
-      this.columns(this.text("Name", this.state, "name"), ...this.parameterFields(), this.linkage(), this.more())];
+      this.columns(this.nameField(), ...this.parameterFields(), this.linkage(), this.more())];
   }
 
   more() {

@@ -3,7 +3,7 @@ import { cancelSweep, findResults, findSweep, listSweeps, parameterSchema, resul
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify, setSeen } from "/core/dom.js";
 import { plural, span, titleOf } from "/core/format.js";
-import { follow, isUnderWay, persist, seldom } from "/core/live.js";
+import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf, valuesOf } from "/study/data.js";
 import { Failures } from "/study/failures.js";
@@ -16,6 +16,7 @@ import { ResultTable } from "/study/table.js";
 
 const mostInAddress = 20;
 const reloadMs = 1500;
+const lookMs = 4000;
 const tell = (text) => text && notify(text, "trouble");
 
 export async function show(main, { id, query, signal }) {
@@ -75,6 +76,24 @@ class SweepPage {
     this.selection.addEventListener("change", () => this.changed());
     this.makeCharts();
     if (isUnderWay(this.sweep)) this.followIt();
+    this.watchForRetries();
+  }
+
+  /// Somebody else may have jobs of a sweep that has ended computed again.
+  async watchForRetries() {
+    for (;;) {
+      try {
+        await pause(lookMs, this.signal);
+        if (this.isFollowed || document.hidden) continue;
+        const { ended_at: ended } = await findSweep(this.sweep.id, this.signal);
+        if (ended === this.sweep.ended_at) continue;
+        this.failures.doubt();
+        await this.update();
+      } catch (error) {
+        if (error.status === 404) tell("This sweep has been deleted.");
+        if (error.name === "AbortError" || error.status === 404) return;
+      }
+    }
   }
 
   /// One in each frame, so that the first is seen before the last is made.
@@ -99,7 +118,8 @@ class SweepPage {
     const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
     follow(this.sweep.id, {
       progress: (news) => { Object.assign(this.sweep, { ...news, id: this.sweep.id }); this.drawHead(); reload(); },
-      job: reload,  // after a retry the counts may be those that were told before
+      // After a retry the counts may be those that were told before.
+      job: ({ state }) => { if (state === "failed") this.failures.doubt(); reload(); },
       done: () => { this.isFollowed = false; this.update(); },
     }, this.signal);
   }
@@ -120,8 +140,6 @@ class SweepPage {
   }
 
   async load() {
-    if (this.isRetried) this.failures.clear();
-    this.isRetried = false;
     try {
       let start = 0;
       [this.sweep, this.rows] = await persist(() => {
@@ -179,7 +197,7 @@ class SweepPage {
     const { id, name } = this.sweep;
     const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.update()).catch((error) => notify(error.message, "trouble")) }, text);
     this.cancel = act("Cancel", cancelSweep);
-    this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => { this.isRetried = true; }));
+    this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => this.failures.doubt()));
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
       h("a", { class: "button", href: resultsUrl(id, { format: "csv" }), download: `${name || id}.csv` }, "CSV"),
       h("a", { class: "button", href: routeTo("analyses", id) }, "What it says"),

@@ -14,8 +14,7 @@ const mostSearched = 1000;
 const pollMs = 4000;
 const followed = 3;  // a browser keeps six connections to a service, and the page needs some to ask
 const states = ["queued", "running", "succeeded", "failed", "cancelled"];
-const columns = [["name", "Name"], ["state", "State"], ["progress", "Progress"], ["jobs", "Jobs"],
-  ["peaks", "Least and largest peak"], ["created", "Created"], ["actions", "Actions"]];
+const columns = [["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Least and largest peak"], ["created", "Created"], ["actions", "Actions"]];
 const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits and slides in its bearing, and accelerations and "
   + "forces have peaks that an ideal linkage has not. A sweep is a set of such simulations over ranges of their parameters; the service computes them in the "
   + "background and keeps what comes out, and charts and tables fill as it does.";

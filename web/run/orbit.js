@@ -1,10 +1,11 @@
 // The journal's path inside the clearance circle, coloured by time or by contact force.
 import { findTrajectory } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
-import { number } from "/core/format.js";
+import { number, titleOf } from "/core/format.js";
 import { saveCanvas } from "/core/download.js";
 import { settled } from "/core/live.js";
 import { onColours } from "/core/theme.js";
+import { captioned } from "/run/captioned.js";
 import { drawRing, drawScale, paintOrbit } from "/run/orbit_drawing.js";
 
 const points = 6000;
@@ -61,6 +62,13 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
     if (index !== null) drawRing(context, painted.at(index), 5 * devicePixelRatio);
   }
 
+  /// What stands above the orbit where it is saved.
+  function words() {
+    const [x, y, force] = channels.slice(1).map((channel) => titleOf(channel));
+    return [title, `${x} across, ${y} up`, `colour: ${by === "time" ? "time" : force}, ${low.textContent} to ${high.textContent}`,
+      `clearance ${number(clearance)} mm`, job.id].map((text) => ({ name: text }));
+  }
+
   const refine = settled(() => signal.aborted || load(), refineMs);
   times.addEventListener("change", refine, { signal });
   times.addEventListener("instant", () => requestAnimationFrame(draw), { signal });
@@ -71,7 +79,7 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
   load();
   const picker = choice("Colour by", [["time", "time"], ["force", "contact force"]], by, (value) => { by = value; paint(); });
   return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
-    h("span", { class: "actions" }, picker, h("button", { onclick: () => saveCanvas(canvas, "orbit.png") }, "PNG"))), canvas,
+    h("span", { class: "actions" }, picker, h("button", { onclick: () => painted && saveCanvas(captioned(canvas, words()), `${title}.png`) }, "PNG"))), canvas,
     h("p", { class: "scale small" }, low, bar, high), caption);
 }
 

@@ -1,8 +1,9 @@
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
 import { h, laidOut } from "/core/dom.js";
 import { persist, seldom, settled } from "/core/live.js";
-import { colour, onColours } from "/core/theme.js";
+import { onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
+import { captioned } from "/run/captioned.js";
 import { watchFingers } from "/run/fingers.js";
 import { loadAligned } from "/run/plot_data.js";
 import { plotOptions } from "/run/plot_options.js";
@@ -84,40 +85,10 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   return { plot: () => plot, canvas: () => paint(plot, label, traces) };
 }
 
-/// The plot on the page's ground, as an image to save: below its title, and the names of its curves if there are several.
+/// The plot below its title, and the names of its curves if there are several.
 function paint(plot, title, traces) {
-  const source = plot.ctx.canvas;
-  const letters = 14 * devicePixelRatio;
-  const copy = document.createElement("canvas");
-  const context = copy.getContext("2d");
-  const look = { font: `${letters}px system-ui`, textBaseline: "middle" };
-  Object.assign(context, look);
   const curves = traces.length > 1 ? traces.map((trace) => ({ name: trace.name, ink: trace.colour() })) : [];
-  const { words, height } = setInLines(context, [{ name: title, ink: colour("text") }, ...curves], source.width, letters);
-  Object.assign(copy, { width: source.width, height: source.height + height });
-  context.fillStyle = colour("card");
-  context.fillRect(0, 0, copy.width, copy.height);
-  context.drawImage(source, 0, height);
-  Object.assign(context, look);  // a canvas that has got another size has forgotten it
-  for (const { name, ink, left, middle } of words) {
-    context.fillStyle = ink;
-    context.fillText(name, left, middle, copy.width - 2 * letters);
-  }
-  return copy;
-}
-
-/// Where names stand that are set side by side, in as many lines as it takes. @param letters  their height
-function setInLines(context, names, width, letters) {
-  let left = letters;
-  let middle = letters;
-  const words = names.map((name) => {
-    const wide = context.measureText(name.name).width;
-    if (left > letters && left + wide > width - letters) [left, middle] = [letters, middle + 2 * letters];
-    const word = { ...name, left, middle };
-    left += wide + letters;
-    return word;
-  });
-  return { words, height: middle + letters };
+  return captioned(plot.ctx.canvas, [{ name: title }, ...curves]);
 }
 
 /// The wheel zooms about the pointer; dragging with Shift, or with two fingers on a pad, moves.

@@ -4,22 +4,25 @@ import { persist } from "/core/live.js";
 
 export class Failures {
   #errors = new Map();
+  #isDoubted = false;
 
   /// {error_reason, error_detail}; nothing as long as it is not known.
   of(id) {
     return this.#errors.get(id);
   }
 
-  /// Forgets what is known: jobs that run again may fail for another reason.
-  clear() {
-    this.#errors.clear();
+  /// What is known may be so no longer: jobs that run again may fail for another reason.
+  doubt() {
+    this.#isDoubted = true;
   }
 
-  /// Finds the reasons if there are some that are not known yet, and asks on while the service is away. @returns whether there is news
+  /// Finds the reasons if there are some that are not known or doubted, and asks on while the service is away. @returns whether there is news
   async learn(sweep, rows, tell, signal) {
     const failed = new Set(rows.filter(({ state }) => state === "failed").map((row) => row.job_id));
     for (const id of this.#errors.keys()) if (!failed.has(id)) this.#errors.delete(id);
-    if ([...failed].every((id) => this.#errors.has(id))) return false;
+    const isKnown = failed.size === 0 || (!this.#isDoubted && [...failed].every((id) => this.#errors.has(id)));
+    this.#isDoubted = false;
+    if (isKnown) return false;
     const query = { state: "failed", fields: "job_id,error_reason,error_detail" };
     const found = await persist(() => findResults(sweep, query, signal), tell, signal);
     this.#errors = new Map(found.map((row) => [row.job_id, row]));

@@ -33,12 +33,14 @@ export class LimitView extends StudyView {
 
   columns() {
     const { study: search } = this;
-    return [...search.axes.map((axis) => titleOf(axis)), "Verdict", `Limit [${unitOf(search.parameter) || "1"}]`, "All within up to", "None within from", "Evaluations", "Where the metric falls"];
+    const unit = `[${unitOf(search.parameter) || "1"}]`;
+    return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`], [`All within up to ${unit}`, "number"], [`None within from ${unit}`, "number"],
+      ["Evaluations", "number"], [`Where the metric falls ${unit}`]];
   }
 
   statusText() {
     const { state, progress, counts, error } = this.study;
-    return `${state}: ${Math.floor(100 * progress)} %, ${plural(counts.succeeded, "run")} of ${plural(counts.total, "job")} so far${error ? `; ${error}` : ""}`;
+    return `${state}: ${Math.floor(100 * progress)} %, ${plural(counts.succeeded, "run")} of ${plural(counts.total, "job")}${state === "running" ? " so far" : ""}${error ? `; ${error}` : ""}`;
   }
 
   drawChoices() {

@@ -3,6 +3,7 @@ import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { averagedAxes, groupBy, none, valuesOf } from "/study/data.js";
+import { legendOf } from "/study/legend.js";
 import { chosenLogs } from "/study/log_axes.js";
 import { whyEmpty, withoutValue } from "/study/missing.js";
 import { fittedAxis } from "/study/span.js";
@@ -41,9 +42,10 @@ function planOf(study, width) {
   if (lines.length === 0) return { groups, option: nothingYet(whyEmpty(study)) };
   const notes = notesOf(study, own, theirs);
   const noteLines = notes.reduce((sum, note) => sum + Math.ceil((note.length * widthOfLetter) / width), 0);
+  const legend = legendOf(lines.map(({ name }) => name), width);
   return { groups, option: {
-    grid: { left: 75, right: 20, top: 40, bottom: 50 + 18 * noteLines },
-    legend: { top: 0 },
+    grid: { left: 75, right: 20, top: 16 + legend.height, bottom: 50 + 18 * noteLines },
+    legend: legend.option,
     // A screen reader is told a chart's title, also where it is not shown: without a note there must be none.
     title: { show: notes.length > 0, text: notes.join("\n"), bottom: 0, left: 0, textStyle: { width, overflow: "break", fontSize: 12, lineHeight: 18, fontWeight: "normal", color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
@@ -71,12 +73,12 @@ function notesOf(study, own, theirs) {
     count > mostLines && `The first ${mostLines} of ${count} lines: choose fewer values, or another axis for them.`].filter(Boolean);
 }
 
+/// Lines with a value at least; where jobs have none, a group without a mean stands in its place.
 /// @param sweep  its name, where it is not the one that is looked at
 function linesOf(rows, view, sweep) {
   const keys = [view.y, view.panel].filter(Boolean);
   const byLine = new Map();
   for (const group of groupBy(rows, [...keys, view.x], view.metric)) {
-    if (group.mean === null) continue;
     const key = JSON.stringify(group.values.slice(0, -1));
     if (!byLine.has(key)) byLine.set(key, []);
     byLine.get(key).push(group);
@@ -84,18 +86,27 @@ function linesOf(rows, view, sweep) {
   const nameOfLine = ([{ values }]) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), sweep].filter(Boolean).join(", ") || nameOf(view.metric);
   const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
   const x = (group) => order.get(group.values.at(-1));
-  return [...byLine.values()].map((groups) => ({ name: nameOfLine(groups), dashed: sweep !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+  const drawn = [...byLine.values()].filter((groups) => groups.some(hasValue));
+  return drawn.map((groups) => ({ name: nameOfLine(groups), dashed: sweep !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
 }
 
-function lineSeries(line, index, at, few) {
-  return { id: `line:${index}`, name: line.name, type: "line", symbol: symbols[index % symbols.length], showSymbol: few, symbolSize: 8, color: lineColour(index),
-    lineStyle: { type: line.dashed ? "dashed" : "solid" },
-    data: line.groups.map((group) => [at(group.values.at(-1)), group.mean]) };
+const hasValue = (group) => group?.count > 0;
+
+/// Where a value is missing, the line has a gap; a value between two gaps is marked even where marks would hide the lines, for it has no line.
+function lineSeries({ name, dashed, groups }, index, at, few) {
+  const symbol = symbols[index % symbols.length];
+  const isAlone = (place) => !hasValue(groups[place - 1]) && !hasValue(groups[place + 1]);
+  const dataOf = (group, place) => {
+    const value = [at(group.values.at(-1)), group.mean ?? "-"];
+    return !few && isAlone(place) ? { value, symbol } : value;
+  };
+  return { id: `line:${index}`, name, type: "line", symbol: few ? symbol : "none", showAllSymbol: true, symbolSize: 8, color: lineColour(index),
+    lineStyle: { type: dashed ? "dashed" : "solid" }, data: groups.map(dataOf) };
 }
 
 /// Rings around what is selected; nothing, where nothing is.
 function chosenSeries(line, index, at, selection) {
-  const chosen = selection.size === 0 ? [] : line.groups.filter((group) => group.jobs.some((job) => selection.has(job)));
+  const chosen = selection.size === 0 ? [] : line.groups.filter((group) => hasValue(group) && group.jobs.some((job) => selection.has(job)));
   if (chosen.length === 0) return [];
   return [{ id: `chosen:${index}`, name: line.name, type: "scatter", silent: true, symbol: "circle", symbolSize: 15, z: 5,
     itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 }, data: chosen.map((group) => [at(group.values.at(-1)), group.mean]) }];

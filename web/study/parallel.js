@@ -1,7 +1,7 @@
 // Parallel coordinates: a line for each job over the axes and some metrics. Brushing an axis selects jobs.
 import { makeChart, nothingYet } from "/core/charts.js";
 import { exact, number, plural, titleOf } from "/core/format.js";
-import { colour, palette } from "/core/theme.js";
+import { colour, linePalette } from "/core/theme.js";
 import { none, valueOf, valuesOf } from "/study/data.js";
 import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
@@ -71,7 +71,7 @@ function planOf(study) {
   return { shown, option: {
     parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },
     parallelAxis: columns.map(dimensionOf),
-    visualMap: { show: false, ...ends(extremesOf(peaks)), dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: palette() } },
+    visualMap: { show: false, ...ends(extremesOf(peaks)), dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: linePalette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
       data: shown.map((row) => lineOf(row, columns, view.metric, selection)) }],
   } };

@@ -29,6 +29,8 @@ export class StudyView {
   charts() { return []; }
   /// What stands above the charts.
   intro() { return []; }
+  /// Of the table: [heading, "number" where numbers stand below it].
+  columns() { return []; }
   /// Rows of the table, each an element.
   rows() { return []; }
   /// Choices that depend on the study are made here, each time it is drawn.
@@ -46,7 +48,7 @@ export class StudyView {
       h("div", { class: "head" }, h("div", {}, h("h1", {}, this.name), this.status), this.buttons), ...this.intro(),
       h("div", { class: "columns even" }, this.places.map(card)),
       h("section", { class: "card" }, h("h2", {}, this.tableName), h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": this.tableName },
-        h("table", {}, h("thead", {}, h("tr", {}, this.columns().map((text) => h("th", { scope: "col" }, text)))), this.body)))];
+        h("table", {}, h("thead", {}, h("tr", {}, this.columns().map(([text, look]) => h("th", { scope: "col", class: look }, text)))), this.body)))];
   }
 
   async start() {

@@ -6,12 +6,16 @@ import { isUnderWay } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
 const usualPeak = "peak_slider_acceleration_m_s2";
-const classes = { name: "name", progress: "", jobs: "small" };  // of the cells whose texts may be broken
+const classes = { name: "name", state: "", jobs: "small", peaks: "peaks", created: "small created", actions: "acts" };  // of its cells
+const shownOfId = 7;  // of its letters the last ones: the first tell the time and are much alike
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
+
+/// An id in one line: "swp_…f9mqab6".
+const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shownOfId)}`;
 
 /// @param act  is called with "cancel", "retry" or "delete"
 export function sweepRow(act, signal) {
-  const cells = Object.fromEntries(["name", "state", "progress", "jobs", "peaks", "created", "actions"].map((key) => [key, h("td", { class: classes[key] ?? "fixed" })]));
+  const cells = Object.fromEntries(Object.entries(classes).map(([key, name]) => [key, h("td", { class: name })]));
   const element = h("tr", {}, ...Object.values(cells));
   const buttons = {
     cancel: h("button", { onclick: () => act("cancel") }, "Cancel"),
@@ -19,10 +23,11 @@ export function sweepRow(act, signal) {
     delete: h("button", { class: "danger", onclick: () => act("delete") }, "Delete"),
   };
   const again = h("a", { class: "button" }, "Use again");
-  cells.actions.append(h("span", { class: "actions" }, ...Object.values(buttons), again));
+  cells.actions.append(h("span", { class: "actions" }, again, buttons.delete, buttons.cancel, buttons.retry));
   const bar = h("progress");
   const percent = h("span", { class: "small quiet" });
-  cells.progress.append(bar, percent);
+  const state = h("div");
+  cells.state.append(state, bar, percent);
   let drawn = "";
   let counted = -1;
 
@@ -31,8 +36,9 @@ export function sweepRow(act, signal) {
     if (text === drawn) return;
     drawn = text;
     const name = sweep.name || sweep.id;
-    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id) }, name), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
-    cells.state.replaceChildren(h("span", { class: sweep.state }, sweep.state), sweep.executor === "local" ? "" : h("span", { class: "small quiet" }, ` on ${sweep.executor}`));
+    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id), title: sweep.id }, sweep.name || shortOf(sweep.id)), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
+    state.className = sweep.state;
+    state.textContent = sweep.executor === "local" ? sweep.state : `${sweep.state} on ${sweep.executor}`;
     const part = `${Math.floor(100 * sweep.progress)} %`;
     bar.value = sweep.progress;
     bar.setAttribute("aria-label", `Progress of ${name}`);

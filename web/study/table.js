@@ -2,7 +2,7 @@
 import { h } from "/core/dom.js";
 import { nameOf, number, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
-import { sortedBy, valueOf } from "/study/data.js";
+import { sortedBy, valueOf, valuesOf } from "/study/data.js";
 import { missingText } from "/study/missing.js";
 
 const pageSize = 50;
@@ -65,11 +65,16 @@ export class ResultTable {
     return this.order.column ? sortedBy(wanted, this.order.column, this.order.descending) : wanted;
   }
 
+  /// Numbers stand below each other at their last digit, and their heading there, too.
+  lookOf(column) {
+    return valuesOf(this.study.rows, column).some((value) => typeof value === "number") ? "number" : null;
+  }
+
   heading(column) {
     const sorted = this.order.column === column;
     const arrow = sorted ? (this.order.descending ? " ▼" : " ▲") : "";
     const unit = unitOf(column);
-    return h("th", { scope: "col", "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
+    return h("th", { scope: "col", class: this.lookOf(column), "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
       h("button", { "data-column": column, onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
   }
 
@@ -86,7 +91,7 @@ export class ResultTable {
     const value = valueOf(row, column);
     if (column === "state") return this.stateCell(row);
     const given = this.study.axes.includes(column);
-    return h("td", { class: typeof value === "number" ? "number" : null }, number(value, given ? 6 : 4));
+    return h("td", { class: this.lookOf(column) }, number(value, given ? 6 : 4));
   }
 
   stateCell({ job_id: id, state }) {

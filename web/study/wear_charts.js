@@ -28,7 +28,7 @@ function mapOption(cycles, ring) {
   return {
     legend: { top: 0, type: "scroll" }, polar: { radius: ["25%", "78%"] }, tooltip: { formatter: ({ seriesName, value }) => `${seriesName}\n${number(value[1] % 360, 3)}°: ${number(value[0])} µm` },
     angleAxis: { type: "value", min: 0, max: 360, interval: 30, startAngle: 0, clockwise: false, axisLabel: text, axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { min: 0, name: "depth [µm]", nameTextStyle: text, axisLabel: { ...text, formatter: (value) => number(value, 2) }, splitLine: { lineStyle: { color: colour("line") } } },
+    radiusAxis: { min: 0, name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text, axisLabel: { ...text, formatter: (value) => number(value, 2) }, splitLine: { lineStyle: { color: colour("line") } } },
     series: chosen(cycles).map((cycle, index) => ({ type: "line", coordinateSystem: "polar", name: `${number(cycle.hours, 3)} h`, color: lineColour(index), symbolSize: 3, data: curve(cycle.wear_depth_um[ring]) })),
   };
 }
@@ -39,7 +39,7 @@ function growthOption(cycles) {
   const scale = (name) => ({ type: "value", min: 0, name, nameLocation: "middle", nameGap: 50, ...axisLook() });
   return {
     grid: { left: 75, right: 75, top: 40, bottom: 50 }, legend: { top: 0 }, tooltip: { formatter: ({ seriesName, value }) => `${seriesName}\n${number(value[0])} h: ${number(value[1])}` },
-    xAxis: { type: "value", name: "hours", nameLocation: "middle", nameGap: 28, ...axisLook() },
+    xAxis: { type: "value", name: "time [h]", nameLocation: "middle", nameGap: 28, ...axisLook() },
     yAxis: [scale("largest depth [µm]"), { ...scale("largest rate [µm/h]"), splitLine: { show: false } }],
     series: [line("deepest_um", "depth [µm]", 0, 0), line("rate_um_h", "rate [µm/h]", 1, 1)],
   };

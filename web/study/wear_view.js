@@ -22,7 +22,8 @@ export class WearView extends StudyView {
   }
 
   columns() {
-    return ["Cycle", "Hours", "Deepest [µm]", "at [°]", "Clearance there [mm]", "Rate [µm/h]", "Change of the rate [%]", "Worn volume [mm³]", "Job"];
+    const numbers = ["Cycle", "Time [h]", "Deepest [µm]", "at [°]", "Clearance there [mm]", "Rate [µm/h]", "Change of the rate [%]", "Worn volume [mm³]"];
+    return [...numbers.map((heading) => [heading, "number"]), ["Job"]];
   }
 
   statusText() {
