@@ -12,9 +12,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/analysis/run_result.h"
+#include "engine/analysis/quantities.h"
 #include "jobs/cluster/site.h"
-#include "jobs/results/page.h"
+#include "jobs/results/page_query.h"
 #include "jobs/results/result_query.h"
 #include "jobs/results/result_table.h"
 #include "jobs/runs/job_limits.h"

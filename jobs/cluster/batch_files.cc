@@ -24,7 +24,6 @@ struct JobEntry {
   std::uint32_t size = 0;
 };
 
-
 std::string read_bytes(std::ifstream& in, std::size_t size, const std::filesystem::path& file) {
   std::string bytes(size, '\0');
   if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) throw FileError(file.string() + " is cut off");

@@ -6,7 +6,6 @@
 
 #include "jobs/runs/run_record.h"
 
-
 namespace jobs::cluster {
 
 /// A task of a batch, as a node is told it.

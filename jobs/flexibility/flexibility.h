@@ -6,7 +6,6 @@
 
 #include "jobs/results/result_table.h"
 
-
 namespace jobs {
 
 /// Whether a flexible coupler helps: a row for each combination of what a sweep varies beside the coupler, in which its rigid and its flexible

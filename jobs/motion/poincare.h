@@ -9,7 +9,6 @@
 #include "jobs/results/result_table.h"
 #include "jobs/trajectories/trajectory_query.h"
 
-
 namespace jobs {
 
 /// The state of a run once a turn, whenever the crank passes an angle: linear between the samples around that instant.

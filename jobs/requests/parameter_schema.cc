@@ -1,3 +1,5 @@
+#include "jobs/requests/parameter_schema.h"
+
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"

@@ -1,10 +1,11 @@
+#include "jobs/results/csv.h"
+
 #include <array>
 #include <charconv>
 #include <cmath>
 
 #include "engine/analysis/quantities.h"
 #include "jobs/results/result_table.h"
-
 
 namespace jobs {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/analysis/run_result.h"
+#include "engine/analysis/quantities.h"
 #include "jobs/results/result_table.h"
 
 namespace jobs {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/simulate_linkage.h"
+#include "engine/simulate_rpsup.h"
 #include "jobs/runs/job_limits.h"
 #include "jobs/trajectories/trajectory_codec.h"
 

@@ -10,7 +10,6 @@
 
 #include "jobs/results/result_table.h"
 
-
 namespace jobs {
 
 /// Rows of a table that agree in some columns, in their order.

@@ -6,7 +6,6 @@
 
 #include "jobs/results/result_table.h"
 
-
 namespace jobs {
 
 /// How much each parameter of a sweep's design changes a metric: a row for each parameter and each combination of what else is swept.

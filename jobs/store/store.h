@@ -15,6 +15,7 @@
 #include "jobs/base/ids.h"
 #include "jobs/base/provenance.h"
 #include "jobs/requests/expand.h"
+#include "jobs/base/states.h"
 #include "jobs/runs/executor.h"
 #include "jobs/runs/run_record.h"
 #include "jobs/store/load.h"
@@ -22,10 +23,6 @@
 #include "jobs/store/store_room.h"
 
 namespace jobs {
-
-enum class JobState { kQueued, kRunning, kSucceeded, kFailed, kCancelled };
-inline constexpr std::array<std::string_view, 5> kJobStates{"queued", "running", "succeeded", "failed", "cancelled"};
-[[nodiscard]] inline std::string_view state_name(JobState state) { return kJobStates[static_cast<std::size_t>(state)]; }
 
 /// How many jobs of a sweep are in each state, by JobState.
 using StateCounts = std::array<std::int64_t, kJobStates.size()>;
@@ -82,8 +79,6 @@ struct SearchRow {
   std::int64_t created_ms = 0;
   std::optional<std::int64_t> ended_ms;
 };
-
-inline constexpr std::array<std::string_view, 4> kSearchStates{"running", "succeeded", "failed", "cancelled"};
 
 /// One job's line in the table of its sweep.
 struct ResultRow {

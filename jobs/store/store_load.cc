@@ -1,8 +1,8 @@
-#include "jobs/store/load.h"
 #include "jobs/store/store.h"
 
 #include <system_error>
 
+#include "jobs/store/load.h"
 #include "jobs/store/store_insert.h"
 
 namespace jobs {

@@ -7,7 +7,6 @@
 
 #include "jobs/results/result_table.h"
 
-
 namespace jobs {
 
 /// A part of the surrogate that is to be drawn.

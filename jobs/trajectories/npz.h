@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/simulate_rpsup.h"
+#include "engine/analysis/quantities.h"
 
 namespace jobs {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/simulate_rpsup.h"
+#include "engine/analysis/quantities.h"
 
 namespace jobs {
 

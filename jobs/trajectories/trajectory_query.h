@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/run_result.h"
+#include "engine/analysis/quantities.h"
 
 namespace jobs {
 

@@ -10,7 +10,6 @@
 #include "engine/analysis/quantities.h"
 #include "jobs/results/result_table.h"
 
-
 namespace jobs::validation {
 
 /// The metric that is compared.

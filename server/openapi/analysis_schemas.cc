@@ -1,6 +1,6 @@
 #include "server/openapi/analysis_schemas.h"
 
-#include "engine/simulate_rpsup.h"
+#include "engine/analysis/quantities.h"
 #include "jobs/requests/parameter_path.h"
 
 namespace server::openapi {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "jobs/motion/spectrum.h"
-#include "jobs/results/page.h"
+#include "jobs/results/page_query.h"
 #include "jobs/trajectories/decimate.h"
 #include "jobs/wear/wear.h"
 

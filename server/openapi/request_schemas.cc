@@ -7,7 +7,7 @@
 #include "jobs/requests/parameter_schema.h"
 #include "jobs/requests/sampled_designs.h"
 #include "jobs/requests/sweep_request.h"
-#include "jobs/runs/executor.h"
+#include "jobs/base/executor_names.h"
 #include "jobs/search/search_request.h"
 
 namespace server::openapi {

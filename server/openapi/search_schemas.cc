@@ -2,7 +2,7 @@
 
 #include "jobs/requests/parameter_path.h"
 #include "jobs/search/limit.h"
-#include "jobs/store/store.h"
+#include "jobs/base/states.h"
 
 namespace server::openapi {
 

@@ -1,7 +1,7 @@
 #include "server/openapi/wear_schemas.h"
 
 #include "jobs/parameters/wear_depth.h"
-#include "jobs/store/store.h"
+#include "jobs/base/states.h"
 #include "jobs/wear/wear_request.h"
 
 namespace server::openapi {

@@ -6,7 +6,6 @@
 
 #include "jobs/results/result_table.h"
 
-
 namespace server::report {
 
 /// Metrics over the first number that a sweep varies, a line for each combination of what else it varies: means with the least and the largest

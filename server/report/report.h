@@ -7,7 +7,6 @@
 
 #include "jobs/results/result_table.h"
 
-
 namespace server::report {
 
 /// How jobs of a sweep were run, each way once.

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/results/page.h"
+#include "jobs/results/page_query.h"
 #include "jobs/results/result_query.h"
 #include "server/messages/message.h"
 #include "server/messages/query.h"

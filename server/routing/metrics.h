@@ -4,7 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "jobs/service.h"
+#include "jobs/parameters/job_spec.h"
+#include "jobs/runs/run_record.h"
+#include "jobs/store/load.h"
 
 namespace server {
 

@@ -6,7 +6,6 @@
 
 #include "engine/analysis/run_result.h"
 
-
 namespace path_bench {
 
 /// CPU time of all threads of this process, [s].

@@ -1,5 +1,4 @@
 #include "jobs/cluster/run_task.h"
-#include "jobs/requests/parameters.h"
 
 #include <atomic>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/cluster/batch.h"
+#include "jobs/requests/parameters.h"
 #include "jobs/runs/run_record.h"
 #include "tests/jobs/service_support.h"
 

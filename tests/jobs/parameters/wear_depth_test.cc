@@ -1,7 +1,6 @@
 // The parameter of a worn bore: what is refused, and that it is part of what a job is.
 
 #include "jobs/parameters/wear_depth.h"
-#include "jobs/requests/parameters.h"
 
 #include <cmath>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/requests/expand.h"
+#include "jobs/requests/parameters.h"
 #include "jobs/wear/pressed_arc.h"
 #include "jobs/wear/wear.h"
 #include "tests/jobs/request_support.h"

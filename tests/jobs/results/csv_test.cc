@@ -5,7 +5,6 @@
 #include "jobs/results/csv.h"
 #include "jobs/results/result_table.h"
 
-
 namespace jobs_tests {
 namespace {
 

@@ -1,15 +1,18 @@
-#include "jobs/service.h"
 #include "jobs/statistics/replicate_statistics.h"
-#include "tests/jobs/request_support.h"
-#include "tests/jobs/service_support.h"
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <future>
-#include <gtest/gtest.h>
 #include <limits>
-#include <rapidcheck/gtest.h>
 #include <thread>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "jobs/service.h"
+#include "tests/jobs/request_support.h"
+#include "tests/jobs/service_support.h"
 
 namespace jobs_tests {
 namespace {

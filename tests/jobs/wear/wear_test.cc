@@ -1,4 +1,3 @@
-#include "engine/analysis/quantities.h"
 #include "jobs/wear/wear.h"
 
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/analysis/quantities.h"
 #include "jobs/base/errors.h"
 
 namespace jobs_tests {

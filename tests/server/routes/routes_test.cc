@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "server/routing/call.h"
 #include "tests/server/service_fixture.h"
 
 namespace {

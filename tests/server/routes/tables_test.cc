@@ -1,4 +1,3 @@
-#include "engine/analysis/quantities.h"
 #include "server/routes/tables.h"
 
 #include <limits>
@@ -6,6 +5,8 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "engine/analysis/quantities.h"
 
 namespace {
 
