@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "engine/analysis/run_result.h"
 
 namespace path_bench {
