@@ -42,4 +42,8 @@ Response without_etag(Response response) {
   return response;
 }
 
+Response with_etag_if(bool ended, const Request& request, Response response) {
+  return ended ? with_etag(request, std::move(response)) : without_etag(std::move(response));
+}
+
 }  // namespace server

@@ -11,4 +11,7 @@ namespace server {
 /// Marks an answer about something that still changes.
 [[nodiscard]] Response without_etag(Response response);
 
+/// The one or the other.
+[[nodiscard]] Response with_etag_if(bool ended, const Request& request, Response response);
+
 }  // namespace server

@@ -67,12 +67,8 @@ auto work_out(const Call& call, Query& query, std::optional<StudiedSweep> (*find
 
 std::optional<StudiedSweep> find_whole_study(const Call& call) { return find_study(call); }
 
-Response with_etag_if(bool ended, const Call& call, Response response) {
-  return ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
-}
-
 Response make_rows(const Call& call, TableFormat format, const jobs::ResultTable& table, const std::string& name) {
-  return with_etag_if(table.ended, call, make_table(format, to_text(table, format), name + "-" + call.id));
+  return with_etag_if(table.ended, call.request, make_table(format, to_text(table, format), name + "-" + call.id));
 }
 
 /// The metric that a query asks for, of those that the study's linkages have.
@@ -173,7 +169,7 @@ Response get_surrogate(const Call& call) {
     ended = study.results.ended;
     return make_surrogate(study.sweep, study.results, wanted);
   });
-  return with_etag_if(ended, call, make_json(200, to_text(surrogate)));
+  return with_etag_if(ended, call.request, make_json(200, to_text(surrogate)));
 }
 
 Response get_flexibility(const Call& call) {
@@ -213,7 +209,7 @@ Response get_report(const Call& call) {
     ended = study.results.ended;
     return report::make_report(study.sweep, study.results, find_provenance(call, study.results));
   });
-  return with_etag_if(ended, call,
+  return with_etag_if(ended, call.request,
                       {.status = 200, .content_type = "text/html; charset=utf-8", .body = std::move(page),
                        .headers = {{"Content-Security-Policy", report::page_policy()}}});
 }

@@ -55,9 +55,7 @@ Response get_job(const Call& call) {
 
 Response cancel_job(const Call& call) {
   Query(call.request, {}).check();
-  const auto job = call.service.cancel_job(call.id);
-  if (!job) throw no_such_job(call.id);
-  return make_json(200, to_text(*job));
+  return answer_changed(call, job_resource(call), call.service.cancel_job(call.id));
 }
 
 Response get_trajectory(const Call& call) {

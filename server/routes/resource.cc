@@ -31,7 +31,12 @@ Response answer_found(const Call& call, const Resource& resource) {
   const auto found = resource.find(call.id);
   if (!found) throw resource.missing(call.id);
   response.body = to_text(*found) + "\n";
-  return resource.has_ended(*found) ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+  return with_etag_if(resource.has_ended(*found), call.request, std::move(response));
+}
+
+Response answer_changed(const Call& call, const Resource& resource, const std::optional<nlohmann::json>& changed) {
+  if (!changed) throw resource.missing(call.id);
+  return make_json(200, to_text(*changed));
 }
 
 }  // namespace server

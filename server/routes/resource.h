@@ -30,4 +30,9 @@ struct Resource {
 /// @throws HttpError 404 if there is none
 [[nodiscard]] Response answer_found(const Call& call, const Resource& resource);
 
+/// The one that the path names, as a request has changed it.
+/// @param changed  empty: there is none
+/// @throws HttpError 404 if there is none
+[[nodiscard]] Response answer_changed(const Call& call, const Resource& resource, const std::optional<nlohmann::json>& changed);
+
 }  // namespace server

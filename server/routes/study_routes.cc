@@ -41,11 +41,6 @@ Resource study_resource(Study study, const Call& call) {
           .missing = [study](const std::string& id) { return no_such(study, id); }};
 }
 
-Response make_study(Study study, const Call& call, const std::optional<nlohmann::json>& resource) {
-  if (!resource) throw no_such(study, call.id);
-  return make_json(200, to_text(*resource));
-}
-
 }  // namespace
 
 template <Study kStudy>
@@ -79,8 +74,8 @@ Response get_study_results(const Call& call) {
   const jobs::ResultQuery wanted = read_result_query(query);
   const auto table = query.check_and([&] { return call.service.find_study_table(kStudy, call.id, wanted); });
   if (!table) throw no_such(kStudy, call.id);
-  Response response = make_table(format, to_text(*table, format), (kStudy == Study::kLimit ? "search-" : "wear-study-") + call.id);
-  return table->ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+  const std::string name = (kStudy == Study::kLimit ? "search-" : "wear-study-") + call.id;
+  return with_etag_if(table->ended, call.request, make_table(format, to_text(*table, format), name));
 }
 
 template <Study kStudy>
@@ -92,13 +87,13 @@ Response get_study_events(const Call& call) {
 template <Study kStudy>
 Response cancel_study(const Call& call) {
   Query(call.request, {}).check();
-  return make_study(kStudy, call, call.service.cancel_study(kStudy, call.id));
+  return answer_changed(call, study_resource(kStudy, call), call.service.cancel_study(kStudy, call.id));
 }
 
 template <Study kStudy>
 Response retry_study(const Call& call) {
   Query(call.request, {}).check();
-  return make_study(kStudy, call, call.service.retry_study(kStudy, call.id));
+  return answer_changed(call, study_resource(kStudy, call), call.service.retry_study(kStudy, call.id));
 }
 
 template Response post_study<Study::kLimit>(const Call&);

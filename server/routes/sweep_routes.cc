@@ -62,8 +62,7 @@ Response get_results(const Call& call) {
   const jobs::ResultQuery wanted = read_result_query(query);
   const auto table = query.check_and([&] { return call.service.find_results(call.id, wanted); });
   if (!table) throw no_such_sweep(call.id);
-  Response response = make_table(format, to_text(*table, format), "sweep-" + call.id);
-  return table->ended ? with_etag(call.request, std::move(response)) : without_etag(std::move(response));
+  return with_etag_if(table->ended, call.request, make_table(format, to_text(*table, format), "sweep-" + call.id));
 }
 
 Response get_events(const Call& call) {
@@ -73,30 +72,22 @@ Response get_events(const Call& call) {
 
 Response cancel_sweep(const Call& call) {
   Query(call.request, {}).check();
-  const auto sweep = call.service.cancel_sweep(call.id);
-  if (!sweep) throw no_such_sweep(call.id);
-  return make_json(200, to_text(*sweep));
+  return answer_changed(call, sweep_resource(call), call.service.cancel_sweep(call.id));
 }
 
 Response retry_sweep(const Call& call) {
   Query(call.request, {}).check();
-  const auto sweep = call.service.retry_sweep(call.id);
-  if (!sweep) throw no_such_sweep(call.id);
-  return make_json(200, to_text(*sweep));
+  return answer_changed(call, sweep_resource(call), call.service.retry_sweep(call.id));
 }
 
 Response extend_sweep(const Call& call) {
   Query(call.request, {}).check();
-  const auto sweep = call.service.extend_sweep(call.id, parse_json(call.request.body));
-  if (!sweep) throw no_such_sweep(call.id);
-  return make_json(200, to_text(*sweep));
+  return answer_changed(call, sweep_resource(call), call.service.extend_sweep(call.id, parse_json(call.request.body)));
 }
 
 Response move_sweep(const Call& call) {
   Query(call.request, {}).check();
-  const auto sweep = call.service.move_sweep(call.id, parse_json(call.request.body));
-  if (!sweep) throw no_such_sweep(call.id);
-  return make_json(200, to_text(*sweep));
+  return answer_changed(call, sweep_resource(call), call.service.move_sweep(call.id, parse_json(call.request.body)));
 }
 
 Response get_executors(const Call& call) {
