@@ -17,6 +17,7 @@
 #include "server/commands/man_page.h"
 #include "server/commands/numerics.h"
 #include "server/commands/option_table.h"
+#include "server/commands/paper.h"
 #include "server/commands/remote_command_line.h"
 #include "server/commands/run_task.h"
 #include "server/commands/serve.h"
@@ -30,6 +31,7 @@ using server::commands::CheckClusterOptions;
 using server::commands::Command;
 using server::commands::ExportOptions;
 using server::commands::ServeOptions;
+using server::commands::PaperOptions;
 using server::commands::RunTaskOptions;
 using server::commands::SimulateOptions;
 using server::commands::SweepOptions;
@@ -136,6 +138,14 @@ CLI::App* add_validate(CLI::App& app, ValidateOptions& options) {
   return command;
 }
 
+CLI::App* add_paper(CLI::App& app, PaperOptions& options) {
+  CLI::App* const command = app.add_subcommand("paper", "Hold the results of a study against the statements of the paper");
+  command->add_option("files", options.files, "JSON files with results, as rpsup sweep FILE --results NAME.json writes them; taken together; - reads standard input")
+      ->required()
+      ->type_name("FILE");
+  return command;
+}
+
 CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   CLI::App* const command = app.add_subcommand("export", "Write a consistent copy of a store, also while a service uses it");
   command->add_option("file", options.file, "SQLite file for the copy; must not exist")->required()->type_name("FILE");
@@ -228,6 +238,7 @@ int main(int argc, char** argv) {
   SweepOptions sweep_options;
   ServeOptions serve_options;
   ValidateOptions validate_options;
+  PaperOptions paper_options;
   ExportOptions export_options;
   RunTaskOptions run_task_options;
   CheckClusterOptions check_options;
@@ -238,6 +249,7 @@ int main(int argc, char** argv) {
   commands.push_back({add_simulate(app, simulate_options), [&] { return simulate(simulate_options); }});
   commands.push_back({add_sweep(app, sweep_options), [&] { return sweep(sweep_options); }});
   commands.push_back({add_validate(app, validate_options), [&] { return validate(validate_options); }});
+  commands.push_back({add_paper(app, paper_options), [&] { return hold_against_paper(paper_options); }});
   commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
   commands.push_back({add_export(app, export_options), [&] { return export_store(export_options); }});
   commands.push_back({add_check_cluster(app, check_options), [&] { return check_cluster(check_options); }});

@@ -45,6 +45,19 @@ Json make_flexibility() {
   return rows_of(std::move(properties));
 }
 
+Json make_paper() {
+  Json row = object_of({{"statement", kText}, {"text", kText},
+                        {"number", described({{"type", {"integer", "null"}}}, "1 to 7; null: the same ratio at a velocity of which the paper says nothing")},
+                        {"paper", described(kNumberOrNull, "the paper's ratio; null: it says that the ratio is below 1")},
+                        {"found_least", described(kNumberOrNull, "least of the statement's ratios, of medians over replicates; over several settings their median")},
+                        {"found_largest", described(kNumberOrNull, "the largest one")},
+                        {"settings", described(kCount, "of what else the sweep varies, those that have every peak")},
+                        {"share", described(kNumberOrNull, "part of the settings in which the statement holds")},
+                        {"holds", or_null({{"type", "boolean"}})}});
+  row["additionalProperties"] = described(kNumberOrNull, "index.PARAMETER: first-order sensitivity index of the ratio's logarithm, from 50 settings on");
+  return list_of(std::move(row));
+}
+
 Json make_bifurcation() {
   Json properties{{"job_id", ref("Id")}};
   for (const engine::QuantityInfo& channel : engine::channel_table({})) properties[channel.key] = described(kNumberOrNull, channel.help);
@@ -92,6 +105,7 @@ Json make_columns() {
 
 Json make_analysis_schemas() {
   return {{"SensitivityRows", make_sensitivity()}, {"Surrogate", make_surrogate()}, {"FlexibilityRows", make_flexibility()},
+          {"PaperRows", make_paper()},
           {"BifurcationRows", make_bifurcation()}, {"LyapunovRows", make_lyapunov()}, {"Columns", make_columns()},
                    {"WearRows", make_wear()}};
 }

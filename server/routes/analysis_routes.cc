@@ -12,6 +12,7 @@
 #include "jobs/motion/lyapunov.h"
 #include "jobs/motion/poincare.h"
 #include "jobs/motion/spectrum.h"
+#include "jobs/paper/paper_statements.h"
 #include "jobs/results/csv.h"
 #include "jobs/sensitivity/row_groups.h"
 #include "jobs/sensitivity/sensitivity.h"
@@ -178,6 +179,13 @@ Response get_flexibility(const Call& call) {
   const auto table = work_out(call, query, find_whole_study,
                               [&](const StudiedSweep& study) { return jobs::compare_couplers(study.sweep, study.results, metric_of(query, study)); });
   return make_rows(call, format, table, "flexibility");
+}
+
+Response get_paper(const Call& call) {
+  Query query(call.request, {"format"});
+  const TableFormat format = find_row_format(call.request, query);
+  const auto table = work_out(call, query, find_whole_study, [](const StudiedSweep& study) { return jobs::hold_against_paper(study.results); });
+  return make_rows(call, format, table, "paper");
 }
 
 Response get_bifurcation(const Call& call) {

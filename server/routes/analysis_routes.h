@@ -9,6 +9,7 @@ namespace server {
 [[nodiscard]] Response get_sensitivity(const Call& call);
 [[nodiscard]] Response get_surrogate(const Call& call);
 [[nodiscard]] Response get_flexibility(const Call& call);
+[[nodiscard]] Response get_paper(const Call& call);
 [[nodiscard]] Response get_bifurcation(const Call& call);
 [[nodiscard]] Response get_lyapunov(const Call& call);
 [[nodiscard]] Response get_report(const Call& call);
