@@ -165,11 +165,19 @@ PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicat
   return job;
 }
 
+/// How often a point is run: once, unless it has one of the values that replicates are for.
+std::uint64_t count_replicates(const json& completed, const Replicates& replicates) {
+  for (const auto& [path, values] : replicates.only.items())
+    if (std::ranges::find(values, value_at_path(completed, path)) == values.end()) return 1;
+  return replicates.count;
+}
+
 /// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the point's checks hold for them.
 /// @param swept  the point's values in all of them, the stiffness too where it is swept: their rows are told apart by `replicate` alone
 void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, SweepPlan& plan) {
   json replicate = completed;
-  for (std::uint64_t k = 0; k < sweep.replicates.count; ++k) {
+  const std::uint64_t count = count_replicates(completed, sweep.replicates);
+  for (std::uint64_t k = 0; k < count; ++k) {
     const double scale = completed.at(kStiffnessKey).get<double>() * replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
     replicate[kStiffnessKey] = scale;
     if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty()) {

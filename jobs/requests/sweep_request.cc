@@ -100,13 +100,14 @@ class SweepParser {
   void read_replicates() {
     if (!request_.contains("replicates")) return;
     const json replicates = request_.at("replicates");
-    if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation and seed");
-    constexpr std::array<std::string_view, 3> kKeys{"count", "perturbation", "seed"};
+    if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation, seed and only");
+    constexpr std::array<std::string_view, 4> kKeys{"count", "perturbation", "seed", "only"};
     const std::size_t before = faults_.size();
     for (const auto& [key, value] : replicates.items()) {
       const std::string detail = key == "count"          ? describe_integer_fault(kCountRange, value)
                                  : key == "perturbation" ? describe_number_fault(kPerturbationRange, "", value)
                                  : key == "seed"         ? describe_integer_fault(kSeedRange, value)
+                                 : key == "only"         ? check_replicated_values(value)
                                                          : describe_unknown_key(key, kKeys);
       if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
     }
@@ -114,8 +115,24 @@ class SweepParser {
     if (faults_.size() > before) return;
     sweep_.replicates = {.requested = true,
                          .count = replicates.at("count").get<std::uint64_t>(),
+                         .only = replicates.value("only", json::object()),
                          .perturbation = replicates.value("perturbation", Replicates{}.perturbation),
                          .seed = replicates.value("seed", Replicates{}.seed)};
+  }
+
+  /// The lists of values of which points are replicated. @returns a fault of their object
+  std::string check_replicated_values(const json& only) {
+    if (!only.is_object()) return "must be an object of lists of values, by the names of parameters";
+    for (const auto& [path, values] : only.items()) {
+      const std::string pointer = "/replicates/only" + pointer_token(path);
+      if (!values.is_array() || values.empty()) {
+        fault(pointer, "must be a list of one value or more");
+        continue;
+      }
+      for (std::size_t i = 0; i < values.size(); ++i)
+        for (const Fault& each : find_path_faults(path, values[i])) fault(pointer + pointer_token(std::to_string(i)), each.detail);
+    }
+    return "";
   }
 
   void read_parameters() {

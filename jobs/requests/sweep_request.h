@@ -26,6 +26,7 @@ inline constexpr Range kPriorityRange{.minimum = -100, .maximum = 100};
 struct Replicates {
   bool requested = false;       ///< whether rows carry `replicate`
   std::uint64_t count = 1;
+  nlohmann::json only = nlohmann::json::object();  ///< lists of values by their paths: other points are run once; empty: none are
   double perturbation = 1e-6;   ///< relative, of contact_stiffness_scale
   std::uint64_t seed = 1;
 };

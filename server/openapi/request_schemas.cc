@@ -96,8 +96,10 @@ Json make_replicates() {
   Json replicates = object_of({{"count", integer_in(jobs::kCountRange)},
                                {"perturbation", {{"type", "number"}, {"exclusiveMinimum", perturbation.minimum}, {"maximum", perturbation.maximum},
                                                  {"default", defaults.perturbation}}},
-                               {"seed", std::move(seed)}},
-                              {"perturbation", "seed"});
+                               {"seed", std::move(seed)},
+                               {"only", described({{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}},
+                                                  "lists of values by parameter: sets without one of them are run once")}},
+                              {"perturbation", "seed", "only"});
   replicates["description"] = "each set again with its contact stiffness changed by that relative amount";
   return replicates;
 }
