@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/errors.h"
-#include "engine/model/rpsup.h"
+#include "engine/model/rpsup_geometry.h"
 #include "engine/simulate_rpsup.h"
 
 namespace engine {
@@ -60,6 +60,8 @@ void check_geometry(const RpsupParameters& p) {
   require_not_negative(p.cross_length, "cross_length");
   require_finite(p.guide_offset_y, "guide_offset_y");
   require_finite(p.guide_offset_z, "guide_offset_z");
+  require_finite(p.guide_angle, "guide_angle");
+  require_finite(p.rod_start, "rod_start");
   require_finite(p.gravity, "gravity");
 }
 
@@ -91,6 +93,7 @@ void check_other_links(const RpsupParameters& p) {
 
 void check_drives(const RpsupParameters& p) {
   require_finite(p.crank_velocity, "crank_velocity");
+  require_finite(p.crank_start, "crank_start");
   require_not_negative(p.run_up, "run_up");
   require_finite(p.rod_stroke, "rod_stroke");
   require_positive(p.rod_stroke_time, "rod_stroke_time");
@@ -138,8 +141,6 @@ void check_joint(const RpsupParameters& p) {
   require_positive(p.contact_stiffness_scale, "contact_stiffness_scale");
   require_not_negative(p.axial_stiffness, "axial_stiffness");
   require_positive(p.minimum_impact_velocity, "minimum_impact_velocity");
-  require(p.normal_law != NormalForceLaw::kKelvinVoigt || p.contact == ContactForm::kContinuum, "normal_law",
-          "another than kelvin_voigt for contact elements: its damper is that of a whole ring");
   require_not_negative(p.contact_damping, "contact_damping");
   require(p.stiffness_law == StiffnessLaw::kHertz || p.contact == ContactForm::kContinuum, "stiffness_law",
           "hertz for contact elements: the others are laws of a whole ring");
@@ -155,33 +156,73 @@ void check_options(const RunOptions& options) {
   require_positive(options.absolute_tolerance, "absolute_tolerance");
 }
 
+/// Largest distance of the S joint from the crank's axis.
+double calc_farthest_rod(const RpsupParameters& p) { return std::max(std::abs(p.rod_start), std::abs(p.rod_start + p.rod_stroke)); }
+
 /// True if the coupler reaches the guide for whatever crank angle and rod position: no need to look at instants then.
 bool reaches_always(const RpsupParameters& p) {
-  const double least = p.rod_length + std::min(0.0, p.rod_stroke);
-  const double most = p.rod_length + std::max(0.0, p.rod_stroke);
-  const double dy = std::max(std::abs(least), std::abs(most)) + std::abs(p.guide_offset_y);
-  return calc_reach_squared_at_height(p, dy) > 0.0;
+  const double most = calc_farthest_rod(p);
+  const double y = most + std::abs(p.guide_offset_y);
+  const double z = most * std::abs(std::sin(p.guide_angle)) + std::abs(p.guide_offset_z * std::cos(p.guide_angle));
+  return calc_reach_squared(p, Eigen::Vector3d(0.0, y, z)) > 0.0;
 }
 
-/// The guide must be within the coupler's reach at every instant. Sampled so that neither drive moves far between two looks; a linkage
-/// that would need more than kMostLooks is sampled coarser, and if it locks between them, the run says so.
-void check_reach(const RpsupParameters& p, double duration) {
-  if (reaches_always(p)) return;
-  constexpr long kMostLooks = 100'000;
-  constexpr double kAngle = 0.02;   // [rad] of the crank between two looks
+/// Time between two looks at the motion, so that neither drive moves far between them; a linkage that would need more than kMostLooks is looked at
+/// more seldom, and if it locks between them, the run says so.
+double calc_time_between_looks(const RpsupParameters& p, double duration) {
+  constexpr double kMostLooks = 1e5;
+  constexpr double kAngle = 0.02;     // [rad] of the crank between two looks
   constexpr double kOfStroke = 0.02;  // of the rise time
   const double speed = std::max(std::abs(p.crank_velocity), 1e-9);
-  const double interval = std::min({kAngle / speed, kOfStroke * p.rod_stroke_time, 0.1 * duration});
-  const auto looks = static_cast<long>(std::min(static_cast<double>(kMostLooks), std::ceil(duration / interval)));
+  return std::max(std::min({kAngle / speed, kOfStroke * p.rod_stroke_time, 0.1 * duration}), duration / kMostLooks);
+}
+
+std::string describe_instant(const std::string& at_start, const std::string& later, double t) { return t == 0.0 ? at_start : later + to_text(t) + " s"; }
+
+/// The guide must be within the coupler's reach at every instant.
+void check_reach(const RpsupParameters& p, double duration) {
+  if (reaches_always(p)) return;
+  const auto looks = static_cast<long>(std::ceil(duration / calc_time_between_looks(p, duration)));
   for (long k = 0; k <= looks; ++k) {
     const double t = duration * static_cast<double>(k) / static_cast<double>(looks);
     const double reach = calc_reach_squared(p, t);
     if (reach > 0.0) continue;
-    throw InvalidInput("reach",
-                       (k == 0 ? std::string("the linkage cannot be assembled") : "the linkage locks at t = " + to_text(t) + " s") +
-                           ": the coupler of " + to_text(p.coupler_length) + " m must be longer than " +
-                           to_text(std::sqrt(p.coupler_length * p.coupler_length - reach)) +
-                           " m, the distance from the end of the rod to the slider's guide there (guide_offset_y_m, guide_offset_z_m)");
+    throw InvalidInput("reach", describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", t) + ": the coupler of " +
+                                    to_text(p.coupler_length) + " m must be longer than " +
+                                    to_text(std::sqrt(p.coupler_length * p.coupler_length - reach)) +
+                                    " m, the distance from the end of the rod to the slider's guide there (guide_offset_y_m, guide_offset_z_m)");
+  }
+}
+
+/// The least value of a function near the middle one of three instants, by golden section.
+template <typename Function>
+double find_least(const Function& function, double from, double to) {
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr int kDivisions = 60;
+  for (int k = 0; k < kDivisions; ++k) {
+    const double a = to - kGolden * (to - from), b = from + kGolden * (to - from);
+    (function(a) < function(b) ? to : from) = function(a) < function(b) ? b : a;
+  }
+  return 0.5 * (from + to);
+}
+
+/// With the yoke about the guide the S joint must not meet the guide: link (2,2) could turn freely there.
+void check_yoke(const RpsupParameters& p, double duration) {
+  constexpr double kMeets = 1e-9;  // [m]
+  const auto arm = [&p](double t) { return calc_yoke_arm(p, t); };
+  if (p.yoke_axis != YokeAxis::kGuide) return;
+  const double apart = std::abs(p.guide_offset_z * std::cos(p.guide_angle)) - calc_farthest_rod(p) * std::abs(std::sin(p.guide_angle));
+  if (apart > p.cross_length + kMeets) return;
+  const double interval = calc_time_between_looks(p, duration);
+  const auto looks = static_cast<long>(std::ceil(duration / interval));
+  for (long k = 0; k <= looks; ++k) {
+    double t = std::min(static_cast<double>(k) * interval, duration);
+    if (const double before = std::max(0.0, t - interval), after = std::min(duration, t + interval); arm(t) <= std::min(arm(before), arm(after)))
+      t = find_least(arm, before, after);
+    if (arm(t) > kMeets) continue;
+    throw InvalidInput("yoke", describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", k == 0 ? 0.0 : t) +
+                                   ": the end of the rod is not further than the cross link's " + to_text(1e3 * p.cross_length) +
+                                   " mm from the slider's guide, about which the cross link turns (guide_offset_y_m, guide_offset_z_m, yoke_axis)");
   }
 }
 
@@ -196,6 +237,7 @@ void check_parameters(const RpsupParameters& parameters, const RunOptions& optio
   check_joint(parameters);
   check_options(options);
   check_reach(parameters, options.duration);
+  check_yoke(parameters, options.duration);
 }
 
 }  // namespace engine

@@ -24,7 +24,8 @@ constexpr long kSolvesBetweenQueries = 1024;
 class IdealPeakSearch {
  public:
   IdealPeakSearch(const RpsupParameters& parameters, const std::function<bool(double)>& stop_requested)
-      : ideal_(build_ideal_rpsup(parameters)), closure_(ideal_.mechanism), stop_requested_(stop_requested) {
+      : ideal_(build_ideal_rpsup(parameters)), closure_(ideal_.mechanism), piece_(ideal_.mechanism.drives), stop_requested_(stop_requested) {
+    closure_.follow_drives(piece_);
     last_ = next_ = probe_ = MotionSystem(ideal_.mechanism).make_evaluation();
   }
 
@@ -51,7 +52,17 @@ class IdealPeakSearch {
       scale_ = 0.0;
       while (last_.t < piece_end_)
         if (!take_interval()) return false;
+      if (last_.t >= piece_.end() && !jump()) return false;
     }
+    return true;
+  }
+
+  /// To the accelerations behind a jump of the drives'.
+  [[nodiscard]] bool jump() {
+    piece_.advance();
+    closure_.follow_drives(piece_);
+    if (!solve(last_.t, last_, last_, last_)) return false;
+    if (searches_) take(last_);
     return true;
   }
 
@@ -147,9 +158,10 @@ class IdealPeakSearch {
 
   Rpsup ideal_;
   LoopClosure closure_;
+  DrivePiece piece_;
   const std::function<bool(double)>& stop_requested_;
   Evaluation last_, next_, probe_;  ///< the interval's ends, and until the second is known the one before; an instant near by
-  double piece_start_ = 0.0, piece_end_ = 0.0;
+  double piece_start_ = 0.0, piece_end_ = 0.0;  ///< between corners of the drives' laws, [s]
   double wanted_ = 0.0;       ///< the next interval, [s]
   double determinant_ = 0.0;  ///< at the last node
   double scale_ = 0.0;        ///< of the accelerations in the last intervals, [m/s^2]

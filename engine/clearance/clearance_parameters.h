@@ -28,7 +28,7 @@ struct ClearanceParameters {
   CylinderContact cylinders{};     ///< kContinuum: in the place of Hertz's law, if it has another
   double K_a = 1e8;                ///< stiffness of one face, [N/m]
   double chi = 0.1425;             ///< damping factor of the normal law, [1]
-  double damping = 0.0;            ///< Kelvin and Voigt's, of the whole bore (kContinuum) and of each face, [N s/m]
+  double damping = 0.0;            ///< Kelvin and Voigt's, of the whole bore and of each face, [N s/m]
   double minimum_onset_rate = 1e-3;///< floor of the latched penetration rate, [m/s]
   std::optional<FrictionParameters> friction;
   std::shared_ptr<const WornBore> worn;  ///< kContinuum: of as many rings; null: the bore is round

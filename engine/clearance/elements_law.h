@@ -107,7 +107,7 @@ RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMoti
   const V rate = calc_element_rate(journal, element);
   const P elastic = elements.element_stiffness() * element.delta;
   const V onset = choose_onset_rate(elements.latch(ring, k).rate(), rate, joint.minimum_onset_rate);
-  add_touch(joint, journal, Touch<P, V>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi, 0.0)},
+  add_touch(joint, journal, Touch<P, V>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi, elements.element_damping())},
             place < 0 ? nullptr : bristles + place, place < 0 ? nullptr : bristle_rates + place, load);
   load.elastic_energy += 0.5 * value_of(elastic) * value_of(element.delta);
   load.max_penetration = std::max(load.max_penetration, value_of(element.delta));
@@ -147,8 +147,10 @@ RPSUP_INLINE void add_neighbours(const RadialElements& elements, const RelativeM
   const LanePairs own = LanePairs::load(bristles + place);
   const Lanes z[2] = {own.first, own.second};
   Lanes rates[2] = {none, none};
-  add_touch(joint, journal, Touch<Lanes, Lanes>{element.r, element.n_x, element.n_y, calc_normal_law(elastic, rate, onset, joint.chi, 0.0)}, z, rates,
-            load);
+  NormalLaw<Lanes> normal = calc_normal_law(elastic, rate, onset, joint.chi, elements.element_damping());
+  if (elements.element_damping() > 0.0)
+    normal = {choose_greater(element.delta, none, normal.total, none), choose_greater(element.delta, none, normal.loss_power, none)};
+  add_touch(joint, journal, Touch<Lanes, Lanes>{element.r, element.n_x, element.n_y, normal}, z, rates, load);
   load.elastic_energy += 0.5 * (elastic * delta);
   load.max_penetration = choose_greater(delta, load.max_penetration, delta, load.max_penetration);
   LanePairs{choose_greater(delta, none, rates[0], none), choose_greater(delta, none, rates[1], none)}.store(bristle_rates + place);
@@ -189,9 +191,11 @@ RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements, const Relative
   return inside;
 }
 
-/// The paper's radial contact elements: n_ce points on each ring of the journal, each with its own spring, latch and bristle.
+/// The paper's radial contact elements: n_ce points on each ring of the journal, each with its own spring, damper, latch and bristle, Eq. (11.1):
 ///
-///     Delta = rho - r_b,  f_e = s Delta,  s = K / n_r * 3 sqrt(c_r) / (4 sqrt 2) * 2 pi / n_ce
+///     Delta = rho - r_b,  f_n = s Delta + d Delta',  s = K / n_r * 3 sqrt(c_r) / (4 sqrt 2) * 2 pi / n_ce
+///
+/// with d = s chi Delta / Delta'_onset, or by Kelvin and Voigt's law the constant share d = damping / (n_r n_ce).
 ///
 /// Only elements on the arc that can touch are looked at. @returns false if one touched that has no bristle in the state
 /// @tparam Load  a JointLoad<V>

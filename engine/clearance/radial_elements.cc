@@ -24,6 +24,7 @@ int calc_first_window(const ClearanceParameters& joint) {
 RadialElements::RadialElements(const ClearanceParameters& joint)
     : joint_(joint),
       element_stiffness_(joint.K / joint.n_r * 3.0 * std::sqrt(joint.c_r) / (4.0 * std::numbers::sqrt2) * 2.0 * std::numbers::pi / joint.n_ce),
+      element_damping_(joint.damping / (joint.n_r * joint.n_ce)),
       spacing_(2.0 * std::numbers::pi / joint.n_ce),
       window_(calc_first_window(joint)),
       first_(static_cast<std::size_t>(joint.n_r), 0),

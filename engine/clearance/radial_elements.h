@@ -20,6 +20,7 @@ class RadialElements {
 
   [[nodiscard]] const ClearanceParameters& parameters() const { return joint_; }
   [[nodiscard]] double element_stiffness() const { return element_stiffness_; }  ///< s, [N/m]
+  [[nodiscard]] double element_damping() const { return element_damping_; }      ///< Kelvin and Voigt's d, [N s/m]
   [[nodiscard]] double spacing() const { return spacing_; }                      ///< angle between elements, [rad]
   [[nodiscard]] const double* cosines() const { return cosine_.data(); }         ///< of each element's angle in {j}
   [[nodiscard]] const double* sines() const { return sine_.data(); }
@@ -61,7 +62,7 @@ class RadialElements {
   void shift_window(int ring, int shift, double* bristles);
 
   ClearanceParameters joint_;
-  double element_stiffness_;
+  double element_stiffness_, element_damping_;
   double spacing_;
   int window_;                      ///< elements with a bristle, on each ring
   std::vector<int> first_;          ///< of each ring's window

@@ -91,7 +91,7 @@ bool LoopClosure::is_determined() const {
 void LoopClosure::set_drives(double t, Evaluation& at) const {
   at.t = t;
   for (const Drive& drive : ideal_.drives) {
-    const DrivenMotion motion = calc_driven_motion(drive.law, t);
+    const DrivenMotion motion = calc_driven_motion(drive.law, piece_.clamp(t));
     at.q[drive.coordinate] = motion.q;
     at.qd[drive.coordinate] = motion.qd;
     at.qdd[drive.coordinate] = motion.qdd;

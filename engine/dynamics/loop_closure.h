@@ -8,6 +8,7 @@
 #include "engine/dynamics/evaluation.h"
 #include "engine/dynamics/inverse_dynamics.h"
 #include "engine/math/dense_matrix.h"
+#include "engine/model/drive_piece.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -19,6 +20,9 @@ class LoopClosure {
 
   /// True if the drives alone decide the motion: as many constraint rows as unknown coordinates, and no spring.
   [[nodiscard]] bool is_determined() const;
+
+  /// Evaluates the drives inside this piece from now on; before the first call at any t.
+  void follow_drives(const DrivePiece& piece) { piece_ = piece; }
 
   /// The coordinates that the loops decide.
   [[nodiscard]] const std::vector<FrameIndex>& unknown_coordinates() const { return unknown_; }
@@ -77,6 +81,7 @@ class LoopClosure {
   std::vector<FrameIndex> unknown_;
   Constraints constraints_;
   InverseDynamics inverse_dynamics_;
+  DrivePiece piece_;
   std::vector<Eigen::Index> rigid_rows_;  ///< those of joints without clearance, and of couplings
   Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;

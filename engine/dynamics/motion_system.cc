@@ -66,11 +66,17 @@ Evaluation MotionSystem::make_evaluation() const {
   return at;
 }
 
+void MotionSystem::follow_drives(const DrivePiece& piece) {
+  piece_ = piece;
+  drives_time_ = std::numeric_limits<double>::quiet_NaN();
+  solved_ = false;
+}
+
 /// @returns true if they are elsewhere than in the last evaluation
 bool MotionSystem::move_drives(double t) {
   if (t == drives_time_) return false;
   drives_time_ = t;
-  for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k] = calc_driven_motion(mechanism_.drives[k].law, t);
+  for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k] = calc_driven_motion(mechanism_.drives[k].law, piece_.clamp(t));
   return true;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/dynamics/equations.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/kinematics/tree_model.h"
+#include "engine/model/drive_piece.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -30,6 +31,9 @@ class MotionSystem {
   explicit MotionSystem(const Mechanism& mechanism, std::string_view instruction_set = {});
   MotionSystem(const MotionSystem&) = delete;
   MotionSystem& operator=(const MotionSystem&) = delete;
+
+  /// Evaluates the drives inside this piece from now on; before the first call at any t.
+  void follow_drives(const DrivePiece& piece);
 
   /// State at t = 0 for given coordinates (of all the mechanism).
   [[nodiscard]] Eigen::VectorXd make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const;
@@ -94,6 +98,7 @@ class MotionSystem {
 
   double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
   std::vector<DrivenMotion> drives_;
+  DrivePiece piece_;
   std::unique_ptr<Equations> equations_;
   bool solved_ = false;        ///< the equations hold their solution at (drives_time_, solved_y_), with the contacts as they are
   Eigen::VectorXd solved_y_;

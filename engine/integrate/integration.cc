@@ -36,6 +36,9 @@ double order_of_error(Integrator integrator) {
 /// Steps are below this when error control has failed: a hundred roundings of the time.
 double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
 
+/// Of fixed steps: so short a rest is rounding, and would be divided by, [s]
+double sliver_of(const RunOptions& options) { return options.integrator == Integrator::kRk4 ? 1e-9 * options.step : 0.0; }
+
 }  // namespace
 
 Integration::Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer)
@@ -51,15 +54,18 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       radau5_(tolerance_, has_clearance(mechanism) ? kImpactWeight : 1.0),
       control_(order_of_error(options_.integrator)),
       samples_(options.output_rate, options.duration),
+      sliver_(sliver_of(options_)),
       longest_step_(choose_longest_step(mechanism, options_.integrator)),
       look_every_(choose_time_between_looks(mechanism, options_.integrator, system_.free_count())),
       longest_fed_(longest_step_) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
+  const bool fixed = options_.integrator == Integrator::kRk4;
+  piece_ = DrivePiece(mechanism_.drives);
+  system_.follow_drives(piece_);
   if (!start(assembled)) return run_end_;
   end_ = start_;
   take_samples();
-  const bool fixed = options_.integrator == Integrator::kRk4;
   while (!failed_ && start_.t < options_.duration) {
     if (run_end_.steps >= options_.step_limit) {
       fail(RunStatus::kStepLimit, "the run needs more than " + std::to_string(options_.step_limit) + " steps");
@@ -67,6 +73,7 @@ RunEnd Integration::run(const Evaluation& assembled) {
       fail(RunStatus::kStopped, "stopped on request");
     } else if (fixed ? try_fixed_step() : try_controlled_step()) {
       accept();
+      if (start_.t >= piece_.end() - sliver_ && start_.t < options_.duration) jump();
     }
   }
   run_end_.t = start_.t;
@@ -108,6 +115,14 @@ void Integration::look_for_vibrations() {
   if (found.growth == 0.0) return;
   grown_ = grown + found.growth * since;
   if (grown_ >= kGrownToErrors) longest_fed_ = std::min(longest_step_, kLargestAngle / found.frequency);
+}
+
+/// To the accelerations behind a jump of the drives'.
+void Integration::jump() {
+  piece_.advance();
+  system_.follow_drives(piece_);
+  forget_equations();
+  evaluate_again(start_);
 }
 
 /// Bristles follow their contacts; their rates are then those of other elements.
@@ -153,11 +168,20 @@ void Integration::fail(RunStatus status, std::string detail) {
   run_end_.detail = std::move(detail);
 }
 
+/// A fixed step goes across the jumps inside it: its stages take the accelerations of their own instants.
+void Integration::cross_jumps(double t_end) {
+  if (piece_.end() >= t_end - sliver_) return;
+  while (piece_.end() < t_end - sliver_) piece_.advance();
+  system_.follow_drives(DrivePiece());
+  crosses_ = true;
+}
+
 /// Step k ends at (k + 1) step, whatever rounding; the last one at the end of the run.
 bool Integration::try_fixed_step() {
-  constexpr double kSliver = 1e-9;  // of a step: so short a rest is rounding, and would be divided by
   double t_end = static_cast<double>(fixed_steps_ + 1) * options_.step;
-  if (options_.duration - t_end < kSliver * options_.step) t_end = options_.duration;
+  if (options_.duration - t_end < sliver_) t_end = options_.duration;
+  if (std::exchange(crosses_, false)) system_.follow_drives(piece_);
+  cross_jumps(t_end);
   prepare(t_end - start_.t);
   const Trial trial = rk4_.try_step(system_, start_, t_end - start_.t, end_);
   run_end_.evaluations += trial.evaluations;
@@ -176,7 +200,8 @@ bool Integration::try_fixed_step() {
 }
 
 bool Integration::try_controlled_step() {
-  const double remaining = options_.duration - start_.t;
+  const double stop = std::min(options_.duration, piece_.end());
+  const double remaining = stop - start_.t;
   if (start_.t >= last_look_ + look_every_) look_for_vibrations();
   const double dt = std::min({dt_, longest_step_, longest_fed_, remaining});
   prepare(dt);
@@ -184,7 +209,7 @@ bool Integration::try_controlled_step() {
   if (!is_accepted(trial, dt)) return false;
   dt_ = dt * control_.accept(trial.error);
   if (!land_on_event(dt)) return false;
-  if (dt == remaining && end_.t - start_.t == dt) end_.t = options_.duration;
+  if (dt == remaining && end_.t - start_.t == dt) end_.t = stop;
   return true;
 }
 

@@ -11,10 +11,11 @@
 #include "engine/integrate/sample_times.h"
 #include "engine/integrate/step_control.h"
 #include "engine/integrate/step_method.h"
+#include "engine/model/drive_piece.h"
 
 namespace engine {
 
-/// One run by steps: fixed ones, or error-controlled ones that end where a ring meets or leaves the bore.
+/// One run by steps: fixed ones, or error-controlled ones that end where a ring meets or leaves the bore and where a drive's acceleration jumps.
 class Integration {
  public:
   Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer);
@@ -35,6 +36,8 @@ class Integration {
   void accept();
   void take_samples();
   [[nodiscard]] EvaluationStatus evaluate_inside(double t);
+  void jump();
+  void cross_jumps(double t_end);
   void look_for_vibrations();
   void prepare(double dt);
   void forget_equations();
@@ -44,6 +47,7 @@ class Integration {
   void fail(RunStatus status, std::string detail);
 
   const Mechanism& mechanism_;
+  DrivePiece piece_;
   const RunOptions options_;  ///< with an integrator chosen
   Observer& observer_;
   MotionSystem system_;
@@ -56,6 +60,7 @@ class Integration {
   Radau5 radau5_;
   StepControl control_;
   SampleTimes samples_;
+  double sliver_;                                 ///< so short a rest of a fixed step is rounding, [s]
   StepEnd start_, end_;
   StepEnd sample_;                                ///< the state between steps that was evaluated last
   std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
@@ -67,6 +72,7 @@ class Integration {
   double longest_fed_;                            ///< longest step that follows them, [s]
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
+  bool crosses_ = false;                          ///< the last fixed step went across a jump
   RunEnd run_end_;
   bool failed_ = false;
 };

@@ -37,10 +37,11 @@ struct Watched {
 class KinematicRun {
  public:
   KinematicRun(const Mechanism& mechanism, LoopClosure& closure, const RunOptions& options, Observer& observer, const Evaluation& assembled)
-      : mechanism_(mechanism), closure_(closure), options_(options), observer_(observer), samples_(options.output_rate, options.duration),
+      : mechanism_(mechanism), closure_(closure), piece_(mechanism.drives), options_(options), observer_(observer), samples_(options.output_rate, options.duration),
         extra_{assembled, assembled}, sample_(assembled), powers_(mechanism.drives.size()),
         accelerations_(closure.unknown_coordinates().size()), loads_(mechanism.drives.size() + mechanism.cut_joints.size()) {
     nodes_.fill(assembled);
+    closure_.follow_drives(piece_);
   }
 
   RunEnd run() {
@@ -61,6 +62,7 @@ class KinematicRun {
         fail(RunStatus::kLockUp, kLocked);
       } else {
         report_panel();
+        if (nodes_[0].t >= piece_.end() && nodes_[0].t < options_.duration && !jump()) fail(RunStatus::kLockUp, kLocked);
       }
     }
     run_end_.t = nodes_[0].t;
@@ -73,6 +75,14 @@ class KinematicRun {
   void fail(RunStatus status, std::string detail) {
     run_end_.status = status;
     run_end_.detail = std::move(detail);
+  }
+
+  /// To the accelerations and forces behind a jump of the drives' accelerations.
+  [[nodiscard]] bool jump() {
+    piece_.advance();
+    closure_.follow_drives(piece_);
+    ++run_end_.evaluations;
+    return solve(nodes_[0].t, nodes_[0], nodes_[0], nodes_[0]);
   }
 
   /// Everything at time t, from the motion at two instants: see LoopClosure::lead.
@@ -299,6 +309,7 @@ class KinematicRun {
 
   const Mechanism& mechanism_;
   LoopClosure& closure_;
+  DrivePiece piece_;
   const RunOptions& options_;
   Observer& observer_;
   SampleTimes samples_;

@@ -41,7 +41,8 @@ struct JointShape {
   [[nodiscard]] constexpr int count() const { return kind == Kind::kSpherical ? 3 : 1; }
   [[nodiscard]] constexpr bool rotates() const { return kind != Kind::kTranslation; }
 
-  bool operator==(const JointShape&) const = default;
+  /// Inlined everywhere: a copy of its own that one instruction set's file emits might serve another processor.
+  [[gnu::always_inline]] constexpr bool operator==(const JointShape&) const = default;
 };
 
 /// Sets what follows from the other members. @param shapes  each behind the one that carries it

@@ -12,15 +12,37 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// C(u) = u - sin(2 pi u) / (2 pi) and its derivatives by u.
-struct Cycloid {
+/// Part of a stroke that is done and its derivatives by u.
+struct Rise {
   double c, dc, ddc, dddc;
 };
 
-Cycloid calc_cycloid(double u) {
+/// C(u) = u - sin(2 pi u) / (2 pi)
+Rise calc_cycloid(double u) {
   const double s = std::sin(kTwoPi * u);
   const double c = std::cos(kTwoPi * u);
   return {u - s / kTwoPi, 1.0 - c, kTwoPi * s, kTwoPi * kTwoPi * c};
+}
+
+Rise calc_cosine(double u) {
+  constexpr double kPi = std::numbers::pi;
+  const double s = std::sin(kPi * u);
+  const double c = std::cos(kPi * u);
+  return {0.5 - 0.5 * c, 0.5 * kPi * s, 0.5 * kPi * kPi * c, -0.5 * kPi * kPi * kPi * s};
+}
+
+Rise calc_parabola(double u) {
+  if (u < 0.5) return {2.0 * u * u, 4.0 * u, 4.0, 0.0};
+  return {1.0 - 2.0 * (1.0 - u) * (1.0 - u), 4.0 * (1.0 - u), -4.0, 0.0};
+}
+
+Rise calc_rise(StrokeLaw law, double u) {
+  switch (law) {
+    case StrokeLaw::kCycloidal: return calc_cycloid(u);
+    case StrokeLaw::kCosine: return calc_cosine(u);
+    case StrokeLaw::kParabolic: return calc_parabola(u);
+  }
+  return {};
 }
 
 /// A corner found before, but for rounding, is not the next one.
@@ -43,30 +65,30 @@ double calc_derivative(const Polynomial& law, std::size_t order, double t) {
 }  // namespace
 
 DrivenMotion calc_driven_motion(const RunUp& law, double t) {
-  if (t >= law.run_up) return {law.omega * (t - 0.5 * law.run_up), law.omega, 0.0, 0.0};
+  if (t >= law.run_up) return {law.start + law.omega * (t - 0.5 * law.run_up), law.omega, 0.0, 0.0};
   const double u = t / law.run_up;
-  const Cycloid cycloid = calc_cycloid(u);
+  const Rise cycloid = calc_cycloid(u);
   const double integral = 0.5 * u * u + (std::cos(kTwoPi * u) - 1.0) / (kTwoPi * kTwoPi);
   const double rate = law.omega / law.run_up;
-  return {law.omega * law.run_up * integral, law.omega * cycloid.c, rate * cycloid.dc, rate / law.run_up * cycloid.ddc};
+  return {law.start + law.omega * law.run_up * integral, law.omega * cycloid.c, rate * cycloid.dc, rate / law.run_up * cycloid.ddc};
 }
 
 DrivenMotion calc_driven_motion(const RiseReturnPause& law, double t) {
   const double in_cycle = std::fmod(t, 2.0 * law.stroke_time + law.pause);
-  if (in_cycle >= 2.0 * law.stroke_time) return {};
+  if (in_cycle >= 2.0 * law.stroke_time) return {.q = law.start};
   const bool rises = in_cycle < law.stroke_time;
-  const Cycloid cycloid = calc_cycloid((rises ? in_cycle : in_cycle - law.stroke_time) / law.stroke_time);
+  const Rise rise = calc_rise(law.law, (rises ? in_cycle : in_cycle - law.stroke_time) / law.stroke_time);
   const double direction = rises ? 1.0 : -1.0;
   const double T = law.stroke_time;
-  return {law.stroke * (rises ? cycloid.c : 1.0 - cycloid.c), direction * law.stroke * cycloid.dc / T,
-          direction * law.stroke * cycloid.ddc / (T * T), direction * law.stroke * cycloid.dddc / (T * T * T)};
+  return {law.start + law.stroke * (rises ? rise.c : 1.0 - rise.c), direction * law.stroke * rise.dc / T,
+          direction * law.stroke * rise.ddc / (T * T), direction * law.stroke * rise.dddc / (T * T * T)};
 }
 
 DrivenMotion calc_driven_motion(const CycloidalRise& law, double t) {
   if (t <= law.begin) return {law.from, 0.0, 0.0, 0.0};
   const double u = (t - law.begin) / law.time;
   if (u >= 1.0) return {law.from + law.rise, 0.0, 0.0, 0.0};
-  const Cycloid cycloid = calc_cycloid(u);
+  const Rise cycloid = calc_cycloid(u);
   const double rate = law.rise / law.time;
   return {law.from + law.rise * cycloid.c, rate * cycloid.dc, rate / law.time * cycloid.ddc, rate / (law.time * law.time) * cycloid.dddc};
 }
@@ -98,8 +120,9 @@ double find_next_corner(const RunUp& law, double t) { return beyond(t) < law.run
 double find_next_corner(const RiseReturnPause& law, double t) {
   if (law.stroke == 0.0) return kNever;
   const double cycle = 2.0 * law.stroke_time + law.pause;
+  const double middle = law.law == StrokeLaw::kParabolic ? 0.5 * law.stroke_time : 0.0;
   for (double start = std::floor(t / cycle) * cycle;; start += cycle)
-    for (const double corner : {start, start + law.stroke_time, start + 2.0 * law.stroke_time})
+    for (const double corner : {start, start + middle, start + law.stroke_time, start + law.stroke_time + middle, start + 2.0 * law.stroke_time})
       if (corner > beyond(t)) return corner;
 }
 
@@ -114,6 +137,15 @@ double find_next_corner(const Polynomial&, double) { return kNever; }
 
 double find_next_corner(const DriveLaw& law, double t) {
   return std::visit([t](const auto& l) { return find_next_corner(l, t); }, law);
+}
+
+double find_next_jump(const RiseReturnPause& law, double t) {
+  return law.law == StrokeLaw::kCycloidal ? kNever : find_next_corner(law, t);
+}
+
+double find_next_jump(const DriveLaw& law, double t) {
+  const auto* strokes = std::get_if<RiseReturnPause>(&law);
+  return strokes ? find_next_jump(*strokes, t) : kNever;
 }
 
 double calc_time_scale(const RunUp& law, double t) {

@@ -16,17 +16,27 @@ struct DrivenMotion {
 
 /// From rest to the velocity `omega` by the cycloidal law in `run_up` seconds, then on with it.
 ///
-///     qd = omega C(t / run_up),  C(u) = u - sin(2 pi u) / (2 pi),  q(0) = 0
+///     qd = omega C(t / run_up),  C(u) = u - sin(2 pi u) / (2 pi),  q(0) = start
 struct RunUp {
   double omega = 0.0;   ///< [rad/s]
   double run_up = 0.0;  ///< [s], >= 0; 0: at full speed from the start
+  double start = 0.0;   ///< [rad]
 };
 
-/// Again and again: rise by `stroke` and return, each by the cycloidal law in `stroke_time` seconds, then a pause.
+/// Part of a stroke that is done at the part u of its time, both from 0 to 1: the laws of cams.
+enum class StrokeLaw {
+  kCycloidal,  ///< u - sin(2 pi u) / (2 pi); the acceleration is continuous
+  kCosine,     ///< (1 - cos(pi u)) / 2, simple harmonic motion; the acceleration jumps at both ends
+  kParabolic,  ///< 2 u^2 up to the middle, then 1 - 2 (1 - u)^2; the acceleration is constant and jumps there and at both ends
+};
+
+/// Again and again: rise by `stroke` and return, each by the law in `stroke_time` seconds, then a pause.
 struct RiseReturnPause {
-  double stroke = 0.0;       ///< [m]
+  double stroke = 0.0;       ///< [rad] or [m]
   double stroke_time = 1.0;  ///< [s], > 0
   double pause = 0.0;        ///< [s], >= 0
+  StrokeLaw law = StrokeLaw::kCycloidal;
+  double start = 0.0;        ///< position in the pause, [rad] or [m]
 };
 
 /// Rest, one rise by the cycloidal law, rest.
@@ -87,6 +97,10 @@ using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, P
 [[nodiscard]] double find_next_corner(const Polynomial& law, double t);
 [[nodiscard]] inline double find_next_corner(const Spline& law, double t) { return law.next_knot(t); }
 [[nodiscard]] double find_next_corner(const DriveLaw& law, double t);
+
+/// First instant after t at which the law's acceleration jumps. Infinite if none follows, [s]
+[[nodiscard]] double find_next_jump(const RiseReturnPause& law, double t);
+[[nodiscard]] double find_next_jump(const DriveLaw& law, double t);
 
 /// Time in which the drive moves on by about one radian, of its own angle or of its law's sine, from t on; infinite at rest, [s].
 /// It holds for a tenth of itself.

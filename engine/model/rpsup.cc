@@ -1,12 +1,11 @@
 #include "engine/model/rpsup.h"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "engine/flexible/rfem.h"
+#include "engine/model/rpsup_geometry.h"
 
 namespace engine {
 
@@ -48,11 +47,21 @@ LinkageBody make_cross(const RpsupParameters& p) {
 
 bool is_flexible(const RoundLink& link) { return link.model == LinkModel::kFlexible; }
 
-/// A beam lies along x: the frame of a flexible cross link is turned so that its x is the tube's axis.
+/// A beam lies along x: the frame of a flexible cross link is turned so that its x is the tube's axis, and its y or z the yoke's.
 Placement cross_turn(const RpsupParameters& p) {
   Placement turn;
-  if (is_flexible(p.cross)) turn.R << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  if (!is_flexible(p.cross)) return turn;
+  if (p.yoke_axis == YokeAxis::kGuide)
+    turn.R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
+  else
+    turn.R << 0, 0, -1, 0, 1, 0, 1, 0, 0;
   return turn;
+}
+
+/// The yoke's axis in the cross link's frame.
+Axis yoke_axis(const RpsupParameters& p) {
+  if (p.yoke_axis == YokeAxis::kAcross) return Axis::kY;
+  return is_flexible(p.cross) ? Axis::kZ : Axis::kX;
 }
 
 /// The journal in the cross link's frame, its axes those of the rigid link.
@@ -71,16 +80,18 @@ Linkage describe_rpsup(const RpsupParameters& p) {
   linkage.bodies = {make_rod(p, Link::k11, "1,1", p.crank_length, p.crank), make_rod(p, Link::k12, "1,2", p.rod_length, p.rod),
                     make_rod(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)), make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
   const double guide = guide_place(p);
+  const AssemblyGuess guess = calc_assembly_guess(p);
   linkage.joints = {
-      {.name = "crank", .from = kGroundName, .to = "1,1", .placement = {}, .freedoms = {driven("psi_1_1", RunUp{p.crank_velocity, p.run_up})}},
+      {.name = "crank", .from = kGroundName, .to = "1,1", .placement = {}, .freedoms = {driven("psi_1_1", crank_law(p))}},
       {.name = "rod", .kind = JointKind::kPrismatic, .from = "1,1", .to = "1,2", .placement = {.p = {guide, 0.0, 0.0}}, .axes = {Axis::kX},
-       .freedoms = {driven("z_1_2", RiseReturnPause{p.rod_stroke, p.rod_stroke_time, p.rod_pause})}, .to_placement = {.p = {guide, 0.0, 0.0}}},
+       .freedoms = {driven("z_1_2", rod_law(p))}, .to_placement = {.p = {guide, 0.0, 0.0}}},
       {.name = "ball", .kind = JointKind::kSpherical, .from = "1,2", .to = "1,3", .placement = {.p = {p.rod_length, 0.0, 0.0}},
-       .freedoms = {{.name = "psi_1_3_0"}, {.name = "theta_1_3_0"}, {.name = "phi_1_3_0"}}},
-      {.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "2,1",
-       .placement = {.p = {0.0, p.guide_offset_y, p.guide_offset_z}},
-       .axes = {Axis::kX}, .freedoms = {{.name = "z_2_1", .guess = p.rod_length + p.coupler_length}}},
-      {.name = "cross", .from = "2,1", .to = "2,2", .placement = cross_turn(p), .axes = {Axis::kY}, .freedoms = {{.name = "psi_2_2"}}},
+       .freedoms = {{.name = "psi_1_3_0", .guess = guess.psi_13}, {.name = "theta_1_3_0", .guess = guess.theta_13},
+                    {.name = "phi_1_3_0", .guess = guess.phi_13}}},
+      {.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "2,1", .placement = guide_frame(p), .axes = {Axis::kX},
+       .freedoms = {{.name = "z_2_1", .guess = guess.z_21}}},
+      {.name = "cross", .from = "2,1", .to = "2,2", .placement = cross_turn(p), .axes = {yoke_axis(p)},
+       .freedoms = {{.name = "psi_2_2", .guess = guess.psi_22}}},
       {.name = "bearing", .from = "1,3", .to = "2,2", .placement = {.p = {p.coupler_length, 0.0, 0.0}}, .cut = true,
        .to_placement = journal_place(p)},
   };
@@ -88,7 +99,7 @@ Linkage describe_rpsup(const RpsupParameters& p) {
   linkage.drive_rows = p.drive == DriveEnforcement::kBaumgarte ? DriveRows::kMultipliers : DriveRows::kEliminated;
   linkage.baumgarte_alpha = p.baumgarte_alpha;
   linkage.baumgarte_beta = p.baumgarte_beta;
-  linkage.gravity_W = {0.0, -p.gravity, 0.0};
+  linkage.gravity_W = p.gravity * gravity_direction_W(p.gravity_direction);
   return linkage;
 }
 
@@ -144,17 +155,6 @@ Rpsup build_ideal_rpsup(RpsupParameters p) {
   p.c_r = 0.0;
   p.drive = DriveEnforcement::kPrescribed;
   return build_rpsup(p);
-}
-
-double calc_reach_squared(const RpsupParameters& p, double t) {
-  const double psi = calc_driven_motion(RunUp{p.crank_velocity, p.run_up}, t).q;
-  const double r = p.rod_length + calc_driven_motion(RiseReturnPause{p.rod_stroke, p.rod_stroke_time, p.rod_pause}, t).q;
-  return calc_reach_squared_at_height(p, r * std::sin(psi) - p.guide_offset_y);
-}
-
-double calc_reach_squared_at_height(const RpsupParameters& p, double height) {
-  const double bridged = std::max(0.0, p.guide_offset_z * p.guide_offset_z - p.cross_length * p.cross_length);
-  return p.coupler_length * p.coupler_length - height * height - bridged;
 }
 
 }  // namespace engine

@@ -42,10 +42,4 @@ struct Rpsup {
 /// The same linkage and drives with rigid links, prescribed drives and an ideal joint: what the mechanism is meant to do.
 [[nodiscard]] Rpsup build_ideal_rpsup(RpsupParameters parameters);
 
-/// By how much the coupler reaches at time t, squared: with the S joint's height h above the slider's guide and its distance z from the guide's
-/// upright plane, l^2 - h^2 less what of z^2 the cross link's length a does not bridge, max(0, z^2 - a^2).
-/// Negative or zero: the linkage cannot be assembled there, or locks. [m^2]
-[[nodiscard]] double calc_reach_squared(const RpsupParameters& parameters, double t);
-[[nodiscard]] double calc_reach_squared_at_height(const RpsupParameters& parameters, double height);
-
 }  // namespace engine

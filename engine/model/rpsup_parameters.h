@@ -6,6 +6,7 @@
 #include "engine/clearance/friction_parameters.h"
 #include "engine/clearance/normal_law.h"
 #include "engine/clearance/worn_bore.h"
+#include "engine/model/drive_law.h"
 #include "engine/model/links.h"
 
 namespace engine {
@@ -14,6 +15,15 @@ enum class LinkModel { kRigid, kFlexible };
 using Coupler = LinkModel;  ///< that of link (1,3)
 enum class DriveEnforcement { kPrescribed, kBaumgarte };
 enum class ContactForm { kContinuum, kElements };
+
+/// Axis about which the cross link, link (2,2), turns in the slider.
+enum class YokeAxis {
+  kGuide,   ///< the slider's guide: z^(2,1) and psi^(2,2) are along and about the same axis, as the paper writes them
+  kAcross,  ///< the slider's y, at right angles to the guide
+};
+
+/// A direction of the global frame {0}.
+enum class Direction { kX, kMinusX, kY, kMinusY, kZ, kMinusZ };
 
 /// A link other than the coupler: a straight round rod or tube, rigid or divided as the coupler is.
 struct RoundLink {
@@ -31,10 +41,14 @@ struct RpsupParameters {
   Coupler coupler = Coupler::kRigid;
   double crank_length = 0.2;                       ///< length of link (1,1), [m]
   double rod_length = 0.2;                         ///< length of link (1,2): its origin to the S joint, [m]
+  double rod_start = 0.15;                         ///< crank's axis to the S joint while the rod rests, [m]
   double coupler_length = 0.5;                     ///< S joint to the centre of the bearing, [m]
   double guide_offset_y = 0.0;                     ///< the slider's guide in the global frame, [m]
-  double guide_offset_z = 0.2;                     ///< [m]
-  double gravity = 9.81;                           ///< along -y, [m/s^2]
+  double guide_offset_z = 0.24;                    ///< [m]
+  double guide_angle = 0.0;                        ///< of the guide from the global x towards z, the crank's axis, [rad]
+  YokeAxis yoke_axis = YokeAxis::kGuide;
+  double gravity = 9.81;                           ///< [m/s^2]
+  Direction gravity_direction = Direction::kMinusZ;
   /// Table 1, links of chain 1 as the rods they are. Its rows for (2,1) and (2,2) are no moments of a body (they break
   /// I_x <= I_y + I_z: the third repeats the second) and are read as those of a box and of a tube along z.
   std::array<LinkInertia, kLinkCount> links{{
@@ -50,7 +64,7 @@ struct RpsupParameters {
   double youngs_modulus = 2.1e11;                  ///< E, [Pa]
   double shear_modulus = 0.8e11;                   ///< G, [Pa]
   double coupler_diameter = 0.010;                 ///< d, [m]
-  double coupler_damping_ratio = 0.01;             ///< zeta of the first bending mode, [1]
+  double coupler_damping_ratio = 0.0005;            ///< zeta of the first bending mode, [1]
 
   // The other links that may be flexible; sections by Table 1's masses and moments
   RoundLink crank{.diameter = 0.028, .inner_diameter = 0.020};  ///< link (1,1)
@@ -60,10 +74,12 @@ struct RpsupParameters {
 
   // Drives
   double crank_velocity = 10.0;                    ///< omega_0, [rad/s]
+  double crank_start = 0.0;                        ///< psi^(1,1) at t = 0, from the global x, [rad]
   double run_up = 2.0;                             ///< time in which the crank reaches omega_0, [s]
-  double rod_stroke = 0.05;                        ///< [m]
+  double rod_stroke = 0.015;                       ///< [m]
   double rod_stroke_time = 0.5;                    ///< time of the rise, and of the return, [s]
   double rod_pause = 0.5;                          ///< [s]
+  StrokeLaw rod_law = StrokeLaw::kCosine;          ///< of the rise and of the return
   DriveEnforcement drive = DriveEnforcement::kPrescribed;
   double baumgarte_alpha = 100.0;                  ///< [1/s]
   double baumgarte_beta = 100.0;                   ///< [1/s]
@@ -72,18 +88,18 @@ struct RpsupParameters {
   double c_r = 0.25e-3;                            ///< radial clearance, [m]; 0: the ideal joint
   double c_a = 0.0;                                ///< axial clearance, [m]
   ContactForm contact = ContactForm::kContinuum;
-  int radial_levels = 2;                           ///< n_r, rings along the journal
+  int radial_levels = 3;                           ///< n_r, rings along the journal
   int radial_elements = 180;                       ///< n_ce on a ring
   int axial_levels = 1;                            ///< n_a, circles on a face
   int axial_elements = 8;                          ///< points on a circle
   double bearing_radius = 5e-3;                    ///< r_b, [m]
-  double bearing_length = 20e-3;                   ///< L_b, [m]
+  double bearing_length = 16e-3;                   ///< L_b, [m]
   NormalForceLaw normal_law = NormalForceLaw::kLankaraniNikravesh;
   double restitution = 0.9;                        ///< k_r, (0, 1]
   double contact_damping = 1000.0;                 ///< of Kelvin and Voigt's law, [N s/m]
   StiffnessLaw stiffness_law = StiffnessLaw::kHertz;
   double contact_stiffness_scale = 1.0;            ///< factor on the stiffness of the bore, [1]
-  double axial_stiffness = 1e8;                    ///< K_a of one face, [N/m]
+  double axial_stiffness = 8.5e5;                  ///< K_a of one face, [N/m]
   double minimum_impact_velocity = 1e-3;           ///< floor of the latched onset velocity, [m/s]
   FrictionLaw friction = FrictionLaw::kLuGre;
   double mu_s = 0.1;                               ///< static; the paper prints mu_s < mu_k, [1]

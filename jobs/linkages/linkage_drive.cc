@@ -21,6 +21,11 @@ void check_table(const json& drive, bool slides, const std::string& pointer, std
     faults.push_back({pointer + pointer_token(values), "must have one value for each of the " + std::to_string(times.size()) + " times"});
 }
 
+engine::StrokeLaw stroke_law_of(const std::string& word) {
+  if (word == "cosine") return engine::StrokeLaw::kCosine;
+  return word == "parabolic" ? engine::StrokeLaw::kParabolic : engine::StrokeLaw::kCycloidal;
+}
+
 }  // namespace
 
 void check_drive(const json& drive, bool slides, const std::string& pointer, std::vector<Fault>& faults) {
@@ -39,9 +44,10 @@ engine::DriveLaw read_drive(const json& drive, bool slides, const engine::RpsupP
   const auto at = [&](const char* in_metres, const char* in_radians) { return drive.value(slides ? in_metres : in_radians, 0.0); };
   const auto numbers = [&](const char* in_metres, const char* in_radians) { return drive.at(slides ? in_metres : in_radians).get<Numbers>(); };
   const std::string law = drive.at("law").get<std::string>();
-  if (law == "run_up") return engine::RunUp{at("velocity_m_s", "velocity_rad_s"), drive.value("time_s", defaults.run_up)};
-  if (law == "rise_return_pause") return engine::RiseReturnPause{at("stroke_m", "stroke_rad"), drive.at("stroke_time_s").get<double>(),
-                                                                 drive.value("pause_s", 0.0)};
+  if (law == "run_up") return engine::RunUp{at("velocity_m_s", "velocity_rad_s"), drive.value("time_s", defaults.run_up), at("from_m", "from_rad")};
+  if (law == "rise_return_pause")
+    return engine::RiseReturnPause{at("stroke_m", "stroke_rad"), drive.at("stroke_time_s").get<double>(), drive.value("pause_s", 0.0),
+                                   stroke_law_of(drive.value("stroke_law", "cycloidal")), at("from_m", "from_rad")};
   if (law == "cycloidal")
     return engine::CycloidalRise{at("from_m", "from_rad"), at("rise_m", "rise_rad"), drive.value("begin_s", 0.0), drive.at("time_s").get<double>()};
   if (law == "harmonic")

@@ -200,10 +200,15 @@ LinkageFields drive_fields(bool slides, std::string_view law) {
     add({.key = slides ? "velocity_m_s" : "velocity_rad_s", .range = kAny, .unit = slides ? "m/s" : "rad/s",
          .help = "Reached by the cycloidal law, then kept", .required = true});
     add({.key = "time_s", .range = kTime, .unit = "s", .help = "In which it is reached; without it run_up_s of the job, 0: from the start"});
+    add(motion_field(slides, "from_m", "from_rad", "Position at t = 0; without it 0", false, kAny));
   } else if (law == "rise_return_pause") {
-    add(motion_field(slides, "stroke_m", "stroke_rad", "Rise by the cycloidal law, and return", true, kAny));
+    add(motion_field(slides, "stroke_m", "stroke_rad", "Length of the rise, and of the return", true, kAny));
     add({.key = "stroke_time_s", .range = between(1e-3, 3600), .unit = "s", .help = "Of the rise, and of the return", .required = true});
     add({.key = "pause_s", .range = kTime, .unit = "s", .help = "After each return; without it 0"});
+    add({.key = "stroke_law", .kind = FieldKind::kWord,
+         .help = "Law of the rise and of the return; without it cycloidal. cosine: harmonic motion; parabolic: constant acceleration and deceleration",
+         .words = {"cycloidal", "cosine", "parabolic"}});
+    add(motion_field(slides, "from_m", "from_rad", "Position in the pause; without it 0", false, kAny));
   } else if (law == "cycloidal") {
     add(motion_field(slides, "from_m", "from_rad", "Where it begins; without it 0", false, kAny));
     add(motion_field(slides, "rise_m", "rise_rad", "How far it goes", true, kAny));

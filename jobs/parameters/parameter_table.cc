@@ -77,6 +77,7 @@ ParameterInfo choice(const About& about, Member member, std::vector<std::pair<st
 
 constexpr auto kPaper = DefaultSource::kPaper;
 constexpr auto kDeduced = DefaultSource::kDeduced;
+constexpr auto kFitted = DefaultSource::kFitted;
 constexpr auto kChosen = DefaultSource::kChosen;
 
 using P = RpsupParameters;
@@ -113,13 +114,21 @@ void add_run_rows(Rows& rows) {
 void add_drive_rows(Rows& rows) {
   rows.push_back(number({"crank_velocity_rad_s", "crank_velocity", "rad/s", kPaper, "Crank velocity after the run-up"},
                         between(-1000, 1000), &P::crank_velocity));
+  rows.push_back(number({"crank_start_rad", "crank_start", "rad", kChosen, "Crank angle at t = 0, from x"}, between(-10, 10), &P::crank_start));
   rows.push_back(number({"run_up_s", "run_up", "s", kPaper, "Time in which the crank reaches its velocity; the steady window starts here"},
                         between(0, 3600), &P::run_up));
-  rows.push_back(number({"rod_stroke_mm", "rod_stroke", "mm", kPaper, "Stroke of slider (1,2) in the crank"},
+  rows.push_back(number({"rod_start_m", "rod_start", "m", kFitted, "Distance of the S joint from the crank's axis while slider (1,2) rests"},
+                        between(-100, 100), &P::rod_start));
+  rows.push_back(number({"rod_stroke_mm", "rod_stroke", "mm", kFitted, "Stroke of slider (1,2) in the crank, outwards if above 0"},
                         between(-10'000, 10'000), &P::rod_stroke, kMmPerM));
-  rows.push_back(number({"rod_stroke_time_s", "rod_stroke_time", "s", kPaper, "Time of the stroke's rise, and of its return"},
+  rows.push_back(number({"rod_stroke_time_s", "rod_stroke_time", "s", kFitted, "Time of the stroke's rise, and of its return"},
                         between(1e-3, 3600), &P::rod_stroke_time));
   rows.push_back(number({"rod_pause_s", "rod_pause", "s", kPaper, "Pause after each stroke"}, between(0, 3600), &P::rod_pause));
+  using engine::StrokeLaw;
+  rows.push_back(choice<StrokeLaw P::*, StrokeLaw>(
+      {"rod_law", "rod_law", "", kFitted,
+       "Law of the rise and of the return. cosine: harmonic motion; parabolic: constant acceleration and deceleration; with both the acceleration jumps"},
+      &P::rod_law, {{"cycloidal", StrokeLaw::kCycloidal}, {"cosine", StrokeLaw::kCosine}, {"parabolic", StrokeLaw::kParabolic}}));
   rows.push_back(choice<engine::DriveEnforcement P::*, engine::DriveEnforcement>(
       {"drive", "drive", "", kChosen, "prescribed: driven coordinates follow their law exactly; baumgarte: by stabilised constraint rows (the paper's)"},
       &P::drive, {{"prescribed", engine::DriveEnforcement::kPrescribed}, {"baumgarte", engine::DriveEnforcement::kBaumgarte}}));
@@ -135,18 +144,18 @@ void add_joint_rows(Rows& rows) {
   rows.push_back(number({"axial_clearance_mm", "c_a", "mm", kPaper, "Clearance at each face of the journal"}, between(0, 1000), &P::c_a, kMmPerM));
   rows.push_back(number({"bearing_radius_mm", "bearing_radius", "mm", kPaper, "Radius of the bearing's bore"}, between(0.01, 1000),
                         &P::bearing_radius, kMmPerM));
-  rows.push_back(number({"bearing_length_mm", "bearing_length", "mm", kChosen, "Length of the bearing and of the journal"},
+  rows.push_back(number({"bearing_length_mm", "bearing_length", "mm", kFitted, "Length of the bearing and of the journal"},
                         between(0.01, 1000), &P::bearing_length, kMmPerM));
   rows.push_back(choice<engine::ContactForm P::*, engine::ContactForm>(
       {"contact", "contact", "", kChosen, "elements: points around each ring (the paper's); continuum: their limit in closed form"}, &P::contact,
       {{"continuum", engine::ContactForm::kContinuum}, {"elements", engine::ContactForm::kElements}}));
-  rows.push_back(integer({"radial_levels", "radial_levels", "", kChosen, "Rings of radial contact along the journal"}, between(1, 16), &P::radial_levels));
+  rows.push_back(integer({"radial_levels", "radial_levels", "", kFitted, "Rings of radial contact along the journal"}, between(1, 16), &P::radial_levels));
   rows.push_back(integer({"radial_elements", "radial_elements", "", kChosen, "Contact elements on a ring"}, between(3, 10'000), &P::radial_elements));
   rows.push_back(integer({"axial_levels", "axial_levels", "", kChosen, "Circles of axial contact on a face"}, between(1, 16), &P::axial_levels));
   rows.push_back(integer({"axial_elements", "axial_elements", "", kChosen, "Contact points on a circle"}, between(3, 1000), &P::axial_elements));
   using engine::NormalForceLaw;
   rows.push_back(choice<NormalForceLaw P::*, NormalForceLaw>(
-      {"normal_law", "normal_law", "", kPaper, "Damping of the contact. kelvin_voigt: a damper beside the spring, for contact continuum"},
+      {"normal_law", "normal_law", "", kPaper, "Damping of the contact. kelvin_voigt: a damper beside the spring"},
       &P::normal_law,
       {{"lankarani_nikravesh", NormalForceLaw::kLankaraniNikravesh},
        {"hunt_crossley", NormalForceLaw::kHuntCrossley},
@@ -159,7 +168,7 @@ void add_joint_rows(Rows& rows) {
        {"kelvin_voigt", NormalForceLaw::kKelvinVoigt}}));
   rows.push_back(number({"restitution", "restitution", "", kPaper, "Restitution coefficient of the contact law; kelvin_voigt has none"}, above(0, 1),
                         &P::restitution));
-  rows.push_back(number({"contact_damping_n_s_m", "contact_damping", "N s/m", kChosen, "kelvin_voigt: the damper, of the bore and of each face"},
+  rows.push_back(number({"contact_damping_n_s_m", "contact_damping", "N s/m", kChosen, "kelvin_voigt: the damper of the bore and that of each face, which contact elements and points share"},
                         between(0, 1e9), &P::contact_damping));
   using engine::StiffnessLaw;
   rows.push_back(choice<StiffnessLaw P::*, StiffnessLaw>(
@@ -169,7 +178,7 @@ void add_joint_rows(Rows& rows) {
       {{"hertz", StiffnessLaw::kHertz}, {"johnson", StiffnessLaw::kJohnson}, {"radzimovsky", StiffnessLaw::kRadzimovsky}, {"liu", StiffnessLaw::kLiu}}));
   rows.push_back(number({"contact_stiffness_scale", "contact_stiffness_scale", "", kChosen, "Factor on the stiffness of radial contact"},
                         between(1e-6, 1e6), &P::contact_stiffness_scale));
-  rows.push_back(number({"axial_stiffness_n_m", "axial_stiffness", "N/m", kChosen, "Stiffness of one face of the journal"}, between(0, 1e13),
+  rows.push_back(number({"axial_stiffness_n_m", "axial_stiffness", "N/m", kFitted, "Stiffness of one face of the journal"}, between(0, 1e13),
                         &P::axial_stiffness));
   rows.push_back(number({"minimum_impact_velocity_m_s", "minimum_impact_velocity", "m/s", kChosen, "Least onset velocity that the contact law divides by"},
                         between(1e-9, 10), &P::minimum_impact_velocity));
@@ -208,17 +217,27 @@ void add_body_rows(Rows& rows) {
   rows.push_back(number({"shear_modulus_pa", "shear_modulus", "Pa", kPaper, "Shear modulus"}, between(1e5, 1e13), &P::shear_modulus));
   rows.push_back(number({"coupler_diameter_mm", "coupler_diameter", "mm", kDeduced, "Diameter of the coupler"}, between(0.1, 1000),
                         &P::coupler_diameter, kMmPerM));
-  rows.push_back(number({"coupler_damping_ratio", "coupler_damping_ratio", "", kChosen, "Damping ratio of the coupler's first bending mode"},
+  rows.push_back(number({"coupler_damping_ratio", "coupler_damping_ratio", "", kFitted, "Damping ratio of the coupler's first bending mode"},
                         between(0, 10), &P::coupler_damping_ratio));
   rows.push_back(number({"crank_length_m", "crank_length", "m", kPaper, "Length of link (1,1)"}, between(1e-3, 100), &P::crank_length));
   rows.push_back(number({"rod_length_m", "rod_length", "m", kPaper, "Length of link (1,2), up to the S joint"}, between(1e-3, 100), &P::rod_length));
   rows.push_back(number({"coupler_length_m", "coupler_length", "m", kPaper, "Length of link (1,3), from the S joint to the bearing"},
                         between(1e-3, 100), &P::coupler_length));
-  rows.push_back(number({"guide_offset_y_m", "guide_offset_y", "m", kChosen, "Offset of the slider's guide along y, upwards"}, between(-100, 100),
-                        &P::guide_offset_y));
-  rows.push_back(number({"guide_offset_z_m", "guide_offset_z", "m", kChosen, "Offset of the slider's guide along z, the crank's axis"},
+  rows.push_back(number({"guide_offset_y_m", "guide_offset_y", "m", kChosen, "Offset of the slider's guide from the crank's centre along y"},
+                        between(-100, 100), &P::guide_offset_y));
+  rows.push_back(number({"guide_offset_z_m", "guide_offset_z", "m", kFitted, "Offset of the slider's guide along z, the crank's axis"},
                         between(-100, 100), &P::guide_offset_z));
-  rows.push_back(number({"gravity_m_s2", "gravity", "m/s^2", kChosen, "Acceleration of gravity, along -y"}, between(-1000, 1000), &P::gravity));
+  rows.push_back(number({"guide_angle_deg", "guide_angle", "deg", kChosen, "Direction of the guide in the plane of x and z, from x towards z"},
+                        between(-180, 180), &P::guide_angle, kDegPerRad));
+  using engine::YokeAxis;
+  rows.push_back(choice<YokeAxis P::*, YokeAxis>(
+      {"yoke_axis", "yoke_axis", "", kDeduced, "Axis about which link (2,2) turns in the slider. guide: the guide's; across: y, at right angles to it"},
+      &P::yoke_axis, {{"guide", YokeAxis::kGuide}, {"across", YokeAxis::kAcross}}));
+  rows.push_back(number({"gravity_m_s2", "gravity", "m/s^2", kChosen, "Acceleration of gravity"}, between(-1000, 1000), &P::gravity));
+  using engine::Direction;
+  rows.push_back(choice<Direction P::*, Direction>(
+      {"gravity_direction", "gravity_direction", "", kFitted, "Direction in which gravity pulls; z is the crank's axis"}, &P::gravity_direction,
+      {{"x", Direction::kX}, {"-x", Direction::kMinusX}, {"y", Direction::kY}, {"-y", Direction::kMinusY}, {"z", Direction::kZ}, {"-z", Direction::kMinusZ}}));
 }
 
 /// Everything that is said of a round link but its length, in this order: its model, diameters, elements and damping.
@@ -291,6 +310,7 @@ std::string_view source_name(DefaultSource source) {
   switch (source) {
     case DefaultSource::kPaper: return "paper";
     case DefaultSource::kDeduced: return "deduced from the paper";
+    case DefaultSource::kFitted: return "fitted to the paper's ratios";
     case DefaultSource::kChosen: return "chosen";
   }
   return "";

@@ -17,10 +17,10 @@ enum class ParameterKind { kNumber, kInteger, kChoice };
 /// What a parameter is of: any job, each joint with clearance, each flexible body, or the RPSUP linkage alone.
 enum class ParameterScope { kRun, kJoint, kMaterial, kRpsup };
 
-/// Where a default comes from: printed in the paper, deduced from its numbers, or chosen by this project.
-enum class DefaultSource { kPaper, kDeduced, kChosen };
+/// Where a default comes from: printed in the paper, deduced from its numbers, fitted to the ratios of peaks that it prints, or chosen by this project.
+enum class DefaultSource { kPaper, kDeduced, kFitted, kChosen };
 
-/// "paper", "deduced from the paper" or "chosen".
+/// "paper", "deduced from the paper", "fitted to the paper's ratios" or "chosen".
 [[nodiscard]] std::string_view source_name(DefaultSource source);
 
 /// One parameter as users know it. Everything that is said about parameters (checks, defaults, schema, conversion) reads this.

@@ -34,9 +34,9 @@ ComputedChapter energy_of_the_grid(const Study& study) {
       for (const double velocity : kCrankVelocities) add_case(study.clearance, {clearance, velocity, coupler}, findings);
   }
   return {{.title = "Energy over the paper's grid",
-           .text = "Energy less the work of the drives plus what impacts, friction and the coupler's dampers took is constant. The residual is the\n"
+           .text = "Energy less the work of the drives plus the losses to impacts, friction and the coupler's dampers is constant. The residual is the\n"
                    "largest departure in a whole run of 5 s at default settings, over the work turned over in it (drives and losses, counted\n"
-                   "without sign). 15 rad/s is beside the grid: the paper's text speaks of it.",
+                   "without sign).",
            .parts = {}},
           {findings}};
 }

@@ -46,6 +46,29 @@ Series acceleration_series(const Study& study, const StudyTable& table, const St
   return series;
 }
 
+/// One drive of each velocity's ideal job.
+Chart draw_input(const Study& study, const char* title, const char* channel, const char* label, const std::vector<std::size_t>& velocities) {
+  Chart chart{.title = title, .x_label = "time, s", .y_label = label};
+  for (const std::size_t k : velocities) {
+    const engine::Trajectory run = study.read_trajectory(study.ideal.text(study.ideal.find({0.0, kCrankVelocities[k], "rigid"}).front(), "job_id"), {channel}, 0.0);
+    Series series{.label = velocities.size() > 1 ? to_text("%g rad/s", kCrankVelocities[k]) : "", .colour = kColours[k], .width = 1.5};
+    constexpr std::size_t kEvery = 10;  // milliseconds: the laws are smooth
+    for (std::size_t i = 0; i < run.columns[0].size(); i += kEvery) {
+      series.x.push_back(run.columns[0][i]);
+      series.y.push_back(run.columns[1][i]);
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+Figure draw_inputs(const Study& study) {
+  const std::vector<Chart> charts{draw_input(study, "(a) crank (1,1)", "crank_velocity_rad_s", "velocity, rad/s", {0, 1, 2, 3}),
+                                  draw_input(study, "(b) slider (1,2)", "rod_displacement_m", "displacement, m", {0})};
+  return {"fig4.svg", "The paper's Fig. 4: (a) crank (1,1) reaches its velocity in 2 s; (b) slider (1,2) goes out and back in 1 s and pauses for 0.5 s",
+          draw(charts, 2)};
+}
+
 Figure draw_ideal(const Study& study) {
   std::vector<Chart> charts;
   for (const std::string coupler : kCouplers) {
@@ -107,7 +130,7 @@ Figure draw_orbits(const Study& study, double clearance, const char* file, const
 }  // namespace
 
 std::vector<Figure> draw_paper_figures(const Study& study) {
-  return {draw_ideal(study), draw_accelerations(study, 0.25, "fig6.svg", "Fig. 6"), draw_accelerations(study, 0.5, "fig7.svg", "Fig. 7"),
+  return {draw_inputs(study), draw_ideal(study), draw_accelerations(study, 0.25, "fig6.svg", "Fig. 6"), draw_accelerations(study, 0.5, "fig7.svg", "Fig. 7"),
           draw_orbits(study, 0.25, "fig8.svg", "Fig. 8"), draw_orbits(study, 0.5, "fig9.svg", "Fig. 9")};
 }
 

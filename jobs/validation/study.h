@@ -30,6 +30,7 @@ class StudyTable {
 
   /// Rows of a case, replicate 0 first. @param more  another column that must have this value; empty: none
   [[nodiscard]] std::vector<std::size_t> find(const StudyCase& c, const std::string& more = "", double value = 0.0) const;
+  [[nodiscard]] const ResultTable& results() const { return results_; }
   /// @throws std::out_of_range for a column or a value that is not there
   [[nodiscard]] double number(std::size_t row, const std::string& column) const;
   [[nodiscard]] std::string text(std::size_t row, const std::string& column) const;
@@ -45,15 +46,7 @@ inline constexpr double kClearances[] = {0.25, 0.5};              ///< [mm]
 inline constexpr double kCrankVelocities[] = {5.0, 10.0, 12.0, 15.0};  ///< [rad/s]
 inline constexpr const char* kCouplers[] = {"rigid", "flexible"};
 
-/// A parameter that the paper leaves open, and plausible values of it beside the default.
-struct OpenParameter {
-  std::string key;
-  std::string meaning;
-  std::vector<double> values;
-};
-[[nodiscard]] const std::vector<OpenParameter>& open_parameters();
-
-/// The cases with clearance whose peak is a property of the case: all with a rigid coupler, and the flexible one at 5 rad/s.
+/// The cases with clearance whose peak is a property of the case: those below 15 rad/s, where some impacts decide between two peaks.
 [[nodiscard]] std::vector<StudyCase> converging_cases();
 [[nodiscard]] bool converges(const StudyCase& c);
 
@@ -61,8 +54,7 @@ struct OpenParameter {
 inline constexpr double kConvergedReproducibleTo = 1e-3;
 inline constexpr double kSampledReproducibleTo = 100.0;
 
-/// The sweeps of the validation: the ideal joint; the joint with clearance, each case replicated; converging cases with tighter
-/// tolerances; one for each open parameter.
+/// The sweeps of the validation: the ideal joint; the joint with clearance, each case replicated; converging cases with tighter tolerances.
 [[nodiscard]] std::vector<nlohmann::ordered_json> study_requests();
 
 /// Reads channels of a job's trajectory from a time on.
@@ -72,7 +64,6 @@ struct Study {
   StudyTable ideal;
   StudyTable clearance;
   StudyTable tighter;
-  std::vector<StudyTable> open;  ///< one for each of open_parameters()
   TrajectoryReader read_trajectory;
 };
 

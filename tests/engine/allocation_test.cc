@@ -38,11 +38,12 @@ void PrintTo(const AllocationCase& c, std::ostream* out) { *out << c.name; }
 class RightHandSide : public testing::TestWithParam<AllocationCase> {};
 
 TEST_P(RightHandSide, AllocatesNothing) {
-  const Mechanism mechanism = build_rpsup(GetParam().parameters).mechanism;
+  const Rpsup rpsup = build_rpsup(GetParam().parameters);
+  const Mechanism& mechanism = rpsup.mechanism;
   MotionSystem system(mechanism);
   Evaluation assembled = system.make_evaluation();
   ASSERT_TRUE(LoopClosure(mechanism).assemble(0.0, assembled));
-  assembled.q[2] += 0.56e-3;  // lifts the coupler's end, 0.458 m away across, by some 0.256 mm: 6 um into contact
+  assembled.q[rpsup.layout.slider] += 0.256e-3;  // along the guide, at right angles to the bearing's axis: 6 um into contact
   StepEnd start, end;
   start.y = system.make_state(assembled.q, assembled.qd);
   start.f = Eigen::VectorXd::Zero(start.y.size());

@@ -13,6 +13,7 @@
 #include "engine/analysis/ideal_peak.h"
 #include "engine/model/drive_law.h"
 #include "engine/model/rpsup.h"
+#include "engine/model/rpsup_geometry.h"
 #include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
 #include "engine/validation/reference/ideal_linkage.h"
@@ -35,6 +36,8 @@ double scan_peak(const RpsupParameters& p, double from, double to, double interv
   std::vector<double> a;
   for (int k = 0; k <= samples; ++k) a.push_back(closed_form(p, from + (to - from) * k / samples));
   double peak = *std::max_element(a.begin(), a.end());
+  for (double corner = find_next_corner(rod_law(p), from); corner < to; corner = find_next_corner(rod_law(p), corner))  // both sides of a jump
+    peak = std::max({peak, closed_form(p, corner * (1.0 - 1e-13)), closed_form(p, corner * (1.0 + 1e-13))});
   for (std::size_t k = 0; k < a.size(); ++k) {
     const bool is_maximum = (k == 0 || a[k] >= a[k - 1]) && (k + 1 == a.size() || a[k] >= a[k + 1]);
     if (!is_maximum || a[k] < 0.99 * peak) continue;
@@ -73,8 +76,14 @@ RpsupParameters draw_linkage(Random& random, double spare, double& duration) {
   p.rod_stroke = random.one_of(8) ? 0.0 : random.between(-0.1, 0.2);
   p.rod_stroke_time = random.by_magnitude(0.3, 30.0) / speed;
   p.rod_pause = random.one_of(3) ? 0.0 : random.by_magnitude(0.1, 30.0) / speed;
+  p.rod_start = random.between(0.1, 0.25);
+  p.rod_law = random.one_of(2) ? StrokeLaw::kCycloidal : random.one_of(2) ? StrokeLaw::kCosine : StrokeLaw::kParabolic;
+  p.crank_start = random.one_of(2) ? 0.0 : random.between(-3.0, 3.0);
+  p.yoke_axis = random.one_of(2) ? YokeAxis::kGuide : YokeAxis::kAcross;
   p.guide_offset_y = random.one_of(3) ? 0.0 : random.between(-0.2, 0.2);
   p.guide_offset_z = random.one_of(3) ? 0.0 : random.between(-0.3, 0.3);  // 0: flat, where the determinant vanishes as a square
+  if (p.yoke_axis == YokeAxis::kGuide) p.guide_offset_z = std::copysign(0.1 + std::abs(p.guide_offset_z), p.guide_offset_z);  // never met
+  p.guide_angle = random.one_of(2) ? 0.0 : random.between(-0.15, 0.15);
   duration = p.run_up + random.by_magnitude(0.1, 20.0) / speed;
   p.coupler_length = 0.0;
   double farthest = 0.0;
@@ -232,7 +241,7 @@ TEST(IdealLinkage, EndsWhereItLocks) {
   p.run_up = 0.0;
   p.rod_stroke = 0.0;
   p.coupler_length = 0.25;
-  const double locked = std::asin(std::sqrt(0.25 * 0.25 - 0.2 * 0.2) / p.rod_length) / p.crank_velocity;
+  const double locked = std::asin(std::sqrt(0.25 * 0.25 - 0.24 * 0.24) / p.rod_start) / p.crank_velocity;
   NoObserver observer;
   const RunEnd end = simulate(build_rpsup(p).mechanism, {.duration = 1.0}, observer);
   EXPECT_EQ(end.status, RunStatus::kLockUp);
@@ -248,7 +257,7 @@ TEST(IdealLinkage, TurnsAsOftenAsItIsDriven) {
   parameters.c_r = 0.0;
   parameters.crank_velocity = 1000.0;
   parameters.run_up = 0.1;
-  const RunResult fast = simulate_rpsup(parameters, {.duration = 3.0, .output_rate = 100.0}, {});
+  const RunResult fast = simulate_rpsup(parameters, {.duration = 2.8, .output_rate = 100.0}, {});
   ASSERT_EQ(fast.status, RunStatus::kSucceeded) << fast.detail;
   const double t = column(fast, "t_s").back(), peak = metric(fast, "peak_slider_acceleration_m_s2");
   EXPECT_NEAR(column(fast, "slider_acceleration_m_s2").back(), calc_slider(parameters, t).derivative(2), 1e-8 * peak);

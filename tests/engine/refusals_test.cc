@@ -9,6 +9,7 @@
 
 #include "engine/errors.h"
 #include "engine/model/rpsup.h"
+#include "engine/model/rpsup_geometry.h"
 #include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
 
@@ -67,13 +68,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"wear_of_two_sectors", "wear_depth", [](auto& p, auto&) { p.wear_depth = {{0, 0}, {0, 0}}; }},
         Refusal{"deep_wear", "wear_depth", [](auto& p, auto&) { p.wear_depth = {{0, 0, 0}, {0, 0, 6e-4}}; }},
         Refusal{"wear_that_is_no_number", "wear_depth", [](auto& p, auto&) { p.wear_depth = {{0, 0, 0}, {0, 0, kNan}}; }},
-        Refusal{"damper_of_an_element", "normal_law",
-                [](auto& p, auto&) { p.normal_law = NormalForceLaw::kKelvinVoigt; p.contact = ContactForm::kElements; }},
+        Refusal{"guide_angle_that_is_no_number", "guide_angle", [](auto& p, auto&) { p.guide_angle = kNan; }},
+        Refusal{"rod_start_that_is_no_number", "rod_start", [](auto& p, auto&) { p.rod_start = kNan; }},
+        Refusal{"crank_start_that_is_no_number", "crank_start", [](auto& p, auto&) { p.crank_start = kNan; }},
+        Refusal{"yoke_on_the_guide", "yoke", [](auto& p, auto&) { p.guide_offset_z = 0.0; }},
         Refusal{"cylinder_of_an_element", "stiffness_law",
                 [](auto& p, auto&) { p.stiffness_law = StiffnessLaw::kLiu; p.contact = ContactForm::kElements; }},
         Refusal{"ramp_that_falls", "v_1", [](auto& p, auto&) { p.friction = FrictionLaw::kAmbrosio; p.v_1 = p.v_0; }},
         Refusal{"guide_out_of_reach", "reach", [](auto& p, auto&) { p.guide_offset_z = 0.6; }},
-        Refusal{"locks_on_the_way", "reach", [](auto& p, auto&) { p.guide_offset_z = 0.45; }},
+        Refusal{"locks_on_the_way", "reach", [](auto& p, auto&) { p.guide_offset_z = 0.48; }},
         Refusal{"no_time", "duration", [](auto&, auto& o) { o.duration = 0.0; }},
         Refusal{"no_tolerance", "relative_tolerance", [](auto&, auto& o) { o.relative_tolerance = -1.0; }}),
     [](const auto& c) { return c.param.name; });
@@ -113,7 +116,7 @@ double lock_time(const RpsupParameters& parameters) {
 
 TEST(Runs, ALinkageThatLocksSaysWhen) {
   RpsupParameters parameters;
-  parameters.guide_offset_z = 0.48;  // reach left for r sin psi: 0.14 m of 0.2 m
+  parameters.guide_offset_z = 0.48;  // reach left for r sin psi: 0.14 m of 0.15 m and more
   const double expected = lock_time(parameters);
   ASSERT_GT(expected, 0.1);
   parameters.c_r = 0.0;

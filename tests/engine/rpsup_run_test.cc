@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/simulate_rpsup.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "engine/validation/support/runs.h"
 
 namespace engine {
@@ -16,7 +17,7 @@ using validation::column;
 using validation::metric;
 
 TEST(RigidCase, DrivenByMultipliersItHasTheSamePeak) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.drive = DriveEnforcement::kBaumgarte;
   const RunResult run = simulate_rpsup(parameters, {.duration = 4.0}, {});
   ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
@@ -26,7 +27,7 @@ TEST(RigidCase, DrivenByMultipliersItHasTheSamePeak) {
 
 // 5 rad/s converges with a flexible coupler too: 18.724 m/s^2 in four seconds.
 TEST(FlexibleCase, HasItsPublishedPeakAtFiveRadiansPerSecond) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.coupler = Coupler::kFlexible;
   parameters.crank_velocity = 5.0;
   const RunResult run = simulate_rpsup(parameters, {.duration = 4.0}, {});
@@ -37,7 +38,7 @@ TEST(FlexibleCase, HasItsPublishedPeakAtFiveRadiansPerSecond) {
 }
 
 TEST(FlexibleCase, WithAnIdealJointFollowsTheRigidOne) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.coupler = Coupler::kFlexible;
   parameters.c_r = 0.0;
   const RunResult run = simulate_rpsup(parameters, {.duration = 3.0}, {});
@@ -53,7 +54,7 @@ TEST(FlexibleCase, WithAnIdealJointFollowsTheRigidOne) {
 // For some 10 ms friction feeds a vibration of the coupler, of 1.3 kHz, from micrometres per second squared until the joint bounds it. Its size is a
 // sample; that it is there is not: damped by long steps it would leave 14.3 m/s^2 (radau5 with steps of 1 ms).
 TEST(FlexibleCase, SeesVibrationsThatFrictionFeeds) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.coupler = Coupler::kFlexible;
   parameters.rigid_elements = 5;
   parameters.crank_velocity = 5.903;
@@ -74,7 +75,7 @@ TEST(FlexibleCase, SeesVibrationsThatFrictionFeeds) {
 // So it does vibrations of the journal on its bore, of 2.6 kHz here, without any link that bends. Their peak is where the journal leaves the bore for a
 // moment: 13.5 m/s^2, however they began. Damped by steps of a millisecond they would leave 9.14 m/s^2.
 TEST(RigidCase, SeesVibrationsThatFrictionFeeds) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.crank_velocity = 5.642;
   parameters.rod_stroke = 0.0;
   parameters.c_r = 0.1018e-3;
@@ -98,7 +99,7 @@ TEST(RigidCase, SeesVibrationsThatFrictionFeeds) {
 // Without friction little damps the journal on its bore: what errors of each step set off is there for the next time that it leaves the bore. With ten
 // times more left of Newton's iterations that sets off peaks of 40 to 70 m/s^2.
 TEST(RigidCase, AddsNoVibrationsWhereNothingDampsThem) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.crank_velocity = 5.0;
   parameters.c_r = 0.1e-3;
   parameters.friction = FrictionLaw::kNone;
@@ -113,7 +114,7 @@ TEST(RigidCase, AddsNoVibrationsWhereNothingDampsThem) {
 
 // With no gravity and no motion nothing happens; with an axial clearance nothing may touch.
 TEST(RigidCase, StaysAtRestWhereNothingMovesIt) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.gravity = 0.0;
   parameters.crank_velocity = 0.0;
   parameters.rod_stroke = 0.0;
@@ -140,7 +141,7 @@ TEST(Channels, ExtremesBetweenSamplesHoldThePeak) {
 
 TEST(Channels, MetricsDoNotDependOnTheSampling) {
   for (const double c_r : {0.25e-3, 0.0}) {
-    RpsupParameters parameters;
+    RpsupParameters parameters = validation::across_rpsup();
     parameters.c_r = c_r;
     const RunResult few = simulate_rpsup(parameters, {.duration = 0.2, .output_rate = 10.0}, {});
     const RunResult many = simulate_rpsup(parameters, {.duration = 0.2, .output_rate = 20000.0}, {});
@@ -154,7 +155,7 @@ TEST(Channels, MetricsDoNotDependOnTheSampling) {
 }
 
 TEST(Channels, PosesCloseTheLoop) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.coupler = Coupler::kFlexible;
   const RunResult run = simulate_rpsup(parameters, {.duration = 0.1}, {});
   ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
@@ -172,7 +173,7 @@ TEST(Channels, PosesCloseTheLoop) {
 // Implicit and explicit method land on the same impacts. The first 0.1 s: the journal drops and bounces on both rings, faces chatter.
 TEST(Integrators, ImplicitOnesFindTheImpactsOfDopri5) {
   for (const Coupler coupler : {Coupler::kRigid, Coupler::kFlexible}) {
-    RpsupParameters parameters;
+    RpsupParameters parameters = validation::across_rpsup();
     parameters.coupler = coupler;
     RunOptions options{.duration = 0.1, .integrator = Integrator::kDopri5, .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9};
     const RunResult dopri5 = simulate_rpsup(parameters, options, {});
@@ -196,7 +197,7 @@ TEST(Integrators, ImplicitOnesFindTheImpactsOfDopri5) {
 
 // The paper's contact elements: as the continuum but for friction, where each element has its own bristle.
 TEST(Elements, WithoutFrictionFollowTheContinuumAtFirst) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.friction = FrictionLaw::kNone;
   const RunOptions options{.duration = 0.02};
   const RunResult continuum = simulate_rpsup(parameters, options, {});
@@ -214,7 +215,7 @@ TEST(Elements, WithoutFrictionFollowTheContinuumAtFirst) {
 
 // A wide clearance under a strong pull: impacts so deep that the elements' bristles outgrow their first place.
 TEST(Elements, GoOnWhereMoreOfThemTouchThanExpected) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.contact = ContactForm::kElements;
   parameters.c_r = 2e-3;
   parameters.gravity = 500.0;

@@ -11,6 +11,9 @@ plus what impacts, friction and the coupler's dampers have taken, is constant. W
 its own force; error control does not look at them. What the account fails to close by is the metric `energy_residual`, over the work turned
 over, so it is a second opinion on every run.
 
+Orders over the step are those of smooth drives: the ideal linkage's rod moves by the cycloidal law there, and the case with clearance is the second
+geometry's.
+
 How fast it falls with the step says whether force, motion and account belong together. With an ideal joint it has the order of the method,
 4 and 5. With clearance the force sets in as the penetration to the power 1.5: its higher derivatives jump there, and a step that contains
 the onset has not the method's order. `dopri5` ends its steps there and keeps order 5; `rk4` does not, and keeps 2.5 of an onset on the

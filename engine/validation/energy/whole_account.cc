@@ -58,10 +58,10 @@ Findings compute_whole_account() {
               .reproducible_to = 0.05};
   table.rows.push_back({number(1e3 * record.work.back(), 6), number(1e3 * record.change.back(), 6), number(1e3 * record.impact.back(), 3),
                         number(1e3 * record.friction.back(), 3), number(1e3 * record.structural.back(), 3)});
-  Chart energies{.title = "work and energy", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -10.0, .y_max = 280.0};
+  Chart energies{.title = "work and energy", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.5, .y_max = 8.0};
   energies.series.push_back({.label = "change of energy", .x = record.t, .y = in_millijoule(record.change), .colour = kGrey, .width = 4.0});
   energies.series.push_back({.label = "work of the drives", .x = record.t, .y = in_millijoule(record.work), .colour = kBlue});
-  Chart losses{.title = "losses", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.02, .y_max = 0.48};
+  Chart losses{.title = "losses", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.01, .y_max = 0.28};
   losses.series.push_back({.label = "impact", .x = record.t, .y = in_millijoule(record.impact), .colour = kOrange});
   losses.series.push_back({.label = "friction", .x = record.t, .y = in_millijoule(record.friction), .colour = kBlue});
   losses.series.push_back({.label = "structure", .x = record.t, .y = in_millijoule(record.structural), .colour = kGreen});

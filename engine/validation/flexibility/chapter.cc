@@ -8,7 +8,8 @@ Chapter flexibility_chapter() {
       .title = "Flexible links and springs",
       .text =
           "Rigid elements and springs as the engine builds them, taken out of the linkage: deflections, frequencies and their limits as the\n"
-          "division becomes finer. Then the linkage at rest, whose coupler sags and swings, and a beam spun up by its hub. The other links that may\n"
+          "division becomes finer. Then the second geometry at rest, whose coupler lies across gravity, sags and swings, and a beam spun up by its\n"
+          "hub. The other links that may\n"
           "be flexible, crank, rod and cross link, cut out of the linkage, sagging in it and stiff in it. Last, springs and dampers between points\n"
           "of two bodies of a described linkage.",
       .parts = {{"clamped_coupler_bends_like_the_rod", compute_tip_deflections},

@@ -91,7 +91,7 @@ Findings compute_link_sags() {
   RpsupParameters of_crank = standing();
   of_crank.crank.model = LinkModel::kFlexible;
   of_crank.crank.elements = kSegments + 1;
-  of_crank.rod_length = 0.3;  // its middle is 0.05 m before the crank's end, the ball 0.1 m beyond it
+  of_crank.rod_length = of_crank.rod_start = 0.3;  // its middle is 0.05 m before the crank's end, the ball 0.1 m beyond it
   link_of(of_crank, Link::k12) = rod_inertia(0.6, 0.3, 3e-5);
   const double rod = 0.6 * kGravity, ball = 0.5 * 0.306 * kGravity;
   const double crank_sag = 1e3 * calc_sag(0.471 * kGravity, rod + ball, -0.05 * rod + 0.1 * ball, 0.2, calc_EI(of_crank.crank), kSegments);
@@ -99,6 +99,7 @@ Findings compute_link_sags() {
                                     "moments over springs: F l^3 / (3 E I) and the like as n grows", find_sag(of_crank, "crank"), crank_sag,
                                     1e-6 * crank_sag, "mm", why));
   RpsupParameters of_rod = standing();
+  of_rod.rod_start = of_rod.rod_length;
   of_rod.rod.model = LinkModel::kFlexible;
   of_rod.rod.elements = kSegments + 1;
   const double rod_sag = 1e3 * calc_sag(0.490 * kGravity, 0.5 * 0.306 * kGravity, 0.0, 0.2, calc_EI(of_rod.rod), kSegments);

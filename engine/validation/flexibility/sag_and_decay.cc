@@ -11,6 +11,7 @@
 #include "engine/validation/flexibility/oscillation.h"
 #include "engine/validation/flexibility/parts.h"
 #include "engine/validation/flexibility/rods.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "engine/validation/support/runs.h"
 #include "engine/validation/support/text.h"
 
@@ -20,10 +21,10 @@ namespace {
 
 constexpr double kOutputRate = 20'000.0;  // [Hz]
 
-/// The study's linkage with an ideal joint, its drives at rest: the coupler is pinned at both ends for bending about its own z axis (the joint R
-/// is free there), and gravity bends it so although it lies at an angle to x.
+/// The second geometry with an ideal joint, its drives at rest. Gravity acts across the coupler there, and the coupler is pinned at both ends for
+/// bending about its own z axis (the joint R is free there): gravity bends it so although it lies at an angle to x.
 RpsupParameters linkage_at_rest(double damping_ratio, double gravity = 9.81) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = across_rpsup();
   parameters.coupler = Coupler::kFlexible;
   parameters.c_r = 0.0;
   parameters.crank_velocity = 0.0;
@@ -60,7 +61,7 @@ void add_sag(Findings& findings) {
   findings.checks.push_back(compare("deflection of the coupler's end in the linkage at rest (channel), 3 segments",
                                     "(1 + 1 / (2 n^2)) m g l^3 / (24 E I)", 1e3 * column(run, "coupler_deflection_mm").back(), 1e6 * sag.deflection,
                                     1e-4, "um", why));
-  findings.tables.push_back({.caption = "Sag of the coupler in the linkage at rest over m g l^3 / (E I).",
+  findings.tables.push_back({.caption = "Sag of the coupler in the second geometry at rest over m g l^3 / (E I).",
                              .head = {"", "3 segments, found", "statics of three springs", "rod"},
                              .rows = {{"in the middle", number(-column(run, "pose_1_3_2_y_m").back() / unit, 6), number(sag.middle / unit, 6),
                                        "5/384 = " + number(5.0 / 384.0, 6)},
@@ -78,7 +79,7 @@ Findings compute_sag_and_decay() {
   const double undivided = euler_bernoulli_frequency(rod, kBendingModes[0]);
   Table table{
       .caption =
-          "The coupler in the linkage, from straight, swings about its sag in its pinned-pinned mode; frequency and damping ratio from the "
+          "The coupler in the second geometry, from straight, swings about its sag in its pinned-pinned mode; frequency and damping ratio from the "
           "turning points of its deflection. Damping is set for the undivided rod's frequency, so its ratio is zeta omega / omega_1. The swing of "
           "0.16 mm at 9.81 m/s^2 is not quite linear: under a tenth of gravity the damping ratio's difference is a hundredth.",
       .head = {"zeta asked for", "gravity [m/s^2]", "frequency found [Hz]", "expected", "zeta found", "expected"},

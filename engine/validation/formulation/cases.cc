@@ -1,6 +1,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "engine/validation/formulation/parts.h"
@@ -14,10 +15,21 @@ std::vector<CouplerCase> coupler_cases() {
   p.guide_offset_y = 0.03;
   p.guide_offset_z = 0.17;
   std::vector<CouplerCase> cases{{"rigid coupler", p}};
-  p.coupler = Coupler::kFlexible;
+  RpsupParameters flexible = p;
+  flexible.coupler = Coupler::kFlexible;
   for (const int n_rfe : {2, 4, 10}) {
-    p.rigid_elements = n_rfe;
-    cases.push_back({"flexible coupler, n_rfe = " + std::to_string(n_rfe), p});
+    flexible.rigid_elements = n_rfe;
+    cases.push_back({"flexible coupler, n_rfe = " + std::to_string(n_rfe), flexible});
+  }
+  flexible.rigid_elements = 4;
+  for (RpsupParameters turned : {p, flexible}) {
+    turned.guide_angle = 0.3;
+    turned.gravity_direction = Direction::kMinusY;
+    const std::string guide = ", guide turned by 0.3 rad, gravity along -y";
+    const std::string coupler = turned.coupler == Coupler::kRigid ? "rigid coupler" : "flexible coupler, n_rfe = 4";
+    cases.push_back({coupler + guide, turned});
+    turned.yoke_axis = YokeAxis::kAcross;
+    cases.push_back({coupler + ", yoke across the guide" + guide, turned});
   }
   return cases;
 }

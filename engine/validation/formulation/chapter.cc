@@ -13,8 +13,9 @@ Chapter formulation_chapter() {
               "\n"
               "Angles are drawn from the whole turn (the second of three angles in a row only to 70 degrees, since at 90 the three are "
               "singular), slides from 0.3 m, rates from 10 rad/s and 2 m/s, with fixed seeds. The linkage is that of the study, but with a "
-              "crank of 0.18 m and the guide at y = 0.03 m, z = 0.17 m, so that no two lengths can be exchanged unseen. A second route needs"
-              " no reference at all: slopes of the engine's own energies must give the same terms, for Lagrange's equations say so.",
+              "crank of 0.18 m and the guide at y = 0.03 m, z = 0.17 m, so that no two lengths can be exchanged unseen. The yoke turns about "
+              "the guide and gravity acts along -z, the crank's axis, but for the cases that say otherwise. A second route needs no reference "
+              "at all: slopes of the engine's own energies must give the same terms, for Lagrange's equations say so.",
           .parts = {{"mass_coriolis_gravity_and_springs_equal_the_trace_form", compute_trace_form},
                     {"slopes_of_the_energies_give_the_same_terms", compute_energy_differences},
                     {"contact_forces_do_the_work_of_their_points", compute_virtual_work}}};

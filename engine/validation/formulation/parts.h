@@ -17,7 +17,7 @@ struct CouplerCase {
   std::string name;
   RpsupParameters parameters;
 };
-/// Rigid, and flexible with 2, 4 and 10 rigid elements.
+/// Rigid, and flexible with 2, 4 and 10 rigid elements; rigid and with 4 also with a turned guide, the yoke about it and across it.
 [[nodiscard]] std::vector<CouplerCase> coupler_cases();
 
 /// Angles over the whole turn but for each joint's second one (it stays 20 degrees off a right angle, where a joint of three angles is

@@ -62,9 +62,10 @@ VectorXd draw_touching_state(const Mechanism& mechanism, const MotionSystem& sys
   Evaluation assembled = system.make_evaluation();
   if (!LoopClosure(mechanism).assemble(0.0, assembled)) throw std::runtime_error("the linkage of the virtual-work part cannot be assembled");
   VectorXd q = assembled.q + random.symmetric_vector(assembled.q.size(), 2e-5);
-  q[2] += 0.6e-3;  // psi lifts the coupler's end by 0.3 mm: beyond the clearance of 0.25 mm
+  const Eigen::Index slider = q.size() - 2;
+  q[slider] += 0.36e-3;  // the guide lies across the bore's axis, or nearly so: the journal moves beyond the clearance of 0.25 mm
   VectorXd qd = random.symmetric_vector(q.size(), 0.1);
-  qd[2] += 1.0;  // towards the bore
+  qd[slider] += 0.5;  // towards the bore
   return system.make_state(q, qd);
 }
 

@@ -23,9 +23,9 @@ beyond g / sigma_0 in the direction of sliding could give back more than it hold
 table below says how fast runs slide. For a user it means:
 
 - `friction_work_j` is the work of the friction force; what bristles hold for the moment is in it. It can fall for an instant, when they
-  spring back: by about a hundredth of the whole. The energy account stays closed, since nothing but that work is counted.
+  spring back: the table's last column says by how much of the whole. The energy account stays closed, since nothing but that work is counted.
 - A bristle that has just come into contact resists with sigma_1 |v|, more than mu_k from 0.04 m/s on. In hard impacts friction can
-  therefore come near the normal force, although mu_k is 0.2.)";
+  therefore be more than mu_k times the normal force: the table gives the largest.)";
 
 }  // namespace
 

@@ -16,6 +16,7 @@ constexpr double kDuration = 2.5;  // [s]; the corners of the drive laws fall on
 RpsupParameters ideal() {
   RpsupParameters p;
   p.c_r = 0.0;
+  p.rod_law = StrokeLaw::kCycloidal;  // equal steps have their order where no acceleration jumps
   return p;
 }
 

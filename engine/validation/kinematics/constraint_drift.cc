@@ -114,7 +114,7 @@ Bound calc_bound(const RpsupParameters& p, double h, const Drift& drift) {
 std::string name_of(const Run& run) {
   return std::string(run.coupler == Coupler::kRigid ? "rigid" : "flexible") + " coupler, drives " +
          (run.drive == DriveEnforcement::kPrescribed ? "prescribed" : "by multipliers") + ", " +
-         (run.step > 0.0 ? "rk4 with steps of " + number(run.step) + " s" : "dopri5 with tolerances of 1e-6 and 1e-7");
+         (run.step > 0.0 ? "rk4 with steps of " + number(run.step) + " s, rod by the cycloidal law" : "dopri5 with tolerances of 1e-6 and 1e-7");
 }
 
 Findings measure_all(const std::vector<Run>& runs, RpsupParameters p, double duration) {
@@ -133,6 +133,7 @@ Findings measure_all(const std::vector<Run>& runs, RpsupParameters p, double dur
     p.coupler = run.coupler;
     p.drive = run.drive;
     const bool fixed = run.step > 0.0;
+    p.rod_law = fixed ? StrokeLaw::kCycloidal : RpsupParameters{}.rod_law;  // rk4 does not end its steps where an acceleration jumps
     RunOptions options{.duration = duration, .integrator = Integrator::kDopri5, .relative_tolerance = 1e-6, .absolute_tolerance = 1e-7,
                        .step_limit = 1'000'000};
     if (fixed) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/validation/kinematics/parts.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "engine/validation/support/largest.h"
 #include "engine/validation/support/runs.h"
 #include "engine/validation/support/text.h"
@@ -61,16 +62,20 @@ void add_ideal(Findings& findings, Tables& tables) {
   const std::string reference = "drives prescribed";
   std::array<double, 3> differences{};
   std::array<double, 3> steps{1e-3, 5e-4, 2.5e-4};
+  RpsupParameters smooth = p;
+  smooth.rod_law = StrokeLaw::kCycloidal;
+  const RunResult smooth_solved = run_rpsup(smooth, {.duration = kDuration});
+  smooth.drive = DriveEnforcement::kBaumgarte;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const Pair pair{smooth_solved, run_rpsup(smooth, {.duration = kDuration, .integrator = Integrator::kRk4, .step = steps[k]})};
+    differences[k] = pair.slider_difference();
+    pair.add_rows("ideal joint, rod by the cycloidal law, rk4 with steps of " + number(steps[k]) + " s", tables);
+  }
   const RunResult solved = run_rpsup(p, {.duration = kDuration});
   p.drive = DriveEnforcement::kBaumgarte;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    const Pair pair{solved, run_rpsup(p, {.duration = kDuration, .integrator = Integrator::kRk4, .step = steps[k]})};
-    differences[k] = pair.slider_difference();
-    pair.add_rows("ideal joint, rk4 with steps of " + number(steps[k]) + " s", tables);
-  }
   for (std::size_t k = 0; k + 1 < steps.size(); ++k)
     findings.checks.push_back(compare("slider with drives by multipliers less the exact one: order in the step from " +
-                                          number(steps[k]) + " s to half of it, rk4" + of,
+                                          number(steps[k]) + " s to half of it, rk4, rod by the cycloidal law" + of,
                                       "order of rk4", std::log2(differences[k] / differences[k + 1]), 4.0, 0.15, "1",
                                       "higher orders of h beta = 0.1 count some per cent, a tenth of an order"));
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
@@ -85,9 +90,11 @@ void add_ideal(Findings& findings, Tables& tables) {
   }
 }
 
+/// Of the second geometry. In the study's, contacts of single rings just occur or just do not, so that any two runs part within 0.1 s by some
+/// 1e-9 m, whatever the tolerance and with prescribed drives too: the number of impacts differs by one or two.
 void add_clearance(Findings& findings, Tables& tables) {
-  const RpsupParameters p;
-  const std::string of = ", clearance of 0.25 mm, rigid coupler, 10 rad/s, 0.5 s";
+  const RpsupParameters p = across_rpsup();
+  const std::string of = ", second geometry, clearance of 0.25 mm, rigid coupler, 10 rad/s, 0.5 s";
   const std::string reference = "drives prescribed, same tolerance";
   std::vector<double> differences;
   for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8}) {
@@ -100,7 +107,7 @@ void add_clearance(Findings& findings, Tables& tables) {
     findings.checks.push_back(compare("peak acceleration with drives by multipliers" + at, reference, Pair::peak(pair.baumgarte), peak,
                                       100.0 * tolerance * peak, "m/s^2",
                                       "100 times the tolerance: positions differ by a thousandth of it, and penetrations are of 1e-5 m"));
-    pair.add_rows("clearance 0.25 mm, dopri5, " + number(tolerance), tables);
+    pair.add_rows("second geometry, clearance 0.25 mm, dopri5, " + number(tolerance), tables);
   }
   findings.checks.push_back(compare("digits by which the sliders' difference falls from tolerance 1e-5 to 1e-7" + of, "the tolerance's two digits",
                                     std::log10(differences[0] / differences[2]), 2.0, 0.7, "1",

@@ -4,7 +4,7 @@
 
 namespace engine::validation {
 
-/// The drives have the cycloidal law's features, go on without a jump, and differentiate to each other.
+/// The drives have their laws' features, differentiate to each other, and jump in their accelerations alone, where the law says so.
 [[nodiscard]] Findings compute_drive_laws();
 /// The slider of the ideal rigid linkage moves as the closed form says, peaks included.
 [[nodiscard]] Findings compute_closed_form();

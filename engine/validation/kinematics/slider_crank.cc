@@ -22,10 +22,12 @@ constexpr double kTurn = 0.5;                // [s] of a turn of the crank
 constexpr double kOmega = 2.0 * pi / kTurn;  // [rad/s], constant from the start
 
 /// A slider-crank with the crank about z and the slider along x at (y = e, z): seen along z it is a planar one whose rod is as long
-/// as the coupler's projection, L = sqrt(l^2 - z^2), for the coupler keeps its slope against the crank's plane.
+/// as the coupler's projection, L = sqrt(l^2 - z^2), for the coupler keeps its slope against the crank's plane. About
+/// which axis the yoke turns makes no difference to the slider; about the guide it can turn where z is not 0.
 struct SliderCrank {
   const char* name;
   double r, l, e, z;
+  YokeAxis yoke;
 
   [[nodiscard]] double rod() const { return std::sqrt(l * l - z * z); }
   /// The rod's projection on the slider's direction.
@@ -49,7 +51,8 @@ struct SliderCrank {
 RpsupParameters parameters_of(const SliderCrank& c) {
   RpsupParameters p;
   p.c_r = 0.0;
-  p.rod_length = c.r;
+  p.rod_length = p.rod_start = c.r;
+  p.yoke_axis = c.yoke;
   p.coupler_length = c.l;
   p.guide_offset_y = c.e;
   p.guide_offset_z = c.z;
@@ -118,10 +121,12 @@ Findings compute_slider_crank() {
               .rows = {},
               .reproducible_to = 10.0};
   Table strokes{.caption = "Stroke of the slider with the rod locked.", .head = {"case", "run [m]", "closed form [m]"}, .rows = {}};
-  const SliderCrank planar{"planar in-line: r = 0.2 m, l = 0.5 m", 0.2, 0.5, 0.0, 0.0};
-  for (const SliderCrank& c : {planar, SliderCrank{"planar offset: r = 0.15 m, l = 0.5 m, e = 0.1 m", 0.15, 0.5, 0.1, 0.0},
-                               SliderCrank{"spatial: r = 0.2 m, l = 0.5 m, z = 0.2 m", 0.2, 0.5, 0.0, 0.2},
-                               SliderCrank{"spatial offset: r = 0.17 m, l = 0.55 m, e = -0.08 m, z = 0.3 m", 0.17, 0.55, -0.08, 0.3}}) {
+  const SliderCrank planar{"planar in-line: r = 0.2 m, l = 0.5 m", 0.2, 0.5, 0.0, 0.0, YokeAxis::kAcross};
+  for (const SliderCrank& c : {planar, SliderCrank{"planar offset: r = 0.15 m, l = 0.5 m, e = 0.1 m", 0.15, 0.5, 0.1, 0.0, YokeAxis::kAcross},
+                               SliderCrank{"spatial: r = 0.2 m, l = 0.5 m, z = 0.2 m, yoke about the guide", 0.2, 0.5, 0.0, 0.2, YokeAxis::kGuide},
+                               SliderCrank{"spatial: r = 0.2 m, l = 0.5 m, z = 0.2 m, yoke across the guide", 0.2, 0.5, 0.0, 0.2, YokeAxis::kAcross},
+                               SliderCrank{"spatial offset: r = 0.17 m, l = 0.55 m, e = -0.08 m, z = 0.3 m, yoke about the guide", 0.17, 0.55,
+                                           -0.08, 0.3, YokeAxis::kGuide}}) {
     const RunResult run = run_rpsup(parameters_of(c), {.duration = kTurn, .output_rate = 40'000.0});
     std::vector<std::string> row{c.name};
     add_motion(c, run, findings, row);

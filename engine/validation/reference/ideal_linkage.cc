@@ -1,5 +1,6 @@
 #include "engine/validation/reference/ideal_linkage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -7,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "engine/validation/reference/paper_linkage.h"
 #include "engine/validation/reference/pseudo_inertia.h"
 
 namespace engine::validation {
@@ -19,21 +21,45 @@ using Eigen::Vector3d;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-/// The triangle that S joint, guide and slider make.
-struct Triangle {
-  Taylor psi, r, W, Y;  ///< crank angle, its length; from the S joint along x and y to the guide's point that the coupler reaches
-};
-
-Triangle calc_triangle(const RpsupParameters& p, double t) {
-  Triangle triangle{calc_crank_angle(p, t), p.rod_length + calc_rod_displacement(p, t), {}, {}};
-  triangle.Y = p.guide_offset_y - triangle.r * sin(triangle.psi);
-  const double l = p.coupler_length;
-  triangle.W = sqrt(Taylor(l * l - p.guide_offset_z * p.guide_offset_z) - triangle.Y * triangle.Y);
-  return triangle;
-}
+Vector3t operator+(const Vector3t& a, const Vector3t& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vector3t operator-(const Vector3t& a, const Vector3t& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector3t operator*(const Taylor& s, const Vector3t& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Taylor dot(const Vector3t& a, const Vector3t& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector3t cross(const Vector3t& a, const Vector3t& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vector3t make_constant(double x, double y, double z) { return {Taylor(x), Taylor(y), Taylor(z)}; }
+
+/// Axes of the guide and of the slider.
+struct GuideAxes {
+  Vector3t x, y, z;
+};
+
+GuideAxes guide_axes(const RpsupParameters& p) {
+  const double c = std::cos(p.guide_angle), s = std::sin(p.guide_angle);
+  return {make_constant(c, 0.0, s), make_constant(0.0, 1.0, 0.0), make_constant(-s, 0.0, c)};
+}
+
+/// The triangle that S joint, guide and slider make.
+struct Triangle {
+  Taylor psi, r;
+  Vector3t S, J;        ///< S joint and slider in the global frame
+  Vector3t across;      ///< from the guide to the S joint, at right angles to the guide
+  Taylor slider;        ///< z^(2,1)
+};
+
+Triangle calc_triangle(const RpsupParameters& p, double t, Side side) {
+  Triangle triangle{calc_crank_angle(p, t), p.rod_length + calc_rod_displacement(p, t, side), {}, {}, {}, {}};
+  triangle.S = {triangle.r * cos(triangle.psi), triangle.r * sin(triangle.psi), Taylor(0.0)};
+  const Vector3t guide = make_constant(0.0, p.guide_offset_y, p.guide_offset_z);
+  const Vector3t d = guide_axes(p).x;
+  const Taylor along = dot(triangle.S - guide, d);
+  triangle.across = triangle.S - guide - along * d;
+  triangle.slider = along + sqrt(Taylor(p.coupler_length * p.coupler_length) - dot(triangle.across, triangle.across));
+  triangle.J = guide + triangle.slider * d;
+  return triangle;
 }
 
 LinkMotion make_motion(const Vector3t& x, const Vector3t& y, const Vector3t& z, const Vector3t& origin) {
@@ -63,54 +89,63 @@ Needed calc_needed(const LinkMotion& motion, const Matrix4d& H, const Vector3d& 
           Vector3d(integral(2, 1) - integral(1, 2), integral(0, 2) - integral(2, 0), integral(1, 0) - integral(0, 1)) - mc.cross(gravity)};
 }
 
+/// @param first_half  of the parabolic law
+Taylor calc_rise(StrokeLaw law, bool first_half, const Taylor& u) {
+  if (law == StrokeLaw::kCycloidal) return calc_cycloid(u);
+  if (law == StrokeLaw::kCosine) return 0.5 * (Taylor(1.0) - cos(0.5 * kTwoPi * u));
+  return first_half ? 2.0 * u * u : Taylor(1.0) - 2.0 * (Taylor(1.0) - u) * (Taylor(1.0) - u);
+}
+
 }  // namespace
 
 Taylor calc_cycloid(const Taylor& u) { return u - 1.0 / kTwoPi * sin(kTwoPi * u); }
 
 Taylor calc_crank_angle(const RpsupParameters& p, double t) {
   const Taylor time = Taylor::time(t);
-  if (t >= p.run_up) return p.crank_velocity * (time - 0.5 * p.run_up);
+  if (t >= p.run_up) return p.crank_start + p.crank_velocity * (time - 0.5 * p.run_up);
   const Taylor u = 1.0 / p.run_up * time;
-  return p.crank_velocity * p.run_up * (0.5 * u * u + 1.0 / (kTwoPi * kTwoPi) * (cos(kTwoPi * u) - 1.0));
+  return p.crank_start + p.crank_velocity * p.run_up * (0.5 * u * u + 1.0 / (kTwoPi * kTwoPi) * (cos(kTwoPi * u) - 1.0));
 }
 
-Taylor calc_rod_displacement(const RpsupParameters& p, double t) {
+Taylor calc_rod_displacement(const RpsupParameters& p, double t, Side side) {
+  constexpr double kAside = 1e-9;  // [s]
+  const double inside = side == Side::kBefore ? std::max(0.0, t - kAside) : t;  // the piece of the law that counts is the one there
   const double cycle = 2.0 * p.rod_stroke_time + p.rod_pause;
-  const double begin = cycle * std::floor(t / cycle);
+  const double begin = cycle * std::floor(inside / cycle);
+  const double halves = std::floor(2.0 * (inside - begin) / p.rod_stroke_time);
   const Taylor u = 1.0 / p.rod_stroke_time * (Taylor::time(t) - begin);
-  if (u.value() >= 2.0) return 0.0;
-  return p.rod_stroke * (u.value() < 1.0 ? calc_cycloid(u) : Taylor(1.0) - calc_cycloid(u - 1.0));
+  const double rest = p.rod_start - p.rod_length;
+  if (halves >= 4.0) return rest;
+  if (halves < 2.0) return rest + p.rod_stroke * calc_rise(p.rod_law, halves < 1.0, u);
+  return rest + p.rod_stroke * (Taylor(1.0) - calc_rise(p.rod_law, halves < 3.0, u - 1.0));
 }
 
-Taylor calc_slider(const RpsupParameters& p, double t) {
-  const Triangle triangle = calc_triangle(p, t);
-  return triangle.r * cos(triangle.psi) + triangle.W;
-}
+Taylor calc_slider(const RpsupParameters& p, double t, Side side) { return calc_triangle(p, t, side).slider; }
 
-std::array<LinkMotion, kLinkCount> calc_ideal_motion(const RpsupParameters& p, double t) {
-  const Triangle triangle = calc_triangle(p, t);
+std::array<LinkMotion, kLinkCount> calc_ideal_motion(const RpsupParameters& p, double t, Side side) {
+  const Triangle triangle = calc_triangle(p, t, side);
   const Taylor c = cos(triangle.psi);
   const Taylor s = sin(triangle.psi);
   const Vector3t x_11{c, s, 0.0};
   const Vector3t y_11{-1.0 * s, c, 0.0};
-  const Vector3t x{1.0, 0.0, 0.0};
-  const Vector3t y{0.0, 1.0, 0.0};
-  const Vector3t z{0.0, 0.0, 1.0};
+  const Vector3t z = make_constant(0.0, 0.0, 1.0);
+  const GuideAxes slider = guide_axes(p);
   const Taylor z_12 = triangle.r - p.rod_length;
-  const Vector3t S{triangle.r * c, triangle.r * s, 0.0};
 
-  const double per_length = 1.0 / p.coupler_length;
-  const Vector3t x_13{per_length * triangle.W, per_length * triangle.Y, Taylor(per_length * p.guide_offset_z)};
-  const Taylor width = sqrt(x_13[0] * x_13[0] + x_13[2] * x_13[2]);
-  const Vector3t z_13{-1.0 * x_13[2] / width, 0.0, x_13[0] / width};
-  const Vector3t J{calc_slider(p, t), p.guide_offset_y, p.guide_offset_z};
-  return {make_motion(x_11, y_11, z, {0.0, 0.0, 0.0}), make_motion(x_11, y_11, z, {z_12 * c, z_12 * s, 0.0}),
-          make_motion(x_13, cross(z_13, x_13), z_13, S), make_motion(x, y, z, J), make_motion(cross(y, z_13), y, z_13, J)};
+  const Vector3t x_13 = 1.0 / p.coupler_length * (triangle.J - triangle.S);
+  const bool about_guide = p.yoke_axis == YokeAxis::kGuide;
+  const Vector3t along_z_13 = about_guide ? cross(slider.x, triangle.across) : cross(x_13, slider.y);
+  const Vector3t z_13 = 1.0 / sqrt(dot(along_z_13, along_z_13)) * along_z_13;
+  const Vector3t x_22 = about_guide ? slider.x : cross(slider.y, z_13);
+  const Vector3t y_22 = about_guide ? cross(z_13, slider.x) : slider.y;
+  return {make_motion(x_11, y_11, z, make_constant(0.0, 0.0, 0.0)), make_motion(x_11, y_11, z, z_12 * x_11),
+          make_motion(x_13, cross(z_13, x_13), z_13, triangle.S), make_motion(slider.x, slider.y, slider.z, triangle.J),
+          make_motion(x_22, y_22, z_13, triangle.J)};
 }
 
-IdealForces calc_ideal_forces(const RpsupParameters& p, double t) {
-  const std::array<LinkMotion, kLinkCount> motion = calc_ideal_motion(p, t);
-  const Vector3d gravity(0.0, -p.gravity, 0.0);
+IdealForces calc_ideal_forces(const RpsupParameters& p, double t, Side side) {
+  const std::array<LinkMotion, kLinkCount> motion = calc_ideal_motion(p, t, side);
+  const Vector3d gravity = calc_gravity(p);
   const std::array<double, kLinkCount> length{p.crank_length, p.rod_length, p.coupler_length, 0.0, 0.0};
   IdealForces forces{};
   std::array<Needed, kLinkCount> needed;
@@ -126,18 +161,22 @@ IdealForces calc_ideal_forces(const RpsupParameters& p, double t) {
   const Vector3d S = motion[2].T.topRightCorner<3, 1>();
   const Vector3d J = motion[3].T.topRightCorner<3, 1>();
 
-  // Unknown: force f on the journal at J and moment n_x x_22 + n_y y on it (joint R carries none about its axis). The guide takes no
-  // force along x, the cross link's joint no moment about y, the S joint no moment at all: -f and -n turn the coupler about S.
+  // Unknown: force f on the journal at J and moment m k + n o on it, k the yoke's axis and o at right angles to it and to joint R's axis, about which
+  // that joint carries none. The guide takes no force along itself, the yoke no moment about its axis, the S joint no moment at all: -f and the
+  // opposite moment turn the coupler about S.
+  const Vector3d guide = motion[3].T.block<3, 1>(0, 0);
+  const int yoke_column = p.yoke_axis == YokeAxis::kGuide ? 0 : 1;
+  const Vector3d k = motion[4].T.block<3, 1>(0, yoke_column), o = motion[4].T.block<3, 1>(0, 1 - yoke_column);
   Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Matrix<double, 5, 1> b;
-  A(0, 0) = 1.0;
-  b[0] = slider.force.x() + cross_link.force.x();
+  A.block<1, 3>(0, 0) = guide.transpose();
+  b[0] = guide.dot(slider.force + cross_link.force);
   A(1, 4) = 1.0;
-  b[1] = (cross_link.moment - J.cross(cross_link.force)).y();
+  b[1] = k.dot(cross_link.moment - J.cross(cross_link.force));
   const Vector3d arm = J - S;
-  for (int k = 0; k < 3; ++k) A.block<3, 1>(2, k) = -arm.cross(Vector3d::Unit(k));
-  A.block<3, 1>(2, 3) = -motion[4].T.block<3, 1>(0, 0);
-  A(3, 4) = -1.0;
+  for (int i = 0; i < 3; ++i) A.block<3, 1>(2, i) = -arm.cross(Vector3d::Unit(i));
+  A.block<3, 1>(2, 3) = -o;
+  A.block<3, 1>(2, 4) = -k;
   b.tail<3>() = coupler.moment - S.cross(coupler.force);
   const Eigen::Matrix<double, 5, 1> x = A.partialPivLu().solve(b);
   forces.reaction_W = x.head<3>();

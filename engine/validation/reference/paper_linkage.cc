@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 namespace engine::validation {
 
 namespace {
@@ -55,9 +57,14 @@ void add_coupler(Mechanism& chains, const RpsupParameters& p) {
 
 }  // namespace
 
+Eigen::Vector3d calc_gravity(const RpsupParameters& p) {
+  const int direction = static_cast<int>(p.gravity_direction);  // x, -x, y, -y, z, -z
+  return (direction % 2 == 0 ? p.gravity : -p.gravity) * Eigen::Vector3d::Unit(direction / 2);
+}
+
 Mechanism make_paper_chains(const RpsupParameters& p) {
   Mechanism chains;
-  chains.gravity_W = {0.0, -p.gravity, 0.0};
+  chains.gravity_W = calc_gravity(p);
   chains.coordinates.push_back({.name = "", .placement = {}, .motion = Motion::kRotation, .axis = Axis::kZ});
   set_body(chains.coordinates.back(), p.links[0].mass, 0.5 * p.crank_length, p.links[0].inertia);
   chains.coordinates.push_back({.name = "", .parent = 0, .placement = {}, .motion = Motion::kTranslation, .axis = Axis::kX});
@@ -65,10 +72,12 @@ Mechanism make_paper_chains(const RpsupParameters& p) {
   add_coupler(chains, p);
 
   const auto slider = static_cast<FrameIndex>(chains.coordinates.size());
-  chains.coordinates.push_back({.name = "", .placement = {.p = {0.0, p.guide_offset_y, p.guide_offset_z}}, .motion = Motion::kTranslation,
-                                .axis = Axis::kX});
+  Placement guide{.p = {0.0, p.guide_offset_y, p.guide_offset_z}};
+  if (p.guide_angle != 0.0) guide.R = Eigen::AngleAxisd(-p.guide_angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  chains.coordinates.push_back({.name = "", .placement = guide, .motion = Motion::kTranslation, .axis = Axis::kX});
   set_body(chains.coordinates.back(), p.links[3].mass, 0.0, p.links[3].inertia);
-  chains.coordinates.push_back({.name = "", .parent = slider, .placement = {}, .motion = Motion::kRotation, .axis = Axis::kY});
+  chains.coordinates.push_back({.name = "", .parent = slider, .placement = {}, .motion = Motion::kRotation,
+                                .axis = p.yoke_axis == YokeAxis::kGuide ? Axis::kX : Axis::kY});
   set_body(chains.coordinates.back(), p.links[4].mass, 0.0, p.links[4].inertia);
   return chains;
 }

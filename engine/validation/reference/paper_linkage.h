@@ -11,6 +11,9 @@ namespace engine::validation {
 /// at its division of the coupler. No springs, drives or cut joints.
 [[nodiscard]] Mechanism make_paper_chains(const RpsupParameters& parameters);
 
+/// Gravity in the global frame, [m/s^2]
+[[nodiscard]] Eigen::Vector3d calc_gravity(const RpsupParameters& parameters);
+
 /// Where the bearing sits on the last frame of chain 1: on the coupler's end, at this x, [m]. The journal is the last frame of chain 2.
 [[nodiscard]] double calc_bearing_x(const RpsupParameters& parameters);
 

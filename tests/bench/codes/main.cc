@@ -54,8 +54,8 @@ Contest make_rigid_contest(const Method& method) {
 }
 
 Contest make_flexible_contest(const Method& method) {
-  const RpsupParameters parameters = linkage(Coupler::kFlexible, 0.25e-3, 5.0);
-  return {"flexible, 0.25 mm, 5 rad/s, 4 s", method.name, parameters, method.options,
+  const RpsupParameters parameters = linkage(Coupler::kFlexible, 0.25e-3, 10.0);
+  return {"flexible, 0.25 mm, 10 rad/s, 4 s", method.name, parameters, method.options,
           {mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 30.0)}};
 }
 

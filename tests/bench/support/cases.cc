@@ -11,6 +11,12 @@ namespace {
 
 constexpr double kPenetration = 5e-6;  // [m]; of a light impact
 
+engine::Evaluation close_loop(const engine::Mechanism& mechanism) {
+  engine::Evaluation assembled = engine::MotionSystem(mechanism).make_evaluation();
+  if (!engine::LoopClosure(mechanism).assemble(0.0, assembled)) throw std::runtime_error("the loop does not close");
+  return assembled;
+}
+
 }  // namespace
 
 engine::RpsupParameters linkage(engine::Coupler coupler, double c_r, double omega) {
@@ -22,17 +28,20 @@ engine::RpsupParameters linkage(engine::Coupler coupler, double c_r, double omeg
 }
 
 Coordinates assemble(const engine::Mechanism& mechanism) {
-  engine::Evaluation assembled = engine::MotionSystem(mechanism).make_evaluation();
-  if (!engine::LoopClosure(mechanism).assemble(0.0, assembled)) throw std::runtime_error("the loop does not close");
+  const engine::Evaluation assembled = close_loop(mechanism);
   return {assembled.q, Eigen::VectorXd::Zero(assembled.q.size())};
 }
 
 Coordinates assemble_in_contact(const engine::RpsupParameters& parameters, const engine::Rpsup& rpsup) {
-  Coordinates at = assemble(rpsup.mechanism);
-  const Eigen::Index psi = rpsup.layout.rod + 1;  // the coupler's first turn, about z: across the bearing
-  const double lever = at.q[rpsup.layout.slider] - parameters.rod_length;  // the coupler's length seen along that axis
-  if (parameters.c_r > 0.0) at.q[psi] += (parameters.c_r + kPenetration) / lever;
-  at.qd[psi] = 0.02;
+  const engine::Evaluation assembled = close_loop(rpsup.mechanism);
+  Coordinates at{assembled.q, Eigen::VectorXd::Zero(assembled.q.size())};
+  const engine::CutJoint& joint = rpsup.mechanism.cut_joints.at(0);
+  const auto frame = [&](engine::FrameIndex i) -> const engine::FrameMotion& { return assembled.frames[static_cast<std::size_t>(i)]; };
+  const Eigen::Vector3d guide = frame(rpsup.layout.slider).R.col(0);
+  const Eigen::Vector3d axis = frame(joint.bearing_frame).R * joint.bearing.R.col(2);
+  const double across = guide.cross(axis).norm();  // of the slider's way: what leads from the bearing's axis to its bore
+  if (parameters.c_r > 0.0) at.q[rpsup.layout.slider] += (parameters.c_r + kPenetration) / across;
+  at.qd[rpsup.layout.slider] = 0.01;
   at.qd[rpsup.layout.slider + 1] = 1.0;  // the cross link's own turn
   return at;
 }

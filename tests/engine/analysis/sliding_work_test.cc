@@ -6,6 +6,7 @@
 
 #include "engine/model/rpsup.h"
 #include "engine/simulate_rpsup.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "engine/validation/support/runs.h"
 
 namespace engine {
@@ -28,7 +29,7 @@ Evaluation pressing(double t, double force, double angle, double spin) {
 
 // W = F r_j spin t, half of it on each of the two rings, all in the direction of the contact.
 TEST(SlidingWork, IsForceTimesDistanceOfASteadilySlidingJournal) {
-  const RpsupParameters parameters;
+  const RpsupParameters parameters = validation::across_rpsup();
   SlidingWork work(parameters);
   for (int k = 0; k < 10; ++k) work.take_step(pressing(0.1 * k, 50.0, 0.7, -20.0), pressing(0.1 * (k + 1), 50.0, 0.7, -20.0));
   const double expected = 50.0 * (5e-3 - 0.25e-3) * 20.0 * 1.0;
@@ -42,7 +43,7 @@ TEST(SlidingWork, IsForceTimesDistanceOfASteadilySlidingJournal) {
 }
 
 TEST(SlidingWork, IsOfTheRingThatPresses) {
-  const RpsupParameters parameters;
+  const RpsupParameters parameters = validation::across_rpsup();
   SlidingWork work(parameters);
   Evaluation start = pressing(0.0, 50.0, 0.0, 20.0);
   // Tilted by 1 mrad about y, the ring at +10 mm is 10 um farther out, and that at -10 mm is free.
@@ -56,7 +57,7 @@ TEST(SlidingWork, IsOfTheRingThatPresses) {
 
 // A line contact's force grows nearly in proportion: three times as deep a ring has not 5.2 times the share, as by Hertz's law.
 TEST(SlidingWork, IsSharedByTheStiffnessLaw) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.stiffness_law = StiffnessLaw::kJohnson;
   SlidingWork work(parameters);
   Evaluation start = pressing(0.0, 50.0, 0.0, 20.0);
@@ -72,7 +73,7 @@ TEST(SlidingWork, IsSharedByTheStiffnessLaw) {
 
 // With one coefficient at all speeds friction takes mu of it, once a bristle has bent by mu / sigma_0: here a micrometre.
 TEST(SlidingWork, IsTheFrictionWorkOverTheCoefficient) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.mu_s = parameters.mu_k = 0.1;
   parameters.sigma_0 = 1e5;
   parameters.sigma_1 = 0.0;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/simulate_rpsup.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "engine/validation/support/runs.h"
 
 namespace engine {
@@ -59,10 +60,10 @@ TEST(SteppedPeak, LeavesLowerTurnsAlone) {
 // The journal drops and bounces. Read at the ends of these steps, the contact force would be 0.7 % low.
 TEST(SteppedPeak, LoadsOfLongStepsAreThoseOfFineOnes) {
   RunOptions options{.duration = 0.1, .integrator = Integrator::kDopri5, .relative_tolerance = 1e-9, .absolute_tolerance = 1e-9};
-  const RunResult fine = simulate_rpsup({}, options, {});
+  const RunResult fine = simulate_rpsup(validation::across_rpsup(), options, {});
   options.integrator = Integrator::kRodas4;
   options.relative_tolerance = options.absolute_tolerance = 3e-5;
-  const RunResult coarse = simulate_rpsup({}, options, {});
+  const RunResult coarse = simulate_rpsup(validation::across_rpsup(), options, {});
   ASSERT_EQ(fine.status, RunStatus::kSucceeded) << fine.detail;
   ASSERT_EQ(coarse.status, RunStatus::kSucceeded) << coarse.detail;
   ASSERT_LT(metric(coarse, "steps"), 0.2 * metric(fine, "steps"));

@@ -20,6 +20,7 @@
 #include "engine/dynamics/loop_closure.h"
 #include "engine/dynamics/motion_system.h"
 #include "engine/model/rpsup.h"
+#include "engine/validation/support/across_rpsup.h"
 
 namespace engine {
 namespace {
@@ -273,7 +274,7 @@ TEST(RadialElements, AWiderWindowHoldsTheSameBristles) {
 }
 
 TEST(MotionSystem, TellsElementsOfALastingContactFromAbruptChanges) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.contact = ContactForm::kElements;
   parameters.radial_elements = 720;
   parameters.c_a = 1e-3;  // faces stay apart
@@ -313,7 +314,7 @@ TEST(MotionSystem, TellsElementsOfALastingContactFromAbruptChanges) {
 
 // What a missed element leaves behind must not reach the next evaluation.
 TEST(RadialElements, AMissLeavesTheNextEvaluationAlone) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.contact = ContactForm::kElements;
   parameters.radial_elements = 720;
   const Mechanism mechanism = build_rpsup(parameters).mechanism;

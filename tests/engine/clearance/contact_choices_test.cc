@@ -14,6 +14,7 @@
 #include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
 #include "engine/validation/contact/sliding_mass.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "engine/validation/support/quiet_observer.h"
 #include "engine/validation/support/runs.h"
 #include "engine/validation/support/simple_mechanisms.h"
@@ -200,7 +201,7 @@ void PrintTo(const Choice& c, std::ostream* out) { *out << c.name; }
 class Choices : public testing::TestWithParam<Choice> {};
 
 TEST_P(Choices, RunTheLinkageWithAClosedAccount) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   const RunOptions options{.duration = 0.25};
   const double usual = metric(validation::run_rpsup(parameters, options), "peak_slider_acceleration_whole_run_m_s2");
   GetParam().choose(parameters);
@@ -231,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& c) { return c.param.name; });
 
 TEST(StiffnessLaw, EndsTheRunWhereItNoLongerHolds) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.stiffness_law = StiffnessLaw::kJohnson;
   parameters.contact_stiffness_scale = 1e-6;
   const RunResult run = simulate_rpsup(parameters, {.duration = 1.0}, {});

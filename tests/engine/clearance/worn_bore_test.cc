@@ -15,6 +15,7 @@
 #include "engine/clearance/continuum_law.h"
 #include "engine/clearance/radial_continuum.h"
 #include "engine/model/rpsup.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "engine/validation/support/runs.h"
 
 namespace engine {
@@ -169,7 +170,7 @@ TEST(WornBore, ForceIsTheGradientOfWhatItStores) {
 }
 
 RpsupParameters worn_rpsup(const WearDepth& depth) {
-  RpsupParameters parameters;
+  RpsupParameters parameters = validation::across_rpsup();
   parameters.wear_depth = depth;
   return parameters;
 }
@@ -180,7 +181,7 @@ RunResult run(const RpsupParameters& parameters, double tolerance = 1e-7) {
 }
 
 TEST(WornRun, WithoutDepthIsTheRunOfARoundBore) {
-  const RunResult round = run({});
+  const RunResult round = run(validation::across_rpsup());
   const RunResult worn = run(worn_rpsup(make_depth(12, [](double) { return 0.0; })));
   for (std::size_t i = 0; i < round.metrics.size(); ++i) {
     if (std::isnan(round.metrics[i])) continue;
@@ -190,13 +191,13 @@ TEST(WornRun, WithoutDepthIsTheRunOfARoundBore) {
 
 TEST(WornRun, OfABoreWornAllAroundIsThatOfAWiderOne) {
   const RunResult worn = run(worn_rpsup(make_depth(12, [](double) { return 50e-6; })));
-  RpsupParameters wider;
+  RpsupParameters wider = validation::across_rpsup();
   wider.bearing_radius += 50e-6;
   wider.c_r += 50e-6;
   // Hertz's stiffness of the bore as it was new.
-  wider.contact_stiffness_scale = make_clearance({}).K / make_clearance(wider).K;
+  wider.contact_stiffness_scale = make_clearance(validation::across_rpsup()).K / make_clearance(wider).K;
   const RunResult other = run(wider);
-  const RunResult narrow = run({});
+  const RunResult narrow = run(validation::across_rpsup());
   for (const char* const key : {"peak_slider_acceleration_whole_run_m_s2", "peak_contact_force_n", "sliding_work_j", "friction_work_j"}) {
     EXPECT_NEAR(metric(worn, key), metric(other, key), 2e-3 * metric(other, key)) << key;
     EXPECT_GT(std::abs(metric(narrow, key) - metric(other, key)), 0.02 * metric(other, key)) << key;

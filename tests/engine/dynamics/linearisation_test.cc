@@ -12,6 +12,7 @@
 #include "engine/dynamics/loop_closure.h"
 #include "engine/dynamics/motion_system.h"
 #include "engine/model/rpsup.h"
+#include "engine/validation/support/across_rpsup.h"
 #include "tests/engine/linkage_cases.h"
 
 namespace engine {
@@ -28,7 +29,7 @@ struct Case {
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 std::vector<Case> all_cases() {
-  RpsupParameters rigid;
+  RpsupParameters rigid = validation::across_rpsup();
   rigid.v_s = 1.0;  // Stribeck's curve then bends over the whole range of the rates below
   RpsupParameters flexible = rigid;
   flexible.coupler = Coupler::kFlexible;
@@ -85,10 +86,27 @@ std::vector<Case> all_cases() {
                               .stiffness = 100.0, .damping = 3.0, .free_length = 0.05}};
   Linkage driven_screw = make_screw();
   driven_screw.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
+  RpsupParameters guide;  // the yoke about the guide, three rings
+  guide.v_s = 1.0;
+  RpsupParameters flexible_guide = guide;
+  flexible_guide.coupler = Coupler::kFlexible;
+  RpsupParameters ideal_guide = flexible_guide;
+  ideal_guide.c_r = 0.0;
+  RpsupParameters turned_guide = guide;  // a tree that no code is specialised for; the acceleration of its drive jumps elsewhere
+  turned_guide.guide_angle = 0.3;
+  turned_guide.crank_start = 0.4;
+  turned_guide.rod_law = StrokeLaw::kParabolic;
+  RpsupParameters dashpots = elements;
+  dashpots.normal_law = NormalForceLaw::kKelvinVoigt;
   constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
+  constexpr double kTilted = 2e-3;  // of the coupler's turn about z: presses the faces, too
   const auto of_rpsup = [](std::string name, const RpsupParameters& parameters, double offset, double step) {
     Rpsup rpsup = build_rpsup(parameters);
     return Case{std::move(name), std::move(rpsup.mechanism), rpsup.layout.slider, offset, step};
+  };
+  const auto of_tilted_coupler = [](std::string name, const RpsupParameters& parameters, double offset, double step) {
+    Rpsup rpsup = build_rpsup(parameters);
+    return Case{std::move(name), std::move(rpsup.mechanism), rpsup.layout.rod + 1, offset, step};
   };
   const auto of_linkage = [](std::string name, const Linkage& linkage, double offset, double disturbance) {
     Mechanism mechanism = build_linkage(linkage).mechanism;
@@ -113,6 +131,9 @@ std::vector<Case> all_cases() {
           of_rpsup("rigid_drive_rows", rigid_rows, kPressed, kFine),
           of_rpsup("ideal_flexible", ideal, 1e-6, kCoarse), of_rpsup("ideal_rigid", ideal_rigid, 1e-6, kCoarse),
           of_rpsup("ideal_drive_rows", all_rows, 1e-6, kCoarse),
+          of_tilted_coupler("guide", guide, kTilted, kFine), of_tilted_coupler("flexible_guide", flexible_guide, kTilted, kFine),
+          of_tilted_coupler("ideal_guide", ideal_guide, 1e-6, kCoarse), of_tilted_coupler("turned_guide", turned_guide, kTilted, kFine),
+          of_rpsup("elements_with_dashpots", dashpots, kPressed, kFine),
           of_rpsup("flexible_links", links, kPressed, kFine), of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
           {"loose_loops", build_linkage(loose).mechanism, 1, 3e-4, kFine}, {"loose_rocker", build_linkage(loose).mechanism, 3, 2e-3, kFine},
           {"loose_elements", build_linkage(loose_elements).mechanism, 3, 2e-3, kFine},

@@ -9,6 +9,7 @@
 
 #include "engine/dynamics/motion_system.h"
 #include "engine/model/rpsup.h"
+#include "engine/validation/support/across_rpsup.h"
 
 namespace engine {
 namespace {
@@ -30,7 +31,7 @@ class LoopClosureLead : public testing::Test {
     return largest;
   }
 
-  Mechanism mechanism_ = build_ideal_rpsup({}).mechanism;
+  Mechanism mechanism_ = build_ideal_rpsup(validation::across_rpsup()).mechanism;
   LoopClosure closure_{mechanism_};
   Evaluation first_ = MotionSystem(mechanism_).make_evaluation();
 };

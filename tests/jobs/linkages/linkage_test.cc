@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/model/rpsup_geometry.h"
 #include "engine/simulate_linkage.h"
 #include "engine/simulate_rpsup.h"
 #include "jobs/requests/expand.h"
@@ -98,7 +99,16 @@ const std::vector<std::pair<std::string, std::string>> kSame{
     {"guide_m_s", "slider_velocity_m_s"}, {"guide_m_s2", "slider_acceleration_m_s2"}, {"crank_drive_n_m", "crank_torque_n_m"},
     {"rod_drive_n", "rod_force_n"}, {"bearing_force_x_n", "reaction_x_n"}, {"bearing_force_y_n", "reaction_y_n"},
         {"bearing_force_z_n", "reaction_z_n"},
-    {"kinetic_energy_j", "kinetic_energy_j"}, {"potential_energy_j", "potential_energy_j"}, {"pose_cross_qy", "pose_2_2_qy"}};
+    {"kinetic_energy_j", "kinetic_energy_j"}, {"potential_energy_j", "potential_energy_j"}, {"pose_cross_qx", "pose_2_2_qx"},
+    {"pose_cross_qy", "pose_2_2_qy"}};
+
+/// The same and those of the clearance.
+std::vector<std::pair<std::string, std::string>> same_with_clearance() {
+  auto channels = kSame;
+  for (const char* const key : {"journal_x_mm", "journal_y_mm", "contact_force_n", "friction_force_n"})
+    channels.emplace_back("bearing_" + std::string(key), key);
+  return channels;
+}
 
 void expect_same_bytes(const json& described, const json& built_in, const std::vector<std::pair<std::string, std::string>>& channels) {
   const engine::RunResult data = run(described), own = run(built_in);
@@ -106,13 +116,16 @@ void expect_same_bytes(const json& described, const json& built_in, const std::v
   for (const auto& [by_data, by_name] : channels) EXPECT_EQ(column(data.trajectory, by_data), column(own.trajectory, by_name)) << by_data;
 }
 
+/// The coupler of the example as the built-in one bends.
+json make_beam(double damping_ratio) {
+  const json beam{{"length_m", 0.5}, {"diameter_mm", 10}, {"axial_inertia_kg_m2", 3.829e-6}, {"damping_ratio", damping_ratio}};
+  return {{"mass_kg", 0.306}, {"beam", beam}};
+}
+
 TEST(RpsupByData, GivesTheSameBytes) {
   json described = example("rpsup");
   described["duration_s"] = 0.05;
-  auto channels = kSame;
-  for (const char* const key : {"journal_x_mm", "journal_y_mm", "contact_force_n", "friction_force_n"}) channels.emplace_back("bearing_" +
-      std::string(key), key);
-  expect_same_bytes(described, {{"duration_s", 0.05}}, channels);
+  expect_same_bytes(described, {{"duration_s", 0.05}}, same_with_clearance());
   described["clearance_mm"] = 0;
   expect_same_bytes(described, {{"duration_s", 0.05}, {"clearance_mm", 0}}, kSame);
 }
@@ -120,9 +133,60 @@ TEST(RpsupByData, GivesTheSameBytes) {
 TEST(RpsupByData, GivesTheSameBytesWithAFlexibleCoupler) {
   json described = example("rpsup");
   described["duration_s"] = 0.02;
-  described["linkage"]["bodies"]["coupler"] = {
-      {"mass_kg", 0.306}, {"beam", {{"length_m", 0.5}, {"diameter_mm", 10}, {"axial_inertia_kg_m2", 3.829e-6}, {"damping_ratio", 0.01}}}};
-  expect_same_bytes(described, {{"duration_s", 0.02}, {"coupler", "flexible"}}, kSame);
+  described["linkage"]["bodies"]["coupler"] = make_beam(0.0005);
+  expect_same_bytes(described, {{"duration_s", 0.02}, {"coupler", "flexible"}}, same_with_clearance());
+}
+
+/// The example with the geometry of a built-in linkage, whose guesses begin where the built-in ones do.
+json describe_geometry(const json& built_in) {
+  const json all = jobs::complete_parameters(built_in, "");
+  const engine::RpsupParameters p = jobs::to_job_spec(all).parameters;
+  const engine::AssemblyGuess guess = engine::calc_assembly_guess(p);
+  json described = example("rpsup");
+  json& joints = described["linkage"]["joints"];
+  joints["crank"]["drive"].update({{"from_rad", all.at("crank_start_rad")}, {"time_s", all.at("run_up_s")}});
+  joints["rod"]["drive"].update({{"stroke_law", all.at("rod_law")}, {"from_m", p.rod_start - p.rod_length}, {"stroke_m", p.rod_stroke},
+                                 {"stroke_time_s", all.at("rod_stroke_time_s")}, {"pause_s", all.at("rod_pause_s")}});
+  const auto guess_of = [](double angle) { return json{{"guess_rad", angle}}; };
+  joints["ball"]["freedoms"] = {{"z", guess_of(guess.psi_13)}, {"y", guess_of(guess.theta_13)}, {"x", guess_of(guess.phi_13)}};
+  joints["guide"].update({{"at_m", {0.0, all.at("guide_offset_y_m"), all.at("guide_offset_z_m")}}, {"guess_m", guess.z_21},
+                          {"turned_deg", {0.0, -all.at("guide_angle_deg").get<double>(), 0.0}}});
+  joints["yoke"].update({{"axis", all.at("yoke_axis") == "guide" ? "x" : "y"}, {"guess_rad", guess.psi_22}});
+  for (const char* const key : {"duration_s", "run_up_s", "clearance_mm", "bearing_length_mm", "radial_levels",
+                                "axial_stiffness_n_m"})
+    described[key] = all.at(key);
+  return described;
+}
+
+// Four jumps of the parabolic law's acceleration, and the guide turned about y.
+const json kTurned{{"duration_s", 0.05}, {"run_up_s", 0.02}, {"crank_start_rad", 0.5}, {"guide_angle_deg", 20},
+                   {"guide_offset_y_m", 0.03}, {"rod_law", "parabolic"}, {"rod_start_m", 0.17}, {"rod_stroke_time_s", 0.02}};
+
+TEST(RpsupByData, GivesTheSameBytesOfAnotherGeometry) {
+  expect_same_bytes(describe_geometry(kTurned), kTurned, same_with_clearance());
+  json ideal = kTurned;
+  ideal["clearance_mm"] = 0;
+  expect_same_bytes(describe_geometry(ideal), ideal, kSame);
+}
+
+TEST(RpsupByData, GivesTheSameBytesOfAnotherGeometryWithAFlexibleCoupler) {
+  json flexible = kTurned, described = describe_geometry(kTurned);
+  flexible.update({{"coupler", "flexible"}, {"coupler_damping_ratio", 0.01}});
+  described["linkage"]["bodies"]["coupler"] = make_beam(0.01);
+  expect_same_bytes(described, flexible, same_with_clearance());
+}
+
+// The cross link turns across the guide, the crank's axis is level.
+TEST(RpsupByData, GivesTheSameBytesWithTheYokeAcross) {
+  json across{{"duration_s", 0.05}, {"yoke_axis", "across"}, {"gravity_direction", "-y"}, {"guide_offset_z_m", 0.2},
+              {"rod_start_m", 0.2}, {"rod_law", "cycloidal"}, {"rod_stroke_mm", 50}, {"bearing_length_mm", 20},
+              {"radial_levels", 2}, {"axial_stiffness_n_m", 1e8}, {"coupler_damping_ratio", 0.01}};
+  json described = describe_geometry(across);
+  described["linkage"]["gravity_m_s2"] = {0, -9.81, 0};
+  expect_same_bytes(described, across, same_with_clearance());
+  described["linkage"]["bodies"]["coupler"] = make_beam(0.01);
+  across["coupler"] = "flexible";
+  expect_same_bytes(described, across, same_with_clearance());
 }
 
 struct Refusal {
@@ -167,6 +231,27 @@ constexpr Refusal kRefusals[] = {
     {"table_that_turns_back", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
        "value": {"law": "table", "times_s": [0, 2, 1], "values_rad": [0, 1, 2]}}])",
      "/linkage/joints/crank/drive/times_s", "later"},
+    {"stroke_by_an_unknown_law", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "rise_return_pause", "stroke_rad": 1, "stroke_time_s": 1, "stroke_law": "sine"}}])",
+     "/linkage/joints/crank/drive/stroke_law", R"("cycloidal", "cosine", "parabolic")"},
+    {"stroke_law_that_is_no_word", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "rise_return_pause", "stroke_rad": 1, "stroke_time_s": 1, "stroke_law": 1}}])",
+     "/linkage/joints/crank/drive/stroke_law", "must be one of"},
+    {"stroke_from_a_length", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "rise_return_pause", "stroke_rad": 1, "stroke_time_s": 1, "from_m": 1}}])",
+     "/linkage/joints/crank/drive/from_m", "unknown key"},
+    {"stroke_from_a_word", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "rise_return_pause", "stroke_rad": 1, "stroke_time_s": 1, "from_rad": "0"}}])",
+     "/linkage/joints/crank/drive/from_rad", "must be a number in [-1000000, 1000000] rad"},
+    {"stroke_law_of_another_law", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "cycloidal", "rise_rad": 1, "time_s": 1, "stroke_law": "cosine"}}])",
+     "/linkage/joints/crank/drive/stroke_law", "unknown key"},
+    {"run_up_from_a_length", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "run_up", "velocity_rad_s": 1, "from_m": 1}}])",
+     "/linkage/joints/crank/drive/from_m", "unknown key"},
+    {"run_up_from_too_far", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "run_up", "velocity_rad_s": 1, "from_rad": 1000001}}])",
+     "/linkage/joints/crank/drive/from_rad", "[-1000000, 1000000] rad"},
     {"driven_and_given", R"([{"op": "add", "path": "/linkage/joints/crank/start_rad", "value": 1}])", "/linkage/joints/crank/start_rad", "drive"},
     {"beam_without_section", R"([{"op": "remove", "path": "/linkage/bodies/coupler/beam/width_mm"}])", "/linkage/bodies/coupler/beam", "section"},
     {"inertia_of_no_body", R"([{"op": "replace", "path": "/linkage/bodies/rocker/inertia_kg_m2", "value": [1, 1, 3]}])",

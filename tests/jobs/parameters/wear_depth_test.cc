@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 using std::numbers::pi;
 
-json bore_of(double depth_um, std::size_t sectors = 8, std::size_t rings = 2) {
+json bore_of(double depth_um, std::size_t sectors = 8, std::size_t rings = 3) {
   return json(std::vector<std::vector<double>>(rings, std::vector<double>(sectors, depth_um)));
 }
 
@@ -41,7 +41,7 @@ TEST(WearDepth, IsRefusedWhereItSaysNoBore) {
       {{{"wear_depth_um", bore_of(1, 361)}}, "", "[8, 360]"},
       {{{"wear_depth_um", odd}}, "", "the same number"},
       {{{"wear_depth_um", negative}}, "/1/3", "[0, 100000] um"},
-      {{{"wear_depth_um", bore_of(1, 8, 3)}}, "", "for each of the rings, 2"},
+      {{{"wear_depth_um", bore_of(1, 8, 2)}}, "", "for each of the rings, 3"},
       {{{"wear_depth_um", bore_of(501)}}, "", "a tenth of the bearing radius, 500 um"},
       {{{"wear_depth_um", bore_of(1)}, {"contact", "elements"}}, "", "contact continuum"},
       {{{"wear_depth_um", bore_of(1)}, {"clearance_mm", 0}}, "", "ideal joint"},

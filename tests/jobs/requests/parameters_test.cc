@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,21 @@ constexpr FaultCase kFaultCases[] = {
     {"cross_triangle_broken_about_the_centre", R"({"cross_length_mm": 100, "links": {"2,2": {"inertia_kg_m2": [1e-4, 1e-4, 1e-5]}}})",
      "/links/2,2/inertia_kg_m2", "I_x and I_y"},
     {"too_many_values_of_links", R"({"duration_s": 20, "output_rate_hz": 100000, "crank": "flexible", "crank_elements": 64})", "/output_rate_hz", "values"},
+    {"unknown_yoke_axis", R"({"yoke_axis": "x"})", "/yoke_axis", R"(must be "guide" or "across")"},
+    {"unknown_direction_of_gravity", R"({"gravity_direction": "down"})", "/gravity_direction", R"("-z")"},
+    {"unknown_law_of_the_rod", R"({"rod_law": "sine"})", "/rod_law", R"("cycloidal", "cosine" or "parabolic")"},
+    {"crank_start_beyond_its_range", R"({"crank_start_rad": 10.1})", "/crank_start_rad", "[-10, 10] rad"},
+    {"guide_angle_beyond_its_range", R"({"guide_angle_deg": 181})", "/guide_angle_deg", "[-180, 180] deg"},
+    {"rod_start_beyond_its_range", R"({"rod_start_m": -101})", "/rod_start_m", "[-100, 100] m"},
+    {"rod_start_out_of_reach", R"({"rod_start_m": 0.5})", "/rod_start_m", "must be longer than"},
+    // The guide is the global x axis, and the crank rests along it.
+    {"guide_through_the_crank_centre", R"({"guide_offset_z_m": 0, "crank_velocity_rad_s": 0})", "/guide_offset_z_m",
+     "not further than the cross link's 0 mm"},
+    // tan(57.143 degrees) = 0.24 / 0.155: the guide meets the plane of the crank at x = -0.155 m, where the stroke from 0.15 m to
+    // 0.165 m passes.
+    {"stroke_through_the_guide",
+     R"({"guide_angle_deg": 57.143, "crank_velocity_rad_s": 0, "crank_start_rad": 3.141592653589793})",
+     "/guide_angle_deg", "the linkage locks at t = "},
     {"guide_out_of_reach", R"({"guide_offset_z_m": 0.6})", "/guide_offset_z_m", ""},
     {"links_no_object", R"({"links": []})", "/links", "object"},
     {"unknown_link", R"({"links": {"3,1": {}}})", "/links/3,1", "unknown link"},
@@ -114,20 +130,31 @@ TEST(CompleteParameters, AcceptsTheEdgesOfRanges) {
   for (const auto& [key, value] : given.items()) EXPECT_EQ(completed.at(key), value) << key;
 }
 
+TEST(CompleteParameters, AcceptsAGuideThroughTheCrankCentreWithTheYokeAcross) {
+  EXPECT_NO_THROW((void)jobs::complete_parameters({{"guide_offset_z_m", 0}, {"yoke_axis", "across"}}, ""));
+}
+
+TEST(CompleteParameters, AcceptsEveryNormalLawOfContactElements) {
+  for (const char* law : {"lankarani_nikravesh", "kelvin_voigt"})
+    EXPECT_NO_THROW((void)jobs::complete_parameters({{"contact", "elements"}, {"normal_law", law}}, "")) << law;
+}
+
 // The paper's values and those of the model's description, written down here by hand.
 TEST(CompleteParameters, FillsInTheDefaults) {
   const json expected = json_of(R"({
     "coupler": "rigid", "clearance_mm": 0.25, "axial_clearance_mm": 0, "crank_velocity_rad_s": 10, "duration_s": 5, "output_rate_hz": 1000,
-    "run_up_s": 2, "rod_stroke_mm": 50, "rod_stroke_time_s": 0.5, "rod_pause_s": 0.5, "drive": "prescribed", "baumgarte_alpha_1_s": 100,
-    "baumgarte_beta_1_s": 100, "contact": "continuum", "radial_levels": 2, "radial_elements": 180, "axial_levels": 1, "axial_elements": 8,
-    "bearing_radius_mm": 5, "bearing_length_mm": 20, "normal_law": "lankarani_nikravesh", "restitution": 0.9,
-    "contact_damping_n_s_m": 1000, "stiffness_law": "hertz", "contact_stiffness_scale": 1, "axial_stiffness_n_m": 1e8,
+    "run_up_s": 2, "crank_start_rad": 0, "rod_start_m": 0.15, "rod_stroke_mm": 15, "rod_stroke_time_s": 0.5, "rod_pause_s": 0.5,
+    "rod_law": "cosine", "drive": "prescribed", "baumgarte_alpha_1_s": 100,
+    "baumgarte_beta_1_s": 100, "contact": "continuum", "radial_levels": 3, "radial_elements": 180, "axial_levels": 1, "axial_elements": 8,
+    "bearing_radius_mm": 5, "bearing_length_mm": 16, "normal_law": "lankarani_nikravesh", "restitution": 0.9,
+    "contact_damping_n_s_m": 1000, "stiffness_law": "hertz", "contact_stiffness_scale": 1, "axial_stiffness_n_m": 8.5e5,
     "minimum_impact_velocity_m_s": 0.001, "friction": "lugre", "friction_static": 0.1, "friction_kinetic": 0.2, "bristle_stiffness_1_m": 100,
     "bristle_damping_s_m": 5, "bristle_viscous_s_m": 0, "stribeck_velocity_m_s": 0.001, "break_away_ratio": 0.7,
     "friction_velocity_0_m_s": 1e-4, "friction_velocity_1_m_s": 1e-3, "rigid_elements": 4, "youngs_modulus_pa": 2.1e11,
-    "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.01, "integrator": "auto", "step_s": 1e-5,
+    "shear_modulus_pa": 0.8e11, "coupler_diameter_mm": 10, "coupler_damping_ratio": 0.0005, "integrator": "auto", "step_s": 1e-5,
     "relative_tolerance": 1.5e-5, "absolute_tolerance": 1.5e-5, "crank_length_m": 0.2, "rod_length_m": 0.2, "coupler_length_m": 0.5,
-    "guide_offset_y_m": 0, "guide_offset_z_m": 0.2, "gravity_m_s2": 9.81, "linkage": "rpsup",
+    "guide_offset_y_m": 0, "guide_offset_z_m": 0.24, "guide_angle_deg": 0, "yoke_axis": "guide", "gravity_m_s2": 9.81,
+    "gravity_direction": "-z", "linkage": "rpsup",
     "crank": "rigid", "crank_diameter_mm": 28, "crank_inner_diameter_mm": 20, "crank_elements": 4, "crank_damping_ratio": 0.01,
     "rod": "rigid", "rod_diameter_mm": 20, "rod_inner_diameter_mm": 0, "rod_elements": 4, "rod_damping_ratio": 0.01,
     "cross": "rigid", "cross_diameter_mm": 20, "cross_inner_diameter_mm": 15, "cross_elements": 4, "cross_damping_ratio": 0.01, "cross_length_mm": 0})");
@@ -202,6 +229,18 @@ TEST(ContentId, IsSha256OfTextAndVersion) {
   EXPECT_EQ(jobs::content_id("abc", "0.1"), "5fb98a8be7c2ac87cc286d0b06e5efc852a687ace2ba983e3e824e538038992b");
   EXPECT_EQ(jobs::sha256_hex("ab", "c\n0.1"), jobs::content_id("abc", "0.1")) << "a text in two parts";
   EXPECT_NE(jobs::content_id("abc", "0.2"), jobs::content_id("abc", "0.1"));
+}
+
+TEST(ToJobSpec, ConvertsDegreesAndTheWordsOfTheGeometry) {
+  const json given = json_of(R"({"guide_angle_deg": 30, "yoke_axis": "across", "gravity_direction": "-x", "rod_law": "parabolic",
+    "rod_start_m": 0.18, "crank_start_rad": -0.5})");
+  const engine::RpsupParameters p = jobs::to_job_spec(jobs::complete_parameters(given, "")).parameters;
+  EXPECT_DOUBLE_EQ(p.guide_angle, std::numbers::pi / 6.0);
+  EXPECT_EQ(p.yoke_axis, engine::YokeAxis::kAcross);
+  EXPECT_EQ(p.gravity_direction, engine::Direction::kMinusX);
+  EXPECT_EQ(p.rod_law, engine::StrokeLaw::kParabolic);
+  EXPECT_EQ(p.rod_start, 0.18);
+  EXPECT_EQ(p.crank_start, -0.5);
 }
 
 TEST(CanonicalText, IsOneForAllWaysToWriteTheSameParameters) {

@@ -21,7 +21,8 @@ const std::set<std::string> kKeys{
     "minimum_impact_velocity_m_s", "friction", "friction_static", "friction_kinetic", "bristle_stiffness_1_m", "bristle_damping_s_m",
     "bristle_viscous_s_m", "stribeck_velocity_m_s", "break_away_ratio", "friction_velocity_0_m_s", "friction_velocity_1_m_s", "rigid_elements", "youngs_modulus_pa", "shear_modulus_pa", "coupler_diameter_mm",
     "coupler_damping_ratio", "integrator", "step_s", "relative_tolerance", "absolute_tolerance", "crank_length_m", "rod_length_m",
-    "coupler_length_m", "guide_offset_y_m", "guide_offset_z_m", "gravity_m_s2", "linkage", "links", "wear_depth_um",
+    "coupler_length_m", "guide_offset_y_m", "guide_offset_z_m", "guide_angle_deg", "yoke_axis", "gravity_m_s2", "gravity_direction",
+    "crank_start_rad", "rod_start_m", "rod_law", "linkage", "links", "wear_depth_um",
     "crank", "crank_diameter_mm", "crank_inner_diameter_mm", "crank_elements", "crank_damping_ratio", "rod", "rod_diameter_mm",
     "rod_inner_diameter_mm", "rod_elements", "rod_damping_ratio", "cross", "cross_diameter_mm", "cross_inner_diameter_mm", "cross_elements",
     "cross_damping_ratio", "cross_length_mm"};
@@ -48,6 +49,8 @@ TEST(ParameterSchema, SaysTypeRangeUnitDefaultAndSource) {
   EXPECT_EQ(properties.at("rigid_elements").at("x-default-source"), "paper");
   EXPECT_EQ(properties.at("coupler").at("enum"), json::array({"rigid", "flexible"}));
   EXPECT_EQ(properties.at("coupler_diameter_mm").at("x-default-source"), "deduced from the paper");
+  EXPECT_EQ(properties.at("rod_start_m").at("x-default-source"), "fitted to the paper's ratios");
+  EXPECT_EQ(properties.at("yoke_axis").at("enum"), json::array({"guide", "across"}));
   EXPECT_EQ(properties.at("crank_inner_diameter_mm").at("default"), 20.0);
   EXPECT_EQ(properties.at("cross").at("enum"), properties.at("coupler").at("enum"));
   EXPECT_EQ(properties.at("links").at("properties").at("1,3").at("properties").at("mass_kg").at("default"), 0.306);

@@ -93,7 +93,7 @@ constexpr FaultCase kFaultCases[] = {
     {"clearance_of_bearing", R"({"sweep": {"clearance_mm": [1, 6], "bearing_radius_mm": [5, 6, 7], "coupler": ["rigid"]}})", "/sweep/clearance_mm",
      "which is 5 mm (at clearance_mm = 6.0, bearing_radius_mm = 5.0, coupler = \"rigid\"); likewise at 1 more points"},
     {"reach_of_the_point", R"({"sweep": {"guide_offset_z_m": [0.2, 0.49]}})", "/sweep/guide_offset_z_m", "(at guide_offset_z_m = 0.49)"},
-    {"reach_of_the_case", R"({"cases": [{}, {"coupler_length_m": 0.3}]})", "/cases/1/coupler_length_m", "(at coupler_length_m = 0.3)"},
+    {"reach_of_the_case", R"({"cases": [{}, {"coupler_length_m": 0.28}]})", "/cases/1/coupler_length_m", "(at coupler_length_m = 0.28)"},
     {"inertia_of_the_axis", R"({"parameters": {"links": {"1,3": {"inertia_kg_m2": [4e-6, 0.02, 0.02]}}}, "sweep": {"links.1,3.mass_kg": [0.3, 0.4]}})",
      "/parameters/links/1,3/inertia_kg_m2", "(at links.1,3.mass_kg = 0.4)"},
 };

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// The stretch of time between two jumps of the drives' accelerations. A step does not cross a jump: it ends
+/// there, with the accelerations before the jump, and the next one begins with those behind it.
+class DrivePiece {
+ public:
+  /// All of time.
+  DrivePiece() = default;
+  /// The first piece, from t = 0 on. @param drives  outlive this
+  explicit DrivePiece(const std::vector<Drive>& drives) : drives_(&drives) { find_end(0.0); }
+
+  /// The instant of the next jump, infinite if there is none, [s]
+  [[nodiscard]] double end() const { return end_; }
+
+  /// Goes on to the piece behind this one's end.
+  void advance() {
+    first_ = end_ * (1.0 + kBeside);
+    find_end(end_);
+  }
+
+  /// The instant at which the laws are to be evaluated for t: t itself, and at an end of the piece the
+  /// nearest instant surely inside.
+  [[nodiscard]] double clamp(double t) const { return std::clamp(t, first_, last_); }
+
+ private:
+  static constexpr double kBeside =
+      1e-14;  ///< of the time: more than the rounding with which a jump's instant is known
+
+  void find_end(double t) {
+    end_ = std::numeric_limits<double>::infinity();
+    for (const Drive& drive : *drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
+    last_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
+  }
+
+  const std::vector<Drive>* drives_ = nullptr;
+  double end_ = std::numeric_limits<double>::infinity();
+  double first_ = -std::numeric_limits<double>::infinity();
+  double last_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace engine
