@@ -6,6 +6,7 @@ set(page_files
   analysis/flexibility.js
   analysis/lyapunov.js
   analysis/motion.js
+  analysis/paper.js
   analysis/parts.js
   analysis/sensitivity.js
   analysis/surrogate.js
@@ -63,6 +64,7 @@ set(page_files
   run/time_plot.js
   run/time_window.js
   scene/described.js
+  scene/geometry.js
   scene/linkage.js
   scene/player.js
   scene/poses.js
@@ -70,6 +72,7 @@ set(page_files
   scene/shapes.js
   scene/stage.js
   scene/three.js
+  scene/upright.js
   study/data.js
   study/executors.js
   study/failures.js

@@ -14,6 +14,17 @@ const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", 
 /** What asks why jobs have failed. */
 const reasons = "**/v1/sweeps/swp_given/results?state=failed**";
 
+/** How the paper's seven statements, and one without a number, stand over so many settings. */
+function paperRows(settings) {
+  const holds = (number) => settings === 1 && number !== 3;
+  const found = (number) => (number === 5 ? { settings: 0, share: null, holds: null, found_least: null, found_largest: null }
+    : { settings, share: settings === 1 ? Number(holds(number)) : 0.43, holds: holds(number), found_least: number ?? 8, found_largest: number === 6 ? 6.5 : number ?? 8 });
+  const indices = (number) => (settings < 50 ? {} : { "index.bearing_length_mm": null, "index.coupler_damping_ratio": number === 2 ? 0.25 : 0.019,
+    "index.restitution": number === 2 ? 0.6 : 0.02 });
+  return [1, 2, 3, 4, 5, 6, 7, null].map((number) => ({ statement: `statement_${number}`, number, text: `ratio ${number}`, paper: number === 2 ? 8.5 : null,
+    ...found(number), ...indices(number) }));
+}
+
 /** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures, more of the sweep, the window's width */
 async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {}, width = 1360, isSchemaGone = false, isAway = false } = {}) {
   const page = await visit("#/wear", { viewport: { width, height: 1000 } });
@@ -23,6 +34,7 @@ async function visitRows(axes, rows, { query = "", parameters = {}, failures = [
   const sweep = { id: "swp_given", name: "given", state: "succeeded", counts, progress: 1, eta_s: null, axes, request: { parameters } };
   const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
   await give("**/v1/sweeps/swp_given", () => ({ ...sweep, ...more }));
+  await give("**/v1/sweeps/swp_given/paper**", () => paperRows(1));
   await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
   if (isAway) await page.route(reasons, (route) => route.abort());
   await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
@@ -154,6 +166,30 @@ test("the names of all lines stand above them, and in the saved picture", async 
     await picture(page, `names_${width}`, { fullPage: true });
     await leave(page);
   }
+});
+
+test("the paper's statements over many settings tell in how many they hold, and what decides each", async () => {
+  const axes = ["clearance_mm", "crank_velocity_rad_s", "coupler"];
+  const page = await visitRows(axes, [10, 15].map((velocity, k) => row(k, { clearance_mm: 0.25, crank_velocity_rad_s: velocity, coupler: "rigid", [metric]: velocity })));
+  await page.getByText("The paper's statements: 5 of 7 hold; the sweep lacks the jobs of 1").waitFor();
+  await page.route("**/v1/sweeps/swp_given/{flexibility,surrogate,bifurcation}**", (route) => route.fulfill({ status: 409, contentType: "application/problem+json", body: '{"detail": "not here"}' }));
+  await page.route("**/v1/sweeps/swp_given/paper**", (route) => route.fulfill({ json: paperRows(1000) }));
+  await page.getByRole("link", { name: "The paper's statements" }).click();
+  const cells = (name) => page.getByRole("region", { name, exact: true }).locator("tbody tr")
+    .evaluateAll((rows) => rows.map(({ cells: each }) => [...each].map((cell) => cell.textContent)));
+  await page.getByRole("region", { name: "The paper's statements" }).waitFor();
+  const many = "in 43 % of 1,000 settings";
+  assert.deepEqual(await cells("The paper's statements"), [["1", "Ratio 1", "below 1", "1", many], ["2", "Ratio 2", "8.5", "2", many], ["3", "Ratio 3", "below 1", "3", many], ["4", "Ratio 4", "below 1", "4", many],
+    ["5", "Ratio 5", "below 1", "–", "–"], ["6", "Ratio 6", "below 1", "6 to 6.5", many], ["7", "Ratio 7", "below 1", "7", many]]);
+  assert.deepEqual(await cells("The same at other velocities"), [["Ratio null", "below 1", "8", many]]);
+  // From 0.02 on, largest first.
+  const decided = await cells("First-order sensitivity indices");
+  assert.deepEqual([decided.length, decided[0], decided[1]], [7, ["1", "Restitution0.02"], ["2", "Restitution0.6Coupler damping ratio0.25"]]);
+  await expectAccessible(page);
+  await picture(page, "paper_settings", { fullPage: true });
+  await page.getByRole("link", { name: "The sweep", exact: true }).click();
+  await page.getByText("The paper's statements: each holds in 43 % of the settings").waitFor();
+  await leave(page, /409/);
 });
 
 test("more lines than are drawn are counted", async () => {

@@ -204,6 +204,97 @@ test("a run without a steady part has a peak all the same", async () => {
   await leave(page);
 });
 
+// The built-in linkage as it was before its yoke turned about the guide.
+const across = { yoke_axis: "across", gravity_direction: "-y", guide_offset_z_m: 0.2, rod_start_m: 0.2, rod_law: "cycloidal", rod_stroke_mm: 50 };
+const turning = { duration_s: 1, run_up_s: 0.3 };  // more than one turn of the crank
+
+test("up in the picture is against gravity", async () => {
+  const rsup = await (await fetch(`${url}/linkages/rsup.json`)).json();
+  for (const [name, parameters, up] of [["default", {}, "0 0 1"], ["across", across, "0 1 0"], ["weightless", { gravity_m_s2: 0 }, "0 1 0"], ["gravity along x", { gravity_direction: "x" }, "-1 0 0"],
+    ["negative gravity", { gravity_m_s2: -9.81 }, "0 0 -1"], ["described", { ...rsup, duration_s: 0.1, clearance_mm: undefined }, "0 0 1"]]) {
+    const { id } = await computedJob(parameters);
+    const page = await visit(`#/jobs/${id}`);
+    const scene = page.locator("canvas.scene[data-up]");
+    await scene.waitFor();
+    assert.equal(await scene.getAttribute("data-up"), up, name);
+    await picture(page, `scene_${name.replaceAll(" ", "_")}`);
+    await leave(page);
+  }
+});
+
+test("a job of an older program is drawn as it was computed", async () => {
+  const { id, parameters } = await computedJob(across);
+  const added = ["yoke_axis", "gravity_direction", "crank_start_rad", "guide_angle_deg", "rod_law", "rod_start_m"];
+  assert.deepEqual(added.filter((key) => !(key in parameters)), []);
+  const page = await visit("#/wear");
+  await page.route(`**/v1/jobs/${id}`, async (route) => {
+    const job = await (await route.fetch()).json();
+    await route.fulfill({ json: { ...job, parameters: Object.fromEntries(Object.entries(job.parameters).filter(([key]) => !added.includes(key))) } });
+  });
+  await page.goto(`${url}/#/jobs/${id}`);
+  const scene = page.locator("canvas.scene[data-up]");
+  await scene.waitFor();
+  assert.equal(await scene.getAttribute("data-up"), "0 1 0");
+  await page.getByLabel("Look at").selectOption("joint");
+  await leave(page);
+});
+
+/** What the 3-D view makes of a job: how far its moving places come from the middle of the first look (1: the picture's edge), how far the slider is from the
+    guide's bar [m], and by which angle the close-up looks past the bearing's axis [rad]. */
+function seenOf(page, job, columns, aspect) {
+  return page.evaluate(async ({ parameters, poses, ratio }) => {
+    const [{ loadThree }, { Stage }, { Linkage }, { shownOf }] = await Promise.all(["three", "stage", "linkage", "scene_card"].map((name) => import(`/scene/${name}.js`)));
+    const libraries = await loadThree();
+    const { THREE } = libraries;
+    const canvas = document.createElement("canvas");
+    Object.assign(canvas.style, { display: "block", width: `${400 * ratio}px`, height: "400px" });
+    document.body.append(canvas);
+    const life = new AbortController();
+    const links = ["1_1", "1_2", "1_3", "2_1", "2_2"];
+    const stage = new Stage(libraries, canvas, shownOf(parameters), life.signal);
+    const linkage = new Linkage(THREE, parameters, links);
+    linkage.group.updateMatrixWorld(true);
+    stage.camera.updateMatrixWorld(true);
+    const bar = linkage.group.getObjectByName("guide");
+    const [from, to] = [0, 1].map((x) => bar.localToWorld(new THREE.Vector3(x, 0, 0)));
+    const frame = (link, k) => ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"].map((part) => poses[`pose_${link}_${part}`][k]);
+    const placeOf = (link, k) => new THREE.Vector3(...frame(link, k).slice(0, 3));
+    const seen = { edge: 0, offGuide: 0 };
+    poses.t_s.forEach((_, k) => {
+      for (const link of ["1_3", "2_1"]) {
+        const { x, y } = placeOf(link, k).project(stage.camera);
+        seen.edge = Math.max(seen.edge, Math.abs(x), Math.abs(y));
+      }
+      const slider = placeOf("2_1", k).sub(from);
+      seen.offGuide = Math.max(seen.offGuide, slider.cross(to.clone().sub(from)).length());
+    });
+    const last = poses.t_s.length - 1;
+    linkage.place(Object.fromEntries(links.map((link) => [link, frame(link, last)])), { clearance: 1, bend: 1 });
+    stage.follow(linkage.joint, 0.1, linkage.jointAxis);
+    const journal = new THREE.Vector3(0, 0, 1).applyQuaternion(new THREE.Quaternion(...frame("2_2", last).slice(3)));
+    seen.past = Math.acos(Math.abs(stage.camera.position.clone().sub(stage.controls.target).normalize().dot(journal)));
+    life.abort();
+    canvas.remove();
+    return seen;
+  }, { parameters: job.parameters, poses: columns, ratio: aspect });
+}
+
+test("the first look shows the whole linkage, its guide where the slider moves, and the close-up looks along the bearing", async () => {
+  const page = await visit("#/wear");
+  for (const parameters of [{}, across, { guide_angle_deg: 20, guide_offset_y_m: 0.03 }, { gravity_direction: "-y" }, { gravity_direction: "-x" }]) {
+    const job = await computedJob({ ...parameters, ...turning });
+    const { columns } = await ask(`/v1/jobs/${job.id}/trajectory?points=4000`);
+    for (const aspect of [0.8, 1.4]) {
+      const { edge, offGuide, past } = await seenOf(page, job, columns, aspect);
+      const told = `${JSON.stringify(parameters)}, aspect ${aspect}: edge ${edge}, off the guide ${offGuide}, past ${past}`;
+      assert.ok(edge > 0.6 && edge < 1, told);
+      assert.ok(offGuide < 1e-6, told);
+      assert.ok(past < 0.5, told);  // atan(0.35 sqrt(2)) = 0.46: from a little aside and above
+    }
+  }
+  await leave(page);
+});
+
 test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
   const { id } = await computedJob();
   const page = await visit(`#/jobs/${id}?from=0.1&to=0.3`, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });

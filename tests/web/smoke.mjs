@@ -14,7 +14,7 @@ test("an empty service leads to the form", async () => {
   await expectAccessible(page);
   await picture(page, "empty");
   await page.getByRole("link", { name: "Take the paper's study" }).click();
-  await page.getByText("18 jobs").waitFor();
+  await page.getByText("40 jobs").waitFor();
   await leave(page);
 });
 
@@ -410,6 +410,43 @@ test("a wear study is begun in its form, draws the bore and is deleted", async (
   await page.getByRole("button", { name: "Delete", exact: true }).last().click();
   await page.getByText("No wear study has been begun yet").waitFor();
   await leave(page, /422/);
+});
+
+test("a sweep is held against the paper's statements", async () => {
+  const sweep = await runSweep({ name: "statements", parameters: { duration_s: 0.6, run_up_s: 0.3 }, sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [10, 15], coupler: ["rigid", "flexible"] } });
+  const rows = await ask(`/v1/sweeps/${sweep.id}/paper`);
+  const numbered = rows.filter((row) => row.number !== null);
+  assert.deepEqual(numbered.map((row) => [row.number, row.settings]), [1, 2, 3, 4, 5, 6, 7].map((number) => [number, 1]));
+  const page = await visit(`#/sweeps/${sweep.id}`);
+  await page.getByText(`The paper's statements: ${numbered.filter((row) => row.holds).length} of 7 hold`).waitFor();
+  await page.getByRole("link", { name: "The paper's statements" }).click();
+  await page.getByRole("heading", { name: "The paper's statements" }).waitFor();
+  assert.equal(await page.locator("section.card h2").first().textContent(), "The paper's statements");
+  const cells = (name) => page.getByRole("region", { name, exact: true }).locator("tbody tr")
+    .evaluateAll((found) => found.map(({ cells: each }) => [...each].map((cell) => cell.textContent)));
+  await page.getByRole("region", { name: "The paper's statements" }).waitFor();
+  const shown = await cells("The paper's statements");
+  assert.deepEqual(shown.map(([number, , , , verdict]) => [number, verdict]), numbered.map((row) => [String(row.number), row.holds ? "holds" : "does not hold"]));
+  assert.deepEqual(shown.map(([, , paper]) => paper), ["1", "8.5", "4", "3.5", "1.25", "below 1", "below 1"]);
+  // The ratio of two peaks of the results themselves.
+  const peaks = (await resultsOf(sweep)).filter((row) => row.clearance_mm === 0.25 && row.coupler === "rigid")
+    .sort((a, b) => a.crank_velocity_rad_s - b.crank_velocity_rad_s).map((row) => row.peak_slider_acceleration_m_s2);
+  assert.ok(Math.abs(Number(shown[1][3]) / (peaks[1] / peaks[0]) - 1) < 0.01, `${shown[1][3]} of ${peaks}`);
+  assert.equal((await cells("The same at other velocities")).length, 2);
+  const csv = await textOf(page, () => page.getByRole("region", { name: "The same at other velocities" }).locator("xpath=following::a[text()='CSV']").first().click());
+  assert.equal(csv.text.trim().split("\n").length, 1 + rows.length);
+  await page.locator(".chart:not([hidden]) canvas").first().waitFor();
+  await expectAccessible(page);
+  await picture(page, "paper_statements", { fullPage: true });
+  for (const [name, options] of [["dark", { colorScheme: "dark", viewport: { width: 1200, height: 1000 } }], ["phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]]) {
+    const other = await visit(`#/analyses/${sweep.id}`, options);
+    await other.getByRole("region", { name: "The paper's statements" }).waitFor();
+    await expectNoSideways(other);
+    await expectAccessible(other);
+    await picture(other, `paper_statements_${name}`);
+    await leave(other);
+  }
+  await leave(page);
 });
 
 test("a sweep says what its results mean", async () => {

@@ -27,7 +27,7 @@ async function drawAcross(page, locator, from, to) {
 test("the paper's study is submitted in the form and watched until it has finished", { timeout: 10 * minutes }, async () => {
   const page = await visit("#/new");
   await page.getByRole("link", { name: "Take the paper's study" }).click();
-  await page.getByText("18 jobs").waitFor();
+  await page.getByText("40 jobs").waitFor();
   const curl = await page.locator("aside pre").last().textContent();
   assert.match(curl, /^curl -d '\{"name":"paper","sweep":\{/);
   await picture(page, "form");
@@ -40,11 +40,11 @@ test("the paper's study is submitted in the form and watched until it has finish
   await page.locator(".chart canvas").nth(2).waitFor();
   await page.getByText(/^running: .*[1-9]\d* succeeded/).waitFor({ timeout: 2 * minutes });
   await picture(page, "sweep_running", { fullPage: true });
-  await page.getByText("succeeded: 18 succeeded of 18 jobs").waitFor({ timeout: 8 * minutes });
+  await page.getByText("succeeded: 40 succeeded of 40 jobs").waitFor({ timeout: 8 * minutes });
   study = await ask(`/v1/sweeps/${page.url().match(/swp_\w+/)[0]}`);
   rows = await resultsOf(study);
-  assert.equal(rows.length, 18);
-  await list.getByRole("row").filter({ hasText: "paper" }).getByText("18 succeeded").waitFor();
+  assert.equal(rows.length, 40);
+  await list.getByRole("row").filter({ hasText: "paper" }).getByText("40 succeeded").waitFor();
   await picture(list, "list");
   await leave(list);
   await leave(page);
@@ -88,17 +88,17 @@ test("brushing an axis of the parallel coordinates selects jobs everywhere", asy
   await parallel.locator("canvas").waitFor();
   await parallel.scrollIntoViewIfNeeded();
   const box = await parallel.boundingBox();
-  // The first axis is the clearance: its upper part holds the largest one, six jobs.
+  // The first axis is the clearance: its upper part holds the largest one, four velocities and two couplers with 15 rad/s five times: 16 jobs.
   const [x, top, height] = [box.x + 60, box.y + 50, box.height - 105];
   await page.mouse.move(x, top + 2);
   await page.mouse.down();
   await page.mouse.move(x, top + 0.3 * height, { steps: 10 });
   await page.mouse.up();
-  await page.getByText("6 jobs selected").waitFor();
-  assert.equal(await page.locator("tr.selected").count(), 6);
+  await page.getByText("16 jobs selected").waitFor();
+  assert.equal(await page.locator("tr.selected").count(), 16);
   await page.getByLabel("only what is selected").check();
   const clearances = await page.locator("tbody tr td:nth-child(4)").allTextContents();
-  assert.deepEqual(clearances, Array(6).fill("0.5"));
+  assert.deepEqual(clearances, Array(16).fill("0.5"));
   await picture(page, "parallel_brushed", { fullPage: true });
   await leave(page);
 });
@@ -117,13 +117,13 @@ test("another sweep stands beside it, dashed", async () => {
 });
 
 test("the orbit is brushed in time, and every spike survives", async () => {
-  const id = jobWith(0.25, 10, "rigid");
+  const id = jobWith(0.25, 15, "rigid");
   const page = await visit(`#/jobs/${id}`);
   await page.locator("canvas.orbit[data-samples='5001']").waitFor();
   await page.locator("canvas.scene[data-instant]").waitFor();
   await page.getByRole("button", { name: "Lay over the ideal linkage" }).click();
   await page.getByText("ideal linkage", { exact: true }).waitFor({ timeout: minutes });
-  await page.getByLabel("Instant [s]").fill("3.65");
+  await page.getByLabel("Instant [s]").fill("3.618");
   await picture(page, "job", { clip: { x: 0, y: 0, width: 1360, height: 1400 }, fullPage: true });
   // What is drawn of the whole run has the peak that the metrics tell.
   const job = await ask(`/v1/jobs/${id}`);
@@ -155,7 +155,7 @@ test("the orbit is brushed in time, and every spike survives", async () => {
 const pointAt = (page, instant) => page.getByLabel("Instant [s]").fill(String(Number(instant.toFixed(6))));
 
 test("the linkage is scrubbed, played, and looked at closely", async () => {
-  const id = jobWith(0.5, 10, "flexible");
+  const id = jobWith(0.5, 15, "flexible");
   const { peak_slider_acceleration_time_s: peak } = (await ask(`/v1/jobs/${id}`)).metrics;
   const page = await visit(`#/jobs/${id}`);
   const scene = page.locator("canvas.scene");
@@ -198,7 +198,7 @@ test("the linkage is scrubbed, played, and looked at closely", async () => {
 });
 
 test("jobs are laid over each other", async () => {
-  const [first, second] = [jobWith(0.25, 10, "rigid"), jobWith(0.5, 10, "rigid")];
+  const [first, second] = [jobWith(0.25, 15, "rigid"), jobWith(0.5, 15, "rigid")];
   const page = await visit(`#/jobs/${first}`);
   await page.getByLabel("Lay over another job").selectOption(second);
   await page.waitForURL(new RegExp(`with=${second}`));
@@ -209,7 +209,7 @@ test("jobs are laid over each other", async () => {
 });
 
 test("it is read in the dark, on a phone, and with the keyboard", async () => {
-  const id = jobWith(0.25, 10, "rigid");
+  const id = jobWith(0.25, 15, "rigid");
   for (const [name, view] of [["list", ""], ["form", "#/new?template=paper"], ["sweep", `#/sweeps/${study.id}`], ["job", `#/jobs/${id}`]]) {
     const phone = await visit(view, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
     await phone.getByRole("heading", { level: 1 }).waitFor();

@@ -18,11 +18,11 @@ export function bars(color, data, width = 2) {
   } };
 }
 
-/// A table of rows. @param columns  [heading, text of a row] each
-export function table(label, rows, columns) {
+/// A table of rows. @param columns  [heading, text of a row, class of its cells if they have one] each  @param look  class of the table
+export function table(label, rows, columns, look = null) {
   return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label },
-    h("table", {}, h("thead", {}, h("tr", {}, columns.map(([heading]) => h("th", { scope: "col" }, heading)))),
-      h("tbody", {}, rows.map((row) => h("tr", {}, columns.map(([, text]) => h("td", {}, text(row))))))));
+    h("table", { class: look }, h("thead", {}, h("tr", {}, columns.map(([heading, , cell]) => h("th", { scope: "col", class: cell }, heading)))),
+      h("tbody", {}, rows.map((row) => h("tr", {}, columns.map(([, text, cell]) => h("td", { class: cell }, text(row))))))));
 }
 
 export const axisColumns = (axes) => axes.map((axis) => [titleOf(axis), (row) => (typeof row[axis] === "number" ? number(row[axis], 6) : String(row[axis]))]);

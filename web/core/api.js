@@ -86,8 +86,9 @@ export const wearStudies = studies("/v1/wear-studies");
 
 export const eventsUrl = (id) => `${sweepPath(id)}/events`;
 
-/// What is worked out of a sweep: sensitivity, surrogate, flexibility, bifurcation, lyapunov.
-export const findAnalysis = (id, analysis, query, signal) => ask(withQuery(`${sweepPath(id)}/${analysis}`, query), { signal });
+/// What is worked out of a sweep: paper, sensitivity, surrogate, flexibility, bifurcation, lyapunov.
+export const analysisUrl = (id, analysis, query = {}) => withQuery(`${sweepPath(id)}/${analysis}`, query);
+export const findAnalysis = (id, analysis, query, signal) => ask(analysisUrl(id, analysis, query), { signal });
 export const reportUrl = (id) => `${sweepPath(id)}/report`;
 /// What is worked out of a job, as columns: spectrum, poincare.
 export const findMotion = (id, analysis, query, signal) => ask(withQuery(`${jobPath(id)}/${analysis}`, query), { signal }).then(({ columns }) => columns);

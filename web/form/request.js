@@ -5,7 +5,7 @@ export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", coun
 
 const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
 
-/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed}, entries: {path: entry}}
+/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed, only}, entries: {path: entry}}
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
   const problems = [];
@@ -23,7 +23,8 @@ export function buildRequest(fields, state) {
   addJson("cases", state.cases, request, problems);
   addJson("design", state.design, request, problems);
   if (Number(state.replicates.count) > 1) {
-    request.replicates = { count: Number(state.replicates.count), perturbation: Number(state.replicates.perturbation), seed: Number(state.replicates.seed) };
+    const { count, perturbation, seed, only } = state.replicates;
+    request.replicates = { count: Number(count), perturbation: Number(perturbation), seed: Number(seed), only };  // undefined: every set
   }
   if (Number(state.priority) !== 0) request.priority = Number(state.priority);
   if (!state.reuse) request.reuse = false;
@@ -114,9 +115,15 @@ function entryOf(field, values, mode) {
 
 /// How many jobs a request makes.
 export function countJobs(request) {
-  const sizes = Object.values(request.sweep ?? {}).map(sizeOf);
-  return sizes.reduce((product, size) => product * size, 1) * countPoints(request.design) * (request.cases?.length ?? 1) * (request.replicates?.count ?? 1);
+  const axes = Object.entries(request.sweep ?? {});
+  const { count = 1, only = {} } = request.replicates ?? {};
+  const times = countPoints(request.design) * (request.cases?.length ?? 1);
+  const sets = times * product(axes.map(([, axis]) => sizeOf(axis)));
+  const replicated = times * product(axes.map(([path, axis]) => (path in only && Array.isArray(axis) ? axis.filter((value) => only[path].includes(value)).length : sizeOf(axis))));
+  return sets + (count - 1) * replicated;
 }
+
+const product = (sizes) => sizes.reduce((all, size) => all * size, 1);
 
 const sizeOf = (axis) => (Array.isArray(axis) ? axis.length : axis.count);
 

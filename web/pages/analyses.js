@@ -1,13 +1,14 @@
 // What the results of a sweep say: each answer in a card of its own, asked for when it can be given.
 import { findResults, findSweep, reportUrl } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
-import { choice, h } from "/core/dom.js";
+import { choice, h, setSeen } from "/core/dom.js";
 import { titleOf } from "/core/format.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf } from "/study/data.js";
 import { bifurcationCard } from "/analysis/bifurcation.js";
 import { flexibilityCard } from "/analysis/flexibility.js";
 import { lyapunovCard } from "/analysis/lyapunov.js";
+import { bearsOnPaper, paperCard } from "/analysis/paper.js";
 import { sensitivityCard } from "/analysis/sensitivity.js";
 import { surrogateCard } from "/analysis/surrogate.js";
 
@@ -35,6 +36,8 @@ export async function show(main, { id, query, signal }) {
 function cardsFor({ sweep, numbers, isRpsup }) {
   const type = sweep.request.design?.type;
   return [
+    isRpsup && bearsOnPaper(sweep.axes) && ["The paper's statements", "Ratios of the largest slider acceleration in the steady window. "
+      + "Statement 1 holds within 5 %, statements 2 to 5 within 20 %, 6 and 7 below 1.", paperCard],
     sweep.axes.includes("coupler") && ["Does flexibility help?", "The flexible coupler's metric over the rigid one's; the bar from the least to the largest ratio of replicates.", flexibilityCard],
     ["morris", "saltelli"].includes(type) && ["Sensitivity", type === "morris" ? "What the whole range of each parameter changes, and how much that depends on the place." : "The part of the variance that each parameter makes, alone and in total; bars: 95 % confidence.", sensitivityCard],
     numbers.length > 0 && ["Surrogate", "A polynomial fitted to the jobs, which are drawn with it; judged by predicting each from all others.", surrogateCard],
@@ -46,9 +49,15 @@ function cardsFor({ sweep, numbers, isRpsup }) {
 function card(name, title, help, make, study, signal) {
   const body = h("div");
   let chart = null;
-  make(body, study, signal).then((made) => { chart = made; }).catch((error) => {
+  const save = saveButtons(() => chart, () => `${name} ${title.toLowerCase()}`);
+  setSeen(save, false);
+  make(body, study, signal).then((made) => {
+    chart = made;
+    if (made) setSeen(save, true);
+    else save.remove();
+  }).catch((error) => {
     if (error.name !== "AbortError") body.replaceChildren(h("p", { class: "trouble" }, error.message));
   });
-  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), saveButtons(() => chart, () => `${name} ${title.toLowerCase()}`)),
+  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), save),
     h("p", { class: "quiet small" }, help), body);
 }

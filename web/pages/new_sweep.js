@@ -8,8 +8,9 @@ import { fieldsOf } from "/form/fields.js";
 import { buildRequest, countJobs, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
-// The study of the paper: every other parameter has the paper's value by default.
-const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12], coupler: ["rigid", "flexible"] } };
+// The study of the paper, as script/paper.json: every other parameter has the paper's value by default.
+const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12, 15], coupler: ["rigid", "flexible"] },
+  replicates: { count: 5, only: { clearance_mm: [0.25, 0.5], crank_velocity_rad_s: [15] } } };
 // Linkages that the program brings along, as sets of parameters.
 const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"], ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
   ["four_bar", "four-bar with a flexible coupler"], ["bricard", "Bricard's linkage"]];

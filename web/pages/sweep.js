@@ -1,10 +1,11 @@
 // One sweep: its metrics over its axes, in parts that share what is selected.
-import { cancelSweep, findResults, findSweep, listSweeps, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
+import { cancelSweep, findAnalysis, findResults, findSweep, listSweeps, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify, setSeen } from "/core/dom.js";
 import { plural, span, titleOf } from "/core/format.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
+import { bearsOnPaper, summaryOf } from "/analysis/paper.js";
 import { metricsOf, valuesOf } from "/study/data.js";
 import { Failures } from "/study/failures.js";
 import { heatMap } from "/study/heat_map.js";
@@ -47,6 +48,7 @@ class SweepPage {
     document.title = `RPSUP: ${this.sweep.name || this.sweep.id}`;
     this.status = h("p", { role: "status" });
     this.makeButtons();
+    this.paper = this.#bearsOnPaper() ? h("p", { class: "unseen" }, "The paper's statements") : null;
     this.chosen = h("p", { class: "actions card" });
     this.pickers = h("p", { class: "actions" });
     this.table = new ResultTable(this);
@@ -58,7 +60,7 @@ class SweepPage {
     this.drawHead();
     this.drawPickers();
     return [
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status), this.buttons), this.pickers, this.chosen,
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status, this.paper), this.buttons), this.pickers, this.chosen,
       h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0), this.card("Lines", this.lines, 1, { tools: this.logs.element })),
       this.card("Parallel coordinates", this.parallel, 2, { help: this.help }),
       h("section", { class: "card" }, h("h2", {}, "Results"), this.table.element)];
@@ -75,6 +77,7 @@ class SweepPage {
     this.drawChosen();
     this.selection.addEventListener("change", () => this.changed());
     this.makeCharts();
+    this.drawPaper();
     if (isUnderWay(this.sweep)) this.followIt();
     this.watchForRetries();
   }
@@ -126,6 +129,7 @@ class SweepPage {
 
   async update() {
     await this.reload();
+    this.drawPaper();
     if (!this.signal.aborted && isUnderWay(this.sweep)) this.followIt();
   }
 
@@ -161,6 +165,22 @@ class SweepPage {
       if (await this.failures.learn(this.sweep.id, this.rows, tell, this.signal)) this.table.draw();
     } catch (error) {
       if (error.name !== "AbortError") tell(error.message);
+    }
+  }
+
+  #bearsOnPaper() {
+    return this.metrics.includes("peak_slider_acceleration_m_s2") && bearsOnPaper(this.axes);
+  }
+
+  /// How the paper's statements stand, of a sweep that has ended.
+  async drawPaper() {
+    if (!this.paper || isUnderWay(this.sweep)) return;
+    try {
+      const rows = await findAnalysis(this.sweep.id, "paper", {}, this.signal);
+      this.paper.replaceChildren(h("a", { href: routeTo("analyses", this.sweep.id) }, "The paper's statements"), `: ${summaryOf(rows)}`);
+      setSeen(this.paper, true);
+    } catch {
+      setSeen(this.paper, false);  // the page of the analyses says why
     }
   }
 

@@ -13,8 +13,9 @@ export class Linkage {
     this.measures = measuresOf(parameters);
     this.group = new THREE.Group();
     const [crank, rod, coupler, slider, cross] = linkColours.map(([, colour]) => new THREE.MeshStandardMaterial({ color: colour, roughness: 0.55, metalness: 0.1 }));
-    Object.assign(slider, { transparent: true, opacity: 0.25, depthWrite: false });
     const { measures } = this;
+    seeThrough(slider, 0.25);
+    if (measures.isBallInCrank) seeThrough(crank, 0.4);
     this.bodies = { "2_1": glassBox(THREE, measures.slider, slider) };
     this.tubes = {};
     const add = (link, measure, material, rigid) => {
@@ -30,10 +31,20 @@ export class Linkage {
     this.ball = new THREE.Mesh(new THREE.SphereGeometry(1.6 * measures.coupler.radius, 32, 16), coupler);
     this.bush = new THREE.Group();
     const pivot = rodAlongZ(THREE, { length: 5 * measures.crank.radius, radius: 0.8 * measures.crank.radius }, new THREE.MeshStandardMaterial({ color: "#7a8590" }));
-    const guide = rodAlongX(THREE, { length: 2 * (measures.crank.length + measures.coupler.length), radius: 0.002 }, pivot.material);
-    guide.position.set(-(measures.crank.length + measures.coupler.length), measures.guide.y, measures.guide.z);
+    const guide = this.#makeGuide(pivot.material);
     this.group.add(...Object.values(this.bodies), ...Object.values(this.tubes).map(({ mesh }) => mesh), this.coupler.mesh, this.ball, this.bush, pivot, guide);
     this.drawBush(1);
+  }
+
+  /// A bar along the guide to both sides.
+  #makeGuide(material) {
+    const { THREE, measures: { crank, coupler, guide: { point, direction, angle } } } = this;
+    const length = crank.length + coupler.length;
+    const bar = rodAlongX(THREE, { length: 2 * length, radius: 0.002 }, material);
+    bar.position.set(...point).addScaledVector(new THREE.Vector3(...direction), -length);
+    bar.rotation.y = -angle;
+    bar.name = "guide";
+    return bar;
   }
 
   /// The bearing with its clearance so many times larger.
@@ -110,12 +121,19 @@ export class Linkage {
   }
 
   get joint() { return this.bush.position; }
+
+  /// The bearing's axis now.
+  get jointAxis() { return new this.THREE.Vector3(0, 0, 1).applyQuaternion(this.bush.quaternion); }
 }
 
 /// The frames of a link: its own, or those of its elements in their order.
 function elementsOf(link, links) {
   const place = (name) => Number(name.slice(link.length + 1));
   return links.filter((name) => name === link || name.startsWith(`${link}_`)).sort((a, b) => place(a) - place(b));
+}
+
+function seeThrough(material, opacity) {
+  Object.assign(material, { transparent: true, opacity, depthWrite: false });
 }
 
 function setFrame(body, [x, y, z, qx, qy, qz, qw]) {

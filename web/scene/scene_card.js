@@ -5,11 +5,13 @@ import { saveCanvas } from "/core/download.js";
 import { number } from "/core/format.js";
 import { isDescribed } from "/run/described.js";
 import { DescribedLinkage, bodyColours, reachOf } from "/scene/described.js";
+import { placesOf } from "/scene/geometry.js";
 import { Linkage, linkColours } from "/scene/linkage.js";
 import { Player, impactsOf } from "/scene/player.js";
 import { Poses } from "/scene/poses.js";
 import { Stage } from "/scene/stage.js";
 import { loadThree } from "/scene/three.js";
+import { upOf } from "/scene/upright.js";
 
 const speeds = [1, 0.5, 0.1, 0.01, 0.001];
 const factors = [1, 2, 5, 10, 20, 50, 100];
@@ -41,7 +43,7 @@ export function sceneCard(job, links, times, signal) {
     if (signal.aborted) return;
     const { parameters } = job;
     const linkage = described ? new DescribedLinkage(libraries.THREE, described, links) : new Linkage(libraries.THREE, parameters, links);
-    const stage = new Stage(libraries, canvas, described ? reachOf(described) : parameters.crank_length_m + parameters.coupler_length_m, signal);
+    const stage = new Stage(libraries, canvas, shownOf(parameters), signal);
     stage.scene.add(linkage.group);
     const poses = new Poses(job, links, (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
     draw = () => {
@@ -51,7 +53,7 @@ export function sceneCard(job, links, times, signal) {
       canvas.dataset.instant = times.instant;
       stage.request();
     };
-    views.addEventListener("change", () => (views.querySelector("select").value === "joint" ? stage.follow(linkage.joint, 0.14 * stage.reach) : stage.lookAtAll()));
+    views.addEventListener("change", () => (views.querySelector("select").value === "joint" ? stage.follow(linkage.joint, 0.14 * stage.reach, linkage.jointAxis) : stage.lookAtAll()));
     draw();
   }
 
@@ -74,6 +76,14 @@ export function sceneCard(job, links, times, signal) {
       hasClearance ? enlarge("Clearance drawn", "clearance") : null, isFlexible ? enlarge("Bend drawn", "bend", bendFactors) : null,
       hasClearance ? h("label", { class: "small" }, slow, " slow through hard impacts") : null),
     h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours).map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
+}
+
+/// What the stage must know of a linkage.
+export function shownOf(parameters) {
+  const { linkage } = parameters;
+  const up = upOf(parameters);
+  if (typeof linkage === "object") return { reach: reachOf(linkage), up };
+  return { reach: parameters.crank_length_m + parameters.coupler_length_m, up, places: placesOf(parameters) };
 }
 
 function swatch(colour) {

@@ -1,5 +1,7 @@
 // The links' shapes, from the parameters: lengths and bearing as they are given, thicknesses from mass and inertia.
 
+import { guideOf, rodEnds } from "/scene/geometry.js";
+
 /// What the parameters say of the links' shapes [m].
 export function measuresOf(parameters) {
   const { links } = parameters;
@@ -13,7 +15,8 @@ export function measuresOf(parameters) {
     arm: parameters.cross_length_mm / 1000,
     bearing: { length: parameters.bearing_length_mm / 1000 },
     clearance: parameters.clearance_mm / 1000,
-    guide: { y: parameters.guide_offset_y_m, z: parameters.guide_offset_z_m },
+    guide: guideOf(parameters),
+    isBallInCrank: Math.min(...rodEnds(parameters).map(Math.abs)) < parameters.crank_length_m,
   };
 }
 

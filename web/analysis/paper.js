@@ -1,0 +1,83 @@
+// The paper's seven statements about the largest slider acceleration, held against a sweep.
+import { analysisUrl, findAnalysis } from "/core/api.js";
+import { h } from "/core/dom.js";
+import { nameOf, number, plural } from "/core/format.js";
+import { table } from "/analysis/parts.js";
+
+const axesNeeded = ["clearance_mm", "crank_velocity_rad_s", "coupler"];
+const indexPrefix = "index.";
+const leastIndex = 0.02;
+
+/// Whether a sweep varies what the paper's statements compare.
+export const bearsOnPaper = (axes) => axesNeeded.every((axis) => axes.includes(axis));
+
+export async function paperCard(element, { sweep }, signal) {
+  const rows = await findAnalysis(sweep.id, "paper", {}, signal);
+  const [numbered, others] = split(rows);
+  const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }), download: `${sweep.name || sweep.id} paper.csv` };
+  element.replaceChildren(statements("The paper's statements", numbered, [["No.", (row) => row.number, "of"]]),
+    ...(others.length === 0 ? [] : [h("h3", { class: "quiet small" }, "The same at other velocities; the paper names none"),
+      statements("The same at other velocities", others)]),
+    ...indexParts(numbered), h("p", { class: "actions" }, h("a", csv, "CSV")));
+  return null;
+}
+
+/// How the numbered statements stand, in words: "7 of 7 hold".
+export function summaryOf(rows) {
+  const [numbered] = split(rows);
+  const told = numbered.filter(({ settings }) => settings > 0);
+  if (told.some(({ settings }) => settings > 1)) {
+    const shares = told.map(({ share }) => share);
+    const [least, most] = [Math.min(...shares), Math.max(...shares)].map(percent);
+    return `each holds in ${least === most ? least : `${least} to ${most}`} of the settings`;
+  }
+  const missing = numbered.length - told.length;
+  const holding = told.filter(({ holds }) => holds).length;
+  return `${holding} of ${numbered.length} hold${missing > 0 ? `; the sweep lacks the jobs of ${missing}` : ""}`;
+}
+
+const split = (rows) => [rows.filter((row) => row.number !== null), rows.filter((row) => row.number === null)];
+const percent = (part) => `${number(100 * part, 3)} %`;
+
+function statements(label, rows, first = []) {
+  const sentence = ({ text }) => text.charAt(0).toUpperCase() + text.slice(1);
+  const printed = ({ paper }) => (paper === null ? "below 1" : number(paper));
+  return table(label, rows, [...first, ["Statement", sentence, "text"], ["Paper", printed, "paper"], ["Here", foundIn, "here"],
+    ["Verdict", verdictOf, "verdict"]], "statements");
+}
+
+function foundIn({ settings, found_least: least, found_largest: largest }) {
+  if (settings === 0) return "–";
+  const [from, to] = [number(least, 3), number(largest, 3)];
+  return from === to ? from : `${from} to ${to}`;
+}
+
+function verdictOf({ settings, share, holds }) {
+  if (settings === 0) return "–";
+  if (settings > 1) return `in ${percent(share)} of ${plural(settings, "setting")}`;
+  return h("span", { class: holds ? "succeeded" : "failed" }, holds ? "holds" : "does not hold");
+}
+
+/// [parameter, index] of a statement, largest first.
+function indicesOf(row) {
+  return Object.entries(row).filter(([key, value]) => key.startsWith(indexPrefix) && value !== null && value >= leastIndex)
+    .map(([key, value]) => [key.slice(indexPrefix.length), value]).sort(([, a], [, b]) => b - a);
+}
+
+/// The statements' indices below a heading; nothing, if the sweep has too few settings for them.
+function indexParts(numbered) {
+  const rows = numbered.map((row) => ({ row, indices: indicesOf(row) })).filter(({ indices }) => indices.length > 0);
+  if (rows.length === 0) return [];
+  return [h("h3", {}, "What decides each statement"),
+    h("p", { class: "quiet small" }, "First-order sensitivity index: part of the variance of the logarithm of a statement's ratio that the "
+      + `parameter alone makes. Shown from ${leastIndex} on.`),
+    table("First-order sensitivity indices", rows, [["No.", ({ row }) => row.number],
+      ["First-order sensitivity index", ({ indices }) => indices.map(indexBar)]])];
+}
+
+function indexBar([parameter, index]) {
+  const bar = h("span", { class: "part", "aria-hidden": "true" });
+  bar.style.width = `${100 * Math.min(index, 1)}%`;
+  return h("div", { class: "index" }, h("span", {}, nameOf(parameter)), h("span", { class: "value" }, number(index, 2)),
+    h("span", { class: "track", "aria-hidden": "true" }, bar));
+}
