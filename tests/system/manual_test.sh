@@ -14,7 +14,7 @@ texts_of() {
 }
 
 commands=$("$rpsup" --help | awk '/^Subcommands:$/ { inside = 1; next } /^$/ { inside = 0 } inside && /^  [a-z]/ { print $1 }')
-expect_equal "$(wc -w <<<"$commands" | tr -d ' ')" 14 "commands"
+expect_equal "$(wc -w <<<"$commands" | tr -d ' ')" 15 "commands"
 options=0
 for command in $commands; do
   grep -qE "^ *rpsup $command( |$)" page || fail "the page has no section of $command"
@@ -29,6 +29,6 @@ done
 [ "$options" -gt 20 ] || fail "only $options options were compared"
 expect_text page 'Environment: RPSUP_TRAJECTORY'
 expect_text page 'Default: http://127.0.0.1:8080'
-expect_text page 'rod_stroke_mm  *50 mm, in '
+expect_text page 'rod_stroke_mm  *15 mm, in '
 expect_text page 'Exit codes: 0 done, 1 a job'
 echo "the manual page has $options options"

@@ -10,7 +10,7 @@ diff shown expected || fail "README.md shows another table: run jq as the head o
 # And so is what --help prints.
 "$rpsup" simulate --help >help
 get "$url/v1/parameters" | jq -r '.properties | (del(.links) | keys[]), (.links.properties | to_entries[] | "links.\(.key).\(.value.properties | keys[])")' >keys
-expect_equal "$(grep -c . keys)" 80 "parameters"
+expect_equal "$(grep -c . keys)" 86 "parameters"
 while read -r key; do
   grep -qE "^  ${key//./\\.} " help || fail "simulate --help does not name $key"
 done <keys

@@ -51,7 +51,7 @@ class Lab:
         self.rows = local.results(self.submit(local, "local"))
         local.terminate()
         self.trajectories = trajectories(self.folder / "local.db")
-        check(len(self.rows) == 19 and len(self.trajectories) == 18, f"{len(self.rows)} rows, {len(self.trajectories)} trajectories")
+        check(len(self.rows) == 41 and len(self.trajectories) == 40, f"{len(self.rows)} rows, {len(self.trajectories)} trajectories")
         self.tell("local pool")
 
     def tell(self, what):
