@@ -190,7 +190,7 @@ void check_reach(const RpsupParameters& p, double duration) {
     throw InvalidInput("reach", describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", t) + ": the coupler of " +
                                     to_text(p.coupler_length) + " m must be longer than " +
                                     to_text(std::sqrt(p.coupler_length * p.coupler_length - reach)) +
-                                    " m, the distance from the end of the rod to the slider's guide there (guide_offset_y_m, guide_offset_z_m)");
+                                    " m to reach from the end of the rod to the slider's guide there (guide_offset_y_m, guide_offset_z_m)");
   }
 }
 
@@ -206,7 +206,8 @@ double find_least(const Function& function, double from, double to) {
   return 0.5 * (from + to);
 }
 
-/// With the yoke about the guide the S joint must not meet the guide: link (2,2) could turn freely there.
+/// With the yoke about the guide the S joint must be further from the guide than the cross link is long: at that distance both ways to assemble
+/// the linkage meet, and a cross link without length could turn freely.
 void check_yoke(const RpsupParameters& p, double duration) {
   constexpr double kMeets = 1e-9;  // [m]
   const auto arm = [&p](double t) { return calc_yoke_arm(p, t); };

@@ -52,12 +52,12 @@ class IdealPeakSearch {
       scale_ = 0.0;
       while (last_.t < piece_end_)
         if (!take_interval()) return false;
-      if (last_.t >= piece_.end() && !jump()) return false;
+      if (piece_.is_over(last_.t) && !jump()) return false;
     }
     return true;
   }
 
-  /// To the accelerations behind a jump of the drives'.
+  /// Enters the next drive piece and solves the instant again, with the accelerations after the jump.
   [[nodiscard]] bool jump() {
     piece_.advance();
     closure_.follow_drives(piece_);

@@ -195,7 +195,8 @@ RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements, const Relative
 ///
 ///     Delta = rho - r_b,  f_n = s Delta + d Delta',  s = K / n_r * 3 sqrt(c_r) / (4 sqrt 2) * 2 pi / n_ce
 ///
-/// with d = s chi Delta / Delta'_onset, or by Kelvin and Voigt's law the constant share d = damping / (n_r n_ce).
+/// with d = s chi Delta / Delta'_onset, or by Kelvin and Voigt's law the constant share d = damping / (n_r n_ce): only the
+/// shares of the elements that touch act, fewer in a light contact, where a continuum's ring has its whole damper.
 ///
 /// Only elements on the arc that can touch are looked at. @returns false if one touched that has no bristle in the state
 /// @tparam Load  a JointLoad<V>

@@ -36,7 +36,7 @@ double order_of_error(Integrator integrator) {
 /// Steps are below this when error control has failed: a hundred roundings of the time.
 double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
 
-/// Of fixed steps: so short a rest is rounding, and would be divided by, [s]
+/// Shortest remainder that counts as a fixed step, [s]. A shorter one is rounding.
 double sliver_of(const RunOptions& options) { return options.integrator == Integrator::kRk4 ? 1e-9 * options.step : 0.0; }
 
 }  // namespace
@@ -73,7 +73,7 @@ RunEnd Integration::run(const Evaluation& assembled) {
       fail(RunStatus::kStopped, "stopped on request");
     } else if (fixed ? try_fixed_step() : try_controlled_step()) {
       accept();
-      if (start_.t >= piece_.end() - sliver_ && start_.t < options_.duration) jump();
+      if ((piece_.is_over(start_.t) || start_.t >= piece_.end() - sliver_) && start_.t < options_.duration) jump();
     }
   }
   run_end_.t = start_.t;
@@ -117,7 +117,7 @@ void Integration::look_for_vibrations() {
   if (grown_ >= kGrownToErrors) longest_fed_ = std::min(longest_step_, kLargestAngle / found.frequency);
 }
 
-/// To the accelerations behind a jump of the drives'.
+/// Enters the next drive piece and evaluates the state again, with the accelerations after the jump.
 void Integration::jump() {
   piece_.advance();
   system_.follow_drives(piece_);

@@ -62,7 +62,7 @@ class KinematicRun {
         fail(RunStatus::kLockUp, kLocked);
       } else {
         report_panel();
-        if (nodes_[0].t >= piece_.end() && nodes_[0].t < options_.duration && !jump()) fail(RunStatus::kLockUp, kLocked);
+        if (piece_.is_over(nodes_[0].t) && nodes_[0].t < options_.duration && !jump()) fail(RunStatus::kLockUp, kLocked);
       }
     }
     run_end_.t = nodes_[0].t;
@@ -77,7 +77,7 @@ class KinematicRun {
     run_end_.detail = std::move(detail);
   }
 
-  /// To the accelerations and forces behind a jump of the drives' accelerations.
+  /// Enters the next drive piece and solves the instant again, with the accelerations after the jump.
   [[nodiscard]] bool jump() {
     piece_.advance();
     closure_.follow_drives(piece_);

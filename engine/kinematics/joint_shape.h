@@ -41,7 +41,7 @@ struct JointShape {
   [[nodiscard]] constexpr int count() const { return kind == Kind::kSpherical ? 3 : 1; }
   [[nodiscard]] constexpr bool rotates() const { return kind != Kind::kTranslation; }
 
-  /// Inlined everywhere: a copy of its own that one instruction set's file emits might serve another processor.
+  /// Inlined everywhere: an out-of-line copy compiled for AVX-512 might be linked into code for other processors.
   [[gnu::always_inline]] constexpr bool operator==(const JointShape&) const = default;
 };
 

@@ -20,14 +20,14 @@ struct DrivenMotion {
 struct RunUp {
   double omega = 0.0;   ///< [rad/s]
   double run_up = 0.0;  ///< [s], >= 0; 0: at full speed from the start
-  double start = 0.0;   ///< [rad]
+  double start = 0.0;   ///< [rad] or [m]
 };
 
 /// Part of a stroke that is done at the part u of its time, both from 0 to 1: the laws of cams.
 enum class StrokeLaw {
   kCycloidal,  ///< u - sin(2 pi u) / (2 pi); the acceleration is continuous
-  kCosine,     ///< (1 - cos(pi u)) / 2, simple harmonic motion; the acceleration jumps at both ends
-  kParabolic,  ///< 2 u^2 up to the middle, then 1 - 2 (1 - u)^2; the acceleration is constant and jumps there and at both ends
+  kCosine,     ///< (1 - cos(pi u)) / 2, simple harmonic motion; the acceleration jumps where a pause begins or ends
+  kParabolic,  ///< 2 u^2 up to the middle, then 1 - 2 (1 - u)^2; the acceleration is constant; it jumps there and where a pause begins or ends
 };
 
 /// Again and again: rise by `stroke` and return, each by the law in `stroke_time` seconds, then a pause.

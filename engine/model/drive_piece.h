@@ -9,7 +9,8 @@
 namespace engine {
 
 /// The stretch of time between two jumps of the drives' accelerations. A step does not cross a jump: it ends
-/// there, with the accelerations before the jump, and the next one begins with those behind it.
+/// there, with the accelerations before the jump, and the next one begins with those behind it. Steps may end a
+/// rounding beside the jump; is_over() decides, not a comparison of instants.
 class DrivePiece {
  public:
   /// All of time.
@@ -20,30 +21,33 @@ class DrivePiece {
   /// The instant of the next jump, infinite if there is none, [s]
   [[nodiscard]] double end() const { return end_; }
 
+  /// Whether a step that ends at t has come to the jump, but for rounding.
+  [[nodiscard]] bool is_over(double t) const { return t >= end_ * (1.0 - kSameInstant); }
+
   /// Goes on to the piece behind this one's end.
   void advance() {
-    first_ = end_ * (1.0 + kBeside);
+    earliest_ = end_ * (1.0 + kBeside);
     find_end(end_);
   }
 
-  /// The instant at which the laws are to be evaluated for t: t itself, and at an end of the piece the
+  /// The instant at which the laws are to be evaluated for t: t itself; at and beyond an end of the piece the
   /// nearest instant surely inside.
-  [[nodiscard]] double clamp(double t) const { return std::clamp(t, first_, last_); }
+  [[nodiscard]] double clamp(double t) const { return std::clamp(t, earliest_, latest_); }
 
  private:
-  static constexpr double kBeside =
-      1e-14;  ///< of the time: more than the rounding with which a jump's instant is known
+  static constexpr double kBeside = 1e-14;       ///< of the time: more than the rounding of a jump's instant
+  static constexpr double kSameInstant = 2e-12;  ///< of the time: grids and corners count such instants as one
 
   void find_end(double t) {
     end_ = std::numeric_limits<double>::infinity();
     for (const Drive& drive : *drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
-    last_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
+    latest_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
   }
 
   const std::vector<Drive>* drives_ = nullptr;
   double end_ = std::numeric_limits<double>::infinity();
-  double first_ = -std::numeric_limits<double>::infinity();
-  double last_ = std::numeric_limits<double>::infinity();
+  double earliest_ = -std::numeric_limits<double>::infinity();
+  double latest_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace engine

@@ -32,8 +32,8 @@ namespace engine {
 [[nodiscard]] double calc_reach_squared(const RpsupParameters& parameters, const Eigen::Vector3d& p_gS);
 [[nodiscard]] double calc_reach_squared(const RpsupParameters& parameters, double t);
 
-/// Distance rho of the S joint from the guide, less the cross link's length. Where it vanishes, a cross link
-/// that turns about the guide has no definite angle: the coupler's plane through the guide has none. [m]
+/// Distance rho of the S joint from the guide, less the cross link's length a, [m]. With the yoke about the guide
+/// the linkage cannot be assembled below 0; at 0 its two ways of assembly meet.
 [[nodiscard]] double calc_yoke_arm(const RpsupParameters& parameters, double t);
 
 /// Where Newton's method begins to close the loop at t = 0.

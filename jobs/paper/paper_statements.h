@@ -7,10 +7,11 @@ namespace jobs {
 /// The seven statements of the paper's abstract and section 3 about the largest slider acceleration, held
 /// against the results of a sweep that varies clearance_mm, crank_velocity_rad_s and coupler:
 ///
-///     1     without clearance a flexible coupler makes no great difference
-///     2-5   growth from 10 to 15 rad/s: 8.5 and 4 times with 0.25 mm, 3.5 and 1.25 times with 0.5 mm, rigid
-///     and flexible coupler 6     at 15 rad/s peaks are smaller with 0.5 mm than with 0.25 mm 7     at 15
-///     rad/s peaks are smaller with a flexible coupler than with a rigid one, the clearance above 0
+///     1    without clearance a flexible coupler makes no great difference
+///     2-5  growth from 10 to 15 rad/s: 8.5 and 4 times with 0.25 mm, 3.5 and 1.25 times with 0.5 mm, rigid and
+///          flexible coupler
+///     6    at 15 rad/s peaks are smaller with 0.5 mm than with 0.25 mm
+///     7    at 15 rad/s peaks are smaller with a flexible coupler than with a rigid one, the clearance above 0
 ///
 /// The text gives no velocity for 6 and 7; rows without a number say what they come to at the other
 /// velocities. Each row tells the paper's ratio and that found: `paper`, `found_least` to `found_largest`, of

@@ -127,7 +127,7 @@ void add_drive_rows(Rows& rows) {
   using engine::StrokeLaw;
   rows.push_back(choice<StrokeLaw P::*, StrokeLaw>(
       {"rod_law", "rod_law", "", kFitted,
-       "Law of the rise and of the return. cosine: harmonic motion; parabolic: constant acceleration and deceleration; with both the acceleration jumps"},
+       "Law of the rise and of the return. cosine: harmonic motion; parabolic: constant acceleration and deceleration; with both the acceleration jumps at a pause"},
       &P::rod_law, {{"cycloidal", StrokeLaw::kCycloidal}, {"cosine", StrokeLaw::kCosine}, {"parabolic", StrokeLaw::kParabolic}}));
   rows.push_back(choice<engine::DriveEnforcement P::*, engine::DriveEnforcement>(
       {"drive", "drive", "", kChosen, "prescribed: driven coordinates follow their law exactly; baumgarte: by stabilised constraint rows (the paper's)"},

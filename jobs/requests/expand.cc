@@ -174,9 +174,12 @@ std::uint64_t count_replicates(const json& completed, const Replicates& replicat
 
 /// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the point's checks hold for them.
 /// @param swept  the point's values in all of them, the stiffness too where it is swept: their rows are told apart by `replicate` alone
-void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, SweepPlan& plan) {
+/// @throws InvalidRequest if there are more than max_jobs with them
+void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, std::size_t max_jobs, SweepPlan& plan) {
   json replicate = completed;
   const std::uint64_t count = count_replicates(completed, sweep.replicates);
+  if (count > max_jobs || plan.jobs.size() > max_jobs - count)
+    throw InvalidRequest(std::vector<Fault>{{"/replicates/count", "the sweep would have more than " + std::to_string(max_jobs) + " jobs with its replicates"}});
   for (std::uint64_t k = 0; k < count; ++k) {
     const double scale = completed.at(kStiffnessKey).get<double>() * replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
     replicate[kStiffnessKey] = scale;
@@ -205,14 +208,17 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
   Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
   do {
     const json completed = fill_in_defaults(parameters_at(sweep, position));
-    if (position.is_first_of_case()) budget.take(completed, points_of_a_case(sweep), sweep.replicates.count);
+    if (position.is_first_of_case()) budget.take(completed, points_of_a_case(sweep), sweep.replicates.only.empty() ? sweep.replicates.count : 1);
     const auto found = find_combination_faults(completed);
     for (const Fault& fault : found) faults.add(fault, position, completed);
     json swept = json::array();
     for (const std::string& path : plan.swept) swept.push_back(shown.at(completed, path, position.case_index));
-    if (found.empty()) add_jobs(completed, sweep, swept, plan);
+    if (found.empty()) add_jobs(completed, sweep, swept, max_jobs, plan);
   } while (position.advance(sweep));
   faults.throw_if_any();
+  const bool replicates_some = std::ranges::any_of(plan.jobs, [](const PlannedJob& job) { return job.replicate.value_or(0) > 0; });
+  if (!sweep.replicates.only.empty() && sweep.replicates.count > 1 && !replicates_some)
+    throw InvalidRequest(std::vector<Fault>{{"/replicates/only", "must name values that a set of the sweep has; none has all of these"}});
   return plan;
 }
 

@@ -113,11 +113,11 @@ std::string pointer_of_member(const std::string& member) {
 }
 
 /// The parameter to name for a linkage that cannot be assembled or locks: many decide it, and one that is not at its default is the likeliest cause.
-std::string pointer_of_geometry(const json& completed) {
+std::string pointer_of_geometry(const json& completed, std::string_view otherwise) {
   for (const std::string_view key : {"guide_offset_z_m", "guide_offset_y_m", "guide_angle_deg", "coupler_length_m", "rod_start_m", "rod_stroke_mm", "crank_start_rad"}) {
     if (completed.at(key) != canonical_value(*find_parameter(key), default_value(*find_parameter(key)))) return pointer_token(key);
   }
-  return pointer_token("coupler_length_m");
+  return pointer_token(otherwise);
 }
 
 void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
@@ -129,8 +129,9 @@ void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fa
     engine::check_parameters(spec.parameters, spec.options);
   } catch (const engine::InvalidInput& fault) {
     std::string pointer = spec.linkage               ? pointer_of_linkage_field(fault.field())
-                          : fault.field() == "reach" || fault.field() == "yoke" ? pointer_of_geometry(completed)
-                                                                                : pointer_of_member(fault.field());
+                          : fault.field() == "reach" ? pointer_of_geometry(completed, "coupler_length_m")
+                          : fault.field() == "yoke"  ? pointer_of_geometry(completed, "guide_offset_z_m")
+                                                     : pointer_of_member(fault.field());
     faults.push_back({pointer, pointer.empty() ? fault.what() : fault.detail()});
   }
 }

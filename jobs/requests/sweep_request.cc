@@ -162,7 +162,8 @@ class SweepParser {
   /// Multiplies what has been counted, and ends here if that is too much.
   void check_size() {
     std::uint64_t jobs = case_count_;
-    bool overflow = __builtin_mul_overflow(jobs, sweep_.replicates.count, &jobs);
+    // Replicates of some sets only are counted as they are made.
+    bool overflow = sweep_.replicates.only.empty() && __builtin_mul_overflow(jobs, sweep_.replicates.count, &jobs);
     if (request_.contains("sweep")) {
       if (!request_.at("sweep").is_object()) return fault("/sweep", "must be an object of axes");
       for (const auto& [path, axis] : request_.at("sweep").items()) {

@@ -17,7 +17,8 @@ std::vector<std::size_t> classify(std::span<const nlohmann::json> x) {
   std::map<nlohmann::json, std::size_t> count_of;
   for (const nlohmann::json& value : x) ++count_of[value];
   std::map<nlohmann::json, std::size_t> class_of;  // in the order of the values
-  const bool few = count_of.size() <= kMostClasses || x.front().is_string();
+  const bool few = count_of.size() <= kMostClasses ||
+                   std::ranges::any_of(x, [](const nlohmann::json& value) { return value.is_string(); });
   std::size_t before = 0;
   for (const auto& [value, count] : count_of) {
     class_of[value] = few ? class_of.size() : before * kMostClasses / x.size();

@@ -220,6 +220,24 @@ TEST(StrokeLaws, LetFixedStepsEndOnAJump) {
   EXPECT_GT(worst[0] / worst[1], 11.0);     // 16 in the limit; 2 if the last stage took the other side
 }
 
+// Jumps a rounding beside the grid of the steps, and beside the run-up's end, from which the ideal peak is sought.
+TEST(StrokeLaws, JumpAtInstantsBesideTheGrid) {
+  for (const StrokeLaw law : {StrokeLaw::kCosine, StrokeLaw::kParabolic})
+    for (const double stroke_time : {0.1, 0.14, 0.15, 0.3, 0.4, 0.7})
+      for (const double pause : {0.1, 0.34, 0.5})
+        for (const double run_up : {0.2, 1.5, 2.0}) {
+          RpsupParameters p;
+          p.c_r = 0.0;
+          p.rod_law = law;
+          p.rod_stroke_time = stroke_time;
+          p.rod_pause = pause;
+          p.run_up = run_up;
+          const RunResult run = run_rpsup(p, {.duration = 2.2, .output_rate = 10.0});
+          EXPECT_LT(metric(run, "energy_residual"), 1e-10) << stroke_time << ' ' << pause << ' ' << run_up;
+          EXPECT_NEAR(metric(run, "amplification"), 1.0, 1e-6) << stroke_time << ' ' << pause << ' ' << run_up;
+        }
+}
+
 TEST(DrivePiece, EndsAtEachJump) {
   const std::vector<Drive> drives{
       {0, RunUp{3.0, 1.0}},
@@ -229,6 +247,7 @@ TEST(DrivePiece, EndsAtEachJump) {
     EXPECT_NEAR(piece.end(), end, 1e-14);
     EXPECT_LT(piece.clamp(piece.end()), piece.end());
     const double before = piece.end();
+    EXPECT_TRUE(piece.is_over(std::nextafter(before, 0.0)) && piece.is_over(before) && !piece.is_over(before - 1e-9));
     piece.advance();
     EXPECT_GT(piece.clamp(before), before);
   }
