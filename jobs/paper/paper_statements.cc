@@ -187,7 +187,7 @@ Peaks gather_peaks(const ResultTable& results, const RowGroup& group, const std:
     const auto clearance = number_in(row[axes[0]]), velocity = number_in(row[axes[1]]),
                peak = number_in(row[metric]);
     if (clearance && velocity && peak && row[axes[2]].is_string())
-      replicates[{*clearance, *velocity, row[axes[2]].get<std::string>()}].push_back(*peak);
+      replicates[{*clearance, std::abs(*velocity), row[axes[2]].get<std::string>()}].push_back(*peak);
   }
   Peaks peaks;
   for (auto& [c, values] : replicates) peaks[c] = calc_median(std::move(values));
