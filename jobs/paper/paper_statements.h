@@ -18,7 +18,7 @@ namespace jobs {
 /// the medians over replicates. A growth holds within 20 %, statement 1 within 5 %, an order if the ratios
 /// are below 0.999.
 ///
-/// What else the sweep varies makes its settings. With several, `found_least` and `found_largest` are the
+/// Settings: the combinations of all else that the sweep varies. With several, `found_least` and `found_largest` are the
 /// medians over the settings, `share` is the part of the settings, of those that have all its peaks, in which
 /// the statement holds. From kFewestSettings on `index.PARAMETER` is each parameter's first-order sensitivity
 /// index of the logarithm of the statement's ratio, see calc_first_order_index(); null where the statement

@@ -165,7 +165,7 @@ PlannedJob make_job(const json& completed, std::optional<std::uint64_t> replicat
   return job;
 }
 
-/// How often a point is run: once, unless it has one of the values that replicates are for.
+/// Number of runs of a point: one, unless the point has one of the values that replicates are for.
 std::uint64_t count_replicates(const json& completed, const Replicates& replicates) {
   for (const auto& [path, values] : replicates.only.items())
     if (std::ranges::find(values, value_at_path(completed, path)) == values.end()) return 1;

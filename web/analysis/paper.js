@@ -22,7 +22,7 @@ export async function paperCard(element, { sweep }, signal) {
   return null;
 }
 
-/// How the numbered statements stand, in words: "7 of 7 hold".
+/// Summary of the numbered statements in words: "7 of 7 hold".
 export function summaryOf(rows) {
   const [numbered] = split(rows);
   const told = numbered.filter(({ settings }) => settings > 0);

@@ -103,7 +103,7 @@ TEST_P(IdealGeometry, MovesTheSliderAsTheTriangleDoes) {
   }
 }
 
-/// Of poses: x of the coupler points from the S joint to the slider; the axis of joint R is at right angles
+/// Poses: x of the coupler points from the S joint to the slider; the axis of joint R is at right angles
 /// to it and to the yoke.
 TEST_P(IdealGeometry, KeepsTheAxisOfJointRAcrossCouplerAndYoke) {
   const RpsupParameters p = make_parameters(GetParam());
