@@ -35,7 +35,6 @@ using server::commands::PaperOptions;
 using server::commands::RunTaskOptions;
 using server::commands::SimulateOptions;
 using server::commands::SweepOptions;
-using server::commands::ValidateOptions;
 
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   CLI::App* const command = app.add_subcommand("simulate", "Compute one job and print it as JSON");
@@ -124,17 +123,11 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   return command;
 }
 
-CLI::App* add_validate(CLI::App& app, ValidateOptions& options) {
-  CLI::App* const command = app.add_subcommand("validate", "Compare the engine with results that it did not compute itself");
-  command->add_option("--report", options.report, "Markdown file for the report; figures go into validation/figures beside it")
-      ->type_name("FILE")
-      ->envname("RPSUP_REPORT");
-  command->add_option("--check", options.check, "Report whose numbers must be those of this run")->type_name("FILE")->envname("RPSUP_CHECK");
-  command->add_option("--db", options.store, "SQLite file that keeps the study's jobs for the next time; a temporary one if left out")
-      ->type_name("FILE")
-      ->envname("RPSUP_STUDY_DB");
-  add_threads_option(*command, options.threads);
-  command->add_flag("--quick", options.quick, "Leave out the study and whatever else takes long")->envname("RPSUP_QUICK");
+/// Passes everything on: rpsup-validate reads it.
+CLI::App* add_validate(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("validate", "Run rpsup-validate, which compares the engine with results from elsewhere");
+  command->prefix_command();
+  command->set_help_flag();
   return command;
 }
 
@@ -237,7 +230,6 @@ int main(int argc, char** argv) {
   SimulateOptions simulate_options;
   SweepOptions sweep_options;
   ServeOptions serve_options;
-  ValidateOptions validate_options;
   PaperOptions paper_options;
   ExportOptions export_options;
   RunTaskOptions run_task_options;
@@ -248,7 +240,8 @@ int main(int argc, char** argv) {
   describe(app, commands);
   commands.push_back({add_simulate(app, simulate_options), [&] { return simulate(simulate_options); }});
   commands.push_back({add_sweep(app, sweep_options), [&] { return sweep(sweep_options); }});
-  commands.push_back({add_validate(app, validate_options), [&] { return validate(validate_options); }});
+  CLI::App* const validate = add_validate(app);
+  commands.push_back({validate, [&]() -> int { server::commands::run_validate(validate->remaining()); }});
   commands.push_back({add_paper(app, paper_options), [&] { return hold_against_paper(paper_options); }});
   commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
   commands.push_back({add_export(app, export_options), [&] { return export_store(export_options); }});

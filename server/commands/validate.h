@@ -1,19 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace server::commands {
 
-struct ValidateOptions {
-  std::string report;     ///< Markdown file to write, with its figures beside it; empty: none
-  std::string check;      ///< report whose numbers must be those of this run; empty: none
-  std::string store;      ///< SQLite file that keeps the study's jobs; empty: a temporary one
-  int threads = 2;
-  bool quick = false;     ///< without the study and whatever else takes long
-};
-
-/// Compares the engine with results that it did not compute itself, one line each on standard output.
-/// @returns an exit code: kJobFailed if a comparison is outside its bound or a number is not that of the report
-int validate(const ValidateOptions& options);
+/// Becomes rpsup-validate, the program beside this one.
+/// @throws BadInput if there is none
+[[noreturn]] void run_validate(const std::vector<std::string>& arguments);
 
 }  // namespace server::commands

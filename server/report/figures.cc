@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/validation/chart.h"
+#include "charts/chart.h"
 #include "jobs/requests/axis.h"
 #include "jobs/sensitivity/row_groups.h"
 #include "jobs/statistics/replicate_statistics.h"
@@ -21,8 +21,6 @@ namespace server::report {
 
 namespace {
 
-using engine::validation::Chart;
-using engine::validation::Series;
 
 constexpr std::array<std::string_view, 4> kMetrics{"peak_slider_acceleration_m_s2", "peak_contact_force_n", "impact_count", "peak_crank_torque_n_m"};
 constexpr std::array<const char*, 8> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f", "#444444"};
@@ -40,8 +38,8 @@ std::optional<std::string> find_number(const nlohmann::json& axes, const jobs::R
 /// A metric's values by place along x.
 using Line = std::map<double, std::vector<double>>;
 
-void add_line(const std::string& label, const Line& line, const char* colour, Chart& chart) {
-  Series means{.label = label, .colour = colour, .markers = true};
+void add_line(const std::string& label, const Line& line, const char* colour, charts::Chart& chart) {
+  charts::Series means{.label = label, .colour = colour, .markers = true};
   if (line.size() > kMostPointsWithLines) means.width = 0.0;
   for (const auto& [x, values] : line) {
     const auto statistics = jobs::calc_replicate_statistics(values);
@@ -53,11 +51,11 @@ void add_line(const std::string& label, const Line& line, const char* colour, Ch
 }
 
 /// Leaves room for the legend above what is drawn.
-void make_room_above(std::size_t labels, Chart& chart) {
+void make_room_above(std::size_t labels, charts::Chart& chart) {
   if (labels < 2) return;
   chart.y_min = std::numeric_limits<double>::infinity();
   chart.y_max = -chart.y_min;
-  for (const Series& series : chart.series) {
+  for (const charts::Series& series : chart.series) {
     for (const double y : series.y) {
       chart.y_min = std::min(chart.y_min, y);
       chart.y_max = std::max(chart.y_max, y);
@@ -81,10 +79,10 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
     if (path != *along && !(designed && jobs::is_numeric(path))) others.push_back(jobs::find_column(results, path, ""));
   }
   const auto groups = jobs::group_rows(results, others);
-  std::vector<Chart> charts;
+  std::vector<charts::Chart> charts;
   for (const std::string& metric : jobs::choose_metrics(results, kMetrics)) {
     const std::size_t column = jobs::find_column(results, metric, "");
-    Chart chart{.title = metric, .x_label = *along, .y_label = ""};
+    charts::Chart chart{.title = metric, .x_label = *along, .y_label = ""};
     for (std::size_t g = 0; g < groups.size() && g < kColours.size(); ++g) {
       Line line;
       for (const std::size_t r : groups[g].rows) {
@@ -105,7 +103,7 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
   if (charts.empty()) return "";
   const std::string more = groups.size() > kColours.size() ? " The first " + std::to_string(kColours.size()) + " of " +
       std::to_string(groups.size()) + " combinations are drawn." : "";
-  return "<figure>" + engine::validation::draw(charts, 2) + "<figcaption>Means over " + escape(*along) +
+  return "<figure>" + charts::draw(charts, 2) + "<figcaption>Means over " + escape(*along) +
       "; bars reach from the least to the largest value of what lies together." +
          more + "</figcaption></figure>\n";
 }

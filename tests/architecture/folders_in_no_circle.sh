@@ -5,7 +5,7 @@ cd "$1"
 
 # "A B" for every folder A of ours that includes a header of another one, B. Generated headers belong to the folder in their path.
 arrows() {
-  grep -roE --include='*.h' --include='*.cc' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"(engine|jobs|server)/[^"]+"' engine jobs server |
+  grep -roE --include='*.h' --include='*.cc' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"(charts|engine|jobs|server|validation)/[^"]+"' charts engine jobs server validation |
     sed -E 's|^(.*)/[^/:]+:[^"]*"(.*)/[^/"]+"$|\1 \2|' | awk '$1 != $2' | sort -u
 }
 

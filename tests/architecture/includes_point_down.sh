@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fails for an include that points up a layer: server -> jobs -> engine, and some libraries have one layer that may use
+# Fails for an include that points up a layer: server -> jobs -> engine, validation beside them, and some libraries have one layer that may use
 # them.   includes_point_down.sh ROOT
 set -euo pipefail
 cd "$1"
@@ -25,16 +25,16 @@ forbid() {
 
 sqlite='sqlite3|SQLiteCpp'
 http='httplib'
-forbid engine "(\.\./)*(jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CLI|zstd|openssl|prometheus"
-forbid jobs "(\.\./)*(server|web|tests)/|$http|spdlog|CLI|prometheus"
-forbid server "(\.\./)*(web|tests)/|$sqlite|zstd"
+forbid engine "(\.\./)*(charts|validation|jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CLI|zstd|openssl|prometheus"
+forbid jobs "(\.\./)*(charts|validation|server|web|tests)/|$http|spdlog|CLI|prometheus"
+forbid server "(\.\./)*(validation|web|tests)/|$sqlite|zstd"
 forbid server "$http" '^server/http/http(_[a-z]+)?\.(h|cc)$'
 # Positions and rates come before forces.
 forbid engine/kinematics 'engine/dynamics/'
 forbid engine/model 'engine/(kinematics|dynamics)/'
-# What proves the engine right is no part of what computes.
-forbid engine 'engine/validation/' '^engine/validation/'
-forbid jobs 'engine/validation/' '^jobs/validation/'
+forbid charts "(engine|validation|jobs|server|web|tests)/"
+forbid validation "(jobs|server|web|tests)/" '^validation/(studies|program)/'
+forbid validation/studies "(server|web|tests)/"
 # A path that climbs out of its folder hides which layer it reaches.
 forbid engine '\.\./'
 forbid jobs '\.\./'

@@ -10,8 +10,8 @@ import re
 import sys
 from pathlib import Path
 
-FOLDERS = ("engine", "jobs", "server", "tests")
-LAYERS = ("engine", "jobs", "server")
+FOLDERS = ("charts", "engine", "jobs", "server", "validation", "tests")
+LAYERS = ("charts", "engine", "jobs", "server", "validation")
 
 NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'', re.S)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
@@ -23,7 +23,7 @@ TYPE = re.compile(r"\b(?:struct|class|enum|enum\s+class|union)\s+(\w+)\s*(?:fina
 ALIAS = re.compile(r"\busing\s+(\w+)\s*=")
 CONSTANT = re.compile(r"\b(k[A-Z]\w*)\s*(?:\[[^\]]*\]\s*)*(?:=|$)")
 FUNCTION = re.compile(r"(?:^|[\s&*>])([A-Za-z_]\w*)\s*\(")
-USE = re.compile(r"(?<![\w.:>~])(?:(?:engine|jobs|server)::(?:[a-z]\w*::)?)?(\w+)(\s*\()?")
+USE = re.compile(r"(?<![\w.:>~])(?:(?:charts|engine|jobs|server|validation)::(?:[a-z]\w*::)?)?(\w+)(\s*\()?")
 
 # What a source declares itself, at any depth: "Type name", "auto [a, name]", "using library::Name", enumerators.
 OWN = re.compile(r"(?:(\w+)|(?<=[\w>])[&*]|(?<=[\w>*&])>|(?<=\w)\.\.\.|\bauto\s*&?\s*\[[\w, ]*)(?:\s+|(?<=\[))(\w+)\s*(?=[=({;,):\[\]>]|$)")

@@ -9,13 +9,17 @@ trap 'rm -rf "$tree"' EXIT
 # plant FILE INCLUDE: the tree of correct includes with one more
 plant() {
   rm -rf "${tree:?}"/*
-  mkdir -p "$tree/engine/kinematics" "$tree/engine/model" "$tree/jobs" "$tree/server/http"
+  mkdir -p "$tree"/{charts,jobs} "$tree"/engine/{kinematics,model} "$tree/server/http" "$tree"/validation/{studies,program}
   echo '#include <vector>' >"$tree/engine/simulate.h"
   echo '#include <vector>' >"$tree/engine/model/mechanism.h"
   echo '#include "engine/model/mechanism.h"' >"$tree/engine/kinematics/frame_motion.h"
   echo '#include "engine/simulate.h"' >"$tree/jobs/store.cc"
   echo '#include "jobs/store.h"' >"$tree/server/routes.cc"
   echo '#include <httplib.h>' >"$tree/server/http/http_guard.cc"
+  echo '#include <vector>' >"$tree/charts/chart.h"
+  echo '#include "engine/simulate.h"' >"$tree/validation/findings.h"
+  echo '#include "jobs/store.h"' >"$tree/validation/studies/study.cc"
+  echo '#include "server/routes.h"' >"$tree/validation/program/main.cc"
   [ -z "${1:-}" ] || echo "$2" >>"$tree/$1"
 }
 
@@ -37,13 +41,17 @@ expect_refused server/routes.cc '#include <SQLiteCpp/SQLiteCpp.h>'
 expect_refused server/routes.cc '#include <sqlite3.h>'
 expect_refused server/routes.cc '#include <httplib.h>'
 expect_refused server/routes.cc '#include "../jobs/store.h"'
-expect_refused engine/simulate.h '#include "engine/validation/report.h"'
-expect_refused jobs/store.cc '#include "engine/validation/report.h"'
+expect_refused engine/simulate.h '#include "validation/report.h"'
+expect_refused jobs/store.cc '#include "validation/report.h"'
+expect_refused server/routes.cc '#include "validation/report.h"'
+expect_refused charts/chart.h '#include "engine/simulate.h"'
+expect_refused validation/findings.h '#include "jobs/store.h"'
+expect_refused validation/studies/study.cc '#include "server/routes.h"'
 expect_refused engine/kinematics/frame_motion.h '#include "engine/dynamics/equations.h"'
 expect_refused engine/model/mechanism.h '#include "engine/kinematics/frame_motion.h"'
 
 rm -rf "${tree:?}"/*
-mkdir -p "$tree/engine" "$tree/jobs" "$tree/server"
+mkdir -p "$tree"/{charts,engine,jobs,server,validation}
 if bash "$circles" "$tree" 2>"$tree/told" || ! grep -q 'no folder includes another' "$tree/told"; then
   echo "an empty tree passes without a word"
   exit 1

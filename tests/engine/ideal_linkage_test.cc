@@ -16,8 +16,8 @@
 #include "engine/model/rpsup_geometry.h"
 #include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
-#include "engine/validation/reference/ideal_linkage.h"
-#include "engine/validation/support/runs.h"
+#include "validation/reference/ideal_linkage.h"
+#include "validation/support/runs.h"
 
 namespace engine {
 namespace {

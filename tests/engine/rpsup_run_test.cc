@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/simulate_rpsup.h"
-#include "engine/validation/support/across_rpsup.h"
-#include "engine/validation/support/runs.h"
+#include "validation/support/across_rpsup.h"
+#include "validation/support/runs.h"
 
 namespace engine {
 namespace {

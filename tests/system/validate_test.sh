@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # The validation as a whole: every comparison within its bound, and the report says what a fresh run finds.
-#   validate_test.sh RPSUP REPORT
+#   validate_test.sh RPSUP REPORT   rpsup-validate stands beside RPSUP
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 report=$(realpath "$2")
+validate=$(dirname "$(realpath "$1")")/rpsup-validate
 compare=$(realpath "$(dirname "${BASH_SOURCE[0]}")")/compare_figures.py
 
 expect_code 2 "$rpsup" validate --quick --report new.md
-expect_code 2 "$rpsup" validate --report missing/new.md
-expect_code 2 "$rpsup" validate --report .
-expect_code 2 "$rpsup" validate --check missing.md
+expect_code 0 "$rpsup" validate --help
+expect_text out "--quick"
+expect_code 2 "$validate" --report missing/new.md
+expect_code 2 "$validate" --report .
+expect_code 2 "$validate" --check missing.md
 
 echo "interrupted in the study it leaves no job that would start again, and no folder"
 mkdir tmp
-TMPDIR=$PWD/tmp "$rpsup" validate --db store.db >out 2>err &
+TMPDIR=$PWD/tmp "$validate" --db store.db >out 2>err &
 program=$!
 for ((tenths = 0; tenths < 300; ++tenths)); do
   ! grep -q '^validation: ideal joint' err || break
@@ -31,16 +34,16 @@ stop_service TERM
 
 echo "all of it"
 SECONDS=0
-expect_code 0 "$rpsup" validate --check "$report" --report new.md --threads 2
+expect_code 0 "$validate" --check "$report" --report new.md --threads 2
 echo "took $SECONDS s"
 expect_text out '^[0-9]+ comparisons, 0 outside their bounds$'
 expect_text out "says what this run has found"
 
 echo "its figures are those beside the report"
-fresh=validation/figures
-written=$(dirname "$report")/validation/figures
+fresh=figures
+written=$(dirname "$report")/figures
 expect_equal "$(ls "$fresh")" "$(ls "$written")" "names of the figures"
-expect_equal "$(ls "$fresh")" "$(grep -o 'validation/figures/[a-z0-9_]*\.svg' new.md | sed 's#.*/##' | sort -u)" "figures that the report shows"
+expect_equal "$(ls "$fresh")" "$(grep -o 'figures/[a-z0-9_]*\.svg' new.md | sed 's#.*/##' | sort -u)" "figures that the report shows"
 
 for figure in "$fresh"/*.svg; do
   name=$(basename "$figure")

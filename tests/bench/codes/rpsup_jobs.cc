@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "engine/validation/support/runs.h"
+#include "validation/support/runs.h"
 #include "tests/bench/support/contact_state.h"
 #include "tests/bench/support/cpu_time.h"
 
@@ -11,8 +11,8 @@ namespace bench {
 CodeRun run_rpsup(const engine::RpsupParameters& parameters, const engine::RunOptions& options) {
   const engine::RunResult run = engine::simulate_rpsup(parameters, options, {});
   if (run.status != engine::RunStatus::kSucceeded) throw std::runtime_error("a run failed: " + run.detail);
-  return {engine::validation::metric(run, "peak_slider_acceleration_m_s2"),
-          static_cast<long>(engine::validation::metric(run, "rhs_evaluations"))};
+  return {validation::metric(run, "peak_slider_acceleration_m_s2"),
+          static_cast<long>(validation::metric(run, "rhs_evaluations"))};
 }
 
 double time_rpsup_evaluation(const engine::RpsupParameters& parameters) {

@@ -5,7 +5,7 @@
 
 #include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
-#include "engine/validation/support/quiet_observer.h"
+#include "validation/support/quiet_observer.h"
 #include "tests/bench/parts/register_parts.h"
 #include "tests/bench/support/cases.h"
 #include "tests/bench/support/integrators.h"
@@ -21,7 +21,7 @@ using engine::RunOptions;
 /// A run by steps alone, without results: what a step costs.
 void take_steps(benchmark::State& run, const RpsupParameters& parameters, const RunOptions& options) {
   const engine::Rpsup rpsup = engine::build_rpsup(parameters);
-  engine::validation::QuietObserver observer;
+  validation::QuietObserver observer;
   double steps = 0.0;
   double evaluations = 0.0;
   for (auto _ : run) {

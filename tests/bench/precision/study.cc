@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/simulate_rpsup.h"
-#include "engine/validation/support/runs.h"
+#include "validation/support/runs.h"
 #include "tests/bench/support/cases.h"
 #include "tests/bench/support/cpu_time.h"
 #include "tests/bench/support/integrators.h"
@@ -71,7 +71,7 @@ std::vector<Setting> precision_settings() {
 
 double find_reference_peak(const PrecisionCase& what) {
   const engine::RunOptions options = with_tolerance(make_options(engine::Integrator::kDopri5), 1e-9);
-  return engine::validation::metric(engine::validation::run_rpsup(what.parameters, options), "peak_slider_acceleration_m_s2");
+  return validation::metric(validation::run_rpsup(what.parameters, options), "peak_slider_acceleration_m_s2");
 }
 
 Measurement measure(const PrecisionCase& what, const Setting& setting, double reference_peak) {
@@ -79,8 +79,8 @@ Measurement measure(const PrecisionCase& what, const Setting& setting, double re
   engine::RunResult run;
   const double seconds = time_cpu([&] { run = engine::simulate_rpsup(what.parameters, setting.options, {}); });
   if (run.status != engine::RunStatus::kSucceeded) return {&what, &setting, seconds, kNone, kNone, kNone};
-  const double peak = engine::validation::metric(run, "peak_slider_acceleration_m_s2");
-  return {&what, &setting, seconds, engine::validation::metric(run, "rhs_evaluations"), peak, std::abs(peak / reference_peak - 1.0)};
+  const double peak = validation::metric(run, "peak_slider_acceleration_m_s2");
+  return {&what, &setting, seconds, validation::metric(run, "rhs_evaluations"), peak, std::abs(peak / reference_peak - 1.0)};
 }
 
 }  // namespace bench

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "engine/validation/chart.h"
+#include "charts/chart.h"
 #include "tests/bench/support/table.h"
 
 namespace bench {
@@ -15,8 +15,8 @@ namespace bench {
 namespace {
 
 using engine::Coupler;
-using engine::validation::Chart;
-using engine::validation::Series;
+using charts::Chart;
+using charts::Series;
 
 constexpr double kFailed = std::numeric_limits<double>::infinity();
 
@@ -54,13 +54,13 @@ std::string error_text(double error) {
 
 const char* name_of(Coupler coupler) { return coupler == Coupler::kRigid ? "rigid" : "flexible"; }
 
-Chart draw_chart(const std::vector<Measurement>& measurements, Coupler coupler) {
-  const std::array colours{engine::validation::kOrange, engine::validation::kBlue, engine::validation::kGreen, engine::validation::kPurple};
-  Chart chart{.title = std::string(name_of(coupler)) + " coupler", .x_label = "CPU ms per simulated second",
-              .y_label = "worst relative error of the peak", .x_scale = engine::validation::Scale::kLog, .y_scale = engine::validation::Scale::kLog};
+charts::Chart draw_chart(const std::vector<Measurement>& measurements, Coupler coupler) {
+  const std::array colours{validation::kOrange, validation::kBlue, validation::kGreen, validation::kPurple};
+  charts::Chart chart{.title = std::string(name_of(coupler)) + " coupler", .x_label = "CPU ms per simulated second",
+              .y_label = "worst relative error of the peak", .x_scale = validation::Scale::kLog, .y_scale = validation::Scale::kLog};
   for (const Group& g : group(measurements, coupler)) {
     if (chart.series.empty() || chart.series.back().label != g.setting->integrator)
-      chart.series.push_back(Series{.label = g.setting->integrator, .colour = colours.at(chart.series.size() % colours.size()), .markers = true});
+      chart.series.push_back(charts::Series{.label = g.setting->integrator, .colour = colours.at(chart.series.size() % colours.size()), .markers = true});
     chart.series.back().x.push_back(g.ms_per_second());
     chart.series.back().y.push_back(g.worst_of_all());
   }
@@ -93,10 +93,10 @@ void print_summary(std::ostream& out, const std::vector<Measurement>& measuremen
 }
 
 std::string draw_figure(const std::vector<Measurement>& measurements) {
-  std::vector<Chart> charts;
+  std::vector<charts::Chart> charts;
   for (const Coupler coupler : {Coupler::kRigid, Coupler::kFlexible})
     if (has(measurements, coupler)) charts.push_back(draw_chart(measurements, coupler));
-  return engine::validation::draw(charts, 2);
+  return charts::draw(charts, 2);
 }
 
 }  // namespace bench

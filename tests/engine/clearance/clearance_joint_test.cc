@@ -1,5 +1,5 @@
 // Contact of a whole journal: the pruned ring of elements against all of its elements, bristles that follow it. Statics of a tilted
-// journal, its faces, and the ring's limit: engine/validation/contact.
+// journal, its faces, and the ring's limit: validation/contact.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@
 #include "engine/dynamics/loop_closure.h"
 #include "engine/dynamics/motion_system.h"
 #include "engine/model/rpsup.h"
-#include "engine/validation/support/across_rpsup.h"
+#include "validation/support/across_rpsup.h"
 
 namespace engine {
 namespace {

@@ -13,11 +13,11 @@
 #include "engine/errors.h"
 #include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
-#include "engine/validation/contact/sliding_mass.h"
-#include "engine/validation/support/across_rpsup.h"
-#include "engine/validation/support/quiet_observer.h"
-#include "engine/validation/support/runs.h"
-#include "engine/validation/support/simple_mechanisms.h"
+#include "validation/contact/sliding_mass.h"
+#include "validation/support/across_rpsup.h"
+#include "validation/support/quiet_observer.h"
+#include "validation/support/runs.h"
+#include "validation/support/simple_mechanisms.h"
 
 namespace engine {
 namespace {

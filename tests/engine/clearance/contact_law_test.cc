@@ -1,4 +1,4 @@
-// The normal law's limits and its latch. Rebounds, depths and times of whole impacts: engine/validation/contact; friction: engine/validation/friction.
+// The normal law's limits and its latch. Rebounds, depths and times of whole impacts: validation/contact; friction: validation/friction.
 
 #include <cmath>
 

@@ -12,7 +12,7 @@
 #include "engine/dynamics/loop_closure.h"
 #include "engine/dynamics/motion_system.h"
 #include "engine/model/rpsup.h"
-#include "engine/validation/support/across_rpsup.h"
+#include "validation/support/across_rpsup.h"
 #include "tests/engine/linkage_cases.h"
 
 namespace engine {

@@ -9,7 +9,7 @@
 
 #include "engine/dynamics/motion_system.h"
 #include "engine/model/rpsup.h"
-#include "engine/validation/support/across_rpsup.h"
+#include "validation/support/across_rpsup.h"
 
 namespace engine {
 namespace {

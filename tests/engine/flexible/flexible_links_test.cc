@@ -12,15 +12,15 @@
 
 #include "engine/model/rpsup.h"
 #include "engine/simulate_rpsup.h"
-#include "engine/validation/flexibility/links.h"
-#include "engine/validation/support/runs.h"
-
-namespace engine {
+#include "validation/flexibility/links.h"
+#include "validation/support/runs.h"
 
 namespace validation {
 void PrintTo(const FlexibleLink& link, std::ostream* out);
 void PrintTo(const FlexibleLink& link, std::ostream* out) { *out << link.name; }
 }  // namespace validation
+
+namespace engine {
 
 namespace {
 

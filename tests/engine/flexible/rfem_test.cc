@@ -1,4 +1,4 @@
-// How a rod is cut: masses, moments, dampers. Deflections and frequencies of the divided rod: engine/validation/flexibility.
+// How a rod is cut: masses, moments, dampers. Deflections and frequencies of the divided rod: validation/flexibility.
 #include "engine/flexible/rfem.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Samples, interpolation and events on problems whose answer is known. Orders and instants of contact: engine/validation/integrators.
+// Samples, interpolation and events on problems whose answer is known. Orders and instants of contact: validation/integrators.
 
 #include <cmath>
 #include <optional>

@@ -15,8 +15,8 @@
 #include "engine/model/drive_piece.h"
 #include "engine/model/rpsup.h"
 #include "engine/simulate_rpsup.h"
-#include "engine/validation/support/across_rpsup.h"
-#include "engine/validation/support/runs.h"
+#include "validation/support/across_rpsup.h"
+#include "validation/support/runs.h"
 
 namespace engine {
 namespace {
