@@ -11,6 +11,7 @@
 
 #include "jobs/base/content_id.h"
 #include "jobs/base/keys_in_use.h"
+#include "jobs/base/provenance.h"
 #include "jobs/base/time_text.h"
 #include "jobs/cluster/slurm_executor.h"
 #include "jobs/local/local_pool.h"
@@ -51,6 +52,10 @@ class Service::Impl {
   explicit Impl(ServiceOptions options)
       : options_(with_defaults(std::move(options))),
         store_(options_.store, options_.store_room) {
+    if (store_.engine_before() != engine_version()) {
+      options_.log("the store's results are of the engine " + store_.engine_before() + ", this program's is " + engine_version() +
+                   ": jobs that are asked for again are computed again");
+    }
     static_cast<void>(sha256_hex(""));  // OpenSSL that finds no memory when it is first used does not work any more
     if (options_.start == Start::kAtOnce) start();
   }

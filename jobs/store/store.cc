@@ -57,6 +57,8 @@ Store::Store(const std::filesystem::path& file, const StoreRoom& room) : file_(f
 
 void Store::begin() {
   writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    SQLite::Statement newest(database, "SELECT engine_version FROM contents ORDER BY seq DESC LIMIT 1");
+    if (newest.executeStep()) engine_before_ = newest.getColumn(0).getString();
     database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
     release_batches_of_other_engines(database);
     rename_queued_contents(database);

@@ -177,6 +177,9 @@ class Store {
   /// @param room  what would add to more is a StoreLimitReached, while reading, cancelling and deleting go on
   explicit Store(const std::filesystem::path& file, const StoreRoom& room = {});
 
+  /// Engine for which the newest job was planned when the store was opened; this program's own in a new store.
+  [[nodiscard]] const std::string& engine_before() const { return engine_before_; }
+
   /// Stores a sweep with its jobs, those whose result is known as succeeded. Returns its id.
   /// @throws QueueFull if more than max_queued jobs would wait
   std::string add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued, const KeptAnswer<SweepRow>& kept = {});
@@ -281,6 +284,7 @@ class Store {
   // Which sweep was served when, as counted by claims; single jobs are sweep 0 together. Guarded by the writer's lock.
   std::map<std::int64_t, std::uint64_t> served_;
   std::uint64_t claims_ = 0;
+  std::string engine_before_ = engine_version();  ///< engine of the newest content when the store was opened
   std::int64_t changes_ = 0;  ///< the last EndedJob::change; guarded by the writer's lock
 };
 

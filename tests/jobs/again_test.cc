@@ -91,6 +91,30 @@ TEST(Retry, ComputesWithTheEngineOfToday) {
   EXPECT_EQ(query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"), name);
 }
 
+TEST(Again, SaysOnceThatTheStoreIsOfAnotherEngineAndComputesAnew) {
+  const TemporaryStore temporary;
+  FakeEngine engine;
+  std::vector<std::string> said;
+  jobs::ServiceOptions options = options_of(temporary, engine, 1);
+  options.log = [&said](const std::string& message) { said.push_back(message); };
+  const char* const request = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
+  {
+    jobs::Service service(options);
+    await(service, submit(service, request));
+  }
+  EXPECT_TRUE(said.empty()) << said.front();
+  execute_sql(temporary.file(), "UPDATE contents SET content_id = 'old', engine_version = '0.1.0-other'");
+  {
+    jobs::Service service(options);
+    await(service, submit(service, request));
+  }
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said.front().find("0.1.0-other"), std::string::npos) << said.front();
+  EXPECT_EQ(engine.begun_speeds().size(), 2U);
+  jobs::Service service(options);
+  EXPECT_EQ(said.size(), 1U) << said.back();
+}
+
 // Who has been told of the last end, and asks from there on after a restart, is told of the next one.
 TEST(Retry, ForgetsNoNumberOfAnEnd) {
   const TemporaryStore temporary;
