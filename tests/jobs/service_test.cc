@@ -156,10 +156,8 @@ TEST(Service, CancelsQueuedAndRunningJobsOfASweep) {
   jobs::Service service(options_of(store, engine, 2));
   const std::string id = submit(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4]}})");
   engine.await_running(2);
-  const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
-  engine.await_running(0);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, 500ms);
+  engine.await_running(0);  // they are held: only what is stopped ends
   EXPECT_EQ(engine.stopped(), 2);
   EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
   EXPECT_EQ(service.find_sweep(id).value().at("counts").at("cancelled"), 4);

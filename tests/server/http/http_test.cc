@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iterator>
@@ -118,10 +119,10 @@ TEST_F(Http, DropsAHeadThatComesTooSlowly) {
   RawClient client(port_);
   const auto start = Clock::now();
   client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ");
-  while (!client.answered_within(50ms) && Clock::now() - start < 5s) client.send("a");
+  while (!client.answered_within(50ms) && Clock::now() - start < 30s) client.send("a");
   EXPECT_EQ(status_of(client.read_all()), 408);
   // The limit is on the whole head, however many single bytes keep coming.
-  EXPECT_LT(Clock::now() - start, 2s);
+  EXPECT_LT(Clock::now() - start, 20s);
 }
 
 TEST_F(Http, ServesOthersWhileManyHeadsComeSlowly) {
@@ -280,9 +281,9 @@ TEST_F(Http, DropsABodyThatComesTooSlowly) {
   RawClient client(port_);
   const auto start = Clock::now();
   client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\r\n");
-  while (!client.answered_within(50ms) && Clock::now() - start < 5s) client.send(" ");
+  while (!client.answered_within(50ms) && Clock::now() - start < 30s) client.send(" ");
   EXPECT_EQ(status_of(client.read_all()), 400);
-  EXPECT_LT(Clock::now() - start, 2s);
+  EXPECT_LT(Clock::now() - start, 20s);
   EXPECT_EQ(sweep_count(), 0U);
 }
 
@@ -296,16 +297,25 @@ TEST_F(Http, TakesWhatCurlSendsByDefault) {
 TEST_F(Http, SaysContinueToAClientThatAsks) {
   RawClient client(port_);
   client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
-  ASSERT_TRUE(client.answered_within(300ms));
+  ASSERT_TRUE(client.answered_within(10s));
   client.send("[]");
   EXPECT_EQ(client.read_all().find("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 422"), 0U);
 }
 
-TEST_F(Http, AnswersAPostWithoutBodyAtOnce) {
+TEST(HttpBody, IsNotAwaitedWhereNoneIsAnnounced) {
+  Bench bench;
+  HttpLimits limits;
+  limits.body_time = 60s;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, limits);
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
   const auto start = Clock::now();
-  const std::string answer = ask("POST /v1/sweeps/none/cancel HTTP/1.1\r\nHost: localhost\r\n\r\n");
-  EXPECT_EQ(status_of(answer), 404);
-  EXPECT_LT(Clock::now() - start, 350ms);
+  RawClient client(port);
+  client.send("POST /v1/sweeps/none/cancel HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_EQ(status_of(client.read_all()), 404);
+  EXPECT_LT(Clock::now() - start, 30s);
+  http.stop();
 }
 
 TEST_F(Http, RefusesBodiesThatAreNotTheText) {
@@ -436,11 +446,16 @@ TEST(HttpBind, QueuesManyConnectionsAtOnce) {
   HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, short_limits());
   const int port = http.bind();
   ASSERT_NE(port, 0);
-  const auto start = Clock::now();
   std::list<RawClient> clients;
+  Clock::duration longest{};
   // Nobody accepts yet. Where the queue is full a client tries again after one second, then after three.
-  for (int i = 0; i < 200; ++i) clients.emplace_back(port).send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
-  EXPECT_LT(Clock::now() - start, 900ms);
+  for (int i = 0; i < 200; ++i) {
+    const auto start = Clock::now();
+    clients.emplace_back(port);
+    longest = std::max(longest, Clock::now() - start);
+    clients.back().send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  EXPECT_LT(longest, 900ms);
   std::jthread listener([&] { http.listen(); });
   for (RawClient& client : clients) EXPECT_EQ(status_of(client.read_all()), 200);
   http.stop();
@@ -448,7 +463,8 @@ TEST(HttpBind, QueuesManyConnectionsAtOnce) {
 
 TEST(HttpStop, EndsConnectionsThatWait) {
   Bench bench;
-  HttpLimits limits;  // 5 s for a head: the end must not wait for them
+  HttpLimits limits;
+  limits.head_time = 60s;  // the end must not wait for them
   limits.drain_time = 200ms;
   HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, limits);
   const int port = http.bind();
@@ -464,7 +480,7 @@ TEST(HttpStop, EndsConnectionsThatWait) {
   const auto start = Clock::now();
   http.stop();
   listener.join();
-  EXPECT_LT(Clock::now() - start, 2s);
+  EXPECT_LT(Clock::now() - start, 30s);
 }
 
 TEST(HttpStop, LeavesThePortToTheNext) {

@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""Fails for a test that was skipped and does not stand in the list of skips that are allowed, with its reason.
+
+  unlisted_skips.py JUNIT LIST PRESET
+
+JUNIT is what `ctest --output-junit` wrote; each line of LIST is a preset or "any", a pattern of test names, and the reason.
+"""
+import sys
+from fnmatch import fnmatchcase
+from xml.etree import ElementTree
+
+
+def read_allowed(path, preset):
+    """Patterns of the tests that may be skipped in a preset."""
+    patterns = []
+    with open(path, encoding="utf-8") as lines:
+        for number, line in enumerate(lines, 1):
+            if not line.strip() or line.startswith("#"):
+                continue
+            fields = line.split(maxsplit=2)
+            if len(fields) < 3:
+                sys.exit(f"{path}:{number}: wanted are a preset or any, a pattern of names, and the reason")
+            if fields[0] in ("any", preset):
+                patterns.append(fields[1])
+    return patterns
+
+
+def main():
+    junit, path, preset = sys.argv[1:4]
+    cases = list(ElementTree.parse(junit).getroot().iter("testcase"))
+    if not cases:
+        sys.exit(f"{junit} holds no test")
+    allowed = read_allowed(path, preset)
+    skipped = [case for case in cases if case.get("status") != "run" and case.get("status") != "fail"]
+    unlisted = [case for case in skipped if not any(fnmatchcase(case.get("name"), pattern) for pattern in allowed)]
+    print(f"skips: {len(skipped)} of {len(cases)} tests were skipped, {len(unlisted)} of them without a reason in {path}")
+    for case in unlisted:
+        said = (case.findtext("system-out") or "").strip().splitlines()
+        print(f"  {case.get('name')}: {said[-1] if said else 'nothing said'}")
+    sys.exit(1 if unlisted else 0)
+
+
+main()
