@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "jobs/base/program_info.h"
 #include "jobs/requests/parameter_help.h"
 #include "server/commands/check_cluster.h"
 #include "server/commands/cluster_options.h"
@@ -195,12 +196,12 @@ std::vector<std::string> read_arguments(int argc, char** argv) {
 }
 
 int print_man_page(const CLI::App& app) {
-  server::commands::write_text("-", server::commands::make_man_page(server::commands::describe_commands(app), RPSUP_VERSION));
+  server::commands::write_text("-", server::commands::make_man_page(server::commands::describe_commands(app), std::string(jobs::kProgramVersion)));
   return server::commands::kDone;
 }
 
 void describe(CLI::App& app, const std::vector<Command>& remote) {
-  app.set_version_flag("--version", "rpsup " RPSUP_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", "rpsup " + std::string(jobs::kProgramVersionText), "Print the version and exit");
   std::vector<std::string> remote_names;
   for (const Command& command : remote) remote_names.push_back(command.line->get_name());
   app.config_formatter(std::make_shared<server::commands::ConfigFile>(app, std::move(remote_names)));

@@ -10,7 +10,7 @@ package=$sources/$(sed -n 's/^package: //p' package.log)
 # What dpkg is told.
 field() { dpkg-deb --field "$package" "$1"; }
 expect_equal "$(field Package) $(field Section)" "rpsup science" "name and section"
-expect_equal "$(field Version)" "$("$rpsup" --version | cut -d' ' -f2)" "version"
+expect_equal "$(field Version)" "$("$rpsup" --version | sed -E 's/^rpsup //; s/[+.]g[0-9a-f]{12}(\.dirty)?$//')" "version"
 expect_equal "$(field Architecture)" "$(dpkg --print-architecture)" "architecture"
 for library in libc6 libstdc++6 libsqlite3-0 libzstd1 libcpp-httplib; do
   [[ "$(field Depends)" == *$library* ]] || fail "the package does not depend on $library: $(field Depends)"

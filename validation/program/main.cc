@@ -1,7 +1,9 @@
 #include <csignal>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "jobs/base/program_info.h"
 #include "server/commands/command.h"
 #include "server/commands/numerics.h"
 #include "validation/program/validate.h"
@@ -33,7 +35,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Compare the engine with closed forms, published numbers and other codes", "rpsup-validate"};
   validation::program::ValidateOptions options;
   add_options(app, options);
-  app.set_version_flag("--version", "rpsup-validate " RPSUP_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", "rpsup-validate " + std::string(jobs::kProgramVersionText), "Print the version and exit");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
