@@ -13,7 +13,8 @@ namespace engine {
 /// The last stages and the result end at t + dt, each the one before plus its own U: row i + 1 of a is (row i, 1), and m is (the last row, 1).
 /// So the embedded result, of an order less, is the last stage's argument, and its U the estimate of the error.
 struct Rodas4Coefficients {
-  // Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.7, with the digits of their code RODAS.
+  // Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.7, with the digits of their code RODAS
+  // (Copyright (c) 2004, Ernst Hairer; BSD-2-Clause).
   static constexpr unsigned short kOrder = 4;
   static constexpr std::size_t kStages = 6;
   static constexpr std::size_t kFirstExtended = 5;  ///< stages from this one on, counted from 0, are the one before plus its U

@@ -1,3 +1,9 @@
+// Derived from k_sin.c, k_cos.c and e_rem_pio2.c of fdlibm:
+// Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
+// Developed at SunSoft, a Sun Microsystems, Inc. business.
+// Permission to use, copy, modify, and distribute this software is freely granted, provided that this notice is
+// preserved.
+
 #pragma once
 
 #include <cmath>
