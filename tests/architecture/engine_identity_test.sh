@@ -9,7 +9,7 @@ trap 'rm -rf "$folder"' EXIT
 identity() {
   rm -rf "$folder/build"
   cmake -S "$root" -B "$folder/build" -G Ninja --log-level=ERROR -DCMAKE_BUILD_TYPE=Release "$@" >/dev/null
-  sed -n 's/.*kEngineVersion = "\(.*\)";/\1/p' "$folder/build/generated/jobs/base/program_info.h" | grep .
+  sed -n 's/.*kEngineVersion = "\(.*\)";/\1/p' "$folder/build/generated/jobs/base/program_info.cc" | grep .
 }
 
 plain=$(identity -DCMAKE_CXX_FLAGS_RELEASE=-O3)
