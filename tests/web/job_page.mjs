@@ -305,7 +305,7 @@ test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
   const touchAction = (area) => area.evaluate((element) => getComputedStyle(element).touchAction);
   assert.deepEqual([await touchAction(over), await touchAction(page.locator(".overview .u-over"))], ["pan-y", "auto"]);
   const session = await page.context().newCDPSession(page);
-  const touch = (type, parts) => session.send("Input.dispatchTouchEvent", { type, touchPoints: parts.map((part, id) => ({ id, x: x + part * width, y: y + height / 2 })) });
+  const touch = (type, parts) => session.send("Input.dispatchTouchEvent", { type, touchPoints: parts.map((part, finger) => ({ id: finger, x: x + part * width, y: y + height / 2 })) });
   const shown = () => page.evaluate(() => ["from", "to"].map((key) => Number(new URLSearchParams(location.hash.split("?")[1]).get(key))));
   const near = (found, wanted) => found.every((value, k) => Math.abs(value - wanted[k]) < 0.005);
   const expectShown = async (wanted) => {

@@ -54,6 +54,7 @@ test("a form is sent once, also where it is changed while it is under way", asyn
     if (route.request().method() !== "POST") return route.continue();
     ++sent;
     answer = () => route.fulfill({ status: 422, contentType: "application/problem+json", body: '{"title": "told later", "detail": "told later", "errors": []}' });
+    return undefined;
   });
   const submit = page.getByRole("button", { name: "Submit" });
   await submit.click();

@@ -16,8 +16,8 @@ let browser = null;
 /** Opens a page at a view such as "#/new". @param options  of Playwright's new context: viewport, colorScheme */
 export async function visit(view, options = {}) {
   // As root, as in a container, Chromium does not start in its sandbox; it only ever sees the service under test.
-  browser ??= await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
-  const context = await browser.newContext({ viewport: { width: 1360, height: 1000 }, acceptDownloads: true, locale: "en-GB", ...options });
+  browser ??= chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+  const context = await (await browser).newContext({ viewport: { width: 1360, height: 1000 }, acceptDownloads: true, locale: "en-GB", ...options });
   context.setDefaultTimeout(120_000);  // a machine may be busy
   const page = await context.newPage();
   page.faults = [];
@@ -38,7 +38,7 @@ export async function leave(page, expected = null) {
 }
 
 export async function endVisits() {
-  await browser?.close();
+  await (await browser)?.close();
 }
 
 /** Keeps what is seen, for people to look at. */

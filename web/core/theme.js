@@ -20,18 +20,18 @@ function restore(select, key) {
 
 export function startTheme() {
   const theme = document.querySelector("#theme");
-  const palette = document.querySelector("#palette");
+  const colours = document.querySelector("#palette");
   restore(theme, "theme");
-  restore(palette, "palette");
+  restore(colours, "palette");
   const apply = () => {
     localStorage.setItem("theme", theme.value);
-    localStorage.setItem("palette", palette.value);
+    localStorage.setItem("palette", colours.value);
     if (theme.value === "auto") delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = theme.value;
     changed.dispatchEvent(new Event("change"));
   };
   theme.addEventListener("change", apply);
-  palette.addEventListener("change", apply);
+  colours.addEventListener("change", apply);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", apply);
   apply();
 }

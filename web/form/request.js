@@ -37,7 +37,10 @@ function addEntry(field, entry, request, refuse) {
     if (entry.chosen.length > 1) request.sweep[field.path] = entry.chosen;
     return;
   }
-  if (entry.mode === "range") return addRange(field, entry, request, refuse);
+  if (entry.mode === "range") {
+    addRange(field, entry, request, refuse);
+    return;
+  }
   const values = parts(entry.text).map(Number);
   if (values.length === 0) return;
   const fault = values.map((value) => faultOf(field, value)).find(Boolean);

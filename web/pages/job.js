@@ -31,7 +31,10 @@ export async function show(main, { id, query, signal }) {
   const [schema, job, ...more] = await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
   document.title = `RPSUP: job ${id.slice(-5)}`;
   const page = new JobPage([job, ...more], schema, query, signal);
-  if (job.state !== "succeeded") return page.waitForEnd(main);
+  if (job.state !== "succeeded") {
+    await page.waitForEnd(main);
+    return;
+  }
   main.replaceChildren(...page.head());
   main.append(...await page.body());
 }

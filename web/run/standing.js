@@ -32,7 +32,7 @@ export function standingCard() {
 export function standingRows(job, sweep, now) {
   const { state, error, created_at: created, started_at: started, ended_at: ended, attempts } = job;
   return [["State", state],
-    error?.t_s != null && ["The run came to", `${number(error.t_s)} s of ${number(job.parameters.duration_s)} s`],
+    typeof error?.t_s === "number" && ["The run came to", `${number(error.t_s)} s of ${number(job.parameters.duration_s)} s`],
     ["Submitted", moment(created)],
     started && ["Started", moment(started)],
     started && [ended ? "Computed for" : "Computing for", span(Math.max(0, seconds(started, ended ?? now)))],

@@ -43,12 +43,12 @@ export function sweepRow(act, signal) {
     bar.value = sweep.progress;
     bar.setAttribute("aria-label", `Progress of ${name}`);
     percent.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `${part}, about ${span(sweep.eta_s)} left` : part;
-    cells.jobs.textContent = jobStates.filter((state) => sweep.counts[state] > 0).map((state) => `${sweep.counts[state].toLocaleString("en")} ${state}`).join(", ");
+    cells.jobs.textContent = jobStates.filter((each) => sweep.counts[each] > 0).map((each) => `${sweep.counts[each].toLocaleString("en")} ${each}`).join(", ");
     cells.created.textContent = moment(sweep.created_at);
     setSeen(buttons.cancel, isUnderWay(sweep));
     setSeen(buttons.retry, sweep.counts.failed + sweep.counts.cancelled > 0);
     setSeen(buttons.delete, !isUnderWay(sweep));
-    for (const [action, button] of Object.entries(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
+    for (const button of Object.values(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
     again.href = routeTo("new", "", { from: sweep.id });
     again.setAttribute("aria-label", `Use again: ${name}`);
     if (sweep.counts.succeeded !== counted && sweep.counts.succeeded > 0) showPeaks(sweep);
