@@ -1,7 +1,7 @@
 // Shows the view that the address names, and gives it up when the address changes.
 import { findHealth, isAway } from "/core/api.js";
 import { readRoute } from "/core/route.js";
-import { h } from "/core/dom.js";
+import { h, part } from "/core/dom.js";
 import { pause, persist } from "/core/live.js";
 import { Missing, loadModule, nextWait, tryAgain } from "/core/modules.js";
 import { startTheme } from "/core/theme.js";
@@ -16,14 +16,15 @@ const pages = {
   jobs: () => import("/pages/job.js"),
 };
 
-const main = document.querySelector("#main");
+/** @type {HTMLElement} */
+const main = part("#main");
 let leave = () => {};
 let shown = 0;
 const againMs = 2000;
 
 function markNavigation(kind) {
-  for (const link of document.querySelectorAll("header nav a")) {
-    const target = link.getAttribute("href").slice(2);
+  for (const link of /** @type {NodeListOf<HTMLAnchorElement>} */ (document.querySelectorAll("header nav a"))) {
+    const target = link.hash.slice(2);
     if (target === (["new", "searches", "wear"].includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
@@ -78,7 +79,7 @@ async function show() {
   }
 }
 
-document.querySelector(".skip").addEventListener("click", (event) => {
+part(".skip").addEventListener("click", (event) => {
   event.preventDefault();
   main.focus();
 });

@@ -8,6 +8,11 @@ import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
 
 const channels = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "coupler_deflection_mm", "contact_force_n"];
 
+/**
+ * @param {HTMLElement} element
+ * @param {AnalysedSweep} study
+ * @param {AbortSignal} signal
+ */
 export async function bifurcationCard(element, { sweep, numbers }, signal) {
   let along = numbers[0];
   let channel = channels[0];

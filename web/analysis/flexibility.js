@@ -8,17 +8,29 @@ import { acrossAxis, axisColumns, bars, table, valueAxis, where } from "/analysi
 
 const percent = (part) => (part === null ? "–" : `${number(100 * part, 3)} %`);
 
+/**
+ * @param {HTMLElement} element
+ * @param {AnalysedSweep} study
+ * @param {AbortSignal} signal
+ */
 export async function flexibilityCard(element, { sweep, metric }, signal) {
   const rows = await findAnalysis(sweep.id, "flexibility", { metric }, signal);
   const axes = sweep.axes.filter((axis) => axis !== "coupler");
   const along = rows[0]?.along;
   const drawing = h("div", { class: "chart tall", hidden: !along });
   const reversed = rows.filter((row) => row.reverses_from !== null);
-  const said = reversed.length === 0 ? "The ratio does not pass from one side of 1 to the other, by more than the 0.1 % that peaks are right to." : `It reverses: ${reversed.map((row) => `between ${pointOf(along, row.reverses_from)} and ${where(row, [along, ...axes.filter((axis) => axis !== along)])}`).join("; ")}.`;
+  const said = reversed.length === 0 ? "The ratio does not pass from one side of 1 to the other, by more than the 0.1 % that peaks are right to." : `It reverses: ${reversed.map((row) => reversalOf(row, axes)).join("; ")}.`;
   element.replaceChildren(h("p", {}, along ? said : ""), drawing, table("Rigid and flexible", rows, [...axisColumns(axes), ["Flexible over rigid", (row) => number(row.ratio)],
     ["Least to largest", (row) => `${number(row.ratio_least)} to ${number(row.ratio_largest)}`], ["It", (row) => (row.verdict === "either" && row.ratio_least >= 0.999 && row.ratio_largest <= 1.001 ? "no difference" : row.verdict ?? "–")],
     ["Taken by the coupler [J]", (row) => number(row.coupler_loss_j)], ["Of all losses", (row) => percent(row.coupler_loss_part)]]));
   return along ? makeChart(drawing, () => optionOf(rows, axes, along, metric), "Ratio of flexible to rigid; the table below has the same numbers", signal) : null;
+}
+
+/// Between which two values of a parameter the ratio passes 1.
+/** @param {Api.Get<"/v1/sweeps/{id}/flexibility">[number]} row  @param {string[]} axes */
+function reversalOf({ along, reverses_from: from, ...row }, axes) {
+  if (typeof along !== "string" || typeof from !== "number") return "";
+  return `between ${pointOf(along, from)} and ${where(row, [along, ...axes.filter((axis) => axis !== along)])}`;
 }
 
 function optionOf(rows, axes, along, metric) {

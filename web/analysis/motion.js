@@ -8,6 +8,7 @@ import { acrossAxis, valueAxis } from "/analysis/parts.js";
 import { isDescribed, mainAcceleration } from "/run/described.js";
 
 /// @param columns  channels that may be chosen
+/** @param {Api.Job} job  @param {string[]} columns  @param {AbortSignal} signal */
 export function motionCard(job, columns, signal) {
   const body = h("div");
   const open = () => {
@@ -20,7 +21,9 @@ export function motionCard(job, columns, signal) {
   return details;
 }
 
+/** @param {Api.Job} job  @param {string[]} columns  @param {AbortSignal} signal */
 function spectrum(job, columns, signal) {
+  /** @type {{ channel: string, window: Api.Query<"/v1/jobs/{id}/spectrum">["window"] }} */
   const view = { channel: isDescribed(job) ? mainAcceleration(columns) : "slider_acceleration_m_s2", window: "hann" };
   let found = null;
   let chart = null;
@@ -31,7 +34,7 @@ function spectrum(job, columns, signal) {
   };
   const set = (key) => (value) => { view[key] = value; load().catch((error) => drawing.replaceChildren(h("p", { class: "trouble" }, error.message))); };
   const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"), saveButtons(() => chart, () => `${job.id} spectrum`)),
-    h("p", { class: "actions" }, choice("Channel", columns.map((name) => [name, titleOf(name)]), view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window, set("window"))), drawing);
+    h("p", { class: "actions" }, choice("Channel", columns.map((name) => [name, titleOf(name)]), view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), drawing);
   const option = () => ({ grid: { left: 80, right: 20, top: 20, bottom: 50 }, tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
     dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"), yAxis: valueAxis(`Amplitude: ${titleOf(view.channel)}`, { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
     series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 }, data: found.frequency_hz.map((frequency, k) => [frequency, found[view.channel][k]]).filter(([, amplitude]) => amplitude > 0) }] });
@@ -39,6 +42,7 @@ function spectrum(job, columns, signal) {
 }
 
 /// The journal once a turn; the circle is the clearance.
+/** @param {Api.Job} job  @param {AbortSignal} signal */
 function section(job, signal) {
   const view = { phase: 0 };
   let found = null;

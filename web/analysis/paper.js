@@ -4,13 +4,21 @@ import { h } from "/core/dom.js";
 import { nameOf, number, plural } from "/core/format.js";
 import { table } from "/analysis/parts.js";
 
+/** @typedef {Api.Get<"/v1/sweeps/{id}/paper">[number]} Statement */
+
 const axesNeeded = ["clearance_mm", "crank_velocity_rad_s", "coupler"];
 const indexPrefix = "index.";
 const leastIndex = 0.02;
 
 /// Whether a sweep varies what the paper's statements compare.
+/** @type {(axes: string[]) => boolean} */
 export const bearsOnPaper = (axes) => axesNeeded.every((axis) => axes.includes(axis));
 
+/**
+ * @param {HTMLElement} element
+ * @param {AnalysedSweep} study
+ * @param {AbortSignal} signal
+ */
 export async function paperCard(element, { sweep }, signal) {
   const rows = await findAnalysis(sweep.id, "paper", {}, signal);
   const [numbered, others] = split(rows);
@@ -23,11 +31,12 @@ export async function paperCard(element, { sweep }, signal) {
 }
 
 /// Summary of the numbered statements in words: "7 of 7 hold".
+/** @param {Statement[]} rows */
 export function summaryOf(rows) {
   const [numbered] = split(rows);
   const told = numbered.filter(({ settings }) => settings > 0);
   if (told.some(({ settings }) => settings > 1)) {
-    const shares = told.map(({ share }) => share);
+    const shares = told.map(({ share }) => share).filter((share) => share !== null);
     const [least, most] = [Math.min(...shares), Math.max(...shares)].map(percent);
     return `each holds in ${least === most ? least : `${least} to ${most}`} of the settings`;
   }
@@ -36,9 +45,11 @@ export function summaryOf(rows) {
   return `${holding} of ${numbered.length} hold${missing > 0 ? `; the sweep lacks the jobs of ${missing}` : ""}`;
 }
 
+/** @type {(rows: Statement[]) => [Statement[], Statement[]]} */
 const split = (rows) => [rows.filter((row) => row.number !== null), rows.filter((row) => row.number === null)];
 const percent = (part) => `${number(100 * part, 3)} %`;
 
+/** @param {string} label  @param {Statement[]} rows  @param {any[]} first */
 function statements(label, rows, first = []) {
   const sentence = ({ text }) => text.charAt(0).toUpperCase() + text.slice(1);
   const printed = ({ paper }) => (paper === null ? "below 1" : number(paper));
@@ -46,25 +57,29 @@ function statements(label, rows, first = []) {
     ["Verdict", verdictOf, "verdict"]], "statements");
 }
 
+/** @param {Statement} statement */
 function foundIn({ settings, found_least: least, found_largest: largest }) {
   if (settings === 0) return "–";
   const [from, to] = [number(least, 3), number(largest, 3)];
   return from === to ? from : `${from} to ${to}`;
 }
 
+/** @param {Statement} statement */
 function verdictOf({ settings, share, holds }) {
   if (settings === 0) return "–";
   if (settings > 1) return `in ${percent(share)} of ${plural(settings, "setting")}`;
   return h("span", { class: holds ? "succeeded" : "failed" }, holds ? "holds" : "does not hold");
 }
 
-/// [parameter, index] of a statement, largest first.
+/// {parameter, index}s of a statement, largest first.
+/** @param {Statement} row */
 function indicesOf(row) {
-  return Object.entries(row).filter(([key, value]) => key.startsWith(indexPrefix) && value !== null && value >= leastIndex)
-    .map(([key, value]) => [key.slice(indexPrefix.length), value]).sort(([, a], [, b]) => b - a);
+  return Object.entries(row).map(([key, value]) => ({ key, index: Number(value) })).filter(({ key, index }) => key.startsWith(indexPrefix) && index >= leastIndex)
+    .map(({ key, index }) => ({ parameter: key.slice(indexPrefix.length), index })).sort((a, b) => b.index - a.index);
 }
 
 /// The statements' indices below a heading; nothing, if the sweep has too few settings for them.
+/** @param {Statement[]} numbered */
 function indexParts(numbered) {
   const rows = numbered.map((row) => ({ row, indices: indicesOf(row) })).filter(({ indices }) => indices.length > 0);
   if (rows.length === 0) return [];
@@ -75,7 +90,8 @@ function indexParts(numbered) {
       ["First-order sensitivity index", ({ indices }) => indices.map(indexBar)]])];
 }
 
-function indexBar([parameter, index]) {
+/** @param {{ parameter: string, index: number }} index */
+function indexBar({ parameter, index }) {
   const bar = h("span", { class: "part", "aria-hidden": "true" });
   bar.style.width = `${100 * Math.min(index, 1)}%`;
   return h("div", { class: "index" }, h("span", {}, nameOf(parameter)), h("span", { class: "value" }, number(index, 2)),

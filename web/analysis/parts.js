@@ -19,6 +19,12 @@ export function bars(color, data, width = 2) {
 }
 
 /// A table of rows. @param columns  [heading, text of a row, class of its cells if they have one] each  @param look  class of the table
+/**
+ * @param {string} label
+ * @param {any[]} rows
+ * @param {any[]} columns
+ * @param {string | null} look
+ */
 export function table(label, rows, columns, look = null) {
   return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label },
     h("table", { class: look }, h("thead", {}, h("tr", {}, columns.map(([heading, , cell]) => h("th", { scope: "col", class: cell }, heading)))),

@@ -6,6 +6,11 @@ import { nameOf, number, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, axisColumns, bars, table, valueAxis, where } from "/analysis/parts.js";
 
+/**
+ * @param {HTMLElement} element
+ * @param {AnalysedSweep} study
+ * @param {AbortSignal} signal
+ */
 export async function sensitivityCard(element, { sweep, metric }, signal) {
   const rows = await findAnalysis(sweep.id, "sensitivity", { metric }, signal);
   const axes = sweep.axes.filter((axis) => rows[0][axis] !== undefined);

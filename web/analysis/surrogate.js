@@ -6,6 +6,14 @@ import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour, palette } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
 
+/** @typedef {Api.Get<"/v1/sweeps/{id}/surrogate">} Surrogate */
+/** @typedef {Surrogate["surfaces"][number]} Surface */
+
+/**
+ * @param {HTMLElement} element
+ * @param {AnalysedSweep} study
+ * @param {AbortSignal} signal
+ */
 export async function surrogateCard(element, { sweep, metric }, signal) {
   let made = await findAnalysis(sweep.id, "surrogate", { metric }, signal);
   let shown = 0;
@@ -13,6 +21,7 @@ export async function surrogateCard(element, { sweep, metric }, signal) {
   const said = h("p", { role: "status" });
   const pickers = h("p", { class: "actions" });
   let chart = null;
+  /** @type {(x: string, y: string | undefined) => Promise<void>} */
   const again = async (x, y) => {
     made = await findAnalysis(sweep.id, "surrogate", { metric, x, y }, signal);
     draw();
@@ -24,8 +33,8 @@ export async function surrogateCard(element, { sweep, metric }, signal) {
     const groups = made.surfaces.map(({ where }, index) => [String(index), Object.entries(where).map(([axis, value]) => pointOf(axis, value)).join(", ")]);
     const other = (than) => made.inputs.find(({ parameter }) => parameter !== than)?.parameter;
     pickers.replaceChildren(...[groups.length > 1 && choice("At", groups, String(shown), (index) => { shown = Number(index); draw(); }),
-      names.length > 1 && choice("Across", names, made.x, (x) => again(x, x === made.y ? other(x) : made.y)),
-      names.length > 2 && choice("Up", names.filter(([name]) => name !== made.x), made.y, (y) => again(made.x, y))].filter(Boolean));
+      names.length > 1 && choice("Across", names, made.x, (x) => again(x, x === made.y ? other(x) : made.y ?? undefined)),
+      names.length > 2 && made.y !== null && choice("Up", names.filter(([name]) => name !== made.x), made.y, (y) => again(made.x, y))].filter(Boolean));
     chart?.draw();
   };
   element.replaceChildren(pickers, said, drawing);
@@ -34,15 +43,17 @@ export async function surrogateCard(element, { sweep, metric }, signal) {
   return chart;
 }
 
+/** @param {Surface} surface  @param {Surrogate} surrogate */
 function judgement(surface, { metric, x, y, inputs }) {
   if (surface.degree === null) return `${surface.points} points are too few for a surrogate; there must be 6.`;
   const others = inputs.filter(({ parameter }) => parameter !== x && parameter !== y).map(({ parameter, middle }) => `${nameOf(parameter)} ${number(middle)} ${unitOf(parameter)}`);
   const at = others.length > 0 ? `; drawn at ${others.join(", ")}, points at all their values` : "";
-  const part = surface.predicted_part > 0 ? `${number(100 * surface.predicted_part, 3)} % of the variance` : "which the mean of the others does as well: it is of no use here";
+  const part = surface.predicted_part !== null && surface.predicted_part > 0 ? `${number(100 * surface.predicted_part, 3)} % of the variance` : "which the mean of the others does as well: it is of no use here";
   return `Degree ${surface.degree}, ${surface.terms} terms on ${surface.points} points: predicts a point from all others to ${[number(surface.cross_validation_error), unitOf(metric)].join(" ").trim()}, `
     + `${part}${at}.`;
 }
 
+/** @param {Surrogate} made  @param {Surface} surface */
 function optionOf(made, surface) {
   if (surface.values === null) return null;
   return made.y ? surfaceOption(made, surface) : lineOption(made, surface);

@@ -5,6 +5,7 @@ import { h, notify } from "/core/dom.js";
 import { exact, number } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 
+/** @param {Api.Job} job  @param {AbortSignal} signal */
 export function wearCard(job, signal) {
   const body = h("div");
   const details = h("details", { class: "card", ontoggle: () => {
@@ -14,10 +15,12 @@ export function wearCard(job, signal) {
   return details;
 }
 
+/** @param {HTMLElement} body  @param {Api.Job} job  @param {AbortSignal} signal */
 async function fill(body, job, signal) {
   const view = { wear_coefficient_m2_n: "1e-15", worn_clearance_mm: "", sectors: 72 };
   const drawing = h("div", { class: "chart tall" });
   const said = h("p", { role: "status" });
+  /** @type {Api.Get<"/v1/jobs/{id}/wear">} */
   let rows = [];
   let chart = null;
   const load = async () => {
@@ -39,6 +42,7 @@ async function fill(body, job, signal) {
 }
 
 /// The bore is the circle in the middle; 0 degrees, the bearing's x, points right, and angles go against the clock.
+/** @param {Api.Get<"/v1/jobs/{id}/wear">} rows */
 function optionOf(rows) {
   const rings = [...new Set(rows.map((row) => row.ring))];
   const sectors = rows.filter((row) => row.ring === rings[0]).map((row) => String(Math.round((180 / Math.PI) * row.angle_rad * 10) / 10));
@@ -47,7 +51,7 @@ function optionOf(rows) {
     legend: { top: 0 }, polar: { radius: ["25%", "80%"] }, tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
     angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false, axisLabel: { ...text, interval: sectors.length / 12 - 1 }, axisLine: { lineStyle: { color: colour("quiet") } } },
     radiusAxis: { name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text, axisLabel: { ...text, formatter: (value) => number(value, 2) }, splitLine: { lineStyle: { color: colour("line") } } },
-    series: rings.map((ring, index) => ({ type: "bar", coordinateSystem: "polar", name: `ring at ${number(rows.find((row) => row.ring === ring).position_mm)} mm`, color: lineColour(index), barGap: "0%",
+    series: rings.map((ring, index) => ({ type: "bar", coordinateSystem: "polar", name: `ring at ${number(rows.find((row) => row.ring === ring)?.position_mm)} mm`, color: lineColour(index), barGap: "0%",
       data: rows.filter((row) => row.ring === ring).map((row) => row.depth_um) })),
   };
 }

@@ -2,6 +2,7 @@
 
 /// What the service refused, with every fault and its place in the request.
 export class Refusal extends Error {
+  /** @param {Partial<Api.Schemas["Problem"]>} problem  @param {number} status */
   constructor(problem, status) {
     super(problem.detail || problem.title || `The service answered ${status}.`);
     this.name = "Refusal";
@@ -21,7 +22,13 @@ class Away extends Error {
   }
 }
 
+/**
+ * @param {string} path
+ * @param {{ method?: string, body?: unknown, signal?: AbortSignal }} options
+ * @returns {Promise<any>} of JSON; null where there is none
+ */
 export async function ask(path, { method = "GET", body, signal } = {}) {
+  /** @type {Record<string, string>} */
   const headers = body === undefined ? {} : { "Content-Type": "application/json" };
   let answer;
   let text;
@@ -45,28 +52,49 @@ function problemOf(text) {
   }
 }
 
+/** @type {(id: string) => string} */
 const sweepPath = (id) => `/v1/sweeps/${encodeURIComponent(id)}`;
+/** @type {(id: string) => string} */
 const jobPath = (id) => `/v1/jobs/${encodeURIComponent(id)}`;
-const withQuery = (path, query) => {
+/** @type {(path: string, query?: object) => string} */
+const withQuery = (path, query = {}) => {
   const set = Object.entries(query).filter(([, value]) => value !== undefined && value !== "");
   return set.length === 0 ? path : `${path}?${new URLSearchParams(set)}`;
 };
 
+/** @type {(signal: AbortSignal) => Promise<Api.Get<"/healthz">>} */
 export const findHealth = (signal) => ask("/healthz", { signal });
+/** @type {(query: Api.Query<"/v1/sweeps">, signal: AbortSignal) => Promise<Api.Page<"/v1/sweeps">>} */
 export const listSweeps = (query, signal) => ask(withQuery("/v1/sweeps", query), { signal });
+/** @type {(signal: AbortSignal) => Promise<Api.Get<"/v1/executors">>} */
 export const listExecutors = (signal) => ask("/v1/executors", { signal });
+/** @type {(query: Api.Query<"/v1/jobs">, signal: AbortSignal) => Promise<Api.Page<"/v1/jobs">>} */
 export const listJobs = (query, signal) => ask(withQuery("/v1/jobs", query), { signal });
+/** @type {(id: string, signal?: AbortSignal) => Promise<Api.Get<"/v1/sweeps/{id}">>} */
 export const findSweep = (id, signal) => ask(sweepPath(id), { signal });
+/** @type {(request: Api.Body<"/v1/sweeps">) => Promise<Api.Post<"/v1/sweeps">>} */
 export const submitSweep = (request) => ask("/v1/sweeps", { method: "POST", body: request });
+/** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/cancel">>} */
 export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
+/** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/retry">>} */
 export const retrySweep = (id) => ask(`${sweepPath(id)}/retry`, { method: "POST" });
+/** @type {(id: string) => Promise<null>} */
 export const deleteSweep = (id) => ask(sweepPath(id), { method: "DELETE" });
+/**
+ * @type {(id: string, query: Api.Filters<"/v1/sweeps/{id}/results">, signal: AbortSignal) =>
+ *   Promise<Api.Row[]>}
+ */
 export const findResults = (id, query, signal) => ask(resultsUrl(id, query), { signal });
+/** @type {(id: string, signal: AbortSignal) => Promise<Api.Job>} */
 export const findJob = (id, signal) => ask(jobPath(id), { signal });
+/** @type {(parameters: Api.Body<"/v1/jobs">) => Promise<Api.Job>} */
 export const submitJob = (parameters) => ask("/v1/jobs", { method: "POST", body: parameters });
+/** @type {(id: string) => Promise<Api.Post<"/v1/jobs/{id}/cancel">>} */
 export const cancelJob = (id) => ask(`${jobPath(id)}/cancel`, { method: "POST" });
 /// What the service does with studies of one kind.
+/** @param {string} path  @returns {Studies<any, any, any>} */
 function studies(path) {
+  /** @type {(id: string) => string} */
   const of = (id) => `${path}/${encodeURIComponent(id)}`;
   return {
     path,
@@ -76,48 +104,82 @@ function studies(path) {
     cancel: (id) => ask(`${of(id)}/cancel`, { method: "POST" }),
     retry: (id) => ask(`${of(id)}/retry`, { method: "POST" }),
     remove: (id) => ask(of(id), { method: "DELETE" }),
-    resultsUrl: (id, query = {}) => withQuery(`${of(id)}/results`, query),
+    resultsUrl: (id, query) => withQuery(`${of(id)}/results`, query),
     eventsUrl: (id) => `${of(id)}/events`,
   };
 }
 
+/** @type {Searches} */
 export const searches = studies("/v1/searches");
+/** @type {WearStudies} */
 export const wearStudies = studies("/v1/wear-studies");
 
+/** @type {(id: string) => string} */
 export const eventsUrl = (id) => `${sweepPath(id)}/events`;
 
-/// What is worked out of a sweep: paper, sensitivity, surrogate, flexibility, bifurcation, lyapunov.
-export const analysisUrl = (id, analysis, query = {}) => withQuery(`${sweepPath(id)}/${analysis}`, query);
+/** @typedef {"paper" | "sensitivity" | "surrogate" | "flexibility" | "bifurcation" | "lyapunov"} Analysis */
+
+/// What is worked out of a sweep.
+/**
+ * @type {<Name extends Analysis>(id: string, analysis: Name,
+ *   query?: Api.Query<`/v1/sweeps/{id}/${Name}`>) => string}
+ */
+export const analysisUrl = (id, analysis, query) => withQuery(`${sweepPath(id)}/${analysis}`, query);
+/**
+ * @type {<Name extends Analysis>(id: string, analysis: Name, query: Api.Query<`/v1/sweeps/{id}/${Name}`>,
+ *   signal: AbortSignal) => Promise<Api.Get<`/v1/sweeps/{id}/${Name}`>>}
+ */
 export const findAnalysis = (id, analysis, query, signal) => ask(analysisUrl(id, analysis, query), { signal });
+/** @type {(id: string) => string} */
 export const reportUrl = (id) => `${sweepPath(id)}/report`;
 /// What is worked out of a job, as columns: spectrum, poincare.
+/**
+ * @type {<Name extends "spectrum" | "poincare">(id: string, analysis: Name,
+ *   query: Api.Query<`/v1/jobs/{id}/${Name}`>, signal: AbortSignal) => Promise<Record<string, number[]>>}
+ */
 export const findMotion = (id, analysis, query, signal) => ask(withQuery(`${jobPath(id)}/${analysis}`, query), { signal }).then(({ columns }) => columns);
 
+/**
+ * @type {(id: string, query: Api.Query<"/v1/jobs/{id}/wear">, signal: AbortSignal) =>
+ *   Promise<Api.Get<"/v1/jobs/{id}/wear">>}
+ */
 export const findWear = (id, query, signal) => ask(withQuery(`${jobPath(id)}/wear`, query), { signal });
 
+/** @param {string} id  @param {Api.Filters<"/v1/sweeps/{id}/results">} query */
 export function resultsUrl(id, query = {}) {
   return withQuery(`${sweepPath(id)}/results`, query);
 }
 
+/** @param {string} id  @param {Api.Query<"/v1/jobs/{id}/trajectory">} query */
 export function trajectoryUrl(id, query = {}) {
   return withQuery(`${jobPath(id)}/trajectory`, query);
 }
 
 /// Columns of a trajectory by their names. @param query  channels (a list), from, to, points
+/**
+ * @param {string} id
+ * @param {{ channels?: string[], from?: number, to?: number, points?: number }} query
+ * @param {AbortSignal} signal
+ * @returns {Promise<Api.Columns>}
+ */
 export async function findTrajectory(id, { channels, ...query }, signal) {
   const answer = await ask(trajectoryUrl(id, { channels: channels?.join(","), ...query }), { signal });
   return answer.columns;
 }
 
 /// One of the linkages that the program brings along, as a set of parameters.
+/** @type {(name: string, signal: AbortSignal) => Promise<Api.Schemas["Parameters"]>} */
 export const exampleLinkage = (name, signal) => ask(`/linkages/${name}.json`, { signal });
 
 /// The JSON Schemas of all requests, by their names in the interface's description.
+/** @type {(signal: AbortSignal) => Promise<Record<string, any>>} */
 export const requestSchemas = (signal) => ask("/v1/openapi.json", { signal }).then(({ components }) => components.schemas);
 
+/** @type {Promise<any> | null} */
 let schema = null;
 
 /// The JSON Schema of the parameters, asked for once.
+/** @returns {Promise<any>} */
 export function parameterSchema() {
   schema ??= ask("/v1/parameters").catch((error) => {
     schema = null;

@@ -37,6 +37,12 @@ export function axisLook() {
 /// A chart that fills its element and follows its size and the page's colours.
 /// @param makeOption  gives ECharts' option, anew for each drawing; null if there is nothing to draw
 /// @param label       what a screen reader says of it
+/**
+ * @param {HTMLElement} element
+ * @param {() => any} makeOption
+ * @param {string} label
+ * @param {AbortSignal} signal
+ */
 export async function makeChart(element, makeOption, label, signal) {
   const echarts = await loadCharts();
   const chart = echarts.init(element);

@@ -1,7 +1,15 @@
 // Builds elements. Every text goes in as text, never as markup.
 
 /// An element; attributes that are false or null are left out, functions listen to the event of their name ("onclick").
+/**
+ * @template {keyof HTMLElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {Record<string, any>} attributes
+ * @param {...any} children
+ * @returns {HTMLElementTagNameMap[Tag]}
+ */
 export function h(tag, attributes = {}, ...children) {
+  /** @type {any} */
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (value === false || value === null || value === undefined) continue;
@@ -13,12 +21,39 @@ export function h(tag, attributes = {}, ...children) {
   return element;
 }
 
+/// An element that is in the page from the start, or of a part of it that has one.
+/**
+ * @param {string} selector
+ * @param {ParentNode} within
+ * @returns {any}
+ */
+export function part(selector, within = document) {
+  const element = within.querySelector(selector);
+  if (element === null) throw new Error(`The page has no ${selector}.`);
+  return element;
+}
+
+/// What draws on a canvas.
+/** @param {HTMLCanvasElement} canvas */
+export function contextOf(canvas) {
+  const context = canvas.getContext("2d");
+  if (context === null) throw new Error("This browser has no memory left for a picture of that size.");
+  return context;
+}
+
 /// Lets an element be seen or not. Its place is kept: what stands beside it would move under the pointer.
+/** @param {HTMLElement} element  @param {boolean} isSeen */
 export function setSeen(element, isSeen) {
   element.classList.toggle("unseen", !isSeen);
 }
 
 /// A labelled select. @param options  strings, or [value, text]
+/**
+ * @param {string} label
+ * @param {(string | string[])[]} options
+ * @param {string} value
+ * @param {(chosen: string) => unknown} onchange
+ */
 export function choice(label, options, value, onchange) {
   const select = h("select", { onchange: () => onchange(select.value) },
     options.map((option) => {
@@ -30,6 +65,7 @@ export function choice(label, options, value, onchange) {
 }
 
 /// Resolves once the element has a width, which it has not before it stands in the page.
+/** @param {HTMLElement} element  @param {AbortSignal} signal */
 export async function laidOut(element, signal) {
   while (element.clientWidth === 0 && !signal.aborted) await new Promise(requestAnimationFrame);
 }
@@ -42,11 +78,15 @@ export function freshId(stem) {
   return `${stem}-${nextId}`;
 }
 
+/** @type {number | undefined} */
+let noticeTimer;
+
 /// Tells something to everyone, screen readers included.
+/** @param {string} text  @param {"" | "trouble"} kind */
 export function notify(text, kind = "") {
-  const notice = document.querySelector("#notice");
+  const notice = part("#notice");
   notice.className = kind;
   notice.textContent = text;
-  clearTimeout(notify.timer);
-  notify.timer = setTimeout(() => { notice.textContent = ""; }, 8000);
+  clearTimeout(noticeTimer);
+  noticeTimer = setTimeout(() => { notice.textContent = ""; }, 8000);
 }

@@ -10,6 +10,7 @@ const suffixes = [
 const minus = "−";
 
 /// A number in four significant digits, or as many as asked for.
+/** @param {number | string | null | undefined} value  @param {number} digits */
 export function number(value, digits = 4) {
   if (value === null || value === undefined) return "–";
   if (typeof value !== "number") return String(value);
@@ -20,16 +21,19 @@ export function number(value, digits = 4) {
 }
 
 /// A parameter's value as it was given, to the last digit.
+/** @param {number | string | null | undefined} value */
 export function exact(value) {
   return typeof value === "number" ? String(value).replaceAll("-", minus) : value === null || value === undefined ? "–" : String(value);
 }
 
+/** @param {string} column */
 export function unitOf(column) {
   if (column.endsWith("stiffness_n_m")) return "N/m"; // of torques the same letters are N m
   return suffixes.find(([suffix]) => column.endsWith(suffix))?.[1] ?? "";
 }
 
 /// "peak_slider_acceleration_m_s2" as "Peak slider acceleration".
+/** @param {string} column */
 export function nameOf(column) {
   const suffix = suffixes.find(([ending]) => column.endsWith(ending))?.[0] ?? "";
   const words = column.slice(0, column.length - suffix.length).replace(/^links\.([^.]+)\./, "link ($1) ").replaceAll("_", " ").trim();
@@ -37,11 +41,13 @@ export function nameOf(column) {
 }
 
 /// A name with its unit: "Peak slider acceleration [m/s²]". @param unit  where the suffix does not say it rightly
+/** @param {string} column  @param {string} unit */
 export function titleOf(column, unit = unitOf(column)) {
   return unit ? `${nameOf(column)} [${unit}]` : nameOf(column);
 }
 
 /// A value of an axis, short: "10 rad/s", "rigid", "rigid elements 4".
+/** @param {string} axis  @param {number | string} value */
 export function pointOf(axis, value) {
   const unit = unitOf(axis);
   if (typeof value !== "number") return String(value);
@@ -49,6 +55,7 @@ export function pointOf(axis, value) {
 }
 
 /// A time span: "12 s", "3 min 20 s", "2 h 5 min".
+/** @param {number | null | undefined} seconds */
 export function span(seconds) {
   if (seconds === null || seconds === undefined) return "unknown";
   if (seconds < 10) return `${Number(seconds.toPrecision(2))} s`;
@@ -59,6 +66,7 @@ export function span(seconds) {
   return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
 
+/** @param {number} count */
 export function bytes(count) {
   const units = ["B", "kB", "MB", "GB", "TB"];
   let power = 0;
@@ -67,10 +75,12 @@ export function bytes(count) {
   return `${number(rest, 3)} ${units[power]}`;
 }
 
+/** @param {string | null} text */
 export function moment(text) {
   return text ? new Date(text).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "medium" }) : "–";
 }
 
+/** @param {number} count  @param {string} word */
 export function plural(count, word) {
   return `${count.toLocaleString("en")} ${count === 1 ? word : `${word}s`}`;
 }

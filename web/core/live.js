@@ -3,17 +3,32 @@ import { eventsUrl, findSweep, isAway } from "/core/api.js";
 
 const pollMs = 2000;
 
+/** @type {(sweep: Pick<Api.Sweep, "counts">) => boolean} */
 export const isUnderWay = (sweep) => sweep.counts.queued + sweep.counts.running > 0;
+
+/** @typedef {Pick<Api.Sweep, "state" | "counts" | "progress" | "eta_s">} Progress */
+/** @typedef {{ progress?: (now: Progress) => void, job?: (job: Api.Job) => void, done?: () => void }} Told */
 
 /// Tells each change of a sweep until it has ended or the signal is given.
 /// @param told.progress  gets counts, progress and time left
 /// @param told.job       gets a job that has ended
 /// @param told.done      the sweep has ended
+/**
+ * @param {string} id
+ * @param {Told} told
+ * @param {AbortSignal} signal
+ */
 export function follow(id, told, signal) {
   followEvents({ events: eventsUrl(id), find: () => findSweep(id, signal), isUnderWay }, told, signal);
 }
 
 /// The same of a study. @param api  of its kind
+/**
+ * @param {Searches | WearStudies} api
+ * @param {string} id
+ * @param {{ progress?: (now: any) => void, done?: () => void }} told
+ * @param {AbortSignal} signal
+ */
 export function followStudy(api, id, told, signal) {
   followEvents({ events: api.eventsUrl(id), find: () => api.find(id, signal), isUnderWay: ({ state }) => state === "running" }, told, signal);
 }
@@ -50,6 +65,13 @@ async function poll(source, told, signal) {
 
 /// What the asked function resolves to; it is asked again as long as the service is away.
 /// @param tell  is given what there is to say meanwhile, and "" at the end
+/**
+ * @template Found
+ * @param {() => Promise<Found>} asked
+ * @param {(text: string) => void} tell
+ * @param {AbortSignal} signal
+ * @returns {Promise<Found>}
+ */
 export async function persist(asked, tell, signal) {
   for (;;) {
     try {
@@ -65,6 +87,7 @@ export async function persist(asked, tell, signal) {
 }
 
 /// Resolves after so many milliseconds. @throws an AbortError when the signal is given
+/** @param {number} milliseconds  @param {AbortSignal} signal  @returns {Promise<void>} */
 export function pause(milliseconds, signal) {
   return new Promise((resolve, reject) => {
     const stop = () => { clearTimeout(timer); reject(signal.reason); };
@@ -74,6 +97,7 @@ export function pause(milliseconds, signal) {
 }
 
 /// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and always after the last call.
+/** @param {() => unknown} run  @param {number | (() => number)} milliseconds */
 export function seldom(run, milliseconds) {
   let timer = null;
   return () => {
@@ -85,8 +109,10 @@ export function seldom(run, milliseconds) {
 }
 
 /// A function that runs the given one once it has not been called for so many milliseconds.
+/** @param {() => unknown} run  @param {number} milliseconds */
 export function settled(run, milliseconds) {
-  let timer = null;
+  /** @type {number | undefined} */
+  let timer;
   return () => {
     clearTimeout(timer);
     timer = setTimeout(run, milliseconds);

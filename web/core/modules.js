@@ -32,6 +32,6 @@ export const nextWait = () => waitsMs[attempts()] ?? null;
 
 /// Asks again with a new page.
 export function tryAgain() {
-  sessionStorage.setItem(key, attempts() + 1);
+  sessionStorage.setItem(key, String(attempts() + 1));
   location.reload();
 }

@@ -1,5 +1,6 @@
 // The address of a view: #/KIND/ID?key=value. Every view can be linked to.
 
+/** @returns {{ kind: string, id: string, query: URLSearchParams }} */
 export function readRoute() {
   const [path, search = ""] = location.hash.replace(/^#\/?/, "").split("?");
   const [kind = "", id = ""] = path.split("/").map(decodeURIComponent);
@@ -7,6 +8,7 @@ export function readRoute() {
 }
 
 /// The address of a view. Keys without a value are left out.
+/** @param {string} kind  @param {string} id  @param {Record<string, any>} query */
 export function routeTo(kind, id = "", query = {}) {
   const search = new URLSearchParams(Object.entries(query).filter(([, value]) => value !== "" && value !== null && value !== undefined));
   const path = id ? `${kind}/${encodeURIComponent(id)}` : kind;

@@ -1,4 +1,5 @@
 // Colours: light or dark, and the palettes of values. Both are kept for the next visit.
+import { part } from "/core/dom.js";
 
 const palettes = {
   viridis: ["#440154", "#482878", "#3e4a89", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"],
@@ -13,14 +14,17 @@ const lineColours = {
 
 const changed = new EventTarget();
 
+/** @type {(id: string) => HTMLSelectElement} */
+const selectOf = (id) => part(`select#${id}`);
+
+/** @param {HTMLSelectElement} select */
 function restore(select, key) {
   const kept = localStorage.getItem(key);
-  if ([...select.options].some((option) => option.value === kept)) select.value = kept;
+  if (kept !== null && [...select.options].some((option) => option.value === kept)) select.value = kept;
 }
 
 export function startTheme() {
-  const theme = document.querySelector("#theme");
-  const colours = document.querySelector("#palette");
+  const [theme, colours] = [selectOf("theme"), selectOf("palette")];
   restore(theme, "theme");
   restore(colours, "palette");
   const apply = () => {
@@ -52,7 +56,7 @@ export function colour(name) {
 }
 
 export function palette() {
-  return palettes[document.querySelector("#palette").value];
+  return palettes[selectOf("palette").value];
 }
 
 /// The palette for lines: on dark ground without its dark end, which would not be seen.
@@ -68,9 +72,9 @@ export function lineColour(index) {
 const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 
 /// The colour for lines at a part of the palette's length, 0 to 1.
-export function paletteColour(part) {
+export function paletteColour(place) {
   const stops = linePalette();
-  const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1);
+  const at = Math.min(Math.max(place, 0), 1) * (stops.length - 1);
   const left = Math.min(Math.floor(at), stops.length - 2);
   const [from, to] = [channels(stops[left]), channels(stops[left + 1])];
   return `rgb(${from.map((value, i) => Math.round(value + (to[i] - value) * (at - left))).join(" ")})`;

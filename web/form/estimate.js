@@ -12,7 +12,7 @@ const kindPaths = [...Object.keys(elementsOf), "clearance_mm", "duration_s"];
 /// Seconds of computing for each simulated second, by kind of job.
 export async function measureCosts(signal) {
   const { items } = await listJobs({ limit: lookedAt, state: "succeeded", fields: "id,sweep_id,run" }, signal);
-  const measured = new Map(items.filter(({ run }) => run && !run.reused).map((job) => [job.id, job.run.cpu_time_s]));
+  const measured = new Map(items.flatMap(({ id, run }) => (run && !run.reused ? [[id, run.cpu_time_s]] : [])));
   const sweeps = [...new Set(items.map((job) => job.sweep_id).filter(Boolean))].slice(0, mostSweeps);
   const kinds = new Map();
   for (const id of sweeps) {
@@ -26,6 +26,7 @@ export async function measureCosts(signal) {
 }
 
 /// Linkages that are described have no coupler by that name.
+/** @type {(row: any) => string} */
 const kindOf = ({ coupler, crank, rod, cross, clearance_mm: clearance }) => (coupler === null ? "described linkages"
   : `${[coupler, ...Object.entries({ crank, rod, cross }).filter(([, model]) => model === "flexible").map(([link]) => link)].join(" + ")}, ${clearance > 0 ? "clearance" : "ideal joint"}`);
 
@@ -55,6 +56,7 @@ export function estimate(request, defaults, jobs, costs) {
 }
 
 /// Every choice of one value for each path.
+/** @param {string[]} paths  @param {(path: string) => any[]} values  @returns {Generator<any>} */
 function* combinations([path, ...others], values) {
   if (path === undefined) yield {};
   else for (const value of values(path)) for (const rest of combinations(others, values)) yield { [path]: value, ...rest };

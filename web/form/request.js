@@ -9,6 +9,7 @@ const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
   const problems = [];
+  /** @type {any} */
   const request = { name: state.name.trim() || undefined, parameters: {}, sweep: {} };
   for (const field of fields) {
     const entry = state.entries[field.path];

@@ -11,11 +11,42 @@ const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", 
 
 /// Its kinds say what is asked (path, ask, route), make the request (build) and the text above it (drawCount).
 export class RequestForm {
+  /// What is asked, of the service and in this page.
+  path = "";
+  route = "";
+  /** @type {(request: any) => Promise<{ id: string }>} */
+  ask;
+  /// What shows the fault of each field and value, by its name.
+  /** @type {Map<string, { complain: (text: string) => void, rename?: (text: string) => void }>} */
+  rows = new Map();
+  /** @type {any} */
+  request = {};
+  /** @type {{ path: string, detail: string }[]} */
+  problems = [];
+  isSending = false;
+  rest = h("div");
+  count = h("p", { class: "big", role: "status" });
+  cost = h("p", { class: "quiet small" });
+  faults = h("div", { class: "trouble", role: "alert" });
+  send = h("button", { class: "main", onclick: () => this.submit() }, "Submit");
+  shown = h("code");
+  curl = h("code");
+
   /// @param fields  of the parameters
   /// @param state   what stands in the form: {name, priority, reuse, linkage, replicates, entries: {path: entry}, ...}
+  /** @param {any[]} fields  @param {any} state */
   constructor(fields, state) {
-    Object.assign(this, { fields, state, rows: new Map(), isSending: false });
+    this.fields = fields;
+    this.state = state;
   }
+
+  /// The request, and what keeps it from being one.
+  /** @returns {{ request: any, problems: { path: string, detail: string }[] }} */
+  build() { return { request: {}, problems: [] }; }
+
+  /// Says how much a request asks for.
+  /** @param {any} _request */
+  drawCount(_request) {}
 
   /// The fields that are shown first, and all others behind a heading.
   parameterFields() {
@@ -23,7 +54,7 @@ export class RequestForm {
     const inOrder = first.map((path) => this.fields.find((field) => field.path === path)).filter(Boolean);
     const filter = h("input", { type: "search", oninput: () => this.filter(filter.value) });
     const open = this.fields.some((field) => !isFirst(field) && this.state.entries[field.path]);
-    this.rest = h("div", {}, this.fields.filter((field) => !isFirst(field)).map((field) => this.row(field)));
+    this.rest.append(...this.fields.filter((field) => !isFirst(field)).map((field) => this.row(field)));
     return [inOrder.map((field) => this.row(field)),
       h("details", { open }, h("summary", {}, "All other parameters"), h("label", { class: "choice" }, h("span", {}, "Filter"), filter), this.rest)];
   }
@@ -52,6 +83,14 @@ export class RequestForm {
   }
 
   /// A value with help below it, and a place for what is wrong. @param name  by which its faults are told  @param options  to choose among; null: any text
+  /**
+   * @param {string} name
+   * @param {string} label
+   * @param {any} object
+   * @param {string} key
+   * @param {string} help
+   * @param {string[][] | null} options
+   */
   told(name, label, object, key, help, options = null) {
     const id = freshId("told");
     const listen = { oninput: () => { object[key] = input.value; this.update(); } };
@@ -95,12 +134,6 @@ export class RequestForm {
   }
 
   summary() {
-    this.count = h("p", { class: "big", role: "status" });
-    this.cost = h("p", { class: "quiet small" });
-    this.faults = h("div", { class: "trouble", role: "alert" });
-    this.send = h("button", { class: "main", onclick: () => this.submit() }, "Submit");
-    this.shown = h("code");
-    this.curl = h("code");
     const copy = (label, code) => h("button", { onclick: () => navigator.clipboard.writeText(code.textContent).then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
     return [this.count, this.cost, this.faults, h("p", {}, this.send),
       h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown), h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
@@ -109,7 +142,7 @@ export class RequestForm {
 
   filter(text) {
     const words = text.toLowerCase().split(/\s+/);
-    for (const row of this.rest.children) row.hidden = !words.every((word) => row.textContent.toLowerCase().includes(word));
+    for (const row of /** @type {Iterable<HTMLElement>} */ (this.rest.children)) row.hidden = !words.every((word) => row.textContent.toLowerCase().includes(word));
   }
 
   update() {
@@ -117,10 +150,10 @@ export class RequestForm {
     this.request = request;
     this.problems = problems;
     for (const row of this.rows.values()) row.complain("");
-    for (const { path, detail } of problems) this.rows.get(path).complain(detail);
+    for (const { path, detail } of problems) this.rows.get(path)?.complain(detail);
     this.drawCount(request);
     this.drawSend();
-    this.faults.replaceChildren();
+    this.faults.replaceChildren(...problems.filter(({ path }) => !this.rows.has(path)).map(({ path, detail }) => h("p", {}, `${path}: ${detail}`)));
     this.shown.textContent = JSON.stringify(request, null, 1);
     this.curl.textContent = `curl -d '${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}${this.path}`;
   }
@@ -144,10 +177,12 @@ export class RequestForm {
   }
 
   /// The name of the row that a pointer into the request means.
+  /** @param {string} pointer  @returns {string} */
   rowOf(pointer) {
     return pathOfPointer(pointer, this.fields);
   }
 
+  /** @param {Error} error */
   refuse(error) {
     const faults = error instanceof Refusal && error.faults.length > 0 ? error.faults : [{ pointer: "", detail: error.message }];
     for (const { pointer, detail } of faults) this.rows.get(this.rowOf(pointer))?.complain(detail);

@@ -16,6 +16,7 @@ export class SearchForm extends StudyForm {
 
   constructor(fields, schemas, request) {
     super(fields, schemas, request);
+    /** @type {any} */
     this.way = schemas.SearchPath.properties;
     const [[parameter, way] = ["clearance_mm", {}]] = Object.entries(request.over ?? {});
     const texts = Object.fromEntries(["from", "to", "tolerance", "first"].map((key) => [key, way[key] === undefined ? "" : String(way[key])]));
@@ -56,7 +57,7 @@ export class SearchForm extends StudyForm {
     const limits = countJobs({ sweep: request.sweep });
     const unit = unitOf(request.metric);
     const measured = { "over.from": ["From", this.state.over.parameter], "over.to": ["To", this.state.over.parameter], "over.tolerance": ["Tolerance", this.state.over.parameter], bound: ["Bound", request.metric] };
-    for (const [row, [name, of]] of Object.entries(measured)) this.rows.get(row).rename(inUnit(name, of));
+    for (const [row, [name, of]] of Object.entries(measured)) this.rows.get(row)?.rename?.(inUnit(name, of));
     this.count.textContent = `${plural(limits, "limit")} to find`;
     this.cost.textContent = `${plural(request.replicates?.count ?? 1, "run")} at each value that is tried; ${nameOf(request.metric).toLowerCase()}${unit ? ` in ${unit}` : ""}.`;
   }

@@ -8,6 +8,13 @@ import { buildRequest, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
 /// Shows the form of a kind of studies. @param example  a request that stands in it at first
+/**
+ * @param {HTMLElement} main
+ * @param {typeof StudyForm} Form
+ * @param {any} example
+ * @param {URLSearchParams} query
+ * @param {AbortSignal} signal
+ */
 export async function showStudyForm(main, Form, example, query, signal) {
   document.title = `RPSUP: ${Form.title.toLowerCase()}`;
   const from = query.get("from");
@@ -22,11 +29,26 @@ export async function showStudyForm(main, Form, example, query, signal) {
 
 /// Its kinds have `static api`, `route`, `title`, `schema` (its request's name in the interface's description).
 export class StudyForm extends RequestForm {
+  /** @type {Searches | WearStudies} */
+  static api;
+  static route = "";
+  static title = "";
+  static schema = "";
+
+  /** @param {any[]} fields  @param {Record<string, any>} schemas  @param {any} request */
   constructor(fields, schemas, request) {
     super(fields, { ...readRequest(fields, request), values: {} });
-    Object.assign(this, { schema: schemas[this.constructor.schema].properties, path: this.constructor.api.path, route: this.constructor.route, ask: this.constructor.api.submit });
+    const kind = /** @type {typeof StudyForm} */ (this.constructor);
+    this.schema = schemas[kind.schema].properties;
+    this.path = kind.api.path;
+    this.route = kind.route;
+    this.ask = kind.api.submit;
     for (const [key, value] of Object.entries(request)) this.state.values[key] = typeof value === "number" || typeof value === "string" ? String(value) : "";
   }
+
+  /// What stands in the form.
+  /** @returns {any[]} */
+  parts() { return []; }
 
   /// A number of the request. @param unit, name  where its key does not say them
   number(key, unit = unitOf(key), name = nameOf(key)) {

@@ -14,13 +14,14 @@ import { surrogateCard } from "/analysis/surrogate.js";
 
 const usual = "peak_slider_acceleration_m_s2";  // which only RPSUP has
 
+/** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
   loadCharts().catch(() => {});  // told where a chart would be
   const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, { limit: 1 }, signal)]);
   const metrics = metricsOf(rows, sweep.axes);
   const isRpsup = metrics.includes(usual);
   const numbers = sweep.axes.filter((axis) => typeof rows[0][axis] === "number");
-  const study = { sweep, numbers, isRpsup, metric: metrics.includes(query.get("metric")) ? query.get("metric") : isRpsup ? usual : metrics[0] };
+  const study = { sweep, numbers, isRpsup, metric: metrics.find((metric) => metric === query.get("metric")) ?? (isRpsup ? usual : metrics[0]) };
   const name = sweep.name || sweep.id;
   document.title = `RPSUP: what ${name} says`;
   const cards = h("div");
@@ -33,17 +34,24 @@ export async function show(main, { id, query, signal }) {
 }
 
 /// Those that a sweep can answer.
+/**
+ * @typedef {(element: HTMLElement, study: AnalysedSweep, signal: AbortSignal) =>
+ *   Promise<Chart | null>} MakeCard
+ */
+/** @param {AnalysedSweep} study  @returns {[string, string, MakeCard][]} */
 function cardsFor({ sweep, numbers, isRpsup }) {
   const type = sweep.request.design?.type;
-  return [
+  /** @type {([string, string, MakeCard] | false | undefined | "")[]} */
+  const cards = [
     isRpsup && bearsOnPaper(sweep.axes) && ["The paper's statements", "Ratios of the largest slider acceleration in the steady window. "
       + "Statement 1 holds within 5 %, statements 2 to 5 within 20 %, 6 and 7 below 1.", paperCard],
     sweep.axes.includes("coupler") && ["Does flexibility help?", "The flexible coupler's metric over the rigid one's; the bar from the least to the largest ratio of replicates.", flexibilityCard],
-    ["morris", "saltelli"].includes(type) && ["Sensitivity", type === "morris" ? "What the whole range of each parameter changes, and how much that depends on the place." : "The part of the variance that each parameter makes, alone and in total; bars: 95 % confidence.", sensitivityCard],
+    type && ["morris", "saltelli"].includes(type) && ["Sensitivity", type === "morris" ? "What the whole range of each parameter changes, and how much that depends on the place." : "The part of the variance that each parameter makes, alone and in total; bars: 95 % confidence.", sensitivityCard],
     numbers.length > 0 && ["Surrogate", "A polynomial fitted to the jobs, which are drawn with it; judged by predicting each from all others.", surrogateCard],
     isRpsup && numbers.length > 0 && ["Bifurcation diagram", "Where the journal is once a turn of the crank, for each job.", bifurcationCard],
     isRpsup && sweep.request.replicates && ["Largest Lyapunov exponent", "How fast runs part that begin nearly alike: above 0 the motion is chaotic.", lyapunovCard],
-  ].filter(Boolean);
+  ];
+  return cards.filter(Boolean);
 }
 
 function card(name, title, help, make, study, signal) {

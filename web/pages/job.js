@@ -1,6 +1,6 @@
 // One job, or several laid over each other: what the slider and the journal did, and why.
 import { cancelJob, findJob, findSweep, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
-import { choice, h, notify } from "/core/dom.js";
+import { choice, h, notify, part } from "/core/dom.js";
 import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
 import { pause, persist, seldom } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
@@ -20,12 +20,16 @@ import { TimeWindow } from "/run/time_window.js";
 import { linksOf } from "/scene/poses.js";
 import { sceneCard } from "/scene/scene_card.js";
 
+/** @type {("csv" | "json" | "npz")[]} */
+const formats = ["csv", "json", "npz"];
+/** @type {(state: Api.State) => boolean} */
 const isWaiting = (state) => state === "queued" || state === "running";
 const sliderAcceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
 const pollMs = 1000;
 const sweepPolls = 5;  // its sweep is asked for with every fifth
 const rememberMs = 400;  // browsers refuse to change the address many times a second
 
+/** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
   const others = (query.get("with") ?? "").split(",").filter(Boolean);
   const [schema, job, ...more] = await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
@@ -40,8 +44,28 @@ export async function show(main, { id, query, signal }) {
 }
 
 class JobPage {
+  state = h("span");
+  main = h("div");
+  extra = h("div");
+  /** @type {Pick<Trace, "channel" | "envelope">} */
+  acceleration = sliderAcceleration;
+  /** @type {AbortController | undefined} */
+  mainLife;
+
+  /**
+   * @param {Api.Job[]} jobs
+   * @param {any} schema
+   * @param {URLSearchParams} query
+   * @param {AbortSignal} signal
+   */
   constructor(jobs, schema, query, signal) {
-    Object.assign(this, { jobs, job: jobs[0], schema, query, signal });
+    this.jobs = jobs;
+    this.job = jobs[0];
+    this.schema = schema;
+    this.query = query;
+    this.signal = signal;
+    const { duration_s: end, output_rate_hz: rate } = this.job.parameters;
+    this.times = new TimeWindow(end, Math.min(end, 5 / rate));
     this.added = (query.get("channels") ?? "").split(",").filter(Boolean);
   }
 
@@ -49,12 +73,11 @@ class JobPage {
     const { job } = this;
     const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity, linkage } = job.parameters;
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible").map((link) => `flexible ${link}, `).join("");
-    const title = isDescribed(job) ? titleOfLinkage(linkage) : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
+    const title = typeof linkage === "object" ? titleOfLinkage(linkage) : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "its sweep") : "no sweep";
-    this.state = h("span");
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
-    const links = job.state === "succeeded" ? h("p", { class: "actions" }, ["csv", "json", "npz"].map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
+    const links = job.state === "succeeded" ? h("p", { class: "actions" }, formats.map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
       : h("p", { class: "actions" }, isWaiting(job.state) ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
       h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
@@ -94,8 +117,6 @@ class JobPage {
   }
 
   async body() {
-    const { duration_s: end, output_rate_hz: rate } = this.job.parameters;
-    this.times = new TimeWindow(end, Math.min(end, 5 / rate));
     const [from, to] = ["from", "to"].map((key) => Number(this.query.get(key) ?? NaN));
     if (Number.isFinite(from + to)) this.times.set(from, to);
     if (this.query.has("t")) this.times.pointAt(Number(this.query.get("t")) || 0);
@@ -108,9 +129,7 @@ class JobPage {
     this.acceleration = described ? { channel: mainAcceleration(columns) } : sliderAcceleration;
     const joints = clearanceJoints(this.job, columns);
     const drives = described ? driveChannels(columns) : ["crank_torque_n_m", "rod_force_n"];
-    this.main = h("div");
     this.drawAcceleration([]);
-    this.extra = h("div");
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
     const add = choice("Add a channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
     const plots = [this.main, joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
@@ -121,10 +140,16 @@ class JobPage {
     return [timeBar(this.times, this.job, this.acceleration.envelope ?? [this.acceleration.channel], this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }
 
+  /**
+   * @param {string} title
+   * @param {string[]} channels
+   * @param {Partial<Parameters<typeof plotCard>[1]>} more
+   */
   card(title, channels, more = {}) {
     return plotCard(title, { traces: tracesOf(this.jobs, channels), note: peakNote(this.jobs, channels), times: this.times, height: 220, signal: this.signal, ...more });
   }
 
+  /** @param {Api.Job[]} ideal */
   drawAcceleration(ideal) {
     const { acceleration } = this;
     const behind = ideal.map((job) => ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: () => colour("quiet"), dash: [6, 4] }));
@@ -164,7 +189,7 @@ class JobPage {
   }
 
   add(channel, picker) {
-    picker.querySelector("select").value = "";
+    part("select", picker).value = "";
     if (!channel || this.added.includes(channel)) return;
     this.added.push(channel);
     this.extra.append(this.channelCard(channel));

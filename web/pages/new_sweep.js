@@ -15,6 +15,7 @@ const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velo
 const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"], ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
   ["four_bar", "four-bar with a flexible coupler"], ["bricard", "Bricard's linkage"]];
 
+/** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { query, signal }) {
   document.title = "RPSUP: new sweep";
   const fields = fieldsOf(await parameterSchema());
@@ -32,9 +33,13 @@ class SweepForm extends RequestForm {
   route = "sweeps";
   ask = submitSweep;
 
+  /** @type {Awaited<ReturnType<typeof measureCosts>>} */
+  costs = new Map();
+
+  /** @param {any[]} fields  @param {any} state  @param {string} example  @param {AbortSignal} signal */
   constructor(fields, state, example, signal) {
     super(fields, state);
-    Object.assign(this, { example, costs: new Map() });
+    this.example = example;
     this.defaults = Object.fromEntries(fields.map((field) => [field.path, field.default]));
     measureCosts(signal).then((costs) => { this.costs = costs; this.drawCount(this.request); }).catch(() => {});
   }

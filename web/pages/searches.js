@@ -19,6 +19,7 @@ const example = {
   replicates: { count: 8 },
 };
 
+/** @param {Api.Listed<"/v1/searches">} search */
 function aimOf({ parameter, metric, bound }) {
   const unit = unitOf(metric);
   return `${titleOf(parameter)} with ${nameOf(metric).toLowerCase()} up to ${exact(bound)}${unit ? ` ${unit}` : ""}`;
@@ -29,6 +30,7 @@ const kind = {
   aim: { heading: "Looks for", textOf: aimOf }, none: "No search has been begun yet.", begin: "New search",
 };
 
+/** @param {HTMLElement} main  @param {Visit} view */
 export function show(main, { id, query, signal }) {
   if (id === "new") return showStudyForm(main, SearchForm, example, query, signal);
   return id ? showStudy(main, LimitView, id, signal) : showStudies(main, kind, signal);

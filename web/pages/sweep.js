@@ -20,6 +20,7 @@ const reloadMs = 1500;
 const lookMs = 4000;
 const tell = (text) => text && notify(text, "trouble");
 
+/** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
   loadCharts().catch(() => {});  // told where a chart would be
   // Without the schema only a sentence on missing values knows less.
@@ -31,32 +32,61 @@ export async function show(main, { id, query, signal }) {
   await page.compareWith(query.get("with") ?? "");
 }
 
-class SweepPage {
+export class SweepPage {
+  selection = new Selection();
+  failures = new Failures();
+  /** @type {{ id: string, name: string, axes: string[], rows: Api.Row[] } | null} */
+  others = null;  // what lies beside it, dashed
+  /** @type {(Chart | null)[]} */
+  charts = [];
+  status = h("p", { role: "status" });
+  chosen = h("p", { class: "actions card" });
+  pickers = h("p", { class: "actions" });
+  compare = h("span");
+  heat = h("div", { class: "chart tall" });
+  lines = h("div", { class: "chart tall" });
+  parallel = h("div", { class: "chart tall" });
+  help = h("p", { class: "quiet small" });
+  isFollowed = false;
+  /** @type {HTMLButtonElement} */
+  cancel;
+  /** @type {HTMLButtonElement} */
+  retry;
+  reloadTook = 0;
+  /** @type {Promise<void>} */
+  reloading = Promise.resolve();
+  /** @type {Promise<void> | null} */
+  waiting = null;
+
+  /**
+   * @param {Api.Sweep} sweep
+   * @param {Api.Row[]} rows
+   * @param {any} schema
+   * @param {URLSearchParams} query
+   * @param {AbortSignal} signal
+   */
   constructor(sweep, rows, schema, query, signal) {
-    Object.assign(this, { sweep, rows, schema, signal, axes: sweep.axes, others: null, reloadTook: 0, selection: new Selection(), failures: new Failures() });
+    this.sweep = sweep;
+    this.rows = rows;
+    this.schema = schema;
+    this.signal = signal;
+    this.axes = sweep.axes;
     this.metrics = metricsOf(rows, this.axes);
     const varied = [...this.axes].sort((a, b) => valuesOf(rows, b).length - valuesOf(rows, a).length);
-    const pick = (key, allowed, otherwise) => (allowed.includes(query.get(key)) ? query.get(key) : otherwise ?? "");
+    /** @type {(key: string, allowed: string[], otherwise?: string) => string} */
+    const pick = (key, allowed, otherwise) => allowed.find((each) => each === query.get(key)) ?? otherwise ?? "";
     this.view = { metric: pick("metric", this.metrics, this.metrics[0]), x: pick("x", this.axes, varied[0] ?? "job_id"),
       y: pick("y", this.axes, query.has("x") ? "" : varied[1]), panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]),
       xScale: pick("x_scale", ["linear"]), metricScale: pick("metric_scale", ["log"]) };
     this.selection.set((query.get("jobs") ?? "").split(",").filter(Boolean));
-    this.charts = [];
+    this.makeButtons();
+    this.paper = this.#bearsOnPaper() ? h("p", { class: "unseen" }, "The paper's statements") : null;
+    this.table = new ResultTable(this);
+    this.logs = logBoxes(this, () => this.changed());
   }
 
   parts() {
     document.title = `RPSUP: ${this.sweep.name || this.sweep.id}`;
-    this.status = h("p", { role: "status" });
-    this.makeButtons();
-    this.paper = this.#bearsOnPaper() ? h("p", { class: "unseen" }, "The paper's statements") : null;
-    this.chosen = h("p", { class: "actions card" });
-    this.pickers = h("p", { class: "actions" });
-    this.table = new ResultTable(this);
-    this.heat = h("div", { class: "chart tall" });
-    this.lines = h("div", { class: "chart tall" });
-    this.logs = logBoxes(this, () => this.changed());
-    this.parallel = h("div", { class: "chart tall" });
-    this.help = h("p", { class: "quiet small" });
     this.drawHead();
     this.drawPickers();
     return [
@@ -66,7 +96,13 @@ class SweepPage {
       h("section", { class: "card" }, h("h2", {}, "Results"), this.table.element)];
   }
 
-  card(title, element, index, { help = null, tools = null } = {}) {
+  /**
+   * @param {string} title
+   * @param {HTMLElement} element
+   * @param {number} index
+   * @param {{ help?: HTMLElement, tools?: HTMLElement }} more
+   */
+  card(title, element, index, { help, tools } = {}) {
     const save = saveButtons(() => this.charts[index], () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
     return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, tools, save)), help, element);
   }
@@ -101,7 +137,7 @@ class SweepPage {
 
   /// One in each frame, so that the first is seen before the last is made.
   async makeCharts() {
-    for (const [make, element] of [[heatMap, this.heat], [linesChart, this.lines], [parallelChart, this.parallel]]) {
+    for (const { make, element } of [{ make: heatMap, element: this.heat }, { make: linesChart, element: this.lines }, { make: parallelChart, element: this.parallel }]) {
       await new Promise(requestAnimationFrame);
       if (this.signal.aborted) return;
       try {
@@ -215,6 +251,7 @@ class SweepPage {
   /// Once: a button that was made anew would lose the focus, and a click that has begun.
   makeButtons() {
     const { id, name } = this.sweep;
+    /** @type {(text: string, run: (id: string) => Promise<unknown>) => HTMLButtonElement} */
     const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.update()).catch((error) => notify(error.message, "trouble")) }, text);
     this.cancel = act("Cancel", cancelSweep);
     this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => this.failures.doubt()));
@@ -230,7 +267,6 @@ class SweepPage {
     const set = (key) => (value) => { Object.assign(this.view, { [key]: value, ...scales[key] }); this.changed(); };
     const named = (names) => names.map((name) => [name, titleOf(name)]);
     const axes = named(this.axes);
-    this.compare = h("span");
     this.pickers.replaceChildren(choice("Metric", named(this.metrics), this.view.metric, set("metric")),
       ...(this.axes.length === 0 ? [] : [choice("Across", axes, this.view.x, set("x"))]),
       choice("Up, or a line each", [["", "none"], ...axes], this.view.y, set("y")),
@@ -239,12 +275,13 @@ class SweepPage {
   }
 
   async offerComparison() {
-    const { items } = await listSweeps({ limit: 100 }, this.signal).catch(() => ({ items: [] }));
-    const alike = items.filter(({ id, axes }) => id !== this.sweep.id && axes.includes(this.view.x));
+    const page = await listSweeps({ limit: 100 }, this.signal).catch(() => null);
+    const alike = (page?.items ?? []).filter(({ id, axes }) => id !== this.sweep.id && axes.includes(this.view.x));
     if (alike.length === 0) return;
     this.compare.replaceChildren(choice("Beside it, dashed", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], this.others?.id ?? "", (id) => this.compareWith(id).then(() => this.changed())));
   }
 
+  /** @param {string} id */
   async compareWith(id) {
     if (!id) { this.others = null; return; }
     const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);

@@ -13,12 +13,16 @@ const pageSize = 25;
 const mostSearched = 1000;
 const pollMs = 4000;
 const followed = 3;  // a browser keeps six connections to a service, and the page needs some to ask
+/** @type {Api.State[]} */
 const states = ["queued", "running", "succeeded", "failed", "cancelled"];
+/** @type {(text: string | null) => Api.State | ""} */
+const stateOf = (text) => states.find((state) => state === text) ?? "";
 const columns = [["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Least and largest peak"], ["created", "Created"], ["actions", "Actions"]];
 const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits and slides in its bearing, and accelerations and "
   + "forces have peaks that an ideal linkage has not. A sweep is a set of such simulations over ranges of their parameters; the service computes them in the "
   + "background and keeps what comes out, and charts and tables fill as it does.";
 
+/** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { query, signal }) {
   const view = new SweepList(query, signal);
   main.replaceChildren(...view.parts());
@@ -28,37 +32,50 @@ export async function show(main, { query, signal }) {
 }
 
 class SweepList {
+  limit = pageSize;
+  /** @type {Api.Listed<"/v1/sweeps">[]} */
+  sweeps = [];
+  /** @type {Map<string, ReturnType<typeof sweepRow>>} */
+  rows = new Map();
+  /** @type {Set<string>} */
+  followedIds = new Set();
+  status = h("p", { class: "quiet", role: "status" }, "Loading the sweeps …");
+  body = h("tbody");
+  more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
+  none = h("p", { class: "card", hidden: true }, "No sweep is like that.");
+  executors = executorsPanel();
+  table = this.#makeTable();
+  empty = this.#makeWelcome();
+
+  /** @param {URLSearchParams} query  @param {AbortSignal} signal */
   constructor(query, signal) {
     this.signal = signal;
-    this.state = states.includes(query.get("state")) ? query.get("state") : "";
+    this.state = stateOf(query.get("state"));
     this.search = query.get("search") ?? "";
-    this.limit = pageSize;
-    this.sweeps = [];
-    this.rows = new Map();
-    this.followedIds = new Map();
   }
 
-  parts() {
-    document.title = "RPSUP: sweeps";
-    this.status = h("p", { class: "quiet", role: "status" }, "Loading the sweeps …");
-    this.body = h("tbody");
+  #makeTable() {
     const headings = columns.map(([key, text]) => h("th", { scope: "col", class: `column-${key}` }, text));
-    this.table = h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region", "aria-label": "Sweeps" },
+    return h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region", "aria-label": "Sweeps" },
       h("table", { class: "listing" }, h("thead", {}, h("tr", {}, headings)), this.body));
-    this.more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
-    this.empty = h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
+  }
+
+  #makeWelcome() {
+    return h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
       h("p", {}, whatItIs),
       h("p", {}, "The paper's study is an example, ready to be submitted. For scripts and notebooks, ",
         h("a", { href: "/docs" }, "the interface is described"), " on a page to try it with."),
       h("p", {}, h("a", { class: "button main", href: "#/new" }, "Set one up"), " ",
         h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study")));
-    this.executors = executorsPanel();
-    this.none = h("p", { class: "card", hidden: true }, "No sweep is like that.");
+  }
+
+  parts() {
+    document.title = "RPSUP: sweeps";
     const refreshSoon = settled(() => this.signal.aborted || this.refresh(), 300);
     const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
     const tools = h("p", { class: "actions" },
       h("label", { class: "choice" }, h("span", {}, "Search by name, id or axis"), search),
-      choice("State", [["", "any"], ...states], this.state, (state) => { this.state = state; this.changed(); this.refresh(); }),
+      choice("State", [["", "any"], ...states], this.state, (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
       h("a", { class: "button main", href: "#/new" }, "New sweep"));
     return [h("h1", {}, "Sweeps of the RPSUP linkage"), this.status, this.executors.element, tools, this.table, this.none, this.more, this.empty];
   }
@@ -71,7 +88,7 @@ class SweepList {
   async refresh() {
     try {
       const [page, executors] = await Promise.all([
-        listSweeps({ limit: this.search ? mostSearched : this.limit, state: this.state }, this.signal), listExecutors(this.signal)]);
+        listSweeps({ limit: this.search ? mostSearched : this.limit, state: this.state || undefined }, this.signal), listExecutors(this.signal)]);
       this.executors.update(executors.items);
       this.sweeps = page.items;
       this.more.hidden = !page.next_cursor;
@@ -93,7 +110,7 @@ class SweepList {
   followSome() {
     for (const sweep of this.sweeps.filter(isUnderWay)) {
       if (this.followedIds.size >= followed || this.followedIds.has(sweep.id)) continue;
-      this.followedIds.set(sweep.id, true);
+      this.followedIds.add(sweep.id);
       follow(sweep.id, {
         progress: (news) => this.update({ ...this.sweeps.find(({ id }) => id === sweep.id) ?? sweep, ...news, id: sweep.id }),
         done: () => { this.followedIds.delete(sweep.id); this.refresh(); },
@@ -101,11 +118,13 @@ class SweepList {
     }
   }
 
+  /** @param {Api.Listed<"/v1/sweeps">} sweep */
   update(sweep) {
     this.sweeps = this.sweeps.map((known) => (known.id === sweep.id ? sweep : known));
     this.draw();
   }
 
+  /** @param {Api.Listed<"/v1/sweeps">} sweep */
   matches(sweep) {
     const text = [sweep.name, sweep.id, ...sweep.axes, ...sweep.axes.map(nameOf)].join(" ").toLowerCase();
     return this.search.toLowerCase().split(/\s+/).every((word) => text.includes(word));

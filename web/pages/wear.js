@@ -10,6 +10,7 @@ import { WearView } from "/study/wear_view.js";
 // The paper's rigid linkage until its bearing has got 10 um wider at the deepest place.
 const example = { name: "What does wear do?", parameters: { duration_s: 3 }, wear_coefficient_m2_n: 1e-15, worn_clearance_mm: 0.26, max_depth_step_um: 2 };
 
+/** @type {(study: Api.Listed<"/v1/wear-studies">) => string} */
 const untilOf = ({ hours, worn_clearance_mm: clearance }) => [hours === null ? "" : `${exact(hours)} h`, clearance === null ? "" : `${exact(clearance)} mm`].filter(Boolean).join(" or ");
 
 const kind = {
@@ -17,6 +18,7 @@ const kind = {
   aim: { heading: "Until", textOf: untilOf }, none: "No wear study has been begun yet.", begin: "New wear study",
 };
 
+/** @param {HTMLElement} main  @param {Visit} view */
 export function show(main, { id, query, signal }) {
   if (id === "new") return showStudyForm(main, WearForm, example, query, signal);
   return id ? showStudy(main, WearView, id, signal) : showStudies(main, kind, signal);

@@ -1,11 +1,13 @@
 // An image to save, which says what it shows.
+import { contextOf } from "/core/dom.js";
 import { colour } from "/core/theme.js";
 
 /// A copy of a canvas on the page's ground, below a caption. @param names  [{name, ink: a colour; the text's if left out}], set side by side
+/** @param {HTMLCanvasElement} source  @param {{ name: string, ink?: string }[]} names */
 export function captioned(source, names) {
   const letters = 14 * devicePixelRatio;
   const copy = document.createElement("canvas");
-  const context = copy.getContext("2d");
+  const context = contextOf(copy);
   const look = { font: `${letters}px system-ui`, textBaseline: "middle" };
   Object.assign(context, look);
   const { words, height } = setInLines(context, names, source.width, letters);

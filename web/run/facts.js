@@ -3,6 +3,7 @@ import { h } from "/core/dom.js";
 import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
 import { labelsOf } from "/run/labels.js";
 
+/** @param {Api.Job[]} jobs */
 export function metricsCard(jobs) {
   const names = Object.keys(jobs[0].metrics ?? {});
   const labels = labelsOf(jobs);
@@ -12,6 +13,7 @@ export function metricsCard(jobs) {
 }
 
 /// A dash without a word would look like a fault.
+/** @param {Api.Job[]} jobs */
 function whyMissing(jobs) {
   const early = jobs.filter(({ metrics, parameters }) => metrics && parameters.duration_s <= parameters.run_up_s);
   if (early.length === 0) return "";
@@ -20,14 +22,16 @@ function whyMissing(jobs) {
 }
 
 /// Where the energy went: what the drives gave, what was lost to what, and what the account misses.
+/** @param {Api.Job} job */
 export function lossesCard({ metrics }) {
-  const losses = ["friction_work_j", "impact_loss_j", "structural_loss_j"].map((name) => [name, Math.abs(metrics[name] ?? 0)]);
-  const largest = Math.max(...losses.map(([, value]) => value), Number.MIN_VALUE);
-  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Energy lost in the whole run"), h("tbody", {}, losses.map(([name, value]) => h("tr", {}, h("th", { scope: "row" }, titleOf(name)),
-    h("td", {}, h("progress", { value: value / largest, "aria-label": nameOf(name) })), h("td", { class: "number" }, number(metrics[name])))))),
-    h("p", { class: "small" }, `What the account misses: ${number(metrics.energy_residual, 2)} of the work turned over.`));
+  const losses = ["friction_work_j", "impact_loss_j", "structural_loss_j"].map((name) => ({ name, value: metrics?.[name] }));
+  const largest = Math.max(...losses.map(({ value }) => Math.abs(value ?? 0)), Number.MIN_VALUE);
+  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Energy lost in the whole run"), h("tbody", {}, losses.map(({ name, value }) => h("tr", {}, h("th", { scope: "row" }, titleOf(name)),
+    h("td", {}, h("progress", { value: Math.abs(value ?? 0) / largest, "aria-label": nameOf(name) })), h("td", { class: "number" }, number(value)))))),
+    h("p", { class: "small" }, `What the account misses: ${number(metrics?.energy_residual, 2)} of the work turned over.`));
 }
 
+/** @param {Api.Job} job  @param {any} schema */
 export function runCard(job, schema) {
   const defaults = (name) => JSON.stringify(schema.properties[name]?.default) === JSON.stringify(job.parameters[name]);
   const set = Object.entries(job.parameters).filter(([, value]) => typeof value !== "object");

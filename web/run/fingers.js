@@ -2,8 +2,12 @@
 
 const leastApart = 10;  // pixels between two fingers: nearer ones would zoom without end, crossed ones turn time round
 
+/** @typedef {{ x: number, t: number }} Finger */
+
 /// @param over  the plot's area  @param times  the window that it shows
+/** @param {HTMLElement} over  @param {TimeWindow} times */
 export function watchFingers(over, times) {
+  /** @type {Map<number, Finger>} */
   const fingers = new Map();  // where each is, in pixels, and the instant that it holds
   const placeOf = (event) => event.clientX - over.getBoundingClientRect().left;
   const hold = () => {
@@ -12,7 +16,7 @@ export function watchFingers(over, times) {
   const lift = (event) => fingers.delete(event.pointerId) && hold();
   over.addEventListener("pointerdown", (event) => {
     if (event.pointerType !== "touch") return;
-    fingers.set(event.pointerId, { x: placeOf(event) });
+    fingers.set(event.pointerId, { x: placeOf(event), t: NaN });
     hold();
   });
   over.addEventListener("pointermove", (event) => {
@@ -28,6 +32,12 @@ export function watchFingers(over, times) {
 
 /// The window that has each finger at its instant; null if the fingers are too near each other, or have crossed.
 /// @param width  of the plot, in pixels  @param length  of the window that is shown now
+/**
+ * @param {Finger[]} fingers
+ * @param {number} width
+ * @param {number} length
+ * @returns {[number, number] | null}
+ */
 function windowUnder([first, second], width, length) {
   if (second && Math.abs(second.x - first.x) < leastApart) return null;
   const perPixel = second ? (second.t - first.t) / (second.x - first.x) : length / width;

@@ -2,9 +2,11 @@
 import { findJob, submitJob } from "/core/api.js";
 
 const pollMs = 300;
+/** @type {Pick<Api.Parameters, "coupler" | "crank" | "rod" | "cross">} */
 const rigid = { coupler: "rigid", crank: "rigid", rod: "rigid", cross: "rigid" };
 
 /// Has it computed, or takes it from the store if it was computed before. Resolves to the job, when it has succeeded.
+/** @param {Api.Job} job  @param {AbortSignal} signal */
 export async function idealOf(job, signal) {
   let ideal = await submitJob({ ...job.parameters, clearance_mm: 0, axial_clearance_mm: 0, ...rigid, drive: "prescribed" });
   while (ideal.state === "queued" || ideal.state === "running") {
@@ -15,6 +17,7 @@ export async function idealOf(job, signal) {
   return ideal;
 }
 
+/** @param {Api.Job} job */
 export function isIdeal({ parameters }) {
   return parameters.clearance_mm === 0 && Object.entries(rigid).every(([link, model]) => parameters[link] === model);
 }

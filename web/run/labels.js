@@ -2,6 +2,7 @@
 import { pointOf } from "/core/format.js";
 
 /// A short name for each of the jobs: the parameters in which they differ, or the end of the id where they do not.
+/** @param {Api.Job[]} jobs */
 export function labelsOf(jobs) {
   const [first] = jobs;
   const differing = Object.keys(first.parameters).filter((key) => typeof first.parameters[key] !== "object" && jobs.some((job) => job.parameters[key] !== first.parameters[key]));

@@ -1,6 +1,6 @@
 // The journal's path inside the clearance circle, coloured by time or by contact force.
 import { findTrajectory } from "/core/api.js";
-import { choice, h } from "/core/dom.js";
+import { choice, contextOf, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
 import { saveCanvas } from "/core/download.js";
 import { settled } from "/core/live.js";
@@ -13,6 +13,12 @@ const refineMs = 200;
 const quantities = ["journal_x_mm", "journal_y_mm", "contact_force_n"];
 
 /// @param joint  with clearance: its name, empty if it is the only one, the prefix of its channels, its clearance [mm]
+/**
+ * @param {Api.Job} job
+ * @param {ReturnType<typeof import("/run/described.js").clearanceJoints>[number]} joint
+ * @param {TimeWindow} times
+ * @param {AbortSignal} signal
+ */
 export function orbit(job, { name, prefix, clearance }, times, signal) {
   const title = name ? `Journal orbit of ${name.replaceAll("_", " ")}` : "Journal orbit";
   const channels = ["t_s", ...quantities.map((quantity) => prefix + quantity)];
@@ -55,7 +61,7 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
     if (!painted) return;
     const { picture } = painted;
     Object.assign(canvas, { width: picture.width, height: picture.height });
-    const context = canvas.getContext("2d");
+    const context = contextOf(canvas);
     context.drawImage(picture, 0, 0);
     const index = indexAt(shown.t_s, times.instant);
     context.lineWidth = 2 * devicePixelRatio;
@@ -84,6 +90,7 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
 }
 
 /// The columns by their names without the joint's.
+/** @param {Api.Columns} columns  @param {string} prefix */
 function plain(columns, prefix) {
   return Object.fromEntries(Object.entries(columns).map(([name, values]) => [name.startsWith(prefix) ? name.slice(prefix.length) : name, values]));
 }

@@ -1,4 +1,5 @@
 // How the journal's orbit is painted.
+import { contextOf } from "/core/dom.js";
 import { number } from "/core/format.js";
 import { colour, paletteColour } from "/core/theme.js";
 
@@ -9,11 +10,19 @@ const ink = "#e6007a";
 /// @param behind  the whole run's columns, drawn pale; or null
 /// @param partOf  the palette's part, 0 to 1, of a sample of the columns
 /// @returns {picture, at}: a canvas, and where a point [mm] is in it
+/**
+ * @param {number} size
+ * @param {Record<string, number[]>} columns
+ * @param {Record<string, number[]> | null} behind
+ * @param {number} clearance
+ * @param {(index: number) => number} partOf
+ */
 export function paintOrbit(size, columns, behind, clearance, partOf) {
   const picture = document.createElement("canvas");
   Object.assign(picture, { width: size, height: size });
-  const context = picture.getContext("2d");
+  const context = contextOf(picture);
   const scale = (0.4 * size) / clearance;
+  /** @type {(columns: Record<string, number[]>, i: number) => [number, number]} */
   const at = ({ journal_x_mm: x, journal_y_mm: y }, i) => [size / 2 + scale * x[i], size / 2 - scale * y[i]];
   context.fillStyle = colour("card");
   context.fillRect(0, 0, size, size);
@@ -66,7 +75,7 @@ export function drawRing(context, centre, radius, stroke = ink) {
 
 /// The bar that says which colour stands for what.
 export function drawScale(canvas) {
-  const context = canvas.getContext("2d");
+  const context = contextOf(canvas);
   for (let x = 0; x < canvas.width; x += 1) {
     context.fillStyle = paletteColour(x / (canvas.width - 1));
     context.fillRect(x, 0, 1, canvas.height);

@@ -6,6 +6,7 @@ import { pointOf } from "/core/format.js";
 const mostOffered = 500;
 
 /// A labelled select that calls back with a job's id; null if the job stands alone.
+/** @param {Api.Job[]} jobs  @param {(id: string) => void} chosen  @param {AbortSignal} signal */
 export async function overlayPicker(jobs, chosen, signal) {
   const { sweep_id: id } = jobs[0];
   if (!id) return null;
@@ -13,6 +14,7 @@ export async function overlayPicker(jobs, chosen, signal) {
   const rows = await findResults(id, { fields: ["job_id", "state", ...axes].join(","), limit: mostOffered }, signal);
   const others = rows.filter((row) => row.state === "succeeded" && !jobs.some((job) => job.id === row.job_id));
   if (others.length === 0) return null;
+  /** @type {(row: Api.Row) => string} */
   const textOf = (row) => axes.map((axis) => pointOf(axis, row[axis])).join(", ") || `…${row.job_id.slice(-5)}`;
   return choice("Lay over another job", [["", "choose …"], ...others.map((row) => [row.job_id, textOf(row)])], "", (job) => job && chosen(job));
 }

@@ -8,18 +8,31 @@ import { loadAligned } from "/run/plot_data.js";
 const height = 64;
 
 /// @param envelope  channels: the least and the largest of one quantity, or one alone
+/**
+ * @param {Api.Job} job
+ * @param {string[]} envelope
+ * @param {TimeWindow} times
+ * @param {AbortSignal} signal
+ */
 export function overview(job, envelope, times, signal) {
   const element = h("div", { class: "overview", role: "img", "aria-label": `${nameOf(envelope[0].replace("_min_", "_"))} of the whole run, with the stretch that the plots show. The sliders below set it too.` });
   make(element, job, envelope, times, signal).catch((error) => { if (error.name !== "AbortError") element.textContent = error.message; });
   return element;
 }
 
+/**
+ * @param {HTMLElement} element
+ * @param {Api.Job} job
+ * @param {string[]} envelope
+ * @param {TimeWindow} times
+ * @param {AbortSignal} signal
+ */
 async function make(element, job, envelope, times, signal) {
   const uPlot = await loadUplot();
   await laidOut(element, signal);
   // Only the extremes: between them lies the acceleration itself.
   const [other, trace = other] = envelope.map((channel) => ({ job: job.id, channel }));
-  const whole = { isWhole: true, from: 0, to: times.end, end: times.end };
+  const whole = { isWhole: true, from: 0, to: times.end, end: times.end, length: times.end };
   const data = await loadAligned(uPlot, [trace, other], whole, element.clientWidth, signal);
   let plot = null;
   const draw = () => {

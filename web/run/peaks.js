@@ -6,11 +6,12 @@ const unitOfAcceleration = /_((m|rad)_s2)$/;
 const digits = 5;  // as in the table of the metrics
 
 /// The metrics' peak of a channel in words; null if they have none.
+/** @param {Api.Job} job  @param {string} channel */
 function peakOf({ metrics }, channel) {
   // Accelerations of a described linkage are called so in the metrics alone.
   const names = [`peak_${channel}`, `peak_${channel.replace(unitOfAcceleration, "_acceleration_$1")}`];
   const isKnown = (name) => typeof metrics?.[name] === "number";
-  const textOf = (name) => `${number(metrics[name], digits)} ${unitOf(channel)}`;
+  const textOf = (name) => `${number(metrics?.[name], digits)} ${unitOf(channel)}`;
   const key = names.find(isKnown);
   if (key) return unitOfAcceleration.test(key) ? `${textOf(key)}${steadyText(metrics, key)}` : textOf(key);
   // A run that ends before its steady part has only this one.
@@ -28,6 +29,7 @@ function steadyText(metrics, key) {
 }
 
 /// The peaks of what a plot shows, for below it; empty if the metrics have none.
+/** @param {Api.Job[]} jobs  @param {string[]} channels */
 export function peakNote(jobs, channels) {
   const labels = labelsOf(jobs);
   const nameFor = (channel, j) => [channels.length > 1 && nameOf(channel), jobs.length > 1 && labels[j]].filter(Boolean).join(", ");

@@ -8,8 +8,14 @@ import { timePlot } from "/run/time_plot.js";
 
 /// @param note   what stands below the plot; empty: nothing
 /// @param close  is called to take the card away; without it there is no such button
+/**
+ * @param {string} title
+ * @param {{ traces: Trace[], times: TimeWindow, height: number, signal: AbortSignal, note?: string,
+ *   close?: () => void, tools?: HTMLElement[] }} more
+ */
 export function plotCard(title, { traces, times, height, signal, note = "", close, tools = [] }) {
   const element = h("div");
+  /** @type {Awaited<ReturnType<typeof timePlot>> | null} */
   let made = null;
   timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; }).catch((error) => { element.textContent = error.message; });
   return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
@@ -18,11 +24,16 @@ export function plotCard(title, { traces, times, height, signal, note = "", clos
 }
 
 /// Traces of some channels for each of the jobs. @param channels  names, or {channel, envelope}
+/**
+ * @param {Api.Job[]} jobs
+ * @param {(string | Pick<Trace, "channel" | "envelope">)[]} channels
+ * @returns {Trace[]}
+ */
 export function tracesOf(jobs, channels) {
   const several = jobs.length > 1;
   const labels = labelsOf(jobs);
   return jobs.flatMap((job, j) => channels.map((each, c) => {
-    const { channel, envelope } = typeof each === "string" ? { channel: each } : each;
+    const { channel, envelope = undefined } = typeof each === "string" ? { channel: each } : each;
     const name = channels.length > 1 || !several ? nameOf(channel) : "";
     return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "), colour: () => lineColour(j * channels.length + c) };
   }));

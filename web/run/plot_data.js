@@ -5,6 +5,13 @@ const margin = 0.5;  // of the window, fetched on either side of it, so that mov
 const pointsPerPixel = 2;
 
 /// uPlot's data for the traces: the times, then for each trace its columns (its envelope's two before its own).
+/**
+ * @param {any} uPlot
+ * @param {Pick<Trace, "job" | "channel" | "envelope">[]} traces
+ * @param {Pick<TimeWindow, "isWhole" | "from" | "to" | "end" | "length">} times
+ * @param {number} width
+ * @param {AbortSignal} signal
+ */
 export async function loadAligned(uPlot, traces, times, width, signal) {
   const whole = times.isWhole;
   const range = whole ? {} : { from: Math.max(0, times.from - margin * times.length), to: Math.min(times.end, times.to + margin * times.length) };
@@ -22,6 +29,7 @@ export async function loadAligned(uPlot, traces, times, width, signal) {
   return [joined[0], ...wanted.map((key) => joined[1 + order.indexOf(key)])];
 }
 
+/** @param {Pick<Trace, "channel" | "envelope">} trace */
 export function columnsOf(trace) {
   return [...(trace.envelope ?? []), trace.channel];
 }

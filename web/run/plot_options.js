@@ -3,6 +3,13 @@ import { number, unitOf } from "/core/format.js";
 import { colour, isDark } from "/core/theme.js";
 import { columnsOf } from "/run/plot_data.js";
 
+/**
+ * @param {Trace[]} traces
+ * @param {TimeWindow} times
+ * @param {number} width
+ * @param {number} height
+ * @returns {any}
+ */
 export function plotOptions(traces, times, width, height) {
   const units = [...new Set(traces.map((trace) => unitOf(trace.channel) || "1"))];
   return {
@@ -31,15 +38,17 @@ function zoomToSelection(plot, times) {
   times.set(from, to);
 }
 
+/** @param {Trace} trace */
 function seriesOf(trace) {
   const unit = unitOf(trace.channel);
   const common = { scale: unit || "1", stroke: trace.colour(), points: { show: false }, value: (_, value) => (value === null || value === undefined ? "–" : `${number(value)} ${unit}`) };
   return columnsOf(trace).map((column) => (column === trace.channel
     ? { ...common, label: trace.name, width: 1.3, dash: trace.dash }
-    : { ...common, label: `${trace.name}, ${column === trace.envelope[0] ? "least" : "largest"}`, width: 0.7 }));
+    : { ...common, label: `${trace.name}, ${column === trace.envelope?.[0] ? "least" : "largest"}`, width: 0.7 }));
 }
 
 /// The envelope is filled between its two columns.
+/** @param {Trace[]} traces */
 function bandsOf(traces) {
   let at = 1;
   return traces.flatMap((trace) => {

@@ -3,7 +3,8 @@ import { h } from "/core/dom.js";
 import { moment, number, plural, span } from "/core/format.js";
 import { isUnderWay } from "/core/live.js";
 
-const seconds = (from, to) => (new Date(to) - new Date(from)) / 1000;
+/** @type {(from: string, to: string | Date) => number} */
+const seconds = (from, to) => (Number(new Date(to)) - Number(new Date(from))) / 1000;
 
 /// A table of what is known, made once: what is selected in it, and the page's focus, stay as its texts change.
 /// @returns {element, draw(job, sweep, now)}; the sweep is the job's, or null
@@ -15,6 +16,7 @@ export function standingCard() {
     return rows.get(name);
   };
 
+  /** @param {Api.Job} job  @param {Api.Sweep | null} sweep  @param {Date} now */
   function draw(job, sweep, now) {
     const told = standingRows(job, sweep, now);
     for (const [name, row] of rows) if (!told.some(([wanted]) => wanted === name)) row.remove();
@@ -29,6 +31,7 @@ export function standingCard() {
 }
 
 /// [what, how it is] of a job; why it failed stands above it.
+/** @param {Api.Job} job  @param {Api.Sweep | null} sweep  @param {Date} now  @returns {string[][]} */
 export function standingRows(job, sweep, now) {
   const { state, error, created_at: created, started_at: started, ended_at: ended, attempts } = job;
   return [["State", state],
@@ -41,6 +44,7 @@ export function standingRows(job, sweep, now) {
     sweep && ["Its sweep", sweepText(sweep)]].filter(Boolean);
 }
 
+/** @param {Api.Sweep} sweep */
 function sweepText(sweep) {
   const { counts, eta_s: eta } = sweep;
   const ended = counts.total - counts.queued - counts.running;

@@ -9,6 +9,12 @@ const help = "In a plot: drag across to look closer, turn the wheel to zoom, dra
 
 /// @param job       with parameters and metrics; the buttons lead to its steady window and its peak
 /// @param envelope  channels that the strip shows: the least and the largest of one quantity, or one alone
+/**
+ * @param {TimeWindow} times
+ * @param {Api.Job} job
+ * @param {string[]} envelope
+ * @param {AbortSignal} signal
+ */
 export function timeBar(times, job, envelope, signal) {
   const slider = (label, moved) => {
     const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label,
@@ -19,8 +25,8 @@ export function timeBar(times, job, envelope, signal) {
   const to = slider("To [s]", (value) => times.set(Math.min(times.from, value - times.least), value));
   const text = h("output", { class: "small" });
   const draw = () => {
-    from.value = times.from;
-    to.value = times.to;
+    from.value = String(times.from);
+    to.value = String(times.to);
     text.textContent = `${number(times.from, 6)} s to ${number(times.to, 6)} s`;
   };
   times.addEventListener("change", draw, { signal });

@@ -14,12 +14,18 @@ const settleMs = 250;  // where it only gets finer
 
 /// @param traces  a list of {job, channel, name, colour (a function), dash, envelope: [least, largest] or nothing}
 /// @param times   the window that all plots share
-export async function timePlot(element, { traces, times, height = 260, label, signal }) {
+/**
+ * @param {HTMLElement} element
+ * @param {{ traces: Trace[], times: TimeWindow, height: number, label: string, signal: AbortSignal }} shown
+ */
+export async function timePlot(element, { traces, times, height, label, signal }) {
   element.classList.add("time-plot");
   element.style.minHeight = `${height}px`;  // what stands below does not jump when the plot comes
   const uPlot = await loadUplot();
   await laidOut(element, signal);
+  /** @type {InstanceType<typeof uPlot> | null} */
   let plot = null;
+  /** @type {number[][] | null} */
   let data = null;
   let loading = new AbortController();  // one at a time: what is overtaken neither asks on nor tells
   let isSeen = true;
@@ -68,14 +74,14 @@ export async function timePlot(element, { traces, times, height = 260, label, si
   const fetchSoon = seldom(() => signal.aborted || load(), refineMs);
   const fetchLater = settled(() => signal.aborted || load(), settleMs);
   // What moves inside the data that are there is drawn from them at every frame, and made finer when it stands still.
-  const isThere = () => data && times.from >= data[0][0] && times.to <= data[0].at(-1);
+  const isThere = () => data && times.from >= data[0][0] && times.to <= data[0][data[0].length - 1];
   times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });
   times.addEventListener("instant", showInstant, { signal });
   onColours(() => data && make(), signal);
   const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });
   sizes.observe(element);
   // What is out of sight is drawn when it comes into sight: a page has many plots, and all move at every frame.
-  const sight = new IntersectionObserver((entries) => { isSeen = entries.at(-1).isIntersecting; follow(); });
+  const sight = new IntersectionObserver((entries) => { isSeen = entries[entries.length - 1].isIntersecting; follow(); });
   sight.observe(element);
   signal.addEventListener("abort", () => { sizes.disconnect(); sight.disconnect(); plot?.destroy(); });
   element.setAttribute("role", "group");

@@ -1,11 +1,17 @@
 // The stretch of time that is looked at, and the instant pointed at: the same for all plots of a job.
 
 export class TimeWindow extends EventTarget {
+  from = 0;
+  instant = 0;
+
   /// @param end   of the run [s]
   /// @param least the shortest stretch that makes sense [s]
+  /** @param {number} end  @param {number} least */
   constructor(end, least) {
     super();
-    Object.assign(this, { end, least, from: 0, to: end, instant: 0 });
+    this.end = end;
+    this.least = least;
+    this.to = end;
   }
 
   get length() { return this.to - this.from; }
@@ -13,6 +19,7 @@ export class TimeWindow extends EventTarget {
   get isWhole() { return this.from === 0 && this.to === this.end; }
 
   /// Looks at another stretch; one outside the run is moved into it.
+  /** @param {number} from  @param {number} to */
   set(from, to) {
     const length = Math.min(Math.max(to - from, this.least), this.end);
     const start = Math.min(Math.max(from, 0), this.end - length);
@@ -32,6 +39,7 @@ export class TimeWindow extends EventTarget {
 
   pan(part) { this.set(this.from + part * this.length, this.to + part * this.length); }
 
+  /** @param {number} instant */
   pointAt(instant) {
     this.instant = Math.min(Math.max(instant, 0), this.end);
     this.dispatchEvent(new Event("instant"));

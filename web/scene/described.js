@@ -6,12 +6,14 @@ const springColour = "#7a8590";
 const zigzags = 16;
 
 /// The bodies with their colours, for the legend, and the springs' between them.
+/** @param {Api.DescribedLinkage} linkage */
 export function bodyColours({ bodies, springs }) {
   const named = Object.keys(bodies).map((name, index) => [name.replaceAll("_", " "), colours[index % colours.length]]);
   return springs ? [...named, ["springs", springColour]] : named;
 }
 
 /// The places on each body's frame that something sits at, its origin first. "ground" is a body, too.
+/** @param {Api.DescribedLinkage} linkage */
 function placesOn({ bodies, joints, springs = {} }) {
   const places = Object.fromEntries(["ground", ...Object.keys(bodies)].map((name) => [name, name === "ground" ? [] : [[0, 0, 0]]]));
   for (const joint of Object.values(joints)) {
@@ -30,6 +32,7 @@ function placesOn({ bodies, joints, springs = {} }) {
 }
 
 /// About how large the linkage is [m]: as its two largest bodies in line.
+/** @param {Api.DescribedLinkage} linkage */
 export function reachOf(linkage) {
   const length = (points) => Math.max(0, ...points.map((point) => Math.hypot(...point)));
   const [largest, next = 0] = Object.values(placesOn(linkage)).map(length).sort((a, b) => b - a);
@@ -38,6 +41,7 @@ export function reachOf(linkage) {
 
 export class DescribedLinkage {
   /// @param links  names as in the channels of the poses
+  /** @param {typeof import("three")} THREE  @param {Api.DescribedLinkage} linkage  @param {string[]} links */
   constructor(THREE, linkage, links) {
     this.THREE = THREE;
     this.group = new THREE.Group();
@@ -89,8 +93,8 @@ export class DescribedLinkage {
     const geometry = kind === "prismatic" ? new THREE.BoxGeometry(3 * radius, 3 * radius, 6 * radius) : kindsWithAxis.has(kind) ? pin() : new THREE.SphereGeometry(1.8 * radius, 24, 12);
     const mark = new THREE.Mesh(geometry, material);
     const along = { x: new THREE.Vector3(1, 0, 0), y: new THREE.Vector3(0, 1, 0), z: new THREE.Vector3(0, 0, 1) }[axis];
-    const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(...turned.map((angle) => angle * degree), "ZYX"));
-    mark.position.set(...at);
+    const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(turned[0] * degree, turned[1] * degree, turned[2] * degree, "ZYX"));
+    mark.position.fromArray(at);
     mark.quaternion.copy(turn).multiply(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), along));
     if (from === "ground") this.group.add(mark);
     else if (!bodies[from].beam) this.bodies.get(from).add(mark);

@@ -2,22 +2,26 @@
 const stepsOfTurn = 24;
 
 /// The guide: a point of it, and its direction. The slider's axes are turned with it, about y.
+/** @param {Api.Parameters} parameters */
 export function guideOf({ guide_offset_y_m: y, guide_offset_z_m: z, guide_angle_deg: degrees = 0 }) {
   const angle = (degrees * Math.PI) / 180;
   return { point: [0, y, z], angle, direction: [Math.cos(angle), 0, Math.sin(angle)] };
 }
 
 /// Distances of the S joint from the crank's axis, while the rod rests and at the end of its stroke [m].
+/** @param {Api.Parameters} parameters */
 export function rodEnds({ rod_length_m: length, rod_start_m: start = length, rod_stroke_mm: stroke }) {
   return [start, start + stroke / 1000];
 }
 
 /// Places to which the S joint and the slider come in a turn of the crank, and the crank's centre and end.
 /// The slider of an S joint that the coupler cannot join to the guide is taken to be beside the joint.
+/** @param {Api.Parameters} parameters  @returns {number[][]} */
 export function placesOf(parameters) {
   const { coupler_length_m: length, crank_length_m: crank, cross_length_mm: cross = 0, yoke_axis: yoke = "across" } = parameters;
   const { point, direction: [c, , s] } = guideOf(parameters);
   const arm = cross / 1000;
+  /** @type {(ball: number[]) => number[]} */
   const slider = ([x, y, z]) => {
     const [along, aside, above] = [c * x + s * (z - point[2]), y - point[1], c * (z - point[2]) - s * x];
     const apart = yoke === "guide" ? above ** 2 - arm ** 2 : Math.max(0, above ** 2 - arm ** 2);

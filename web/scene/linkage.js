@@ -8,6 +8,7 @@ const bushWall = 0.6;  // of the bearing's radius
 
 export class Linkage {
   /// @param links  names as in the channels of the poses
+  /** @param {typeof import("three")} THREE  @param {Api.Parameters} parameters  @param {string[]} links */
   constructor(THREE, parameters, links) {
     this.THREE = THREE;
     this.measures = measuresOf(parameters);
@@ -53,7 +54,7 @@ export class Linkage {
     const inner = cross.radius + factor * clearance;
     const wall = bushWall * (cross.radius + clearance);
     this.bushReach = inner + wall / 2;
-    for (const child of this.bush.children) child.geometry.dispose();
+    for (const child of this.bush.children) if (child instanceof this.THREE.Mesh) child.geometry.dispose();
     this.bush.clear();
     this.bush.add(bushAlongZ(this.THREE, { inner, outer: inner + wall, length: bearing.length }, this.couplerMaterial));
     this.bushFactor = factor;

@@ -5,9 +5,16 @@ const around = 0.006;  // seconds of the run on either side of an impact
 const longestFrame = 0.1;
 
 export class Player extends EventTarget {
+  speed = 0.1;
+  playing = false;
+  slow = true;
+  /** @type {number[]} */
+  impacts = [];
+
+  /** @param {TimeWindow} times  @param {AbortSignal} signal */
   constructor(times, signal) {
     super();
-    Object.assign(this, { times, speed: 0.1, playing: false, slow: true, impacts: [] });
+    this.times = times;
     signal.addEventListener("abort", () => { this.playing = false; });
   }
 
@@ -42,6 +49,7 @@ export class Player extends EventTarget {
 }
 
 /// The instants of the hard impacts of a run: where the acceleration spreads inside one sample more than this part of its widest spread.
+/** @param {Api.Columns} columns */
 export function impactsOf({ t_s: times, slider_acceleration_min_m_s2: least, slider_acceleration_max_m_s2: largest }, part = 0.25) {
   const spread = times.map((_, i) => largest[i] - least[i]);
   const widest = spread.reduce((most, value) => Math.max(most, value), 0);

@@ -7,12 +7,22 @@ const mostStretches = 24;
 const parts = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
 
 export class Poses {
+  /** @type {Map<string, { columns: Api.Columns | null }>} */
   #stretches = new Map();
 
   /// @param links   names as in the channels: "1_1", "1_3_0"
   /// @param loaded  is called when more is known than before
+  /**
+   * @param {Api.Job} job
+   * @param {string[]} links
+   * @param {(error: Error | null) => void} loaded
+   * @param {AbortSignal} signal
+   */
   constructor(job, links, loaded, signal) {
-    Object.assign(this, { job, links, loaded, signal });
+    this.job = job;
+    this.links = links;
+    this.loaded = loaded;
+    this.signal = signal;
     this.channels = links.flatMap((link) => parts.map((part) => `pose_${link}_${part}`));
   }
 
@@ -38,7 +48,8 @@ export class Poses {
     if (!this.#stretches.has(key)) this.#load(known, index * length, (index + 1) * length, key);
     this.#stretches.delete(key);
     this.#stretches.set(key, known);  // the newest used stands last
-    if (this.#stretches.size > mostStretches) this.#stretches.delete(this.#stretches.keys().next().value);
+    const [oldest] = this.#stretches.keys();
+    if (this.#stretches.size > mostStretches) this.#stretches.delete(oldest);
     return known;
   }
 
@@ -56,6 +67,7 @@ export class Poses {
     }
   }
 
+  /** @param {Api.Columns} columns  @param {number} instant */
   #between(columns, instant) {
     const times = columns.t_s;
     const right = Math.min(Math.max(1, firstAfter(times, instant)), times.length - 1);
@@ -63,8 +75,8 @@ export class Poses {
     const step = times[right] - times[left];
     const part = step > 0 ? Math.min(Math.max((instant - times[left]) / step, 0), 1) : 0;
     return Object.fromEntries(this.links.map((link) => {
-      const rows = [left, right].map((row) => parts.map((name) => columns[`pose_${link}_${name}`][row]));
-      return [link, mix(...rows, part)];
+      const pose = (row) => parts.map((name) => columns[`pose_${link}_${name}`][row]);
+      return [link, mix(pose(left), pose(right), part)];
     }));
   }
 }
@@ -89,6 +101,7 @@ function mix(a, b, part) {
 }
 
 /// The links of a run by the names of its channels, in their order.
+/** @param {string[]} channels */
 export function linksOf(channels) {
   return channels.filter((name) => name.startsWith("pose_") && name.endsWith("_qw")).map((name) => name.slice("pose_".length, -"_qw".length)).sort();
 }

@@ -1,9 +1,8 @@
 // The linkage in 3-D, with what plays it.
 import { findTrajectory } from "/core/api.js";
-import { choice, h } from "/core/dom.js";
+import { choice, h, part } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
 import { number } from "/core/format.js";
-import { isDescribed } from "/run/described.js";
 import { DescribedLinkage, bodyColours, reachOf } from "/scene/described.js";
 import { placesOf } from "/scene/geometry.js";
 import { Linkage, linkColours } from "/scene/linkage.js";
@@ -19,8 +18,10 @@ const bendFactors = [...factors, 200, 500, 1000];  // of steel tubes a bend is s
 const impactPoints = 4000;
 
 /// @param links  names of the links as in the channels of their poses
+/** @param {Api.Job} job  @param {string[]} links  @param {TimeWindow} times  @param {AbortSignal} signal */
 export function sceneCard(job, links, times, signal) {
-  const described = isDescribed(job) ? job.parameters.linkage : null;
+  const { linkage: given } = job.parameters;
+  const described = typeof given === "object" ? given : null;
   const hasClearance = !described && job.parameters.clearance_mm > 0;
   const isFlexible = ["coupler", "crank", "rod", "cross"].some((link) => job.parameters[link] === "flexible");
   const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1 };
@@ -50,10 +51,13 @@ export function sceneCard(job, links, times, signal) {
       const frames = poses.at(times.instant, player.speed);
       if (!frames) return;
       linkage.place(frames, drawn);
-      canvas.dataset.instant = times.instant;
+      canvas.dataset.instant = String(times.instant);
       stage.request();
     };
-    views.addEventListener("change", () => (views.querySelector("select").value === "joint" ? stage.follow(linkage.joint, 0.14 * stage.reach, linkage.jointAxis) : stage.lookAtAll()));
+    views.addEventListener("change", () => {
+      if (linkage instanceof Linkage && part("select", views).value === "joint") stage.follow(linkage.joint, 0.14 * stage.reach, linkage.jointAxis);
+      else stage.lookAtAll();
+    });
     draw();
   }
 
@@ -79,10 +83,14 @@ export function sceneCard(job, links, times, signal) {
 }
 
 /// What the stage must know of a linkage.
+/**
+ * @param {Api.Parameters} parameters
+ * @returns {{ reach: number, up: number[], places: number[][] | null }}
+ */
 export function shownOf(parameters) {
   const { linkage } = parameters;
   const up = upOf(parameters);
-  if (typeof linkage === "object") return { reach: reachOf(linkage), up };
+  if (typeof linkage === "object") return { reach: reachOf(linkage), up, places: null };
   return { reach: parameters.crank_length_m + parameters.coupler_length_m, up, places: placesOf(parameters) };
 }
 

@@ -2,9 +2,13 @@
 
 import { guideOf, rodEnds } from "/scene/geometry.js";
 
+/** @typedef {{ mass_kg: number, inertia_kg_m2: number[] }} Body */
+
 /// What the parameters say of the links' shapes [m].
+/** @param {Api.Parameters} parameters */
 export function measuresOf(parameters) {
   const { links } = parameters;
+  /** @type {(link: Body) => number} */
   const rodRadius = ({ mass_kg: mass, inertia_kg_m2: [axial] }) => Math.sqrt((2 * axial) / mass);
   return {
     crank: { length: parameters.crank_length_m, radius: rodRadius(links["1,1"]) },
@@ -21,12 +25,14 @@ export function measuresOf(parameters) {
 }
 
 /// The sides of a box of that mass and inertia.
+/** @param {Body} body */
 function boxOf({ mass_kg: mass, inertia_kg_m2: [x, y, z] }) {
   const side = (inertia) => Math.sqrt((6 * Math.max(inertia, 0)) / mass);
   return [side(y + z - x), side(x + z - y), side(x + y - z)];
 }
 
 /// The length of a round rod along z of that mass and inertia.
+/** @param {Body} body */
 function lengthOf({ mass_kg: mass, inertia_kg_m2: [x, , z] }) {
   return Math.sqrt((12 * Math.max(x - z / 2, 0)) / mass);
 }

@@ -7,7 +7,13 @@ const margin = 1.12;
 
 export class Stage {
   /// @param shown  {reach, up, places}: size of the linkage [m], unit vector that is up, and places that the first look shows; null: unknown
-  constructor({ THREE, OrbitControls }, canvas, { reach, up, places = null }, signal) {
+  /**
+   * @param {Awaited<ReturnType<typeof import("/scene/three.js").loadThree>>} libraries
+   * @param {HTMLCanvasElement} canvas
+   * @param {ReturnType<typeof import("/scene/scene_card.js").shownOf>} shown
+   * @param {AbortSignal} signal
+   */
+  constructor({ THREE, OrbitControls }, canvas, { reach, up, places }, signal) {
     this.THREE = THREE;
     this.canvas = canvas;
     this.reach = reach;
@@ -66,7 +72,7 @@ export class Stage {
 
   /// From the front and above, more so where the crank turns about the vertical; as near as all places allow.
   #lookAtPlaces() {
-    const { THREE, camera, places, viewer: { up } } = this;
+    const { THREE, camera, places = [], viewer: { up } } = this;
     const back = this.#seen(0.3, 0.3 + 0.5 * Math.abs(up.z), 1).normalize();
     const aside = up.clone().cross(back).normalize();
     const above = back.clone().cross(aside);

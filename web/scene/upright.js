@@ -5,6 +5,7 @@ const usual = axes.y;
 
 /// The unit vector against gravity; y without gravity. Of a described linkage its own gravity counts, if it has one, else y is up.
 /// Jobs of older programs have gravity along -y.
+/** @param {Api.Parameters} parameters */
 export function upOf({ linkage, gravity_m_s2: gravity, gravity_direction: direction = "-y" }) {
   if (typeof linkage === "object") return unit((linkage.gravity_m_s2 ?? [0, 0, 0]).map((part) => -part));
   const sign = direction.startsWith("-") ? 1 : -1;
@@ -18,6 +19,7 @@ function unit(vector) {
 
 /// Unit vectors by which a viewer stands: right, up, and front, from the linkage towards the viewer.
 /// x points right unless it is vertical.
+/** @param {typeof import("three")} THREE  @param {number[]} up */
 export function viewerOf(THREE, up) {
   const upward = new THREE.Vector3(...up);
   const [x, z] = [axes.x, axes.z].map((axis) => new THREE.Vector3(...axis));

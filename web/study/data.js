@@ -3,6 +3,7 @@
 const notMetrics = new Set(["job_id", "state", "replicate", "replicates"]);
 
 /// The columns of the rows that are numbers of the result.
+/** @param {Api.Row[]} rows  @param {string[]} axes */
 export function metricsOf(rows, axes) {
   const columns = new Set(rows.flatMap((row, index) => (index < 50 ? Object.keys(row) : [])));
   return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_") && !axes.includes(column));
@@ -15,16 +16,20 @@ function compare(a, b) {
   return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en");
 }
 
+/** @type {WeakMap<Api.Row[], Map<string, (string | number)[]>>} */
 const known = new WeakMap();  // by rows, then by axis: many parts ask for the same
 
 /// The different values of an axis, in order. An object or list stands as its JSON.
+/** @param {Api.Row[]} rows  @param {string} axis */
 export function valuesOf(rows, axis) {
-  if (!known.has(rows)) known.set(rows, new Map());
-  const ofRows = known.get(rows);
-  if (!ofRows.has(axis)) ofRows.set(axis, [...new Set(rows.map((row) => valueOf(row, axis)))].sort(compare));
-  return ofRows.get(axis);
+  const ofRows = known.get(rows) ?? new Map();
+  known.set(rows, ofRows);
+  const values = ofRows.get(axis) ?? [...new Set(rows.map((row) => valueOf(row, axis)))].sort(compare);
+  ofRows.set(axis, values);
+  return values;
 }
 
+/** @param {Api.Row} row  @param {string} axis  @returns {string | number} */
 export function valueOf(row, axis) {
   const value = row[axis];
   return value !== null && typeof value === "object" ? JSON.stringify(value) : value ?? none;
@@ -32,6 +37,7 @@ export function valueOf(row, axis) {
 
 /// Mean and extremes of a metric over each set of rows that agree in the keys.
 /// @returns  a list of {values, jobs, count, mean, min, max}; rows without the metric count for nothing but are among the jobs
+/** @param {Api.Row[]} rows  @param {string[]} keys  @param {string} metric  @returns {Group[]} */
 export function groupBy(rows, keys, metric) {
   const groups = new Map();
   for (const row of rows) {
@@ -51,6 +57,7 @@ export function groupBy(rows, keys, metric) {
 }
 
 /// The axes that a chart does not draw, so that what differs in them lies together in its points; replicates, too.
+/** @param {Group[]} groups  @param {Pick<Study, "rows" | "axes" | "view">} study */
 export function averagedAxes(groups, { rows, axes, view }) {
   if (!groups.some((group) => group.count > 1)) return [];
   const drawn = [view.x, view.y, view.panel];
@@ -58,6 +65,7 @@ export function averagedAxes(groups, { rows, axes, view }) {
 }
 
 /// Rows in the order of a column; those without a value stand last either way.
+/** @param {Api.Row[]} rows  @param {string} column  @param {boolean} descending */
 export function sortedBy(rows, column, descending) {
   const has = (row) => row[column] !== null && row[column] !== undefined;
   const filled = rows.filter(has).sort((a, b) => compare(valueOf(a, column), valueOf(b, column)));

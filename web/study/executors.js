@@ -9,18 +9,22 @@ function nodesText(nodes) {
   return nodes.length > shownNodes ? `${shown} and ${nodes.length - shownNodes} more` : shown;
 }
 
+/** @param {Api.Executor & { tasks: object }} cluster */
 function clusterText({ name, slots, tasks, nodes, waiting }) {
   const running = `${plural(tasks.running, "task")} on ${nodes.length === 0 ? "no node" : nodesText(nodes)}`;
   const reasons = waiting.map(({ reason, tasks: count }) => `${count.toLocaleString("en")} for ${reason}`).join(", ");
   return `${name}: ${plural(slots, "slot")}; ${running}; ${tasks.pending.toLocaleString("en")} wait${reasons ? ` (${reasons})` : ""}`;
 }
 
+/** @type {(executor: Api.Executor) => executor is Api.Executor & { tasks: object }} */
+const hasTasks = (executor) => executor.tasks !== null;
+
 export function executorsPanel() {
   const element = h("section", { class: "card", hidden: true, "aria-label": "Cluster" });
 
-  /// @param executors  the items of /v1/executors
+  /** @param {Api.Executor[]} executors */
   function update(executors) {
-    const clusters = executors.filter(({ tasks }) => tasks !== null);
+    const clusters = executors.filter(hasTasks);
     element.hidden = clusters.length === 0;
     element.replaceChildren(...clusters.flatMap((cluster) => [
       h("p", { class: "small" }, clusterText(cluster)),

@@ -3,10 +3,12 @@ import { findResults } from "/core/api.js";
 import { persist } from "/core/live.js";
 
 export class Failures {
+  /** @type {Map<string, Api.Row>} */
   #errors = new Map();
   #isDoubted = false;
 
   /// {error_reason, error_detail}; nothing as long as it is not known.
+  /** @param {string} id */
   of(id) {
     return this.#errors.get(id);
   }
@@ -17,6 +19,12 @@ export class Failures {
   }
 
   /// Finds the reasons if there are some that are not known or doubted, and asks on while the service is away. @returns whether there is news
+  /**
+   * @param {string} sweep
+   * @param {Api.Row[]} rows
+   * @param {(text: string) => void} tell
+   * @param {AbortSignal} signal
+   */
   async learn(sweep, rows, tell, signal) {
     const failed = new Set(rows.filter(({ state }) => state === "failed").map((row) => row.job_id));
     for (const id of this.#errors.keys()) if (!failed.has(id)) this.#errors.delete(id);

@@ -10,8 +10,9 @@ const mostPanels = 12;
 const fewCells = 400;  // with lines between them
 const mostLabels = 12;
 
-/// @param study  {rows, view: {metric, x, y, panel}, selection}
+/** @param {HTMLElement} element  @param {Study} study  @param {AbortSignal} signal */
 export function heatMap(element, study, signal) {
+  /** @type {Group[][]} */
   let cells = [];
   const made = makeChart(element, () => {
     const plan = planOf(study);
@@ -25,6 +26,7 @@ export function heatMap(element, study, signal) {
   return made;
 }
 
+/** @param {Study} study */
 function planOf(study) {
   const { rows, view, selection } = study;
   const xs = valuesOf(rows, view.x);
@@ -34,7 +36,7 @@ function planOf(study) {
   const groups = groupBy(rows, [view.x, view.y, view.panel].filter(Boolean), view.metric).filter((group) => group.mean !== null);
   const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
-  const ends = extremesOf(groups.map((group) => group.mean));
+  const ends = extremesOf(groups.map((group) => group.mean).filter((mean) => mean !== null));
   if (groups.length === 0) return { cells, option: nothingYet(whyEmpty(study)) };
   const grids = gridsOf(view, xs, ys, panels);
   return { cells, option: {
@@ -51,6 +53,7 @@ function planOf(study) {
 }
 
 /// What the colours mean, above their scale, and so in the saved pictures, too.
+/** @param {Study} study  @param {Group[]} groups */
 function metricTitle(study, groups) {
   const averaged = averagedAxes(groups, study).map((axis) => nameOf(axis).toLowerCase());
   const text = [titleOf(study.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean).join("\n");
@@ -63,6 +66,7 @@ function cellOf(group, view, xs, ys, selection) {
   return chosen ? { value, itemStyle: { borderColor: "#e6007a", borderWidth: 3 } } : value;
 }
 
+/** @param {Group} group  @param {Study["view"]} view */
 function textOf(group, view) {
   const where = [view.x, view.y, view.panel].filter(Boolean).map((axis, i) => `${nameOf(axis)}: ${pointOf(axis, group.values[i])}`);
   const several = group.count > 1 ? `\nmean of ${group.count} jobs, ${number(group.min)} to ${number(group.max)}` : "";

@@ -1,4 +1,6 @@
 // The names of lines above a chart: all of them in as many rows as they take, so that a saved picture has them, too.
+import { contextOf } from "/core/dom.js";
+
 const rowHeight = 24;
 const besideName = 42;  // pixels: the mark before a name, and the gap after it
 const margin = 10;
@@ -12,7 +14,7 @@ export function legendOf(names, width) {
 }
 
 function countRows(names, width) {
-  const context = document.createElement("canvas").getContext("2d");
+  const context = contextOf(document.createElement("canvas"));
   context.font = "12px system-ui, sans-serif";
   let rows = 1;
   let left = 0;

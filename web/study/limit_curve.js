@@ -3,10 +3,16 @@ import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf } from "/core/format.js";
 import { lineColour } from "/core/theme.js";
 
+/**
+ * @param {HTMLElement} element
+ * @param {import("/study/limit_view.js").LimitView} view
+ * @param {AbortSignal} signal
+ */
 export function limitCurve(element, view, signal) {
   return makeChart(element, () => optionOf(view.study), "The limit over an axis, with its band; the table below has the same numbers", signal);
 }
 
+/** @param {Api.Search} search */
 function optionOf(search) {
   const drawn = search.limits.filter((limit) => limit.limit !== null);
   if (drawn.length === 0) return null;
@@ -15,6 +21,7 @@ function optionOf(search) {
   if (numeric) drawn.sort((a, b) => a[numeric] - b[numeric]);
   const at = (limit) => (x ? limit[x] : search.name || "limit");
   const others = search.axes.filter((axis) => axis !== x);
+  /** @type {Map<string, Api.Limit[]>} */
   const lines = new Map();
   for (const limit of drawn) {
     const name = others.map((axis) => pointOf(axis, limit[axis])).join(", ") || nameOf(search.parameter);
@@ -46,6 +53,7 @@ function bandSeries(name, limits, index, at) {
     } };
 }
 
+/** @param {Api.Search} search  @param {Api.Limit} limit */
 function textOf(search, limit) {
   const where = search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
   const beyond = limit.limit_beyond === null ? "not exceeded up to there" : `exceeded at ${number(limit.limit_beyond)}`;

@@ -3,10 +3,16 @@ import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 
+/**
+ * @param {HTMLElement} element
+ * @param {import("/study/limit_view.js").LimitView} view
+ * @param {AbortSignal} signal
+ */
 export function limitPoints(element, view, signal) {
   return makeChart(element, () => optionOf(view.study, view.study.limits[view.shown]), "The metric at each value that was tried, with its bound", signal);
 }
 
+/** @param {Api.Search} search  @param {Api.Limit} limit */
 function optionOf(search, limit) {
   const points = limit.points.filter((point) => point.quantile !== null);
   if (points.length === 0) return null;
@@ -24,6 +30,7 @@ function optionOf(search, limit) {
   };
 }
 
+/** @param {Api.Schemas["SearchPoint"][]} points */
 function spread(points) {
   return { type: "custom", color: lineColour(0), data: points.map((point) => [point.value, point.min, point.max]), encode: { x: 0, y: [1, 2] },
     renderItem: (_, api) => {
@@ -34,9 +41,12 @@ function spread(points) {
     } };
 }
 
+/** @param {Api.Search} search  @param {Api.Schemas["SearchPoint"]} point */
 function textOf(search, point) {
   const unit = unitOf(search.metric);
+  const { part_within_low: low, part_within_high: high } = point;
+  const share = low === null || high === null ? "" : `: ${number(100 * low, 3)} to ${number(100 * high, 3)} % of all, with 90 % confidence`;
   const lines = [`${nameOf(search.parameter)} ${number(point.value)} ${unitOf(search.parameter)}`, `quantile ${number(point.quantile)} ${unit}`, `${number(point.min)} to ${number(point.max)} ${unit}`,
-    `${point.within} of ${point.count} within the bound: ${number(100 * point.part_within_low, 3)} to ${number(100 * point.part_within_high, 3)} % of all, with 90 % confidence`];
+    `${point.within} of ${point.count} within the bound${share}`];
   return lines.join("\n");
 }

@@ -8,12 +8,15 @@ import { StudyView } from "/study/study_view.js";
 
 const verdicts = { open: "not known yet", found: "found", never_exceeded: "never exceeded", always_exceeded: "exceeded from the start", lost: "a job without a value is in the way" };
 
+/** @type {(limit: Api.Limit) => string} */
 const verdictOf = ({ verdict, lost_reason: reason }) =>
   verdicts[verdict] + (reason === "no_value" ? ": the metric does not apply to it" : reason ? `: ${reason}` : "");
 
 /// The combination of a limit: "10 rad/s, flexible".
+/** @type {(search: Api.Search, limit: Api.Limit) => string} */
 const combinationOf = (search, limit) => search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
 
+/** @extends {StudyView<Api.Search>} */
 export class LimitView extends StudyView {
   static api = searches;
   static route = "searches";
@@ -23,7 +26,7 @@ export class LimitView extends StudyView {
   picker = h("span");
 
   charts() {
-    return [["Limit", limitCurve, ""], ["Evaluations", limitPoints, this.picker]];
+    return [{ title: "Limit", make: limitCurve }, { title: "Evaluations", make: limitPoints, above: this.picker }];
   }
 
   intro() {
@@ -54,6 +57,7 @@ export class LimitView extends StudyView {
     return this.study.limits.map((limit) => this.row(limit));
   }
 
+  /** @param {Api.Limit} limit */
   row(limit) {
     const falls = limit.falls.map(({ from, to, within_again: again }) => `${number(from)} to ${number(to)}${again ? " (within the bound again)" : ""}`).join("; ");
     const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}` : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";

@@ -13,7 +13,9 @@ const fewPoints = 400;  // whose marks do not hide the lines
 const widthOfLetter = 6.3;  // of the notes, in pixels: about
 const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow"];
 
+/** @param {HTMLElement} element  @param {Study} study  @param {AbortSignal} signal */
 export function linesChart(element, study, signal) {
+  /** @type {Group[][]} */
   let groups = [];
   const made = makeChart(element, () => {
     const plan = planOf(study, element.clientWidth);
@@ -27,6 +29,7 @@ export function linesChart(element, study, signal) {
   return made;
 }
 
+/** @param {Study} study  @param {number} width */
 function planOf(study, width) {
   const { rows, view, selection, others } = study;
   const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
@@ -63,6 +66,7 @@ function logLook() {
 }
 
 /// What the lines alone do not say.
+/** @param {Study} study */
 function notesOf(study, own, theirs) {
   const averagedIn = (lines, sweep) => averagedAxes(lines.flatMap((line) => line.groups), sweep);
   const averaged = new Set([...averagedIn(own, study), ...averagedIn(theirs, { ...study.others, view: study.view })]);
@@ -75,19 +79,22 @@ function notesOf(study, own, theirs) {
 
 /// Lines with a value at least; where jobs have none, a group without a mean stands in its place.
 /// @param sweep  its name, where it is not the one that is looked at
+/** @param {Api.Row[]} rows  @param {Study["view"]} view  @param {string} sweep */
 function linesOf(rows, view, sweep) {
   const keys = [view.y, view.panel].filter(Boolean);
+  /** @type {Map<string, Group[]>} */
   const byLine = new Map();
   for (const group of groupBy(rows, [...keys, view.x], view.metric)) {
     const key = JSON.stringify(group.values.slice(0, -1));
-    if (!byLine.has(key)) byLine.set(key, []);
-    byLine.get(key).push(group);
+    const line = byLine.get(key) ?? [];
+    byLine.set(key, line);
+    line.push(group);
   }
-  const nameOfLine = ([{ values }]) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), sweep].filter(Boolean).join(", ") || nameOf(view.metric);
+  const nameOfLine = ({ values }) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), sweep].filter(Boolean).join(", ") || nameOf(view.metric);
   const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
   const x = (group) => order.get(group.values.at(-1));
   const drawn = [...byLine.values()].filter((groups) => groups.some(hasValue));
-  return drawn.map((groups) => ({ name: nameOfLine(groups), dashed: sweep !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+  return drawn.map((groups) => ({ name: nameOfLine(groups[0]), dashed: sweep !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
 }
 
 const hasValue = (group) => group?.count > 0;

@@ -1,10 +1,11 @@
 // Which axes of the lines are logarithmic: boxes for those whose values lie decades apart.
-import { h } from "/core/dom.js";
+import { h, part } from "/core/dom.js";
 import { nameOf } from "/core/format.js";
 import { valuesOf } from "/study/data.js";
 import { spansDecades } from "/study/span.js";
 
 /// The axes that may be logarithmic.
+/** @param {Pick<Study, "rows" | "others" | "view">} study */
 export function offeredLogs({ rows, others, view }) {
   const both = others ? [rows, others.rows] : [rows];
   const metrics = both.flat().map((row) => row[view.metric]).filter((value) => value !== null && value !== undefined);
@@ -12,12 +13,14 @@ export function offeredLogs({ rows, others, view }) {
 }
 
 /// The axes that are so. Values of an axis are decades apart because somebody has chosen them so; of a metric that is for the user to say.
+/** @param {Pick<Study, "rows" | "others" | "view">} study */
 export function chosenLogs(study) {
   const offered = offeredLogs(study);
   return { x: offered.x && study.view.xScale !== "linear", metric: offered.metric && study.view.metricScale === "log" };
 }
 
 /// A box for each axis that may be logarithmic. @param changed  is called when one has been ticked
+/** @param {Study} study  @param {() => void} changed */
 export function logBoxes(study, changed) {
   const box = (key) => h("input", { type: "checkbox", onchange: ({ target }) => { study.view[key] = target.checked ? "log" : "linear"; changed(); } });
   const boxes = { x: box("xScale"), metric: box("metricScale") };
@@ -28,7 +31,7 @@ export function logBoxes(study, changed) {
     for (const [key, label] of Object.entries(labels)) {
       label.hidden = !offered[key];
       boxes[key].checked = chosen[key];
-      label.querySelector("span").textContent = ` logarithmic ${nameOf(study.view[key]).toLowerCase()}`;
+      part("span", label).textContent = ` logarithmic ${nameOf(study.view[key]).toLowerCase()}`;
     }
   }
 

@@ -4,14 +4,17 @@ import { nameOf, plural } from "/core/format.js";
 const ofContacts = /contact|penetration|sliding/;
 
 /// The jobs that it is about.
+/** @type {(study: Pick<Study, "rows" | "view">) => Api.Row[]} */
 export const withoutValue = ({ rows, view }) => rows.filter((row) => row.state === "succeeded" && typeof row[view.metric] !== "number");
 
 /// The value of a parameter in a row: swept, given to all jobs, or the default.
+/** @param {Pick<Study, "sweep" | "schema">} study  @param {Api.Row} row  @param {keyof Api.Parameters} key */
 function parameterOf({ sweep, schema }, row, key) {
   return row[key] ?? sweep.request.parameters?.[key] ?? schema.properties[key]?.default;
 }
 
 /// How many of the jobs end before their steady part begins.
+/** @param {Study} study  @param {Api.Row[]} rows */
 function countEarly(study, rows) {
   return rows.filter((row) => parameterOf(study, row, "duration_s") <= parameterOf(study, row, "run_up_s")).length;
 }
@@ -24,6 +27,7 @@ function earlyText(early, all) {
 }
 
 /// A sentence on the jobs without a value; empty if all have one.
+/** @param {Study} study */
 export function missingText(study) {
   const without = withoutValue(study);
   if (without.length === 0) return "";
@@ -33,6 +37,7 @@ export function missingText(study) {
 }
 
 /// Why a chart is empty, in few words.
+/** @param {Study} study */
 export function whyEmpty(study) {
   const without = withoutValue(study);
   if (without.length === 0) return study.rows.some(({ state }) => state === "failed") ? "Jobs have failed: the table says why." : "";

@@ -8,7 +8,9 @@ import { extremesOf, widened } from "/study/span.js";
 
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
 
+/** @param {HTMLElement} element  @param {Study} study  @param {AbortSignal} signal */
 export function parallelChart(element, study, signal) {
+  /** @type {Api.Row[]} */
   let shown = [];
   let brushing = false;
   const made = makeChart(element, () => {
@@ -34,6 +36,7 @@ const roomy = { scale: true, min: (extremes) => ends(extremes).min - room(ends(e
 
 /// The columns, those that most jobs have a value of first: a line then ends where its job has no further values. One that would lead across a gap
 /// is left out, for there is no way to draw it that tells the truth.
+/** @param {Study} study */
 function layOut({ rows, axes, metrics, view }) {
   const computed = rows.filter((row) => row.state === "succeeded");
   const names = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
@@ -43,12 +46,14 @@ function layOut({ rows, axes, metrics, view }) {
     const lacks = (row) => isNumeric && typeof row[name] !== "number";
     return { name, values, isNumeric, lacks, lacking: computed.filter(lacks).length };
   }).filter(({ name, lacking }) => name === view.metric || lacking < computed.length).sort((a, b) => a.lacking - b.lacking);
+  const last = columns[columns.length - 1];
   const hasGap = (row) => columns.some((column, index) => index > 0 && columns[index - 1].lacks(row) && !column.lacks(row));
   const shown = computed.filter((row) => !hasGap(row));
-  return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => columns.at(-1).lacks(row)).length };
+  return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => last.lacks(row)).length };
 }
 
 /// What the lines do not show of the jobs; empty where they show all.
+/** @param {Study} study */
 export function parallelNote(study) {
   const { leftOut, short } = layOut(study);
   return [short > 0 && `${plural(short, "line")} ${short === 1 ? "ends" : "end"} early, where the job has no further values.`,
@@ -63,6 +68,7 @@ function dimensionOf({ name, values, isNumeric }, dim) {
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
 }
 
+/** @param {Study} study */
 function planOf(study) {
   const { view, selection } = study;
   const { columns, shown } = layOut(study);

@@ -4,6 +4,7 @@ const leastSpan = 1e-3;  // of the largest value: what differs by less is drawn 
 const decades = 100;
 
 /// The ends of an axis for values that differ by too little to be told apart; null where the values' own will do.
+/** @param {Extremes} extremes  @returns {Extremes | null} */
 export function widened({ min, max }) {
   const least = leastSpan * Math.max(Math.abs(min), Math.abs(max));
   // Equal values have an axis of their own: there is no difference to be magnified.
@@ -18,6 +19,7 @@ export function widened({ min, max }) {
 export const fittedAxis = { type: "value", scale: true, min: (extremes) => widened(extremes)?.min ?? null, max: (extremes) => widened(extremes)?.max ?? null };
 
 /// The least and the largest of some numbers.
+/** @param {Iterable<number>} values  @returns {Extremes} */
 export function extremesOf(values) {
   let [min, max] = [Infinity, -Infinity];
   for (const value of values) {
@@ -28,6 +30,7 @@ export function extremesOf(values) {
 }
 
 /// Whether the values are positive numbers that lie two decades or more apart.
+/** @param {any[]} values */
 export function spansDecades(values) {
   if (values.some((value) => typeof value !== "number")) return false;
   const { min, max } = extremesOf(values);

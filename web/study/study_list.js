@@ -3,9 +3,20 @@ import { h } from "/core/dom.js";
 import { moment } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 
+/**
+ * @template {Listed} Item
+ * @typedef {{ api: Studies<any, Item, any>, route: string, title: string, question: string, listName: string,
+ *   aim: { heading: string, textOf: (study: Item) => string }, none: string, begin: string }} StudyKind
+ */
+
 const pollMs = 4000;
 
-/// @param kind  {api, route, title, question, listName, aim: {heading, textOf(study)}, none, begin}
+/**
+ * @template {Listed} Item
+ * @param {HTMLElement} main
+ * @param {StudyKind<Item>} kind
+ * @param {AbortSignal} signal
+ */
 export async function showStudies(main, kind, signal) {
   document.title = `RPSUP: ${kind.title.toLowerCase()}`;
   const body = h("tbody");
@@ -14,6 +25,7 @@ export async function showStudies(main, kind, signal) {
   const table = h("div", { class: "scroll card", tabindex: 0, role: "region", "aria-label": kind.listName },
     h("table", {}, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), body));
   main.replaceChildren(h("h1", {}, kind.title), h("p", {}, kind.question), h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo(kind.route, "new") }, kind.begin)), status, table);
+  /** @type {(study: Item) => HTMLElement} */
   const row = (study) => h("tr", {}, h("td", { class: "name" }, h("a", { href: routeTo(kind.route, study.id) }, study.name || study.id)),
     h("td", { class: study.state }, study.state), h("td", {}, kind.aim.textOf(study)), h("td", { class: "fixed" }, moment(study.created_at)));
   const refresh = async () => {

@@ -8,6 +8,12 @@ import { routeTo } from "/core/route.js";
 const reloadMs = 1000;
 
 /// Shows a study. @param View  a StudyView of its kind
+/**
+ * @param {HTMLElement} main
+ * @param {(new (study: any, signal: AbortSignal) => StudyView<any>) & Pick<typeof StudyView, "api">} View
+ * @param {string} id
+ * @param {AbortSignal} signal
+ */
 export async function showStudy(main, View, id, signal) {
   loadCharts().catch(() => {});  // told where a chart would be
   const view = new View(await View.api.find(id, signal), signal);
@@ -16,44 +22,76 @@ export async function showStudy(main, View, id, signal) {
 }
 
 /// Its kinds have `static api` and `static route`, and say what is drawn: charts, tableName, columns, statusText, row.
+/** @template {Api.Search | Api.WearStudy} Kept */
 export class StudyView {
+  /** @type {Searches | WearStudies} */
+  static api;
+  /** @type {string} */
+  static route;
+
+  tableName = "";
+  /** @type {(Chart | null)[]} */
+  drawn = [];
+  status = h("p", { role: "status" });
+  body = h("tbody");
+  isRemoved = false;
+  /** @type {HTMLButtonElement} */
+  cancel;
+  /** @type {HTMLButtonElement} */
+  retry;
+  /** @type {HTMLButtonElement} */
+  delete;
+
+  /** @param {Kept} study  @param {AbortSignal} signal */
   constructor(study, signal) {
-    Object.assign(this, { study, signal, drawn: [] });
+    this.study = study;
+    this.signal = signal;
+    this.makeButtons();
+  }
+
+  get kind() {
+    return /** @type {typeof StudyView} */ (this.constructor);
   }
 
   get name() {
     return this.study.name || this.study.id;
   }
 
-  /// [title, function that makes it, what stands above it], of each chart.
+  /// Each chart: its title, the function that makes it, what stands above it.
+  /**
+   * @returns {{ title: string, above?: HTMLElement,
+   *   make: (element: HTMLElement, view: any, signal: AbortSignal) => Promise<Chart> }[]}
+   */
   charts() { return []; }
   /// What stands above the charts.
+  /** @returns {HTMLElement[]} */
   intro() { return []; }
   /// Of the table: [heading, "number" where numbers stand below it].
+  /** @returns {string[][]} */
   columns() { return []; }
   /// Rows of the table, each an element.
+  /** @returns {HTMLElement[]} */
   rows() { return []; }
+  /// How it stands, in words.
+  statusText() { return ""; }
   /// Choices that depend on the study are made here, each time it is drawn.
   drawChoices() {}
 
   parts() {
     document.title = `RPSUP: ${this.name}`;
-    this.status = h("p", { role: "status" });
-    this.makeButtons();
-    this.body = h("tbody");
-    this.places = this.charts().map(([title, make, above], index) => ({ make, element: h("div", { class: "chart tall" }), title, above, index }));
-    const card = ({ title, element, above, index }) => h("section", { class: "card" },
-      h("div", { class: "head" }, h("h2", {}, title), saveButtons(() => this.drawn[index], () => `${this.name} ${title.toLowerCase()}`)), above, element);
+    this.places = this.charts().map(({ title, make, above }) => ({ make, element: h("div", { class: "chart tall" }), title, above }));
+    const cards = this.places.map(({ title, element, above }, index) => h("section", { class: "card" },
+      h("div", { class: "head" }, h("h2", {}, title), saveButtons(() => this.drawn[index], () => `${this.name} ${title.toLowerCase()}`)), above, element));
     return [
       h("div", { class: "head" }, h("div", {}, h("h1", {}, this.name), this.status), this.buttons), ...this.intro(),
-      h("div", { class: "columns even" }, this.places.map(card)),
+      h("div", { class: "columns even" }, cards),
       h("section", { class: "card" }, h("h2", {}, this.tableName), h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": this.tableName },
         h("table", {}, h("thead", {}, h("tr", {}, this.columns().map(([text, look]) => h("th", { scope: "col", class: look }, text)))), this.body)))];
   }
 
   async start() {
     this.draw();
-    for (const { make, element } of this.places) {
+    for (const { make, element } of this.places ?? []) {
       try {
         this.drawn.push(await make(element, this, this.signal));
       } catch (error) {
@@ -67,7 +105,7 @@ export class StudyView {
   follow() {
     if (this.study.state !== "running") return;
     const reload = seldom(() => this.reload(), reloadMs);
-    followStudy(this.constructor.api, this.study.id, {
+    followStudy(this.kind.api, this.study.id, {
       progress: ({ state, counts, progress }) => { Object.assign(this.study, { state, counts, progress }); this.drawHead(); reload(); },
       done: () => this.reload(),
     }, this.signal);
@@ -76,7 +114,7 @@ export class StudyView {
   async reload() {
     if (this.isRemoved) return;
     try {
-      this.study = await this.constructor.api.find(this.study.id, this.signal);
+      this.study = /** @type {Kept} */ (await this.kind.api.find(this.study.id, this.signal));
       this.draw();
       for (const chart of this.drawn) chart?.draw();
     } catch (error) {
@@ -101,7 +139,8 @@ export class StudyView {
   /// Once: a button that was made anew would lose the focus, and a click that has begun.
   makeButtons() {
     const { id, sweep_id: sweep } = this.study;
-    const { api, route } = this.constructor;
+    const { api, route } = this.kind;
+    /** @type {(text: string, run: (id: string) => Promise<unknown>) => HTMLButtonElement} */
     const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.reload()).then(() => this.follow()).catch((error) => notify(error.message, "trouble")) }, text);
     this.cancel = act("Cancel", api.cancel);
     this.retry = act("Retry", api.retry);
@@ -116,8 +155,8 @@ export class StudyView {
     if (!(await confirmed(`Delete “${this.name}”? Its jobs go with it; results that other sweeps share stay.`, "Delete"))) return;
     this.isRemoved = true;  // a reload that is still to come would not find it
     try {
-      await this.constructor.api.remove(this.study.id);
-      location.hash = routeTo(this.constructor.route);
+      await this.kind.api.remove(this.study.id);
+      location.hash = routeTo(this.kind.route);
     } catch (error) {
       this.isRemoved = false;
       notify(error.message, "trouble");

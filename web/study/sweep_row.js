@@ -14,6 +14,7 @@ const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shownOfId)}`;
 
 /// @param act  is called with "cancel", "retry" or "delete"
+/** @param {(action: "cancel" | "retry" | "delete") => void} act  @param {AbortSignal} signal */
 export function sweepRow(act, signal) {
   const cells = Object.fromEntries(Object.entries(classes).map(([key, name]) => [key, h("td", { class: name })]));
   const element = h("tr", {}, ...Object.values(cells));
@@ -31,6 +32,7 @@ export function sweepRow(act, signal) {
   let drawn = "";
   let counted = -1;
 
+  /** @param {Api.Listed<"/v1/sweeps">} sweep */
   function update(sweep) {
     const text = JSON.stringify(sweep);
     if (text === drawn) return;
@@ -55,7 +57,9 @@ export function sweepRow(act, signal) {
     counted = sweep.counts.succeeded;
   }
 
+  /** @param {Api.Listed<"/v1/sweeps">} sweep */
   async function showPeaks(sweep) {
+    /** @type {(peak: string, order: string) => Promise<Api.Row | undefined>} */
     const extreme = async (peak, order) => {
       const rows = await findResults(sweep.id, { fields: `job_id,${peak}`, [`${peak}_ge`]: 0, order_by: order, limit: 1 }, signal);
       return rows[0];
@@ -67,7 +71,7 @@ export function sweepRow(act, signal) {
       if (!peak) return;
       const [least, largest] = await Promise.all([extreme(peak, peak), extreme(peak, `-${peak}`)]);
       const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
-      cells.peaks.replaceChildren(...(least ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
+      cells.peaks.replaceChildren(...(least && largest ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
     } catch (error) {
       if (error.name !== "AbortError") cells.peaks.textContent = "–";
     }

@@ -8,6 +8,7 @@ import { missingText } from "/study/missing.js";
 const pageSize = 50;
 
 export class ResultTable {
+  /** @param {Study} study */
   constructor(study) {
     this.study = study;
     this.order = { column: "", descending: false };
@@ -35,7 +36,9 @@ export class ResultTable {
     this.order = { column, descending: again ? !this.order.descending : false };
     this.page = 0;
     this.draw();
-    this.head.querySelector(`[data-column="${CSS.escape(column)}"]`)?.focus();
+    /** @type {HTMLElement | null} */
+    const heading = this.head.querySelector(`[data-column="${CSS.escape(column)}"]`);
+    heading?.focus();
   }
 
   draw() {
@@ -78,6 +81,7 @@ export class ResultTable {
       h("button", { "data-column": column, onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
   }
 
+  /** @param {Api.Row} row  @param {string[]} columns */
   row(row, columns) {
     const { selection } = this.study;
     const box = h("input", { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
@@ -87,6 +91,7 @@ export class ResultTable {
       columns.map((column) => this.cell(row, column)));
   }
 
+  /** @param {Api.Row} row  @param {string} column */
   cell(row, column) {
     const value = valueOf(row, column);
     if (column === "state") return this.stateCell(row);
@@ -94,6 +99,7 @@ export class ResultTable {
     return h("td", { class: this.lookOf(column) }, number(value, given ? 6 : 4));
   }
 
+  /** @param {Api.Row} row */
   stateCell({ job_id: id, state }) {
     const error = state === "failed" && this.study.failures.of(id);
     return h("td", { class: state }, error ? [`${state}: ${error.error_reason}`, h("span", { class: "small reason" }, error.error_detail)] : state);

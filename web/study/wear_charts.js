@@ -5,15 +5,26 @@ import { colour, lineColour } from "/core/theme.js";
 
 const mostCurves = 8;
 
+/**
+ * @param {HTMLElement} element
+ * @param {import("/study/wear_view.js").WearView} view
+ * @param {AbortSignal} signal
+ */
 export function wearMap(element, view, signal) {
   return makeChart(element, () => mapOption(view.study.cycles, view.ring), "Worn depth around the bearing after some of the cycles", signal);
 }
 
+/**
+ * @param {HTMLElement} element
+ * @param {import("/study/wear_view.js").WearView} view
+ * @param {AbortSignal} signal
+ */
 export function wearGrowth(element, view, signal) {
   return makeChart(element, () => growthOption(view.study.cycles), "Largest depth and rate over the hours; the table below has the same numbers", signal);
 }
 
 /// The first is round; the last and some between, evenly.
+/** @param {Api.WearStudy["cycles"]} cycles */
 function chosen(cycles) {
   const count = Math.min(mostCurves, cycles.length - 1);
   const places = Array.from({ length: count }, (_, k) => Math.round(((k + 1) * (cycles.length - 1)) / count));
@@ -21,6 +32,7 @@ function chosen(cycles) {
 }
 
 /// 0 degrees, the bearing's x, points right, and angles go against the clock; the circle in the middle is the bore as it was new.
+/** @param {Api.WearStudy["cycles"]} cycles  @param {number} ring */
 function mapOption(cycles, ring) {
   if (cycles.length < 2) return null;
   const text = { color: colour("text") };
@@ -33,8 +45,10 @@ function mapOption(cycles, ring) {
   };
 }
 
+/** @param {Api.WearStudy["cycles"]} cycles */
 function growthOption(cycles) {
   if (cycles.length < 2) return null;
+  /** @type {(key: keyof Api.Schemas["WearCycle"], name: string, index: number, axis: number) => object} */
   const line = (key, name, index, axis) => ({ type: "line", name, color: lineColour(index), yAxisIndex: axis, symbolSize: 6, data: cycles.map((cycle) => [cycle.hours, cycle[key]]) });
   const scale = (name) => ({ type: "value", min: 0, name, nameLocation: "middle", nameGap: 50, ...axisLook() });
   return {

@@ -9,6 +9,7 @@ import { wearGrowth, wearMap } from "/study/wear_charts.js";
 const verdicts = { open: "not ended yet", hours_reached: "the hours are over", clearance_reached: "the clearance is reached", no_wear: "nothing is worn", cycle_limit: "as many cycles as were allowed",
   lost: "a failed job is in the way" };
 
+/** @extends {StudyView<Api.WearStudy>} */
 export class WearView extends StudyView {
   static api = wearStudies;
   static route = "wear";
@@ -18,7 +19,7 @@ export class WearView extends StudyView {
   picker = h("span");
 
   charts() {
-    return [["Bore", wearMap, this.picker], ["Depth", wearGrowth, ""]];
+    return [{ title: "Bore", make: wearMap, above: this.picker }, { title: "Depth", make: wearGrowth }];
   }
 
   columns() {
@@ -44,6 +45,7 @@ export class WearView extends StudyView {
   }
 }
 
+/** @param {Api.Schemas["WearCycle"]} cycle */
 function row(cycle) {
   const degrees = cycle.deepest_angle_rad === null ? "–" : number((180 / Math.PI) * cycle.deepest_angle_rad, 3);
   const change = cycle.rate_change === null ? "–" : number(100 * cycle.rate_change, 2);

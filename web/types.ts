@@ -1,0 +1,90 @@
+// Types of the pages, for the test system.javascript_types alone: browsers never see them.
+
+/** What the interface says: "openapi" is made of the service's own OpenAPI document. */
+declare namespace Api {
+  type Paths = import("openapi").paths;
+  type Schemas = import("openapi").components["schemas"];
+
+  type Json<Response> = Response extends { content: { "application/json": infer Answer } } ? Answer : never;
+  /** The answer to a GET. */
+  type Get<Path extends keyof Paths> =
+    Paths[Path] extends { get: { responses: { 200: infer Response } } } ? Json<Response> : never;
+  /** The answer to a POST. */
+  type Post<Path extends keyof Paths> =
+    Paths[Path] extends { post: { responses: infer All } } ? Json<All[keyof All & (200 | 201)]> : never;
+  /** The body of a POST. */
+  type Body<Path extends keyof Paths> =
+    Paths[Path] extends { post: { requestBody: infer Request } } ? Json<Request> : never;
+  /** The keys that a GET takes. A list is written with commas; a number may be one that a user has typed. */
+  type Query<Path extends keyof Paths> =
+    Paths[Path] extends { get: { parameters: { query?: infer Keys } } }
+      ? { [Key in keyof Keys]: InAddress<Keys[Key]> } : never;
+  type InAddress<Value> = Value extends unknown[] ? string : Value extends number ? number | string : Value;
+  /** One that may have keys by the names of columns, too: "state", "peak_contact_force_n_ge". */
+  type Filters<Path extends keyof Paths> = Query<Path> & { [column: string]: string | number | undefined };
+  /** One that is asked for without "fields" has all of them. */
+  type Page<Path extends keyof Paths> = { items: Listed<Path>[] } & Omit<Get<Path>, "items">;
+  type Listed<Path extends keyof Paths> =
+    Get<Path> extends { items: (infer Item)[] } ? Required<Item> : never;
+
+  type State = Schemas["State"];
+  type Sweep = Get<"/v1/sweeps/{id}">;
+  type Limit = Required<Schemas["Limit"]>;
+  type Search = Omit<Get<"/v1/searches/{id}">, "limits"> & { limits: Limit[] };
+  type WearStudy = Get<"/v1/wear-studies/{id}">;
+  /** Those of a job, which has all of them. */
+  type Parameters = Required<Omit<Schemas["Parameters"], "links">>
+    & { links: Required<NonNullable<Schemas["Parameters"]["links"]>> };
+  type Job = Omit<Get<"/v1/jobs/{id}">, "parameters"> & { parameters: Parameters };
+  type DescribedLinkage = Exclude<Parameters["linkage"], string>;
+  /** A row of results that was asked for without "fields"; values of axes and metrics by their names. */
+  type Row = Required<Pick<Schemas["ResultRow"], "job_id" | "state">>
+    & Pick<Schemas["ResultRow"], "replicate"> & { [column: string]: any };
+  /** Columns of samples by the names of their channels. */
+  type Columns = { [Channel in keyof Schemas["Trajectory"]["columns"]]-?: number[] }
+    & { [channel: string]: number[] };
+  type Executor = Schemas["Executors"]["items"][number];
+}
+
+/** What the address says of a view, which ends with the signal. */
+type Visit = { kind: string; id: string; query: URLSearchParams; signal: AbortSignal };
+/** What a sweep's charts and table are made of. */
+type Study = import("/pages/sweep.js").SweepPage;
+/** Rows that agree in some columns, whose values these are; mean and extremes of a metric. */
+type Group = {
+  values: (string | number)[]; jobs: string[]; count: number; min: number; max: number; mean: number | null;
+};
+type Extremes = { min: number; max: number };
+/** A sweep, its axes that are numbers, and the metric that is looked at. */
+type AnalysedSweep = { sweep: Api.Sweep; numbers: string[]; isRpsup: boolean; metric: string };
+type Chart = Awaited<ReturnType<typeof import("/core/charts.js").makeChart>>;
+/** A curve over time, of one or two channels at its edges. */
+type Trace = {
+  job: string; channel: string; envelope?: string[]; name: string; colour: () => string; dash?: number[];
+};
+type TimeWindow = import("/run/time_window.js").TimeWindow;
+
+/** What the list of studies shows of each. */
+type Listed = { id: string; name: string; state: string; created_at: string };
+/** What the service does with studies of one kind. */
+interface Studies<Kept, Item extends Listed, Request> {
+  path: string;
+  list(query: { limit?: number }, signal?: AbortSignal): Promise<{ items: Item[] }>;
+  find(id: string, signal?: AbortSignal): Promise<Kept>;
+  submit(request: Request): Promise<Kept>;
+  cancel(id: string): Promise<Kept>;
+  retry(id: string): Promise<Kept>;
+  remove(id: string): Promise<null>;
+  resultsUrl(id: string, query?: { format?: "csv" }): string;
+  eventsUrl(id: string): string;
+}
+type Searches = Studies<Api.Search, Api.Listed<"/v1/searches">, Api.Body<"/v1/searches">>;
+type WearStudies = Studies<Api.WearStudy, Api.Listed<"/v1/wear-studies">, Api.Body<"/v1/wear-studies">>;
+
+interface Array<T> {
+  filter(isGiven: BooleanConstructor): Exclude<T, false | null | undefined | "" | 0>[];
+}
+interface Window {
+  /** Of the package swagger-ui-dist, which has no types. */
+  SwaggerUIBundle(options: object): unknown;
+}
