@@ -19,6 +19,7 @@ export default [
       ...Object.fromEntries(found.map((rule) => [rule, "error"])),
       "no-unused-vars": ["error", { argsIgnorePattern: "^_" }],
       "no-use-before-define": ["error", { functions: false, classes: false, variables: false }],
+      "require-atomic-updates": ["error", { allowProperties: true }],
     },
   },
   { files: ["web/**"], languageOptions: { globals: globals.browser } },

@@ -195,6 +195,66 @@ test("an orbit is saved with what it shows", async () => {
   await leave(page);
 });
 
+test("an answer to what was asked before covers no newer one", async () => {
+  const { id } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  await page.locator("canvas.orbit[data-samples='401']").waitFor();
+  /** Holds back what is asked with a word in its address, until it is let go; gives how often that was asked. */
+  const holdBack = async (pattern, word) => {
+    const held = [];
+    await page.route(pattern, (route) => (route.request().url().includes(word) ? held.push(route) : route.continue()));
+    return { asked: () => held.length, letGo: () => Promise.all(held.map((route) => route.continue().catch(() => {}))) };
+  };
+  // The journal's path: first half of the run, held back, then the first quarter.
+  const half = await holdBack(/journal_x_mm.*&to=/, "&to=0.2&");
+  const strip = page.getByLabel("To [s]");
+  await strip.fill("0.2");
+  while (half.asked() === 0) await page.waitForTimeout(50);
+  await strip.fill("0.1");
+  await page.locator("canvas.orbit[data-samples='101']").waitFor();
+  await half.letGo();
+  await page.waitForTimeout(1000);
+  assert.equal(await page.locator("canvas.orbit").getAttribute("data-samples"), "101");
+  // The spectrum of a channel, held back, then another one's.
+  await page.getByText("Spectrum and Poincaré section").click();
+  await page.locator("details .chart canvas").nth(1).waitFor();
+  const force = await holdBack("**/spectrum?**", "channel=contact_force_n");
+  const channel = page.getByRole("combobox", { name: /^Channel/ });
+  await channel.selectOption("contact_force_n");
+  while (force.asked() === 0) await page.waitForTimeout(50);
+  await channel.selectOption("journal_x_mm");
+  const titled = () => page.locator("details .chart").first().evaluate(async (element) => {
+    const { getInstanceByDom } = await import("/lib/echarts.js");
+    return getInstanceByDom(element).getModel().queryComponents({ mainType: "yAxis" })[0].option.name;
+  });
+  while (await titled() !== "Amplitude: Journal x [mm]") await page.waitForTimeout(50);
+  await force.letGo();
+  await page.waitForTimeout(1000);
+  assert.equal(await titled(), "Amplitude: Journal x [mm]");
+  const spectrum = page.locator("details .chart").first().locator("canvas");
+  assert.ok(await spectrum.isVisible());
+  // A spectrum that is not to be had leaves the chart where it is, for the next one.
+  await page.route("**/spectrum?**window=flat_top**", (route) => route.fulfill({ status: 422, contentType: "application/problem+json", body: '{"detail": "not this window"}' }));
+  await page.getByLabel("Window").selectOption("flat_top");
+  await page.getByText("not this window").waitFor();
+  await page.getByLabel("Window").selectOption("hann");
+  await page.getByText("not this window").waitFor({ state: "hidden" });
+  assert.ok(await spectrum.isVisible());
+  // The list of all sweeps, held back, then the one of those that have failed.
+  await page.goto(`${url}/#/`);
+  await page.getByRole("row").nth(1).waitFor();
+  const all = await holdBack(/\/v1\/sweeps\?/, "?limit=25");
+  while (all.asked() === 0) await page.waitForTimeout(50);
+  await page.unroute(/\/v1\/sweeps\?/);
+  await page.route(/\/v1\/sweeps\?.*state=failed/, (route) => route.fulfill({ json: { items: [], next_cursor: "" } }));
+  await page.getByLabel("State", { exact: false }).selectOption("failed");
+  await page.getByText("No sweep is like that.").waitFor();
+  await all.letGo();
+  await page.waitForTimeout(1000);
+  assert.ok(await page.getByText("No sweep is like that.").isVisible());
+  await leave(page, /422/);
+});
+
 test("a run without a steady part has a peak all the same", async () => {
   const { id, metrics } = await computedJob({ run_up_s: 0.4 });
   assert.equal(metrics.peak_slider_acceleration_m_s2, null);

@@ -3,6 +3,7 @@ import { findAnalysis } from "/core/api.js";
 import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { number, pointOf, titleOf } from "/core/format.js";
+import { latest } from "/core/live.js";
 import { lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
 
@@ -17,17 +18,24 @@ export async function bifurcationCard(element, { sweep, numbers }, signal) {
   let along = numbers[0];
   let channel = channels[0];
   let rows = [];
-  const load = async () => { rows = await findAnalysis(sweep.id, "bifurcation", { channel }, signal); };
-  await load();
   const drawing = h("div", { class: "chart tall" });
+  const trouble = h("p", { class: "trouble", role: "status" });
+  const load = latest(async (current, /** @type {string} */ wanted) => {
+    rows = await findAnalysis(sweep.id, "bifurcation", { channel: wanted }, current);
+    channel = wanted;
+    trouble.textContent = "";
+    chart?.draw();
+  }, signal);
+  let chart = null;
+  await load(channel);
   if (rows.length === 0) {
     element.replaceChildren(h("p", {}, "After the run-up of these jobs no turn of the crank is complete."));
     return null;
   }
   element.replaceChildren(h("p", { class: "actions" },
-    choice("Across", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart.draw(); }),
-    choice("Channel", channels.map((key) => [key, titleOf(key)]), channel, async (key) => { channel = key; await load(); chart.draw(); })), drawing);
-  const chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel), "The channel once a turn over the axis", signal);
+    choice("Across", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart?.draw(); }),
+    choice("Channel", channels.map((key) => [key, titleOf(key)]), channel, (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
+  chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel), "The channel once a turn over the axis", signal);
   return chart;
 }
 

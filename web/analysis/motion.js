@@ -3,6 +3,7 @@ import { findMotion } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
+import { latest } from "/core/live.js";
 import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
 import { isDescribed, mainAcceleration } from "/run/described.js";
@@ -28,16 +29,21 @@ function spectrum(job, columns, signal) {
   let found = null;
   let chart = null;
   const drawing = h("div", { class: "chart" });
-  const load = async () => {
-    found = await findMotion(job.id, "spectrum", { ...view, from: job.parameters.run_up_s < job.parameters.duration_s ? job.parameters.run_up_s : undefined }, signal);
+  const trouble = h("p", { class: "trouble", role: "status" });
+  const load = latest(async (current) => {
+    const asked = { ...view };
+    const from = job.parameters.run_up_s < job.parameters.duration_s ? job.parameters.run_up_s : undefined;
+    const { frequency_hz: frequencies, [asked.channel]: amplitudes } = await findMotion(job.id, "spectrum", { ...asked, from }, current);
+    found = { channel: asked.channel, frequencies, amplitudes };
+    trouble.textContent = "";
     chart?.draw();
-  };
-  const set = (key) => (value) => { view[key] = value; load().catch((error) => drawing.replaceChildren(h("p", { class: "trouble" }, error.message))); };
+  }, signal);
+  const set = (key) => (value) => { view[key] = value; load().catch((error) => { trouble.textContent = error.message; }); };
   const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"), saveButtons(() => chart, () => `${job.id} spectrum`)),
-    h("p", { class: "actions" }, choice("Channel", columns.map((name) => [name, titleOf(name)]), view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), drawing);
-  const option = () => ({ grid: { left: 80, right: 20, top: 20, bottom: 50 }, tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
-    dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"), yAxis: valueAxis(`Amplitude: ${titleOf(view.channel)}`, { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
-    series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 }, data: found.frequency_hz.map((frequency, k) => [frequency, found[view.channel][k]]).filter(([, amplitude]) => amplitude > 0) }] });
+    h("p", { class: "actions" }, choice("Channel", columns.map((name) => [name, titleOf(name)]), view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), trouble, drawing);
+  const option = () => found && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 }, tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
+    dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"), yAxis: valueAxis(`Amplitude: ${titleOf(found.channel)}`, { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
+    series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 }, data: found.frequencies.map((frequency, k) => [frequency, found.amplitudes[k]]).filter(([, amplitude]) => amplitude > 0) }] });
   return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "Amplitude over frequency", signal); } };
 }
 
@@ -48,16 +54,18 @@ function section(job, signal) {
   let found = null;
   let chart = null;
   const drawing = h("div", { class: "chart tall" });
-  const load = async () => {
-    found = await findMotion(job.id, "poincare", { phase_rad: view.phase, from: job.parameters.run_up_s }, signal);
+  const trouble = h("p", { class: "trouble", role: "status" });
+  const load = latest(async (current) => {
+    found = await findMotion(job.id, "poincare", { phase_rad: view.phase, from: job.parameters.run_up_s }, current);
+    trouble.textContent = "";
     chart?.draw();
-  };
-  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Angle of the crank [rad]", onchange: () => { view.phase = Number(slider.value); load(); } });
+  }, signal);
+  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Angle of the crank [rad]", onchange: () => { view.phase = Number(slider.value); load().catch((error) => { trouble.textContent = error.message; }); } });
   const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Poincaré section: the journal once a turn"), saveButtons(() => chart, () => `${job.id} section`)),
-    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Angle of the crank"), slider)), drawing);
+    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Angle of the crank"), slider)), trouble, drawing);
   const radius = job.parameters.clearance_mm;
   const circle = Array.from({ length: 73 }, (_, k) => [radius * Math.cos((k * Math.PI) / 36), radius * Math.sin((k * Math.PI) / 36)]);
-  const option = () => ({ grid: { left: 75, right: 20, top: 20, bottom: 50 }, tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
+  const option = () => found && ({ grid: { left: 75, right: 20, top: 20, bottom: 50 }, tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
     xAxis: acrossAxis(titleOf("journal_x_mm")), yAxis: valueAxis(titleOf("journal_y_mm")),
     series: [{ type: "line", silent: true, showSymbol: false, color: colour("quiet"), lineStyle: { width: 1, type: "dashed" }, data: circle },
       { type: "scatter", symbolSize: 7, color: lineColour(0), data: found.t_s.map((t, k) => [found.journal_x_mm[k], found.journal_y_mm[k], t]) }] });

@@ -3,6 +3,7 @@ import { findAnalysis } from "/core/api.js";
 import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
+import { latest } from "/core/live.js";
 import { colour, lineColour, palette } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
 
@@ -21,11 +22,11 @@ export async function surrogateCard(element, { sweep, metric }, signal) {
   const said = h("p", { role: "status" });
   const pickers = h("p", { class: "actions" });
   let chart = null;
-  /** @type {(x: string, y: string | undefined) => Promise<void>} */
-  const again = async (x, y) => {
-    made = await findAnalysis(sweep.id, "surrogate", { metric, x, y }, signal);
+  const load = latest(async (current, /** @type {string} */ x, /** @type {string | undefined} */ y) => {
+    made = await findAnalysis(sweep.id, "surrogate", { metric, x, y }, current);
     draw();
-  };
+  }, signal);
+  const again = (x, y) => load(x, y).catch((error) => { said.textContent = error.message; });
   const draw = () => {
     drawing.hidden = made.surfaces[shown].values === null;
     said.textContent = judgement(made.surfaces[shown], made);

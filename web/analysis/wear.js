@@ -3,6 +3,7 @@ import { findWear } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";
 import { h, notify } from "/core/dom.js";
 import { exact, number } from "/core/format.js";
+import { latest } from "/core/live.js";
 import { colour, lineColour } from "/core/theme.js";
 
 /** @param {Api.Job} job  @param {AbortSignal} signal */
@@ -23,13 +24,13 @@ async function fill(body, job, signal) {
   /** @type {Api.Get<"/v1/jobs/{id}/wear">} */
   let rows = [];
   let chart = null;
-  const load = async () => {
-    rows = await findWear(job.id, view, signal);
+  const load = latest(async (current) => {
+    rows = await findWear(job.id, view, current);
     const worst = rows.reduce((most, row) => (row.depth_um > most.depth_um ? row : most));
     const life = worst.life_h === null ? "" : `; ${exact(Number(view.worn_clearance_mm))} mm are reached after ${number(worst.life_h, 3)} h of such motion`;
     said.textContent = `Deepest: ${number(worst.depth_um)} µm in this run at ${number((180 / Math.PI) * worst.angle_rad, 3)}°, ring at ${number(worst.position_mm)} mm, ${number(worst.rate_um_h)} µm/h${life}.`;
     chart?.draw();
-  };
+  }, signal);
   const field = (label, key) => {
     const input = h("input", { type: "text", inputmode: "decimal", value: view[key], onchange: () => { view[key] = input.value.trim(); load().catch((error) => notify(error.message, "trouble")); } });
     return h("label", { class: "choice" }, h("span", {}, label), input);

@@ -96,6 +96,27 @@ export function pause(milliseconds, signal) {
   });
 }
 
+/// A function that runs the given one with a signal of its own, which is given as soon as it is called again:
+/// an answer to what was asked before covers no newer one.
+/**
+ * @template {unknown[]} Given
+ * @param {(signal: AbortSignal, ...given: Given) => Promise<void>} run
+ * @param {AbortSignal} signal
+ * @returns {(...given: Given) => Promise<void>}
+ */
+export function latest(run, signal) {
+  let overtaken = new AbortController();
+  return async (...given) => {
+    overtaken.abort();
+    overtaken = new AbortController();
+    try {
+      await run(AbortSignal.any([signal, overtaken.signal]), ...given);
+    } catch (error) {
+      if (error.name !== "AbortError") throw error;
+    }
+  };
+}
+
 /// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and always after the last call.
 /** @param {() => unknown} run  @param {number | (() => number)} milliseconds */
 export function seldom(run, milliseconds) {

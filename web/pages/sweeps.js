@@ -85,10 +85,16 @@ class SweepList {
     this.draw();
   }
 
+  #query() {
+    return { limit: this.search ? mostSearched : this.limit, state: this.state || undefined };
+  }
+
   async refresh() {
+    const query = this.#query();
     try {
       const [page, executors] = await Promise.all([
-        listSweeps({ limit: this.search ? mostSearched : this.limit, state: this.state || undefined }, this.signal), listExecutors(this.signal)]);
+        listSweeps(query, this.signal), listExecutors(this.signal)]);
+      if (JSON.stringify(query) !== JSON.stringify(this.#query())) return;  // meanwhile another list is asked for
       this.executors.update(executors.items);
       this.sweeps = page.items;
       this.more.hidden = !page.next_cursor;

@@ -3,7 +3,7 @@ import { findTrajectory } from "/core/api.js";
 import { choice, contextOf, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
 import { saveCanvas } from "/core/download.js";
-import { settled } from "/core/live.js";
+import { latest, settled } from "/core/live.js";
 import { onColours } from "/core/theme.js";
 import { captioned } from "/run/captioned.js";
 import { drawRing, drawScale, paintOrbit } from "/run/orbit_drawing.js";
@@ -22,7 +22,7 @@ const quantities = ["journal_x_mm", "journal_y_mm", "contact_force_n"];
 export function orbit(job, { name, prefix, clearance }, times, signal) {
   const title = name ? `Journal orbit of ${name.replaceAll("_", " ")}` : "Journal orbit";
   const channels = ["t_s", ...quantities.map((quantity) => prefix + quantity)];
-  const columnsOf = async (more) => plain(await findTrajectory(job.id, { channels, ...more, points }, signal), prefix);
+  const columnsOf = async (more, current) => plain(await findTrajectory(job.id, { channels, ...more, points }, current), prefix);
   const canvas = h("canvas", { class: "orbit", role: "img", "aria-label": `${title} inside the clearance circle` });
   const bar = h("canvas", { class: "palette", width: 256, height: 1, "aria-hidden": "true" });
   const [low, high] = [h("span"), h("span")];
@@ -32,15 +32,13 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
   let shown = null;
   let painted = null;
 
-  async function load() {
-    try {
-      whole ??= await columnsOf({});
-      shown = times.isWhole ? whole : await columnsOf({ from: times.from, to: times.to });
-      paint();
-    } catch (error) {
-      if (error.name !== "AbortError") caption.textContent = error.message;
-    }
-  }
+  const load = latest(async (current) => {
+    const all = whole ?? await columnsOf({}, current);
+    const part = times.isWhole ? all : await columnsOf({ from: times.from, to: times.to }, current);
+    [whole, shown] = [all, part];
+    paint();
+  }, signal);
+  const tryLoad = () => load().catch((error) => { caption.textContent = error.message; });
 
   function paint() {
     const size = Math.round(canvas.clientWidth * devicePixelRatio);
@@ -75,14 +73,14 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
       `clearance ${number(clearance)} mm`, job.id].map((text) => ({ name: text }));
   }
 
-  const refine = settled(() => signal.aborted || load(), refineMs);
+  const refine = settled(() => signal.aborted || tryLoad(), refineMs);
   times.addEventListener("change", refine, { signal });
   times.addEventListener("instant", () => requestAnimationFrame(draw), { signal });
   onColours(paint, signal);
   const sizes = new ResizeObserver(paint);
   sizes.observe(canvas);
   signal.addEventListener("abort", () => sizes.disconnect());
-  load();
+  tryLoad();
   const picker = choice("Colour by", [["time", "time"], ["force", "contact force"]], by, (value) => { by = value; paint(); });
   return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
     h("span", { class: "actions" }, picker, h("button", { onclick: () => painted && saveCanvas(captioned(canvas, words()), `${title}.png`) }, "PNG"))), canvas,

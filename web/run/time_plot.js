@@ -1,6 +1,6 @@
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
 import { h, laidOut } from "/core/dom.js";
-import { persist, seldom, settled } from "/core/live.js";
+import { latest, persist, seldom, settled } from "/core/live.js";
 import { onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
 import { captioned } from "/run/captioned.js";
@@ -27,7 +27,6 @@ export async function timePlot(element, { traces, times, height, label, signal }
   let plot = null;
   /** @type {number[][] | null} */
   let data = null;
-  let loading = new AbortController();  // one at a time: what is overtaken neither asks on nor tells
   let isSeen = true;
   const now = h("div", { class: "now", hidden: true });
   const place = h("div");
@@ -35,19 +34,13 @@ export async function timePlot(element, { traces, times, height, label, signal }
   element.append(place, trouble);
   const tell = (text) => { trouble.textContent = text; };
 
-  async function load() {
-    loading.abort();
-    loading = new AbortController();
-    const current = AbortSignal.any([signal, loading.signal]);
-    try {
-      data = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, current), tell, current);
-      if (plot) plot.setData(data, false);
-      else make();
-      follow();
-    } catch (error) {
-      if (error.name !== "AbortError") tell(error.message);
-    }
-  }
+  const load = latest(async (current) => {
+    data = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, current), tell, current);
+    if (plot) plot.setData(data, false);
+    else make();
+    follow();
+  }, signal);
+  const tryLoad = () => load().catch((error) => tell(error.message));
 
   function make() {
     plot?.destroy();
@@ -71,8 +64,8 @@ export async function timePlot(element, { traces, times, height, label, signal }
     showInstant();
   }
 
-  const fetchSoon = seldom(() => signal.aborted || load(), refineMs);
-  const fetchLater = settled(() => signal.aborted || load(), settleMs);
+  const fetchSoon = seldom(() => signal.aborted || tryLoad(), refineMs);
+  const fetchLater = settled(() => signal.aborted || tryLoad(), settleMs);
   // What moves inside the data that are there is drawn from them at every frame, and made finer when it stands still.
   const isThere = () => data && times.from >= data[0][0] && times.to <= data[0][data[0].length - 1];
   times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });
@@ -87,7 +80,7 @@ export async function timePlot(element, { traces, times, height, label, signal }
   element.setAttribute("role", "group");
   element.setAttribute("aria-label", `${label}, over time. Arrow keys move, plus and minus zoom, 0 shows the whole run.`);
   listenToKeys(element, times);
-  await load();
+  await tryLoad();
   return { plot: () => plot, canvas: () => paint(plot, label, traces) };
 }
 
