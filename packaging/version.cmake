@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Version of the program and of its packages: that of project(), "+", and the number of commits since the one
 # that set it. Tags do not count: a clone need not have them.
 #   RPSUP_VERSION       0.1.0+12; 0.1.0 at the commit that set it, in an archive of the sources, in a shallow clone

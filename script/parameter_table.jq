@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The README's table of parameters, from the JSON Schema that GET /v1/parameters answers:
 #   curl -s http://127.0.0.1:8080/v1/parameters | jq -r -f script/parameter_table.jq
 def range:

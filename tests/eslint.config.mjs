@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules that find faults; how lines look is left to .editorconfig.
 import js from "@eslint/js";
 import globals from "globals";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shows the view that the address names, and gives it up when the address changes.
 import { findHealth, isAway } from "/core/api.js";
 import { readRoute } from "/core/route.js";

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What is served to browsers, beside what npm brings. FILE is served as /FILE.
 set(page_files
   index.html

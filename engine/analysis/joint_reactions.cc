@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/analysis/joint_reactions.h"
 
 #include <cstddef>

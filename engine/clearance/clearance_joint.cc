@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/clearance/clearance_joint.h"
 
 #include "engine/clearance/continuum_law.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
 #include "engine/dynamics/compiled_equations.h"
 

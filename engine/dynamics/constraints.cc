@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/dynamics/constraints.h"
 
 #include "engine/kinematics/plain_frame.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/integrate/fed_vibrations.h"
 
 #include <algorithm>

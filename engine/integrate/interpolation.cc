@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/integrate/interpolation.h"
 
 #include "engine/math/quintic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0 AND BSD-2-Clause
 #pragma once
 
 #include <array>

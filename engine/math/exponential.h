@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0 AND SunPro
 // Derived from e_exp.c of fdlibm:
 // Copyright (C) 2004 by Sun Microsystems, Inc. All rights reserved.
 // Permission to use, copy, modify, and distribute this software is freely granted, provided that this notice is

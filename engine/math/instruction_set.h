@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 /// The equations of motion are compiled once for each instruction set (dynamics/compiled_equations.cc), and the program picks one as it starts. All

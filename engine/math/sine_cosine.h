@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0 AND SunPro
 // Derived from k_sin.c, k_cos.c and e_rem_pio2.c of fdlibm:
 // Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
 // Developed at SunSoft, a Sun Microsystems, Inc. business.

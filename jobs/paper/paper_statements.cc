@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "jobs/paper/paper_statements.h"
 
 #include <algorithm>

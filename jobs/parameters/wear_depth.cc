@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "jobs/parameters/wear_depth.h"
 
 #include <algorithm>

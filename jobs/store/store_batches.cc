@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Jobs that are given to a cluster, many at a time.
 
 #include "jobs/store/store_batches.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ending and deleting what is stored, and trying it again.
 
 #include <algorithm>

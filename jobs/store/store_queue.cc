@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "jobs/base/time_text.h"
 #include "jobs/store/store.h"
 #include "jobs/store/store_quota.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "jobs/store/store_quota.h"
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Searches as they are stored: each belongs to the sweep that its evaluations are the jobs of, and goes with it.
 
 #include <SQLiteCpp/SQLiteCpp.h>

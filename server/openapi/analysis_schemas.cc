@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "server/openapi/analysis_schemas.h"
 
 #include "engine/analysis/quantities.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "server/openapi/search_schemas.h"
 
 #include "jobs/requests/parameter_path.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes a source file that holds files as they are now, by the paths under which they are served.
 #   cmake -DOUTPUT=web_files.cc -DFOLDER=web -DFILES=/index.html=index.html,/app.js=app.js -DIMPORTS=three=/lib/three.js -P embed_files.cmake
 # In modules, what is imported by a NAME of IMPORTS (NAME=PATH) is imported from the PATH: a browser does not know where packages are.

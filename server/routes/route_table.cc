@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "server/routes/route_table.h"
 
 #include "server/routes/analysis_routes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "server/routes/store_route.h"
 
 #include <fcntl.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Identity of results changes with everything that decides their bytes, and with nothing else.   engine_identity_test.sh ROOT
 set -euo pipefail
 root=$1

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Every fault of tests/faults/faults.txt can still be planted, and the validation report names a test that finds it.
 #   faults_are_found.sh ROOT
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Fails where folders include each other in a circle: each can be read without those that use it.   folders_in_no_circle.sh ROOT
 set -euo pipefail
 cd "$1"

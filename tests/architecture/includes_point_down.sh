@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Fails for an include that points up a layer: server -> jobs -> engine, validation beside them, and some libraries have one layer that may use
 # them.   includes_point_down.sh ROOT
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Fails if objects compiled for more than baseline x86-64 offer code that the linker may share with the rest of the program: inline
 # functions of the standard library or of Eigen, which would then fail on a machine without those instructions. And if they fuse products with sums,
 # which gives other bytes than sets that do not.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The JavaScript of the pages and of the tests is free of what ESLint finds, and what is planted is found.   javascript_lint.sh ROOT
 set -euo pipefail
 cd "$1"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Fails for a work of others in the program that packaging/debian/copyright does not name, and for a license
 without its text.
 

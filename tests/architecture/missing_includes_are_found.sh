@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Leaves out one include at a time in a small tree and expects names_are_included.py to say what is missing.
 set -euo pipefail
 check=$(dirname "${BASH_SOURCE[0]}")/names_are_included.py

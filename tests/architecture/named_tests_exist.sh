@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Every test that the table of tests/README.md names is there:   named_tests_exist.sh SOURCE-FOLDER BUILD-FOLDER
 set -euo pipefail
 tests=$(ctest --test-dir "$2" --show-only | sed -n 's/^ *Test *#[0-9]*: //p')

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Fails for a source that uses a name of ours and includes, directly or through others, no header that declares it.
 
   names_are_included.py ROOT

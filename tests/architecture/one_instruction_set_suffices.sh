@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Fails if the program needs more of the equations compiled for one instruction set than what makes them: a program that is built
 # for this machine alone (script/build --own) has only one set, and would not link.
 #   one_instruction_set_suffices.sh OBJECT...      the engine's objects without those of the equations

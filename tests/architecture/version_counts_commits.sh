@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks packaging/version.cmake in small repositories: commits since the version was set, archives, shallow clones.
 #   version_counts_commits.sh ROOT
 set -euo pipefail

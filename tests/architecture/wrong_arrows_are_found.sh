@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Plants one wrong include at a time in a small tree and expects includes_point_down.sh or folders_in_no_circle.sh to fail on it.
 set -euo pipefail
 check=$(dirname "${BASH_SOURCE[0]}")/includes_point_down.sh

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The right-hand side allocates nothing: this program counts every operator new.
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Public benchmark problems of multibody dynamics, each as a linkage of data.
 
 #include <algorithm>

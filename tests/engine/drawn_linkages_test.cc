@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linkages drawn at random: whatever they are, they end as a run that keeps its account of energy, or as a refusal or failure that says why.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linkages that their drives decide alone, and those that only seem to be such.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the validation's chapter on kinematics leaves open of the linkage without clearance.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linkages of data: loops cut at one joint or another, screws, welds, redundant joints, springs; what is refused.
 
 #include <cmath>

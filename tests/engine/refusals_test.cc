@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is no linkage is refused before it runs, and what locks while it runs says so.
 
 #include <cmath>

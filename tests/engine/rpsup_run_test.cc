@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole runs of the linkage with clearance: what must hold beside what the validation compares with other codes.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whatever a client sends down a connection: through the stream, the guard and the library, to handlers that answer at once.
 
 #include <arpa/inet.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The head of a request as it comes off the wire, and the origin that it claims.
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bodies of POST /v1/sweeps, of its extension, of POST /v1/searches and of POST /v1/wear-studies, from their bytes to the jobs that they mean.
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blobs of trajectories: those of a damaged store, and those whose checksums are right and whose content is not.
 
 #include <fuzzer/FuzzedDataProvider.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sweeps that are extended, tried again, sent again and watched.
 
 #include <algorithm>

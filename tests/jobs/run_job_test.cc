@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The layer with the real engine behind it.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks answers that were written down against the OpenAPI document of the service that gave them.
 //   node check_exchanges.mjs OPENAPI.json EXCHANGES.ndjson
 

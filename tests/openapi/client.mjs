@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A client of the service that sends what it is told, however strange.
 
 import http from "node:http";

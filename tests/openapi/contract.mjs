@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an OpenAPI document allows a service to answer.
 
 import Ajv2020 from "ajv/dist/2020.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values that a JSON Schema allows, and values that it may not allow.
 
 import fc from "fast-check";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends generated requests to a service and checks each answer against its own OpenAPI document: no answer beside the document, no 5xx, and what
 // is taken is what the document allows.
 //   node generated_requests.mjs URL COUNT [SEED]

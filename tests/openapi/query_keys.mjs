@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that the document names the keys of every query string that the service knows, and no other.
 //   node query_keys.mjs URL
 

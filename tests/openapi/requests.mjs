@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Requests that an OpenAPI document allows, and others.
 
 import fc from "fast-check";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leaks memory, or overflows an integer: planted_fault leak|overflow.
 
 #include <limits>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Runs three small tests, one of which skips, and expects unlisted_skips.py to fail unless the skip is listed for that preset.
 set -euo pipefail
 check=$(realpath "$(dirname "${BASH_SOURCE[0]}")")/unlisted_skips.py

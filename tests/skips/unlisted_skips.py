@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Fails for a test that was skipped and does not stand in the list of skips that are allowed, with its reason.
 
   unlisted_skips.py JUNIT LIST PRESET

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Two figures show the same: places and curves within a pixel, all else to the letter.
 
   compare_figures.py FRESH WRITTEN

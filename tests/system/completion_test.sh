@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup completion: what the shells offer. zsh and fish are skipped, with a word, where they are not installed.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 skipped=

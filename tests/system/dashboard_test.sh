@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Visits the dashboard of a service of its own with Chromium; screenshots are left in FOLDER.
 #   dashboard_test.sh RPSUP TESTS/WEB/VISIT.mjs FOLDER
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # No request, however strange, is answered with a 5xx or beside the OpenAPI document, or ends the service.
 #   generated_requests_test.sh RPSUP TESTS/OPENAPI COUNT [SEED]; without a seed another one each time
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

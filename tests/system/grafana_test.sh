@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The dashboard for Grafana: each of its queries is one that the service answers with flat rows that have its columns.
 #   grafana_test.sh RPSUP DASHBOARD
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

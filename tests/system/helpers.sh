@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # For the tests that drive the program itself. Sourced; expects the path of the program in $1.
 set -euo pipefail
 export LC_ALL=C

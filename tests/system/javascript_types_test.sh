@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The pages read of the service's answers, and ask of it, what its own OpenAPI document says.   javascript_types_test.sh RPSUP ROOT
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 packages=$2/tests/node_modules

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup serve with limits: jobs that reach one fail with its name, a store that is full refuses, and everything else goes on.
 #   limits_test.sh RPSUP [SANITIZER]
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # A dashboard of many panels asks 20 things at once, again and again, while every core computes: each is answered. How fast is told, not
 # judged: this machine may be busy with other things.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup man: a page without faults that names every command and every option that --help names, with what is said of them.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

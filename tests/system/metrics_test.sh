@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # /metrics: promtool finds nothing to say about it, and a Prometheus server scrapes it and answers the queries of the dashboard.
 #   metrics_test.sh RPSUP DASHBOARD
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

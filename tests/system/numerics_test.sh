@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # --numerics portable: the results of a processor without FMA and AVX2, kept apart from those of this one.   numerics_test.sh RPSUP
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Every answer that the tests of the server meet is one that the OpenAPI document allows.   openapi_test.sh RPSUP SERVER_TESTS TESTS/OPENAPI
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 [ -d "$3/../node_modules" ] || fail "the npm packages of tests/ are missing: script/setup fetches them"

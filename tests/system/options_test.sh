@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Options from the command line, the environment and a file: each of them works, in this order of precedence.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs the Debian package in a fresh system of the same release, uses it, removes it and purges it.
 #   package_chroot_test.sh RPSUP SOURCES PRESET
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The Debian package: what is in it, who owns it, what it depends on, and that the unit is as closed as it says.
 #   package_test.sh RPSUP SOURCES PRESET
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

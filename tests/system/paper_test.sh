@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The paper's study: every energy account closed, the paper's statements, the closed form of the ideal linkage, and the peaks that other codes find.
 #   paper_test.sh RPSUP PAPER.JSON ACROSS.JSON
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

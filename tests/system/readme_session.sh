@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Runs what README.md (or another) shows: every block of shell commands below a line `<!-- run by a test -->`, in their order, as one
 # script, against a fresh service.   readme_session.sh RPSUP README [filled]: with a sweep in its store
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Runs the snippets in other languages that README.md shows below a line `<!-- run by a test, in LANGUAGE -->`, against a service that
 # has a sweep.   readme_snippets.sh RPSUP README
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The table of parameters in README.md is the one the program answers, and --help prints the same.   readme_table.sh RPSUP README PARAMETER_TABLE.JQ
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 start_service table.db

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Killed in the middle of a sweep, the service takes it up again by itself: the results are, byte for byte, those of a
 # service that nobody disturbed, on one thread and on two.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

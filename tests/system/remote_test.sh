@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup submit, status, watch, results, cancel: a session with a service that runs, and what is said when there is none.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup serve with a token, under another name and on all interfaces of a machine: who is let in, and what the log and the disk tell.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup serve: a session with curl, a second instance, and how it ends.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

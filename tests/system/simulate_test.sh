@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup simulate: exit codes, outputs, and how faults are told.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

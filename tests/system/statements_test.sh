@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup paper: results of sweeps held against the paper's statements, by rows whose peaks are known.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # rpsup sweep: a sweep without a server, interrupted and taken up again, on one thread and on two.
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The account of what the paper leaves open: its table is that of its rows, and the program finds rows of it again.
 #   unknowns_test.sh RPSUP UNKNOWNS.JSON UNKNOWNS.CSV UNKNOWNS.MD
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

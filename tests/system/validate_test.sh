@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The validation as a whole: every comparison within its bound, and the report says what a fresh run finds.
 #   validate_test.sh RPSUP REPORT   rpsup-validate stands beside RPSUP
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"

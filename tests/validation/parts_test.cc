@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every line of the validation report is a test: one for each of its parts.
 
 #include <set>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report itself: what it writes, what it lets pass as the same, and its charts.
 
 #include <cmath>

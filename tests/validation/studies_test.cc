@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the study's chapters stand on: parts computed on threads, look-up by case, requests that the service takes.
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the page of a sweep draws and says of rows that no short sweep has: nearly equal, missing, decades apart.   node charts.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";

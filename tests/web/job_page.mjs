@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page of a job: while it waits, when it has failed, when the service was away, and under fingers.   node job_page.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The way through the dashboard with a small study: form, sweep, job, and back to the list.   node smoke.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";

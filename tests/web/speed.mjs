@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast the dashboard is with much to show: said, not asserted, for it is the machine's speed too.   node speed.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";

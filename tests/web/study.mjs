@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's study from the form to the linkage in motion, in what people see.   node study.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";

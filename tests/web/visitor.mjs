@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Visits the dashboard with Debian's Chromium as a user would, and notes whatever a user should never meet.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";

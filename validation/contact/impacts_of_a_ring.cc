@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a ring of elements does otherwise than the closed form in a single impact.
 
 #include <algorithm>

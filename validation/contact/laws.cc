@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the choice of the joint's laws does to the study: one law changed at a time.
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A free mass meets the bore: restitution, loss, depth, duration, instant of contact.
 
 #include <cmath>

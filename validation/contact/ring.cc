@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ring of elements against the integral that it is a sum for, and that integral against Hertz's law.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A journal held still in the bearing, tilted or shifted along its axis: forces and moments by hand.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Friction of a pressed journal that turns: one bristle for a ring, or one for each element that comes and goes.
 
 #include <cmath>

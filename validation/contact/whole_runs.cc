@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Why a whole run with elements has another peak than one with the closed form: one thing changed at a time.
 
 #include <string>

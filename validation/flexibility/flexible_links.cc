@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crank, rod and cross link as beams: cut out of the linkage, sagging in it, and stiff in it.
 
 #include <algorithm>

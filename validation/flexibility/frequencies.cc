@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Natural frequencies of the divided coupler from the engine's mass matrix and springs.
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The linkage at rest with its flexible coupler: it swings about its sag under gravity, bending about its own z axis.
 
 #include <algorithm>

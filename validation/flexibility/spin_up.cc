@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A long beam is spun up: bending under large rotation, stiffened by its own centrifugal force.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A clamped coupler under a load at its tip.
 
 #include <cmath>

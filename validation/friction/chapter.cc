@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/chapters.h"
 #include "validation/friction/parts.h"
 

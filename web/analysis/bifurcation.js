@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A channel once a turn over a number that is swept: one line of points where the motion repeats itself, a cloud where it does not.
 import { findAnalysis } from "/core/api.js";
 import { makeChart } from "/core/charts.js";

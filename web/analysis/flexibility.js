@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rigid and flexible jobs side by side.
 import { findAnalysis } from "/core/api.js";
 import { makeChart } from "/core/charts.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The largest exponent of each set of replicates.
 import { findAnalysis } from "/core/api.js";
 import { number } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The spectrum of a channel of a job, and its Poincaré section: made when they are opened.
 import { findMotion } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's seven statements about the largest slider acceleration, held against a sweep.
 import { analysisUrl, findAnalysis } from "/core/api.js";
 import { h } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the charts of the analyses have in common.
 import { axisLook } from "/core/charts.js";
 import { h } from "/core/dom.js";

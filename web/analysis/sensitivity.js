@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sobol's indices as bars with their intervals; Morris' effects as places: size across, scatter up.
 import { findAnalysis } from "/core/api.js";
 import { axisLook, makeChart } from "/core/charts.js";

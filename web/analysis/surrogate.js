@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A surrogate as a surface of colours (or a line over a single number), never without the points that it stands on.
 import { findAnalysis } from "/core/api.js";
 import { makeChart } from "/core/charts.js";

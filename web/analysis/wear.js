@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What sliding wears off the bore, drawn around it: a bar outwards in each sector, a colour for each ring along the length.
 import { findWear } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";

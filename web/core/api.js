@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only place that asks the service.
 
 /// What the service refused, with every fault and its place in the request.

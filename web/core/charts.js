@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes charts with ECharts, in the page's colours. The library is part of the program unless it was built without npm.
 import { h } from "/core/dom.js";
 import { save, saveCanvas } from "/core/download.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { h } from "/core/dom.js";
 
 /// Asks before something that cannot be undone. Resolves to whether it is wanted.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds elements. Every text goes in as text, never as markup.
 
 /// An element; attributes that are false or null are left out, functions listen to the event of their name ("onclick").

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { h, notify } from "/core/dom.js";
 
 /// Hands a file to the user that this page has made.

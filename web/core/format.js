@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that writes numbers, names and units.
 
 // The first that fits counts.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows sweeps and studies as they run: by server-sent events, and by asking again where those are not to be had.
 import { eventsUrl, findSweep, isAway } from "/core/api.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads the modules of views. One that failed is kept as such by some browsers: only a new page asks for it again, and how often that was tried outlives it.
 import { findHealth } from "/core/api.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The address of a view: #/KIND/ID?key=value. Every view can be linked to.
 
 /** @returns {{ kind: string, id: string, query: URLSearchParams }} */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours: light or dark, and the palettes of values. Both are kept for the next visit.
 import { part } from "/core/dom.js";
 

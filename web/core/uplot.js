@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads uPlot with its style sheet. It draws a hundred thousand points in a few milliseconds, which zooming and panning need.
 import { h } from "/core/dom.js";
 

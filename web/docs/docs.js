@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shows the OpenAPI document of this service, with a form for each request. Nothing is asked of another site.
 window.SwaggerUIBundle({
   url: "/v1/openapi.json",

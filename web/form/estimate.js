@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a request will cost, from what earlier jobs of the same kind have cost.
 import { findResults, listJobs } from "/core/api.js";
 

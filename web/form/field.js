@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One parameter in the form: a value, a list or a range; or words to choose among.
 import { freshId, h } from "/core/dom.js";
 import { nameOf } from "/core/format.js";

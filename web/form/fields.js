@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameters of the service's JSON Schema as fields of a form.
 
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From what stands in the form to a request, and back.
 import { faultOf } from "/form/fields.js";
 

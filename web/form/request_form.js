@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the forms of sweeps, searches and wear studies have in common: the parameters' fields, the request that they make, and the service's refusals.
 import { Refusal } from "/core/api.js";
 import { choice, freshId, h, notify } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A new search: which parameter, along which way, and which metric may not exceed what.
 import { searches } from "/core/api.js";
 import { h } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the forms of searches and wear studies have in common: values that the service's description of the request explains.
 import { parameterSchema, requestSchemas } from "/core/api.js";
 import { h } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A new wear study: until when the bearing wears, and in which steps.
 import { wearStudies } from "/core/api.js";
 import { h } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the results of a sweep say: each answer in a card of its own, asked for when it can be given.
 import { findResults, findSweep, reportUrl } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";

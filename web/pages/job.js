@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One job, or several laid over each other: what the slider and the journal did, and why.
 import { cancelJob, findJob, findSweep, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
 import { choice, h, notify, part } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A new sweep: a form made from the service's own description of its parameters.
 import { exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
 import { choice, h } from "/core/dom.js";

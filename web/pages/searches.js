@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a parameter may go: the list of searches, the form of a new one, and the view of one.
 import { searches } from "/core/api.js";
 import { exact, nameOf, titleOf, unitOf } from "/core/format.js";

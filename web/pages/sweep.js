@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One sweep: its metrics over its axes, in parts that share what is selected.
 import { cancelSweep, findAnalysis, findResults, findSweep, listSweeps, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";

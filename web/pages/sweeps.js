@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of sweeps, up to date by itself.
 import { cancelSweep, deleteSweep, findSweep, listExecutors, listSweeps, retrySweep } from "/core/api.js";
 import { loadCharts } from "/core/charts.js";

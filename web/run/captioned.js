@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An image to save, which says what it shows.
 import { contextOf } from "/core/dom.js";
 import { colour } from "/core/theme.js";

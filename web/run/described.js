@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What there is to see of a linkage that is described: everything goes by the names of its joints.
 
 /// Whether a job describes its linkage, instead of naming the RPSUP linkage.

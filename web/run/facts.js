@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a job's result is, in tables: metrics, how it was run, its parameters.
 import { h } from "/core/dom.js";
 import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The run of the ideal linkage that a job is compared with: same drives, rigid links, no clearance.
 import { findJob, submitJob } from "/core/api.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What tells several jobs apart.
 import { pointOf } from "/core/format.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The journal's path inside the clearance circle, coloured by time or by contact force.
 import { findTrajectory } from "/core/api.js";
 import { choice, contextOf, h } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the journal's orbit is painted.
 import { contextOf } from "/core/dom.js";
 import { number } from "/core/format.js";

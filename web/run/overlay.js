@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses another job of the same sweep, to be laid over this one.
 import { findResults, findSweep } from "/core/api.js";
 import { choice } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole run in a strip. The stretch that all plots show is marked in it; drawing over the strip sets another one.
 import { h, laidOut } from "/core/dom.js";
 import { nameOf } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the metrics know of the curves: peaks are found inside the steps of the integration, curves join samples.
 import { nameOf, number, unitOf } from "/core/format.js";
 import { labelsOf } from "/run/labels.js";

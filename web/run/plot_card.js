@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plot over time in a card, with its buttons.
 import { h } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";

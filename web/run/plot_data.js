@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data of a plot: columns of several jobs on one time axis.
 import { findTrajectory } from "/core/api.js";
 

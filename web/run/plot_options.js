@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a plot over time looks and answers to the pointer, in uPlot's words.
 import { number, unitOf } from "/core/format.js";
 import { colour, isDark } from "/core/theme.js";

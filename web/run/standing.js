@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a job stands that has no result: not yet, or not at all.
 import { h } from "/core/dom.js";
 import { moment, number, plural, span } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sets the stretch of time that all plots show.
 import { h } from "/core/dom.js";
 import { number } from "/core/format.js";

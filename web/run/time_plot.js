@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
 import { h, laidOut } from "/core/dom.js";
 import { latest, persist, seldom, settled } from "/core/live.js";

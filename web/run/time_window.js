@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stretch of time that is looked at, and the instant pointed at: the same for all plots of a job.
 
 export class TimeWindow extends EventTarget {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A described linkage as three.js sees it: bars between the places where joints sit on a body, a mark for each joint, tubes for beams.
 const colours = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
 const kindsWithAxis = new Set(["revolute", "cylindrical", "screw"]);

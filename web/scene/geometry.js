@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places of the RPSUP linkage in the global frame {0}, from its parameters.
 const stepsOfTurn = 24;
 

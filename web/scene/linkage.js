@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The linkage as three.js sees it: made once from the parameters, then moved from instant to instant.
 import { bushAlongZ, glassBox, measuresOf, rodAlongX, rodAlongZ } from "/scene/shapes.js";
 

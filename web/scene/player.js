@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lets the instant run on, at a part of the real speed, and slower still through impacts.
 
 const slowdown = 50;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the links are at an instant. Poses are fetched in stretches of time, each fine enough for the speed at which it is played.
 import { findTrajectory } from "/core/api.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The linkage in 3-D, with what plays it.
 import { findTrajectory } from "/core/api.js";
 import { choice, h, part } from "/core/dom.js";

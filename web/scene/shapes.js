@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The links' shapes, from the parameters: lengths and bearing as they are given, thicknesses from mass and inertia.
 
 import { guideOf, rodEnds } from "/scene/geometry.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Camera, lights and ground for the linkage. It draws only when something has changed.
 import { colour, isDark, onColours } from "/core/theme.js";
 import { viewerOf } from "/scene/upright.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads three.js, which draws the linkage.
 
 let library = null;

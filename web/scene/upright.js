@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The direction that is up in the picture, against gravity, and the directions of the viewer by it.
 
 const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };

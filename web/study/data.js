@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of a sweep, grouped by its axes.
 
 const notMetrics = new Set(["job_id", "state", "replicate", "replicates"]);

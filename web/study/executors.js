@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What computes, for a service with a cluster: its slots, tasks and nodes, and what somebody should look at.
 import { h } from "/core/dom.js";
 import { plural } from "/core/format.js";

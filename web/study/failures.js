@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Why the jobs of a sweep failed: asked for apart, for few do.
 import { findResults } from "/core/api.js";
 import { persist } from "/core/live.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A metric over two axes, one panel for each value of a third.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The names of lines above a chart: all of them in as many rows as they take, so that a saved picture has them, too.
 import { contextOf } from "/core/dom.js";
 

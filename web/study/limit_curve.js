@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The limit over the first numeric axis, a line for each combination of the others; between "all within" and "none within" the band.
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The evaluations of one combination: the metric over the parameter, with the spread of the replicates, the bound and the limit.
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, titleOf, unitOf } from "/core/format.js";

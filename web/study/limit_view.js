@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One search: its limits over the axes, with the evaluations that they stand on.
 import { searches } from "/core/api.js";
 import { choice, h } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A metric over one axis, a line for each value of a second one (and of the panels' axis), with the spread of what lies together.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which axes of the lines are logarithmic: boxes for those whose values lie decades apart.
 import { h, part } from "/core/dom.js";
 import { nameOf } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is said of jobs that were computed and yet have no value of the metric.
 import { nameOf, plural } from "/core/format.js";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parallel coordinates: a line for each job over the axes and some metrics. Brushing an axis selects jobs.
 import { makeChart, nothingYet } from "/core/charts.js";
 import { exact, number, plural, titleOf } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The jobs that are selected: one set for all parts of a sweep's page.
 
 export class Selection extends EventTarget {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far an axis reaches: so far that rounding does not look like an effect, and by decades where values lie decades apart.
 
 const leastSpan = 1e-3;  // of the largest value: what differs by less is drawn as nearly equal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of studies of one kind, up to date by itself.
 import { h } from "/core/dom.js";
 import { moment } from "/core/format.js";

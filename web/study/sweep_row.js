@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One sweep in the list: its row is made once and then kept up to date.
 import { findResults } from "/core/api.js";
 import { h, setSeen } from "/core/dom.js";

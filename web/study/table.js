@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of a sweep as a table: sorted by any column, a page at a time.
 import { h } from "/core/dom.js";
 import { nameOf, number, unitOf } from "/core/format.js";

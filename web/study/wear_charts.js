@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bore of a wear study around the bearing, a curve for some of its cycles; and its largest depth over the hours.
 import { axisLook, makeChart } from "/core/charts.js";
 import { number } from "/core/format.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One wear study: the bore over its cycles, and how its depth grows.
 import { wearStudies } from "/core/api.js";
 import { choice, h } from "/core/dom.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One job in this program, in MuJoCo and in Simbody, by turns in one run.
 //   bench_codes [REPEATS]
 //   bench_codes mujoco      only the processor time of MuJoCo's RK4 run of the rigid job, [s]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a job, each by itself, with Google Benchmark: bench_parts --help
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long the program takes to say that it listens, on a store with many jobs.
 //
 // usage: bench_server_start PROGRAM [sweeps] [jobs of each]

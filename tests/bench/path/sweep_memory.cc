@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether memory stays flat: this process' memory after sweeps of more and more jobs without a simulation, and what a large sweep
 // takes while it is submitted and while its results are read.
 //

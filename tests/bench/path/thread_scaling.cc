@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How many times the jobs of one thread two threads do, by turns in some rounds, of which the median counts. The ratio of passing times is
 // only right on a quiet machine, so what it is made of is printed, too: how much dearer a job is beside another one, how long threads wait
 // for each other, and what the machine gives to two threads that do nothing but simulate, without queue or store.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How large a stored trajectory is beside the JSON that the service answers with, all channels, default output (5 s at 1 kHz).
 // Also what encoding and decoding it costs.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The parts of the working tree against those of another commit, by turns in one run. Sourced by script/bench; $1 the commit, $2 a filter.
 # A part has become slower if both its least and its median time have, by more than $most_ratio: one alone is noise.
 commit=$(git rev-parse --verify --quiet "$1^{commit}") || { echo "script/bench: $1 is no commit" >&2; exit 2; }

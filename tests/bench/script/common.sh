@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # For script/bench and the parts of it. Sourced; expects $root.
 
 # What the benchmarks need beside the packages of script/setup.

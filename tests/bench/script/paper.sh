@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The paper's study (40 jobs of 5 s) from POST to the last result stored, on two threads, against MuJoCo's RK4 run of one rigid job.
 # Sourced by script/bench.
 export no_proxy=127.0.0.1 NO_PROXY=127.0.0.1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Peaks of loads inside integration steps: of a given function of time, and of whole runs against fine ones.
 
 #include "engine/analysis/stepped_peak.h"

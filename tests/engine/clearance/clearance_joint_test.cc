@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Contact of a whole journal: the pruned ring of elements against all of its elements, bristles that follow it. Statics of a tilted
 // journal, its faces, and the ring's limit: validation/contact.
 

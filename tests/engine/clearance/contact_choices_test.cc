@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The laws that a study may choose from: damping, stiffness and friction of the joint, each against its own closed form.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The normal law's limits and its latch. Rebounds, depths and times of whole impacts: validation/contact; friction: validation/friction.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Contact elements taken eight at a time against the same elements one by one, all of a ring, with every law of friction.
 
 #include <algorithm>

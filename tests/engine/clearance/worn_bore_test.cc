@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bore that is worn: how far a journal gets in it against closed forms, the force of its walls, whole runs.
 
 #include "engine/clearance/worn_bore.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Jacobian of the equations of motion against differences of themselves, and the instruction sets against each other.
 
 #include <algorithm>

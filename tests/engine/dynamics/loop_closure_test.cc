@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where two solved instants lead. The solved motion itself: the validation's chapter on kinematics.
 
 #include "engine/dynamics/loop_closure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Springs and dampers between points of two bodies, against closed forms.
 
 #include <cmath>

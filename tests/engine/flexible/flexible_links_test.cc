@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crank, rod and cross link as flexible links: that all methods and drives cope with them. Beam theory is part of the validation.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a rod is cut: masses, moments, dampers. Deflections and frequencies of the divided rod: validation/flexibility.
 #include "engine/flexible/rfem.h"
 

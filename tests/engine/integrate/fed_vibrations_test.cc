@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vibrations that grow, found where their eigenvalues are known; and methods of integration that go on after others have used their system.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Samples, interpolation and events on problems whose answer is known. Orders and instants of contact: validation/integrators.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Radau IIA of order 5: its coefficients by their definition, its accuracy, and what it takes from one step to the next.
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The RODAS methods' coefficients by the order conditions, their order, stability and place among Odeint's steppers.
 
 #include <algorithm>

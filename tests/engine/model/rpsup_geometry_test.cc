@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The linkage's geometry and the laws of its rod against formulas written out here.
 
 #include <gtest/gtest.h>

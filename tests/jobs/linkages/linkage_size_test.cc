@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Described linkages that are too large, by themselves or for a sweep of many jobs.
 
 #include <string>

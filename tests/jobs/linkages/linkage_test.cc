@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Described linkages as parameters of a job: the examples, what is refused and where, sweeps over numbers inside a description.
 
 #include <algorithm>

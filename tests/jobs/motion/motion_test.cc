@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spectra, sections and exponents of motions whose answers are known.
 
 #include <cmath>

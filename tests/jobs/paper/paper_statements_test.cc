@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's seven statements held against tables whose peaks are known.
 
 #include "jobs/paper/paper_statements.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameter of a worn bore: what is refused, and that it is part of what a job is.
 
 #include "jobs/parameters/wear_depth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One set of parameters has one canonical text, however it was written.
 
 #include <algorithm>

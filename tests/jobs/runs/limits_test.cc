@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a job and a store may take, and what becomes of what would take more.
 
 #include <new>

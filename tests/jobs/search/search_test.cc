@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Searches on a service whose first metric is sqrt(1000 crank_velocity + c_r).
 
 #include <chrono>

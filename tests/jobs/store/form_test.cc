@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stores of former programs are brought to the newest form.
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/jobs/store/losing_disk.h"
 
 #include <algorithm>

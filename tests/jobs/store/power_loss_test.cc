@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What has been acknowledged is there after the power was lost, at whatever moment.
 
 #include <random>

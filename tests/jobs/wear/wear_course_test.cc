@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bore that wears step by step, against closed forms.
 
 #include "jobs/wear/wear_course.h"

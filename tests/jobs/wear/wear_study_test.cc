@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wear studies on a service whose journal slides steadily in the direction of 1 rad.
 
 #include <algorithm>

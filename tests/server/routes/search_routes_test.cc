@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Searches over a service whose metric number 0 is the clearance in mm.
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the routes promise beyond their bodies: idempotency, conditional requests, waiting, forms of a table.
 
 #include <chrono>

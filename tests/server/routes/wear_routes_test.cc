@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wear studies over a service whose rings slide with 1 J in each millisecond, whatever the bore.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A service with a fake cluster of 10,000 slots, and a number of jobs of a millisecond: what they cost the service, and whether it grows.
 //   capacity JOBS [SAMPLES]  the trial; of each trajectory, 3 if left out
 //   capacity --slurm FOLDER sbatch|squeue|scancel|scontrol ...   the cluster's commands

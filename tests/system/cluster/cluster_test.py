@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The paper's sweep on a Slurm cluster of two nodes, undisturbed and disturbed: always the bytes of the local pool.
 
 cluster_test.py PROGRAM PAPER.JSON [TRIAL...]"""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs the commands that CLUSTER.md shows below a line `<!-- run by a test -->`, against a real cluster: guide_test.py PROGRAM CLUSTER.MD"""
 
 import re

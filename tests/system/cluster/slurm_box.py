@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A throw-away Slurm cluster of plain processes in one folder: no systemd, no cgroups, no database, nothing under /etc. Loopback only.
 
 Tried with Slurm 22.05 (Debian 12); the settings for newer ones are from Slurm's own documentation of cgroup.conf.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Clients that submit and read while something fails, and what must be true of the service afterwards."""
 
 import time

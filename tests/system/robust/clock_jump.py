@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The machine's clock goes back by an hour and forward by a day while jobs run (libfaketime): clock_jump.py PROGRAM"""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Many clients that do little beside one that wants answers: crowd.py PROGRAM [--seconds N] [--judge]
 
 Slow heads, slow bodies and slow readers, each on more connections than there are threads, at a byte a second; then a thousand connections

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Damages what a killed service has left and starts it again: damage_loop.py PROGRAM [--rounds N] [--seed N]
 
 The log (WAL) is cut short or has bits flipped at random places, the index (-shm) is deleted or overwritten: the service starts, the store

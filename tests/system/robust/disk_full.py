@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Takes the room on the disk away while jobs run, and gives it back: disk_full.py PROGRAM tmpfs|enospc|quota|size_limit
 
 tmpfs       a file system of 3 MiB of its own, filled by another file; needs the right to mount one

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """SIGTERM while two jobs run, a client follows events and others are in the middle of a request: drain_test.py PROGRAM"""
 
 import http.client

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Failing system calls, by libfiu (Debian's fiu-utils), switched on and off while a program runs."""
 
 import shutil

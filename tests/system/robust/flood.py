@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Requests that are too large in every way: flood.py PROGRAM
 
 Each is refused or cut off before it has been sent, and the process does not grow with it.

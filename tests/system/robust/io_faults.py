@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """System calls fail now and then while clients submit and read (libfiu): io_faults.py PROGRAM [--rounds N] [--seed N]
 
 First each kind of call fails for sure, and whoever needs it is refused: the faults do reach the service. Then, in every round, one kind fails

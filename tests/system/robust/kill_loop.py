@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Kills the service with SIGKILL at random moments while clients submit, cancel and read, again and again, in one store.
 
 kill_loop.py PROGRAM [--rounds N] [--seed N] [--longest SECONDS]

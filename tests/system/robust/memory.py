@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Memory runs out: memory.py PROGRAM [--rounds N] [--seed N]
 
 Allocations fail at random while clients submit and read (libfiu): the service lives, refuses with 503, and everything that was acknowledged is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The program itself, driven from outside, for the tests of what must not get lost. Python's standard library only."""
 
 import atexit

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Months of use in a few minutes: soak.py PROGRAM [--jobs N] [--gets N]
 
 Sweeps are submitted, computed, read in every form and deleted again, and what is missing is asked for. The memory of the process, its files,

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Writes a store as a program makes it, for the test that later programs take it over: make_form.sh RPSUP >form_N.sql
 # To be run before a change of the store's form, with the last program that does not know it.
 set -euo pipefail
