@@ -31,8 +31,16 @@ void set_reuse_address(socket_t socket) {
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// Takes out of a request what makes the library do much work for little: compressing with brotli at its slowest setting.
-void disarm(httplib::Request& request) { request.headers.erase("Accept-Encoding"); }
+/// Has a request say what its client has sent, without the headers that would make the library compress, with brotli at
+/// its slowest setting, answer any number of ranges, and refuse those that it does not understand; whoever does not serve
+/// ranges ignores them.
+void fill(httplib::Request& request, RequestHead head) {
+  head.headers.erase("range");
+  head.headers.erase("accept-encoding");
+  request.path = std::move(head.path);
+  request.params = {head.query.begin(), head.query.end()};
+  request.headers = {head.headers.begin(), head.headers.end()};
+}
 
 /// What the handler wants to follow the head of the answer. The library calls a handler on the thread that serves the connection,
 /// and tells it nothing of the connection.
@@ -141,10 +149,12 @@ void GuardedServer::serve(HttpStream& stream) {
   if (const auto fault = find_fault_in_head(stream.head(), limits_.body_bytes)) {
     return refuse(stream, fault->status, fault->detail);
   }
-  // The library would answer any number of ranges, and refuse those that it does not understand; whoever does not serve ranges ignores them.
-  stream.replace_head(without_header(stream.head(), "range"));
+  // Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or refuse, and
+  // in how they take a query apart: the library is shown method and version alone, and told what the rest says.
+  RequestHead head = read_head(stream.head());
+  stream.replace_head(head.request_line + "\r\n\r\n");
   bool connection_closed = true;
-  process_request(stream, true, connection_closed, disarm);
+  process_request(stream, true, connection_closed, [&head](httplib::Request& request) { fill(request, std::move(head)); });
 }
 
 void GuardedServer::refuse(HttpStream& stream, int status, const std::string& detail) {

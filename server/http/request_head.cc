@@ -24,6 +24,12 @@ bool has_control_character(std::string_view line) {
   return std::any_of(line.begin(), line.end(), [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
 }
 
+/// Of a token, as which RFC 9110 writes names (section 5.6.2).
+bool is_token_character(unsigned char c) {
+  constexpr std::string_view kSigns = "!#$%&'*+-.^_`|~";
+  return (c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos;
+}
+
 /// What the header lines say about the length of the body and the name of the host.
 struct Framing {
   int host_count = 0;
@@ -35,8 +41,9 @@ struct Framing {
 
 std::optional<Refusal> read_header_line(std::string_view line, Framing& framing) {
   const auto colon = line.find(':');
-  if (colon == std::string_view::npos || colon == 0 || line.find_first_of(" \t") < colon) {
-    return Refusal{400, "a header line has no name"};
+  if (colon == std::string_view::npos || colon == 0) return Refusal{400, "a header line has no name"};
+  if (!std::ranges::all_of(line.substr(0, colon), is_token_character)) {
+    return Refusal{400, "the name of a header is no token"};
   }
   const std::string name = lower(line.substr(0, colon));
   const std::string_view value = trimmed(line.substr(colon + 1));
@@ -45,7 +52,7 @@ std::optional<Refusal> read_header_line(std::string_view line, Framing& framing)
     ++framing.length_count;
     framing.length = value;
   }
-  // The library drops headers without a value: the request would be taken as one without a key, and stored again when it comes again.
+  // A proxy may drop headers without a value: the request would come as one without a key, and be stored twice.
   if (name == "idempotency-key" && value.empty()) return Refusal{400, "Idempotency-Key has no value"};
   if (name == "transfer-encoding") {
     ++framing.encoding_count;
@@ -88,6 +95,50 @@ std::optional<Refusal> find_fault_in_request_line(std::string_view line) {
   return std::nullopt;
 }
 
+/// The number that a hexadecimal digit stands for; empty for another character.
+std::optional<unsigned> hex_digit(char c) {
+  unsigned digit = 0;
+  const auto [end, error] = std::from_chars(&c, &c + 1, digit, 16);
+  return error == std::errc{} && end == &c + 1 ? std::optional(digit) : std::nullopt;
+}
+
+/// Decodes each "%" with two hexadecimal digits once (RFC 3986, section 2.1); what is no such triplet stays.
+std::string percent_decoded(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : std::nullopt;
+    const auto low = high ? hex_digit(text[i + 2]) : std::nullopt;
+    result += low ? static_cast<char>(*high * 16 + *low) : text[i];
+    if (low) i += 2;
+  }
+  return result;
+}
+
+/// A key or a value of a query, which forms write with "+" for a blank.
+std::string query_text(std::string_view text) {
+  std::string result(text);
+  std::ranges::replace(result, '+', ' ');
+  return percent_decoded(result);
+}
+
+void read_request_line(std::string_view line, RequestHead& result) {
+  const auto start = line.find(' ') + 1;
+  std::string_view target = line.substr(start, line.find(' ', start) - start);
+  result.request_line.append(line.substr(0, start)).append("/").append(line.substr(start + target.size()));
+  target = target.substr(0, target.find('#'));
+  const auto mark = std::min(target.find('?'), target.size());
+  result.path = percent_decoded(target.substr(0, mark));
+  target.remove_prefix(std::min(mark + 1, target.size()));
+  while (!target.empty()) {
+    const std::string_view item = target.substr(0, target.find('&'));
+    target.remove_prefix(std::min(item.size() + 1, target.size()));
+    if (item.empty()) continue;
+    const auto equals = std::min(item.find('='), item.size());
+    const std::string_view value = item.substr(std::min(equals + 1, item.size()));
+    result.query.emplace_back(query_text(item.substr(0, equals)), query_text(value));
+  }
+}
+
 /// The name in a Host header: no port, no brackets, no dot at its end, in lower case.
 std::string bare_host(const std::string& host) {
   std::string name = lower(host);
@@ -122,14 +173,21 @@ std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t bod
   return find_fault_in_framing(framing, body_bytes);
 }
 
-std::string without_header(std::string_view head, std::string_view name) {
-  std::string kept;
-  while (!head.empty()) {
-    const std::string_view line = head.substr(0, head.find("\r\n") + 2);
-    head.remove_prefix(line.size());
-    if (lower(line.substr(0, line.find(':'))) != name) kept += line;
+RequestHead read_head(std::string_view head) {
+  RequestHead result;
+  const auto take_line = [&head] {
+    const std::string_view line = head.substr(0, head.find("\r\n"));
+    head.remove_prefix(line.size() + 2);
+    return line;
+  };
+  read_request_line(take_line(), result);
+  for (std::string_view line = take_line(); !line.empty(); line = take_line()) {
+    const auto colon = line.find(':');
+    const std::string_view value = trimmed(line.substr(colon + 1));
+    const auto [header, is_first] = result.headers.try_emplace(lower(line.substr(0, colon)), value);
+    if (!is_first) header->second.append(", ").append(value);
   }
-  return kept;
+  return result;
 }
 
 OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed, std::vector<std::string> names)

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace server {
@@ -26,9 +28,17 @@ inline constexpr std::size_t kMaxLineBytes = 8000;
 /// @returns what is wrong with it, if anything
 [[nodiscard]] std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes);
 
-/// A head that has passed find_fault_in_head without the lines of one header.
-/// @param name  in lower case
-[[nodiscard]] std::string without_header(std::string_view head, std::string_view name);
+/// A head that has passed find_fault_in_head, taken literally: nothing but the target is decoded, and that once.
+struct RequestHead {
+  std::string request_line;  ///< without its line end, and with "/" in the place of the target
+  std::string path;          ///< percent-decoded
+  /// Keys and values, percent-decoded, with blanks for "+".
+  std::vector<std::pair<std::string, std::string>> query;
+  /// Values by name in lower case. Lines of one name are one list (RFC 9110, section 5.3).
+  std::map<std::string, std::string> headers;
+};
+
+[[nodiscard]] RequestHead read_head(std::string_view head);
 
 /// Examines what names this server and where a request comes from. A page of another site that a user's browser shows
 /// must not reach this service, neither under a name that resolves to it nor by a form or a script.

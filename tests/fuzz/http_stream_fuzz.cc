@@ -15,6 +15,7 @@
 
 #include "server/http/http_guard.h"
 #include "server/messages/problem.h"
+#include "server/messages/trimmed.h"
 #include "tests/fuzz/expect.h"
 
 namespace {
@@ -29,14 +30,22 @@ server::HttpLimits short_limits() {
   return limits;
 }
 
-/// A guarded server that answers every request with the body that it had; it lives as long as the fuzzer.
+/// Headers as the handlers see them, each on a line of its own.
+std::string seen_of(const httplib::Request& request) {
+  std::string text = "\n";
+  for (const auto& [name, value] : request.headers) text += name + ": " + value + "\n";
+  return text;
+}
+
+/// A guarded server that answers every POST with the body that it had, and every other request with its head as seen.
+/// It lives as long as the fuzzer.
 class Target {
  public:
   Target() {
     spdlog::set_level(spdlog::level::off);
     guard_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
       if (request.method == "POST") return httplib::Server::HandlerResponse::Unhandled;
-      response.set_content(request.method + " " + request.path, "text/plain");
+      response.set_content(seen_of(request), "text/plain");
       return httplib::Server::HandlerResponse::Handled;
     });
     guard_.Post(R"([\s\S]*)", [](const httplib::Request&, httplib::Response& response, const httplib::ContentReader& reader) {
@@ -86,6 +95,31 @@ class Target {
   int port_ = 0;
 };
 
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+/// @param seen  what seen_of made of the request
+void check_headers(std::string_view request, const std::string& seen) {
+  request = request.substr(0, request.find("\r\n\r\n") + 2);
+  request.remove_prefix(request.find("\r\n") + 2);
+  while (!request.empty()) {
+    const std::string_view line = request.substr(0, request.find("\r\n"));
+    request.remove_prefix(line.size() + 2);
+    const std::string name = lower(line.substr(0, line.find(':')));
+    if (name == "range" || name == "accept-encoding") continue;
+    const auto begin = seen.find("\n" + name + ": ");
+    fuzz::expect(begin != std::string::npos, "a header that was sent is seen");
+    const std::string value = seen.substr(begin, seen.find('\n', begin + 1) - begin).substr(name.size() + 3);
+    const std::string_view sent = server::trimmed(line.substr(line.find(':') + 1));
+    fuzz::expect(value.find(sent) != std::string::npos, "the value of a header is seen as it was sent");
+  }
+}
+
 void check_answer(std::string_view request, const std::string& answer) {
   if (answer.empty()) return;
   fuzz::expect(answer.starts_with("HTTP/1.1 ") && answer.size() > 12, "an answer begins with its status");
@@ -98,6 +132,8 @@ void check_answer(std::string_view request, const std::string& answer) {
   if (length == std::string::npos || length > end || request.starts_with("HEAD ")) return;
   const auto bytes = std::stoull(answer.substr(length + kLength.size()));
   fuzz::expect(answer.size() == end + 4 + bytes, "one connection, one answer");
+  const bool shows_head = answer.substr(start + 9, 3) == "200" && !request.starts_with("POST ");
+  if (shows_head) check_headers(request, answer.substr(end + 4));
 }
 
 }  // namespace

@@ -421,10 +421,49 @@ TEST(HttpCors, LetsTheSitesOnTheListIn) {
   http.stop();
 }
 
+TEST_F(Http, TakesHeadersLiterally) {
+  EXPECT_EQ(status_of(ask("GET /healthz HTTP/1.1\r\nHost: localhost%00.evil.example\r\n\r\n")), 403);
+  EXPECT_EQ(status_of(ask("GET /healthz HTTP/1.1\r\nHost: %6cocalhost\r\n\r\n")), 403);
+  const std::string request = R"({"sweep": {"clearance_mm": [0.1]}})";
+  for (const char* const key : {"kA", "k%41", "k%2541", "k%u0041"}) {
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(status_of(post("/v1/sweeps", request, std::string("Idempotency-Key: ") + key + "\r\n")), 201) << key;
+  }
+  EXPECT_EQ(sweep_count(), 4U) << "one for each key";
+  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://localhost\r\nContent-Type: application%2Fjson\r\n")), 415);
+  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Origin: http://%6cocalhost\r\n")), 403);
+  EXPECT_EQ(status_of(get("/v1/sweeps", "Sec-Fetch-Site: %6eone\r\n")), 403);
+  EXPECT_EQ(status_of(post("/v1/sweeps", request, "Content-Encoding: %67zip\r\n")), 415);
+  EXPECT_EQ(status_of(get("/", "If-None-Match: %2a\r\n")), 200);
+  EXPECT_EQ(status_of(get("/", "If-None-Match: \"a\"\r\nIf-None-Match: *\r\n")), 304) << "two lines are one list";
+  EXPECT_EQ(status_of(get("/", std::string("X: a") + '\0' + "b\r\n")), 400);
+}
+
+TEST(HttpToken, IsTakenLiterally) {
+  Bench bench;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0, .token = "correct%41horse%2541battery"}, short_limits());
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
+  const auto status_with = [port](const std::string& headers) {
+    RawClient client(port);
+    client.send("GET /v1/sweeps HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n");
+    return status_of(client.read_all());
+  };
+  EXPECT_EQ(status_with("Authorization: Bearer correct%41horse%2541battery\r\n"), 200);
+  EXPECT_EQ(status_with("Authorization: Bearer correctAhorse%41battery\r\n"), 401);
+  EXPECT_EQ(status_with("Authorization: Bearer correct%2541horse%252541battery\r\n"), 401);
+  EXPECT_EQ(status_with("Authorization: Bearer correct%41horse%2541battery\r\nAuthorization: Bearer a\r\n"), 401);
+  http.stop();
+}
+
 TEST_F(Http, DecodesThePathAndTheQuery) {
   EXPECT_EQ(status_of(get("/v1/%73weeps?limit=%35")), 200);
   EXPECT_EQ(status_of(get("/v1/sweeps?limit=%35%35%35%35%35")), 422);
   EXPECT_EQ(status_of(get("/%0a")), 404);
+  EXPECT_EQ(status_of(get("/v1/%2573weeps")), 404) << "decoded once";
+  EXPECT_EQ(status_of(get("/v1/sweeps?limit=%2535")), 422) << "decoded once";
+  EXPECT_EQ(status_of(get("/v1/%u0073weeps")), 404) << "RFC 3986 knows two digits";
+  EXPECT_EQ(status_of(get("/v1/sweeps?limit=5&limit=5")), 422) << "given more than once";
 }
 
 TEST_F(Http, SendsNoLengthWithoutContent) {
