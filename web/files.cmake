@@ -99,16 +99,16 @@ set(page_files
   style/parts.css
   style/plot.css)
 
-# Of the packages: SERVED=FILE.
+# Of the packages: SERVED=FILE, each after those that it imports.
 set(page_packages
   docs/swagger-ui-bundle.js=swagger-ui-dist/swagger-ui-bundle.js
   docs/swagger-ui.css=swagger-ui-dist/swagger-ui.css
   lib/echarts.js=echarts/dist/echarts.esm.min.js
-  lib/orbit_controls.js=three/examples/jsm/controls/OrbitControls.js
   lib/three.core.js=three/build/three.core.js
   lib/three.module.js=three/build/three.module.js
+  lib/orbit_controls.js=three/examples/jsm/controls/OrbitControls.js
   lib/uplot.css=uplot/dist/uPlot.min.css
   lib/uplot.js=uplot/dist/uPlot.esm.js)
 
 # Browsers know no packages: a module that is imported by the NAME before "=" is taken from there.
-set(page_imports three=/lib/three.module.js)
+set(page_imports three=/lib/three.module.js ./three.core.js=/lib/three.core.js)

@@ -236,6 +236,7 @@ class HttpServer::Impl {
     request.path = from.path;
     request.query.assign(from.params.begin(), from.params.end());
     request.accept = from.get_header_value("Accept");
+    request.accept_encoding = from.get_header_value(kAcceptEncoding);
     request.if_none_match = from.get_header_value("If-None-Match");
     request.prefer = from.get_header_value("Prefer");
     request.last_event_id = from.get_header_value("Last-Event-ID");

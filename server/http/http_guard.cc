@@ -31,12 +31,14 @@ void set_reuse_address(socket_t socket) {
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// Has a request say what its client has sent, without the headers that would make the library compress, with brotli at
-/// its slowest setting, answer any number of ranges, and refuse those that it does not understand; whoever does not serve
-/// ranges ignores them.
+/// Has a request say what its client has sent, but no ranges: the library would answer any number of them, and refuse
+/// those that it does not understand; whoever does not serve ranges ignores them.
 void fill(httplib::Request& request, RequestHead head) {
   head.headers.erase("range");
-  head.headers.erase("accept-encoding");
+  if (auto encoding = head.headers.extract("accept-encoding")) {
+    encoding.key() = kAcceptEncoding;
+    head.headers.insert(std::move(encoding));
+  }
   request.path = std::move(head.path);
   request.params = {head.query.begin(), head.query.end()};
   request.headers = {head.headers.begin(), head.headers.end()};

@@ -14,6 +14,10 @@
 
 namespace server {
 
+/// Name of Accept-Encoding in the requests that GuardedServer hands on: under its own name it would make the library
+/// compress, with brotli at its slowest setting. No client can send a name with blanks.
+inline constexpr const char* kAcceptEncoding = "Accept-Encoding of the client";
+
 /// The library's server behind a guard. As it stands, the library reads heads without end, waits without end, believes
 /// Range headers to the last one, keeps its few threads for clients that do nothing, and ends when it cannot accept a
 /// connection or has no memory for one; here a connection carries one request, within HttpLimits, and is closed.

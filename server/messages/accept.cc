@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace server {
 
 namespace {
 
+/// A media range, or a content coding.
 struct MediaRange {
   std::string name;  ///< in small letters
   double weight = 1.0;
@@ -81,6 +83,19 @@ std::optional<std::size_t> find_accepted(std::string_view accept, std::span<cons
     best_place = place;
   }
   return best;
+}
+
+bool wants_gzip(std::string_view accept_encoding) {
+  const std::vector<MediaRange> codings = read_ranges(accept_encoding);
+  const auto weight_of = [&](std::initializer_list<std::string_view> names, double unsaid) {
+    for (const std::string_view name : names) {
+      const auto found = std::ranges::find(codings, name, &MediaRange::name);
+      if (found != codings.end()) return found->weight;
+    }
+    return unsaid;
+  };
+  const double gzip = weight_of({"gzip", "x-gzip", "*"}, 0.0);
+  return gzip > 0.0 && gzip >= weight_of({"identity", "*"}, 0.0);
 }
 
 }  // namespace server

@@ -29,9 +29,13 @@ bool has_tag(std::string_view list, std::string_view tag) {
 
 Response with_etag(const Request& request, Response response) {
   const std::string tag = "\"" + jobs::sha256_hex(response.content_type + "\n", response.body).substr(0, 32) + "\"";
-  response.headers.emplace_back("ETag", tag);
   response.headers.emplace_back("Cache-Control", "private, no-cache");
-  if (!has_tag(request.if_none_match, tag)) return response;
+  return with_etag(request, std::move(response), tag);
+}
+
+Response with_etag(const Request& request, Response response, std::string_view etag) {
+  response.headers.emplace_back("ETag", etag);
+  if (!has_tag(request.if_none_match, etag)) return response;
   response.status = 304;
   response.content_type.clear();
   response.body.clear();

@@ -2,9 +2,12 @@
 #include "server/routes/page_routes.h"
 
 #include <string>
+#include <utility>
 
+#include "server/messages/accept.h"
 #include "server/messages/conditional.h"
 #include "server/messages/error_answer.h"
+#include "server/messages/gzip.h"
 #include "server/messages/problem.h"
 #include "server/messages/query.h"
 #include "server/routes/web_files.h"
@@ -14,7 +17,16 @@ namespace server {
 Response make_file_answer(const Request& request, std::string_view path) {
   const WebFile* file = find_web_file(path);
   if (file == nullptr) throw HttpError(404, "there is nothing at " + std::string(path));
-  return with_etag(request, {.status = 200, .content_type = std::string(file->content_type), .body = std::string(file->content), .headers = {}});
+  const bool packed = wants_gzip(request.accept_encoding);
+  Response response{.status = 200, .content_type = std::string(file->content_type), .body = {}, .headers = {}};
+  const bool lasts = file->kind == WebFile::Path::kHashed;
+  response.headers.emplace_back("Cache-Control", lasts ? "public, max-age=31536000, immutable" : "private, no-cache");
+  response.headers.emplace_back("Vary", "Accept-Encoding");
+  response = with_etag(request, std::move(response), packed ? file->gzip_etag : file->etag);
+  if (response.status == 304) return response;
+  if (packed) response.headers.emplace_back("Content-Encoding", "gzip");
+  response.body = packed ? std::string(file->gzip) : gunzip(file->gzip, file->size);
+  return response;
 }
 
 bool is_page_file(std::string_view path) { return find_web_file(path) != nullptr; }

@@ -8,7 +8,8 @@
 
 namespace server {
 
-/// A file of web/ as an answer; 304 if the client has it already. @throws HttpError 404 if there is none of that path
+/// A file of web/ as an answer, compressed if the client wants that; 304 if the client has it already.
+/// @throws HttpError 404 if there is none of that path
 [[nodiscard]] Response make_file_answer(const Request& request, std::string_view path);
 
 /// Whether there is a file of web/ of that path.

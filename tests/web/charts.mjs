@@ -46,7 +46,7 @@ async function visitRows(axes, rows, { query = "", parameters = {}, failures = [
 /** What ECharts has made of a chart: the ends of its axes, its title, and the numbers of its lines. */
 function drawn(page, place) {
   return page.locator(".chart").nth(place).evaluate(async (element) => {
-    const { getInstanceByDom } = await import("/lib/echarts.js");
+    const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
     const model = getInstanceByDom(element).getModel();
     const axis = (kind) => model.queryComponents({ mainType: kind }).map(({ option, axis: { scale } }) => ({ type: option.type, name: option.name, ends: scale.getExtent() }));
     return { x: axis("xAxis"), y: axis("yAxis"), parallel: axis("parallelAxis"), titles: model.queryComponents({ mainType: "title" }).map(({ option }) => option.text),
@@ -86,7 +86,7 @@ test("no line is as dark as the dark page", async () => {
   for (const name of ["viridis", "cividis"]) {
     await page.getByLabel("Palette").selectOption(name);
     const contrasts = await page.locator(".chart").nth(2).evaluate(async (element) => {
-      const { getInstanceByDom } = await import("/lib/echarts.js");
+      const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
       const { colour } = await import("/core/theme.js");
       const light = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4))
         .reduce((sum, part, k) => sum + [0.2126, 0.7152, 0.0722][k] * part, 0);
@@ -153,7 +153,7 @@ test("the names of all lines stand above them, and in the saved picture", async 
   for (const width of [1440, 390]) {
     const page = await visitRows(["clearance_mm", "crank_velocity_rad_s", "coupler"], rows, { query: "?x=clearance_mm&y=crank_velocity_rad_s&panel=coupler", width });
     const [type, bottom, top] = await page.locator(".chart").nth(1).evaluate(async (element) => {
-      const { getInstanceByDom } = await import("/lib/echarts.js");
+      const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
       const chart = getInstanceByDom(element);
       const [legend, grid] = ["legend", "grid"].map((mainType) => chart.getModel().queryComponents({ mainType })[0]);
       const { group } = chart.getViewOfComponentModel(legend);
@@ -224,7 +224,7 @@ test("a value between two that are missing is seen, also where marks would hide 
   const rows = Array.from({ length: 500 }, (_, k) => row(k, { x_mm: k, [metric]: hasValue(k) ? 2 : null }));
   const page = await visitRows(["x_mm"], rows, { query: "?x=x_mm" });
   const marked = await page.locator(".chart").nth(1).evaluate(async (element) => {
-    const { getInstanceByDom } = await import("/lib/echarts.js");
+    const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
     const data = getInstanceByDom(element).getModel().getSeriesByIndex(0).getData();
     return Array.from({ length: data.count() }, (_, place) => place).filter((place) => data.getItemGraphicEl(place));
   });

@@ -10,7 +10,7 @@ let library = null;
 export function loadCharts() {
   library ??= import("/lib/echarts.js").catch(() => {
     library = null;
-    throw new Error("This program was built without its charts: the npm packages of web/ could not be fetched then.");
+    throw new Error("The charts could not be loaded: the program was built without the npm packages of web/, or is another one since this page was loaded. Load the page again.");
   });
   return library;
 }

@@ -7,7 +7,7 @@ let library = null;
 export function loadUplot() {
   library ??= Promise.all([import("/lib/uplot.js"), styleSheet("/lib/uplot.css")]).then(([module]) => module.default).catch(() => {
     library = null;
-    throw new Error("This program was built without its plots: the npm packages of web/ could not be fetched then.");
+    throw new Error("The plots could not be loaded: the program was built without the npm packages of web/, or is another one since this page was loaded. Load the page again.");
   });
   return library;
 }

@@ -9,7 +9,7 @@ export function loadThree() {
     .then(([THREE, { OrbitControls }]) => ({ THREE, OrbitControls }))
     .catch(() => {
       library = null;
-      throw new Error("This program was built without its 3-D view: the npm packages of web/ could not be fetched then.");
+      throw new Error("The 3-D view could not be loaded: the program was built without the npm packages of web/, or is another one since this page was loaded. Load the page again.");
     });
   return library;
 }

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/http/http_stream.h"
+#include "server/messages/gzip.h"
 #include "server/routes/route_table.h"
 #include "tests/server/http/raw_client.h"
 #include "tests/server/service_fixture.h"
@@ -327,11 +328,30 @@ TEST_F(Http, RefusesBodiesThatAreNotTheText) {
 TEST_F(Http, IgnoresRangesAndCompression) {
   std::string ranges = "Range: bytes=0-1";
   for (int i = 0; i < 300; ++i) ranges += ",0-999";
-  const std::string plain = get("/");
-  const std::string answer = get("/", ranges + "\r\nAccept-Encoding: br, gzip\r\n");
+  const std::string plain = get("/v1/openapi.json");
+  const std::string answer = get("/v1/openapi.json", ranges + "\r\nAccept-Encoding: br, gzip\r\n");
   EXPECT_EQ(status_of(answer), 200);
   EXPECT_EQ(body_of(answer), body_of(plain));
   EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos);
+  EXPECT_EQ(body_of(get("/", ranges + "\r\n")), body_of(get("/")));
+  EXPECT_EQ(body_of(get("/", ranges + "\r\nAccept-Encoding: gzip\r\n")), body_of(get("/", "Accept-Encoding: gzip\r\n")));
+}
+
+// The pages are compressed when the program is built; nothing is while it serves.
+TEST_F(Http, SendsThePageCompressedToWhoeverWantsThat) {
+  const std::string plain = get("/index.html");
+  EXPECT_EQ(plain.find("Content-Encoding"), std::string::npos);
+  EXPECT_NE(plain.find("\r\nVary: Accept-Encoding\r\n"), std::string::npos);
+  for (const char* const wish : {"gzip", "br, gzip;q=0.5", "br\r\naccept-encoding: gzip"}) {
+    const std::string packed = get("/index.html", std::string("Accept-Encoding: ") + wish + "\r\n");
+    EXPECT_EQ(status_of(packed), 200) << wish;
+    EXPECT_NE(packed.find("\r\nContent-Encoding: gzip\r\n"), std::string::npos) << wish;
+    EXPECT_NE(packed.find("\r\nContent-Length: " + std::to_string(body_of(packed).size()) + "\r\n"), std::string::npos) << wish;
+    EXPECT_EQ(server::gunzip(body_of(packed), body_of(plain).size()), body_of(plain)) << wish;
+  }
+  for (const char* const wish : {"br", "gzip;q=0", "identity", "%67zip"}) {
+    EXPECT_EQ(body_of(get("/index.html", std::string("Accept-Encoding: ") + wish + "\r\n")), body_of(plain)) << wish;
+  }
 }
 
 TEST_F(Http, IgnoresRangesThatAreNone) {
