@@ -18,7 +18,18 @@ bool is_host_character(unsigned char c) { return std::isalnum(c) != 0 || std::st
 
 bool is_path_character(unsigned char c) { return c > ' ' && c < 0x7f && c != '?' && c != '#' && c != '\\'; }
 
+/// Whether a certificate is of another host. Older versions of the library call that SSLServerVerification.
+template <typename Error>
+bool is_of_another_host(Error error) {
+  if constexpr (requires { Error::SSLServerHostnameVerification; }) {
+    return error == Error::SSLServerHostnameVerification;
+  } else {
+    return false;
+  }
+}
+
 std::string describe(httplib::Error error) {
+  if (is_of_another_host(error)) error = httplib::Error::SSLServerVerification;
   switch (error) {
     case httplib::Error::Connection: return "nothing answers there; is the service running (rpsup serve), and is --url or RPSUP_URL right?";
     case httplib::Error::ConnectionTimeout: return "no connection within " + std::to_string(kConnectSeconds) + " s";

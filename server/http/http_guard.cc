@@ -155,8 +155,26 @@ void GuardedServer::serve(HttpStream& stream) {
   // in how they take a query apart: the library is shown method and version alone, and told what the rest says.
   RequestHead head = read_head(stream.head());
   stream.replace_head(head.request_line + "\r\n\r\n");
+  have_processed(*this, stream, [&head](httplib::Request& request) { fill(request, std::move(head)); });
+}
+
+/// Has the library serve a request. Older versions ask a stream for the addresses of its ends; newer ones are told.
+/// @param self  this object, as a template's argument: what it cannot do is then no error
+template <typename Self, typename Fill>
+void GuardedServer::have_processed(Self& self, HttpStream& stream, const Fill& fill_request) {
   bool connection_closed = true;
-  process_request(stream, true, connection_closed, [&head](httplib::Request& request) { fill(request, std::move(head)); });
+  if constexpr (requires { self.process_request(stream, true, connection_closed, fill_request); }) {
+    self.process_request(stream, true, connection_closed, fill_request);
+  } else {
+    std::string client;
+    std::string server;
+    int client_port = 0;
+    int server_port = 0;
+    stream.get_remote_ip_and_port(client, client_port);
+    stream.get_local_ip_and_port(server, server_port);
+    self.process_request(stream, client, client_port, server, server_port, true, connection_closed,
+                         fill_request);
+  }
 }
 
 void GuardedServer::refuse(HttpStream& stream, int status, const std::string& detail) {

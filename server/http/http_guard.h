@@ -57,6 +57,8 @@ class GuardedServer final : public httplib::Server {
   /// Answers, whatever goes wrong.
   void serve_guarded(HttpStream& stream) noexcept;
   void serve(HttpStream& stream);
+  template <typename Self, typename Fill>
+  static void have_processed(Self& self, HttpStream& stream, const Fill& fill_request);
   void refuse(HttpStream& stream, int status, const std::string& detail);
   [[nodiscard]] std::string refusal_text(int status, const std::string& detail, bool head_alone) const;
 
