@@ -19,13 +19,13 @@ namespace {
 constexpr std::string_view kDoneSuffix = "-done";
 
 /// Where a client stands: the last change that it knows of, and whether it has had `done` after it.
-struct Place {
+struct LastEvent {
   std::int64_t change = 0;
   bool done = false;
 };
 
-Place read_place(std::string_view last_event_id) {
-  Place place;
+LastEvent read_place(std::string_view last_event_id) {
+  LastEvent place;
   if (last_event_id.empty()) return place;
   place.done = last_event_id.ends_with(kDoneSuffix);
   if (place.done) last_event_id.remove_suffix(kDoneSuffix.size());
@@ -80,7 +80,7 @@ class Events final : public EventSource {
 
 Response answer_events(const Call& call, FindNews find_news, const HttpError& missing) {
   Query(call.request, {}).check();
-  const Place place = read_place(call.request.last_event_id);
+  const LastEvent place = read_place(call.request.last_event_id);
   const auto news = find_news(place.change);
   if (!news) throw missing;
   if (place.done && news->ended && news->jobs.empty()) return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
