@@ -3,31 +3,27 @@
 # Installs the Debian package in a fresh system of the same release, uses it, removes it and purges it.
 #   package_chroot_test.sh RPSUP SOURCES PRESET
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
-sources=$2
-skip() { echo "skipped: $*"; exit 77; }
-[ "$(id -u)" -eq 0 ] || skip "only root can install a system in a folder"
-command -v debootstrap >/dev/null || skip "debootstrap is not installed: script/setup all"
-. /etc/os-release
-mirror=$(apt-get indextargets --format '$(SITE)' "Codename: $VERSION_CODENAME" 'Created-By: Packages' | head -n 1)
-[ -n "$mirror" ] || skip "this machine has no source of Debian packages"
-
-"$sources/script/package" "$3" >package.log || { cat package.log; fail "the package was not built"; }
-package=$sources/$(sed -n 's/^package: //p' package.log)
+sources=$2 preset=$3
+source "$sources/tests/system/systems.sh"
+need_mirror
+make_packages --deb
 system=$folder/system
-debootstrap --variant=minbase "$VERSION_CODENAME" "$system" "$mirror" >debootstrap.log 2>&1 ||
-  { tail -n 5 debootstrap.log; skip "debootstrap cannot make a system here"; }
-# As this machine gets its packages.
-cp /etc/apt/apt.conf.d/*proxy* "$system/etc/apt/apt.conf.d/" 2>/dev/null || true
+unpack_system "$(. /etc/os-release; echo "$VERSION_CODENAME")" "$system"
 inside() { chroot "$system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C DEBIAN_FRONTEND=noninteractive http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" "$@"; }
-cp "$package" "$system/root/rpsup.deb"
+cp "$package" "$system/root/"
+# The command of README.md, by root, who answers no questions.
+readme_block 'from the Debian package' | sed 's/^sudo //' >"$system/root/session.sh"
+echo 'APT::Get::Assume-Yes "true"; APT::Sandbox::User "root";' >"$system/etc/apt/apt.conf.d/test"
 (cd "$system" && find etc usr var -xdev \( -type f -o -type l \) | sort) >before
-inside apt-get --quiet=2 -o APT::Sandbox::User=root update >apt.log 2>&1
-inside apt-get --quiet=2 -o APT::Sandbox::User=root --yes --no-install-recommends install /root/rpsup.deb >>apt.log 2>&1 || { tail -n 30 apt.log; fail "the package cannot be installed"; }
+inside apt-get --quiet=2 update >apt.log 2>&1
+inside sh -euc 'cd /root; . ./session.sh' >>apt.log 2>&1 || { tail -n 30 apt.log; fail "the package cannot be installed"; }
 expect_equal "$(inside dpkg-query --show --showformat='${db:Status-Status}' rpsup)" installed "state of the package"
 inside dpkg --verify rpsup
 [ -L "$system/etc/systemd/system/multi-user.target.wants/rpsup.service" ] || echo "the unit is not enabled, as there is no systemd in this system"
 
 # A job, and the service, with what the package depends on and nothing else.
+inside rpsup sweep /usr/share/doc/rpsup/examples/paper.json --db /root/study.db --results /root/study.json >study.log 2>&1 || { cat study.log; fail "the study cannot be computed"; }
+check_study "$system/root/study.json"
 echo '{"duration_s": 0.05, "run_up_s": 0.02}' >"$system/root/job.json"
 expect_equal "$(inside rpsup simulate /root/job.json | jq -r .state)" succeeded "a job"
 mkdir "$system/var/lib/rpsup"
@@ -46,7 +42,7 @@ stop_service TERM
 expect_equal "$code" 0 "exit code of the service"
 
 # Installed again it keeps what the administrator has changed; removed, too; purged, all but the results.
-inside dpkg --install /root/rpsup.deb >>apt.log 2>&1
+inside dpkg --install "/root/$(basename "$package")" >>apt.log 2>&1
 expect_text "$system/etc/rpsup/config.ini" '^port=0$'
 inside dpkg --remove rpsup >>apt.log 2>&1
 [ ! -e "$system/usr/bin/rpsup" ] || fail "the program is still there"

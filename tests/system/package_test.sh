@@ -3,9 +3,9 @@
 # The Debian package: what is in it, who owns it, what it depends on, and that the unit is as closed as it says.
 #   package_test.sh RPSUP SOURCES PRESET
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
-sources=$2
-"$sources/script/package" "$3" >package.log || { cat package.log; fail "the package was not built"; }
-package=$sources/$(sed -n 's/^package: //p' package.log)
+sources=$2 preset=$3
+source "$sources/tests/system/systems.sh"
+make_packages --deb
 [ -f "$package" ] || { cat package.log; fail "there is no package"; }
 
 # What dpkg is told.
@@ -28,6 +28,7 @@ cat >expected <<'FILES'
 /usr/share/bash-completion/completions/rpsup
 /usr/share/doc/rpsup/NOTICE
 /usr/share/doc/rpsup/copyright
+/usr/share/doc/rpsup/examples/paper.json
 /usr/share/fish/vendor_completions.d/rpsup.fish
 /usr/share/man/man1/rpsup.1.gz
 /usr/share/zsh/vendor-completions/_rpsup
