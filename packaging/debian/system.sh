@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Makes the root of a Debian system in a file, for the container image and for the tests of the packages. Sourced.
 
 # make_system RELEASE FILE.tar [OPTION-OF-MMDEBSTRAP...]: of this machine's release from where this machine has its packages, of another from the same mirror

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that the C library has since 2.35 or 2.36 only, for programs that are to run with 2.34, on RHEL 9 say.
 #include <dlfcn.h>
 #include <link.h>

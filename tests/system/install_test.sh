@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # cmake --install puts everything below its prefix, and what it has put there works, moved elsewhere too.
 #   install_test.sh RPSUP SOURCES PRESET
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
