@@ -13,6 +13,7 @@ cat >expected <<'FILES'
 ./etc/rpsup/config.ini
 ./lib/systemd/system/rpsup.service
 ./share/bash-completion/completions/rpsup
+./share/doc/rpsup/NOTICE
 ./share/doc/rpsup/copyright
 ./share/doc/rpsup/examples/paper.json
 ./share/fish/vendor_completions.d/rpsup.fish

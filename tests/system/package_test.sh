@@ -24,6 +24,7 @@ sed -n 's/^-[^ ]* [^ ]* \.//p' contents | sort >files
 cat >expected <<'FILES'
 /etc/rpsup/config.ini
 /usr/bin/rpsup
+/usr/bin/rpsup-validate
 /usr/lib/systemd/system/rpsup.service
 /usr/share/bash-completion/completions/rpsup
 /usr/share/doc/rpsup/NOTICE
@@ -35,7 +36,7 @@ cat >expected <<'FILES'
 FILES
 diff expected files || fail "the files are others"
 expect_equal "$(awk '$2 != "root/root" || $1 ~ /^.....w|^........w|s|t/' contents)" "" "files of others, or that others may write"
-expect_equal "$(awk '$1 ~ /^-..x/ { print $3 }' contents)" ./usr/bin/rpsup "what can be run"
+expect_equal "$(awk '$1 ~ /^-..x/ { print $3 }' contents | sort | xargs)" "./usr/bin/rpsup ./usr/bin/rpsup-validate" "what can be run"
 dpkg-deb --control "$package" control
 expect_equal "$(cat control/conffiles)" /etc/rpsup/config.ini "files that an administrator changes"
 for script in postinst prerm postrm; do

@@ -18,6 +18,7 @@ README.md
 etc/rpsup/config.ini
 lib/systemd/system/rpsup.service
 share/bash-completion/completions/rpsup
+share/doc/rpsup/NOTICE
 share/doc/rpsup/copyright
 share/doc/rpsup/examples/paper.json
 share/fish/vendor_completions.d/rpsup.fish
