@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -125,12 +126,9 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   return command;
 }
 
-/// Passes everything on: rpsup-validate reads it.
-CLI::App* add_validate(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("validate", "Run rpsup-validate, which compares the engine with results from elsewhere");
-  command->prefix_command();
-  command->set_help_flag();
-  return command;
+/// Stands in help and completion only: rpsup-validate reads what follows.
+void add_validate(CLI::App& app) {
+  app.add_subcommand("validate", "Run rpsup-validate, which compares the engine with results from elsewhere");
 }
 
 CLI::App* add_paper(CLI::App& app, PaperOptions& options) {
@@ -227,6 +225,8 @@ void describe(CLI::App& app, const std::vector<Command>& remote) {
 int main(int argc, char** argv) {
   // A file that may not grow any more is an error to be told, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  if (argc > 1 && std::string_view(argv[1]) == "validate")
+    return server::commands::run_guarded([&]() -> int { server::commands::run_validate({argv + 2, argv + argc}); });
   CLI::App app{"Parameter studies of the dynamics of the RPSUP spatial linkage", "rpsup"};
   app.fallthrough();  // before the commands, which take it over
   SimulateOptions simulate_options;
@@ -242,8 +242,7 @@ int main(int argc, char** argv) {
   describe(app, commands);
   commands.push_back({add_simulate(app, simulate_options), [&] { return simulate(simulate_options); }});
   commands.push_back({add_sweep(app, sweep_options), [&] { return sweep(sweep_options); }});
-  CLI::App* const validate = add_validate(app);
-  commands.push_back({validate, [&]() -> int { server::commands::run_validate(validate->remaining()); }});
+  add_validate(app);
   commands.push_back({add_paper(app, paper_options), [&] { return hold_against_paper(paper_options); }});
   commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
   commands.push_back({add_export(app, export_options), [&] { return export_store(export_options); }});

@@ -106,7 +106,7 @@ ComputedChapter paper(const Study& study) {
                    "\n"
                    "So the ratios are consistent with the model; they are not predicted by it: four numbers "
                    "are met with about ten fitted ones.\n"
-                   "[UNKNOWNS.md](validation/UNKNOWNS.md) says how often a setting taken at random meets "
+                   "[UNKNOWNS.md](UNKNOWNS.md) says how often a setting taken at random meets "
                    "them, and which unknowns decide. All peaks are converged:\n"
                    "chapter 10 compares integrators and replicates. At 10 rad/s neither order holds: peaks "
                    "are larger with 0.5 mm, and with a flexible coupler.\n"
