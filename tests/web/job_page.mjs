@@ -225,7 +225,7 @@ test("an answer to what was asked before covers no newer one", async () => {
   while (force.asked() === 0) await page.waitForTimeout(50);
   await channel.selectOption("journal_x_mm");
   const titled = () => page.locator("details .chart").first().evaluate(async (element) => {
-    const { getInstanceByDom } = await import("/lib/echarts.js");
+    const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
     return getInstanceByDom(element).getModel().queryComponents({ mainType: "yAxis" })[0].option.name;
   });
   while (await titled() !== "Amplitude: Journal x [mm]") await page.waitForTimeout(50);
