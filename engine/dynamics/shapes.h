@@ -199,8 +199,8 @@ struct KnownShapes {
 };
 
 /// The linkage with prescribed drives: crank, rod, coupler (in n_rfe parts), slider, cross link.
-/// The yoke turns about the guide, as in the paper.
-template <std::size_t n_rfe>
+/// @tparam yoke_axis  about which the cross link turns: 0, the guide, or 1, across it
+template <std::size_t n_rfe, int yoke_axis>
 consteval std::array<JointShape, n_rfe + 4> make_rpsup_shapes() {
   using Kind = JointShape::Kind;
   using Inertia = JointShape::Inertia;
@@ -213,14 +213,16 @@ consteval std::array<JointShape, n_rfe + 4> make_rpsup_shapes() {
     shapes[2 + i] = {.kind = Kind::kSpherical, .axis = 2, .parent = static_cast<int>(i) + 1, .shifted = true, .shifted_along_x = true,
                      .sprung = i > 0, .inertia = Inertia::kAxisymmetric, .com_at_origin = false};
   shapes[2 + n_rfe] = {.kind = Kind::kTranslation, .axis = 0, .shifted = true, .inertia = Inertia::kDiagonal};
-  shapes[3 + n_rfe] = {.kind = Kind::kRotation, .axis = 0, .parent = static_cast<int>(n_rfe) + 2, .shifted_along_x = true,
+  shapes[3 + n_rfe] = {.kind = Kind::kRotation, .axis = yoke_axis, .parent = static_cast<int>(n_rfe) + 2, .shifted_along_x = true,
                        .inertia = Inertia::kDiagonal};
   complete_shapes(shapes);
   return shapes;
 }
 
-inline constexpr auto kRigidRpsup = make_rpsup_shapes<1>();
-inline constexpr auto kFlexibleRpsup = make_rpsup_shapes<4>();
+inline constexpr auto kRigidRpsup = make_rpsup_shapes<1, 0>();
+inline constexpr auto kFlexibleRpsup = make_rpsup_shapes<4, 0>();
+inline constexpr auto kRigidRpsupAcross = make_rpsup_shapes<1, 1>();
+inline constexpr auto kFlexibleRpsupAcross = make_rpsup_shapes<4, 1>();
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine
