@@ -10,7 +10,7 @@
 
 namespace {
 
-/// What libgcc asks of the C library as an exception passes: the object that holds the address of an instruction.
+/// Loaded object that holds the address of an instruction. libgcc asks the C library for it as an exception passes.
 struct Search {
   std::uintptr_t address;
   dl_find_object* found;

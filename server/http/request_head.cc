@@ -24,7 +24,7 @@ bool has_control_character(std::string_view line) {
   return std::any_of(line.begin(), line.end(), [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
 }
 
-/// Of a token, as which RFC 9110 writes names (section 5.6.2).
+/// Characters of a token, the form of header names (RFC 9110, section 5.6.2).
 bool is_token_character(unsigned char c) {
   constexpr std::string_view kSigns = "!#$%&'*+-.^_`|~";
   return (c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos;

@@ -53,24 +53,24 @@ for release in "$codename" trixie; do
   unpack_system "$release" "$release"
   mkdir -p "$release/srv/somewhere else"
   cp -r "$top" "$release/srv/somewhere else/"
-  install --directory --owner=nobody "$release/srv/work"
+  install --directory --owner=nobody "$release/srv/trial"
   inside=(chroot --userspec=nobody:nogroup "$release" env -i PATH=/usr/bin:/bin HOME=/nowhere)
   for program in $programs; do expect_equal "$("${inside[@]}" "/srv/somewhere else/$top/$program" --version)" "$("$(dirname "$rpsup")/$(basename "$program")" --version)" "version of $program"; done
   # The two commands of README.md, where the file is.
-  cp "$package" "$release/srv/work/"
-  readme_block 'from the tarball' >"$release/srv/work/session.sh"
-  "${inside[@]}" sh -euc 'cd /srv/work; . ./session.sh' >log 2>&1 || { cat log; fail "the study cannot be computed in $release"; }
-  expect_equal "$(wc -l <"$release/srv/work/peaks.csv")" 41 "lines of the table"
-  "${inside[@]}" "/srv/somewhere else/$top/bin/rpsup" sweep "/srv/somewhere else/$top/share/doc/rpsup/examples/paper.json" --db /srv/work/study.db \
-    --results /srv/work/study.json >log 2>&1
-  check_study "$release/srv/work/study.json"
+  cp "$package" "$release/srv/trial/"
+  readme_block 'from the tarball' >"$release/srv/trial/session.sh"
+  "${inside[@]}" sh -euc 'cd /srv/trial; . ./session.sh' >log 2>&1 || { cat log; fail "the study cannot be computed in $release"; }
+  expect_equal "$(wc -l <"$release/srv/trial/peaks.csv")" 41 "lines of the table"
+  "${inside[@]}" "/srv/somewhere else/$top/bin/rpsup" sweep "/srv/somewhere else/$top/share/doc/rpsup/examples/paper.json" --db /srv/trial/study.db \
+    --results /srv/trial/study.json >log 2>&1
+  check_study "$release/srv/trial/study.json"
   # The same C library gives the same bytes, whether the other libraries are inside or not.
-  if [ "$release" = "$codename" ]; then diff <(computed here.json) <(computed "$release/srv/work/study.json") || fail "the study's results are others in $release"; fi
+  if [ "$release" = "$codename" ]; then diff <(computed here.json) <(computed "$release/srv/trial/study.json") || fail "the study's results are others in $release"; fi
   # An exception passes, a name of a host is looked up, and the service serves and ends.
   expect_code 2 "${inside[@]}" "/srv/somewhere else/$top/bin/rpsup" simulate /nowhere.json
   expect_code 3 "${inside[@]}" "/srv/somewhere else/$top/bin/rpsup" status --url http://localhost:9
   : >ready
-  "${inside[@]}" "/srv/somewhere else/$top/bin/rpsup" serve --db /srv/work/study.db --port 0 >ready 2>log &
+  "${inside[@]}" "/srv/somewhere else/$top/bin/rpsup" serve --db /srv/trial/study.db --port 0 >ready 2>log &
   service=$!
   for ((tenths = 0; tenths < 100; ++tenths)); do
     url=$(sed -n 's/^rpsup listens on //p' ready)

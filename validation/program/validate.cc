@@ -155,7 +155,7 @@ class StudyRun {
     if (sweep.at("state") != "succeeded") throw StudyFailed("a job of \"" + sweep.at("name").get<std::string>() + "\" failed: " + find_error(id));
   }
 
-  /// What is left would start again with the store.
+  /// Cancels every sweep: jobs that are left would start again with the store.
   void cancel_all() {
     for (const std::string& id : ids_) {
       try {

@@ -120,7 +120,7 @@ export const eventsUrl = (id) => `${sweepPath(id)}/events`;
 
 /** @typedef {"paper" | "sensitivity" | "surrogate" | "flexibility" | "bifurcation" | "lyapunov"} Analysis */
 
-/// What is worked out of a sweep.
+/// Analysis of a sweep.
 /**
  * @type {<Name extends Analysis>(id: string, analysis: Name,
  *   query?: Api.Query<`/v1/sweeps/{id}/${Name}`>) => string}
@@ -133,7 +133,7 @@ export const analysisUrl = (id, analysis, query) => withQuery(`${sweepPath(id)}/
 export const findAnalysis = (id, analysis, query, signal) => ask(analysisUrl(id, analysis, query), { signal });
 /** @type {(id: string) => string} */
 export const reportUrl = (id) => `${sweepPath(id)}/report`;
-/// What is worked out of a job, as columns: spectrum, poincare.
+/// Analysis of a job, as columns: spectrum, poincare.
 /**
  * @type {<Name extends "spectrum" | "poincare">(id: string, analysis: Name,
  *   query: Api.Query<`/v1/jobs/{id}/${Name}`>, signal: AbortSignal) => Promise<Record<string, number[]>>}

@@ -34,7 +34,7 @@ export function part(selector, within = document) {
   return element;
 }
 
-/// What draws on a canvas.
+/// Drawing context of a canvas.
 /** @param {HTMLCanvasElement} canvas */
 export function contextOf(canvas) {
   const context = canvas.getContext("2d");

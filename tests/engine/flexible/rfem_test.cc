@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a rod is cut: masses, moments, dampers. Deflections and frequencies of the divided rod: validation/flexibility.
+// Division of a rod: masses, moments, dampers. Deflections and frequencies of the divided rod: validation/flexibility.
 #include "engine/flexible/rfem.h"
 
 #include <cmath>
