@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/http_client.h"
 
-#include <httplib.h>
+#include "server/http/httplib.h"
 
 #include <algorithm>
 #include <cctype>

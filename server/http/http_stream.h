@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <httplib.h>
+#include "server/http/httplib.h"
 
 #include <atomic>
 #include <chrono>

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "server/http/http.h"
+#include "server/http/httplib.h"
 #include "server/routes/routes.h"
 #include "tests/bench/path/made_store.h"
 #include "tests/bench/path/measure.h"
-
-#include <httplib.h>  // last: resolv.h defines a macro that Eigen uses as a name
 
 namespace {
 
