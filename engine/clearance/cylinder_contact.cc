@@ -11,7 +11,6 @@ namespace engine {
 
 namespace {
 
-using std::numbers::e;
 using std::numbers::pi;
 
 /// Integral of x^1.5 / sqrt(1 + x) from 0.
@@ -32,7 +31,7 @@ ElasticForce calc_liu(double stiffness, double c_r, double delta) {
 ElasticForce calc_logarithmic(double c, double F_1, double delta) {
   constexpr double kBeyond = std::numeric_limits<double>::quiet_NaN();
   const double argument = delta / (c * F_1);
-  if (!(argument < 1.0 / e)) return {kBeyond, kBeyond, kBeyond};
+  if (!(argument < 1.0 / std::numbers::e)) return {kBeyond, kBeyond, kBeyond};
   const double y = boost::math::lambert_wm1(-argument);  // -ln(F_1 / F), below -1
   const double force = -delta / (c * y);
   return {force, -1.0 / (c * (1.0 + y)), 0.5 * force * delta - 0.25 * c * force * force};
@@ -41,12 +40,12 @@ ElasticForce calc_logarithmic(double c, double F_1, double delta) {
 }  // namespace
 
 double CylinderContact::force_scale() const {
-  return law == StiffnessLaw::kJohnson ? 4.0 * pi * rigidity * clearance / e : 8.0 * rigidity * clearance / 2.56 * std::exp(2.0 / 3.0);
+  return law == StiffnessLaw::kJohnson ? 4.0 * pi * rigidity * clearance / std::numbers::e : 8.0 * rigidity * clearance / 2.56 * std::exp(2.0 / 3.0);
 }
 
 double CylinderContact::range() const {
   const bool logarithmic = law == StiffnessLaw::kJohnson || law == StiffnessLaw::kRadzimovsky;
-  return logarithmic ? force_scale() / (pi * rigidity * e) : std::numeric_limits<double>::infinity();
+  return logarithmic ? force_scale() / (pi * rigidity * std::numbers::e) : std::numeric_limits<double>::infinity();
 }
 
 ElasticForce CylinderContact::calc(double delta) const {

@@ -38,12 +38,12 @@ class Course : public Observer {
   double imbalance = 0.0;
 };
 
-LinkageBody make_rod(const std::string& name, double mass, double length) {
+LinkageBody make_benchmark_rod(const std::string& name, double mass, double length) {
   const Eigen::Vector3d inertia = Eigen::Vector3d(0.0, 1.0, 1.0) * (mass * length * length / 3.0);
   return {.name = name, .mass = mass, .com = {0.5 * length, 0.0, 0.0}, .inertia = inertia.asDiagonal()};
 }
 
-RunOptions accurate(double duration, double tolerance) {
+RunOptions benchmark_options(double duration, double tolerance) {
   return {.duration = duration, .output_rate = 100.0, .integrator = Integrator::kDopri5, .relative_tolerance = tolerance,
           .absolute_tolerance = tolerance};
 }
@@ -63,7 +63,7 @@ TEST(Benchmarks, PointPendulum) {
   linkage.joints = {{.name = "pivot", .from = kGroundName, .to = "bar", .placement = {}, .freedoms = {{.name = "angle"}}}};
   linkage.gravity_W = {0.0, -9.81, 0.0};
   Course course;
-  ASSERT_EQ(simulate(build_linkage(linkage).mechanism, accurate(10.0, 1e-10), course).status, RunStatus::kSucceeded);
+  ASSERT_EQ(simulate(build_linkage(linkage).mechanism, benchmark_options(10.0, 1e-10), course).status, RunStatus::kSucceeded);
   const FrameMotion& bar = course.samples.back().frames[0];
   const Eigen::Vector3d point = bar.p - bar.R.col(0);
   EXPECT_NEAR(point.x(), -0.275087, 1e-6);
@@ -77,14 +77,14 @@ Linkage make_windows(int n) {
   const Eigen::Matrix3d up = (Eigen::Matrix3d() << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0).finished();
   for (int k = 0; k <= n; ++k) {
     const std::string upright = "upright" + std::to_string(k);
-    linkage.bodies.push_back(make_rod(upright, 1.0, 1.0));
+    linkage.bodies.push_back(make_benchmark_rod(upright, 1.0, 1.0));
     linkage.joints.push_back({.name = "foot" + std::to_string(k), .from = kGroundName, .to = upright,
                               .placement = {up, {static_cast<double>(k), 0.0, 0.0}},
                               .freedoms = {{.name = upright, .start_rate = k == 0 ? std::optional(-1.0) : std::nullopt}}});
   }
   for (int k = 0; k < n; ++k) {
     const std::string bar = "bar" + std::to_string(k);
-    linkage.bodies.push_back(make_rod(bar, 1.0, 1.0));
+    linkage.bodies.push_back(make_benchmark_rod(bar, 1.0, 1.0));
     linkage.joints.push_back({.name = "hinge" + std::to_string(k), .from = "upright" + std::to_string(k), .to = bar,
                               .placement = {up.transpose(), {1.0, 0.0, 0.0}}, .freedoms = {{.name = bar}}});
     linkage.joints.push_back({.name = "closing" + std::to_string(k), .from = "upright" + std::to_string(k + 1), .to = bar,
@@ -99,7 +99,7 @@ Eigen::Vector3d tip_of(const Evaluation& at, std::size_t frame) { return at.fram
 class Windows : public testing::Test {
  protected:
   void run(double duration) {
-    const RunEnd end = simulate(build_linkage(make_windows(40)).mechanism, accurate(duration, 1e-8), course);
+    const RunEnd end = simulate(build_linkage(make_windows(40)).mechanism, benchmark_options(duration, 1e-8), course);
     ASSERT_EQ(end.status, RunStatus::kSucceeded) << end.detail << " at " << end.t;
     EXPECT_EQ(end.redundant_constraints, 120);  // out of the plane: a position and two turns of each window
   }
@@ -128,7 +128,7 @@ TEST_F(Windows, HeavyPassAllSingularPositions) {
 // benchmark library of IFToMM's technical committee for multibody dynamics. The rod turns about a pin that stays perpendicular to the slide.
 TEST(Benchmarks, SpatialSliderCrank) {
   Course course;
-  const RunEnd end = simulate(build_linkage(make_spatial_slider_crank(JointKind::kSpherical)).mechanism, accurate(5.0, 1e-11), course);
+  const RunEnd end = simulate(build_linkage(make_spatial_slider_crank(JointKind::kSpherical)).mechanism, benchmark_options(5.0, 1e-11), course);
   ASSERT_EQ(end.status, RunStatus::kSucceeded) << end.detail;
   EXPECT_EQ(end.redundant_constraints, 0);
   EXPECT_NEAR(course.samples.back().q[0], 51.36943989, 2e-8);
@@ -175,10 +175,10 @@ class FirstImpact : public Course {
 TEST(Benchmarks, SliderCrankWithClearance) {
   const Linkage linkage = make_flores_slider_crank();
   FirstImpact impact;
-  ASSERT_EQ(simulate(build_linkage(linkage).mechanism, accurate(3e-4, 1e-11), impact).status, RunStatus::kSucceeded);
+  ASSERT_EQ(simulate(build_linkage(linkage).mechanism, benchmark_options(3e-4, 1e-11), impact).status, RunStatus::kSucceeded);
   EXPECT_NEAR(impact.t, 2.27286e-4, 1e-9);
   EXPECT_NEAR(impact.speed, 4.385783, 2e-6);
-  const RunResult run = simulate_linkage(linkage, accurate(0.024, 1e-10), 0.0, {});
+  const RunResult run = simulate_linkage(linkage, benchmark_options(0.024, 1e-10), 0.0, {});
   ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
   EXPECT_NEAR(metric(linkage, run, "peak_slide_acceleration_m_s2"), 3.2734e5, 5e0);
   EXPECT_GE(metric(linkage, run, "impact_count"), 1.0);
@@ -201,7 +201,7 @@ Linkage make_bricard() {
     Eigen::Matrix3d R;
     R << x, z.cross(x), z;
     const std::string name = "bar" + std::to_string(k);
-    linkage.bodies.push_back(make_rod(name, 1.0, 1.0));
+    linkage.bodies.push_back(make_benchmark_rod(name, 1.0, 1.0));
     linkage.bodies.back().inertia = Eigen::Vector3d(0.1 * 0.1 / 6.0, 1.0 / 3.0 + 0.01 / 12.0, 1.0 / 3.0 + 0.01 / 12.0).asDiagonal();
     linkage.joints.push_back({.name = name, .from = last, .to = name,
                               .placement = {last_R.transpose() * R, last_R.transpose() * (corner[k] - last_p)},
@@ -222,7 +222,7 @@ Linkage make_bricard() {
 // Problem A04 of the library: the linkage moves, though its 30 + 5 constraints leave 36 - 35 = 1 and five rows of the six close the loop.
 TEST(Benchmarks, BricardKeepsItsEnergy) {
   Course course;
-  const RunEnd end = simulate(build_linkage(make_bricard()).mechanism, accurate(10.0, 1e-12), course);
+  const RunEnd end = simulate(build_linkage(make_bricard()).mechanism, benchmark_options(10.0, 1e-12), course);
   ASSERT_EQ(end.status, RunStatus::kSucceeded) << end.detail;
   EXPECT_EQ(end.redundant_constraints, 1);
   const double energy = course.samples.front().energy.calc_balance();

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"no_tolerance", "relative_tolerance", [](auto&, auto& o) { o.relative_tolerance = -1.0; }}),
     [](const auto& c) { return c.param.name; });
 
-class NoObserver : public Observer {
+class IgnoringObserver : public Observer {
  public:
   void on_step(const Evaluation&, const Evaluation& end) override { last_t = end.t; }
   void on_sample(const Evaluation&) override { ++samples; }
@@ -96,7 +96,7 @@ class NoObserver : public Observer {
 TEST(Runs, AGuideOutOfReachCannotBeAssembled) {
   RpsupParameters parameters;
   parameters.guide_offset_z = 0.6;  // 0.1 m beyond the coupler
-  NoObserver observer;
+  IgnoringObserver observer;
   const RunEnd end = simulate(build_rpsup(parameters).mechanism, {}, observer);
   EXPECT_EQ(end.status, RunStatus::kAssembly);
   EXPECT_EQ(end.t, 0.0);
@@ -121,7 +121,7 @@ TEST(Runs, ALinkageThatLocksSaysWhen) {
   const double expected = lock_time(parameters);
   ASSERT_GT(expected, 0.1);
   parameters.c_r = 0.0;
-  NoObserver observer;
+  IgnoringObserver observer;
   const RunEnd end = simulate(build_rpsup(parameters).mechanism, {}, observer);
   EXPECT_EQ(end.status, RunStatus::kLockUp);
   EXPECT_LE(end.t, expected);
@@ -130,7 +130,7 @@ TEST(Runs, ALinkageThatLocksSaysWhen) {
 }
 
 TEST(Runs, StopWhenAsked) {
-  NoObserver observer;
+  IgnoringObserver observer;
   observer.stop_at = 0.02;
   const RunEnd end = simulate(build_rpsup({}).mechanism, {}, observer);
   EXPECT_EQ(end.status, RunStatus::kStopped);
@@ -141,7 +141,7 @@ TEST(Runs, StopWhenAsked) {
 TEST(Runs, EndAtTheirStepLimit) {
   RunOptions options;
   options.step_limit = 100;
-  NoObserver observer;
+  IgnoringObserver observer;
   const RunEnd end = simulate(build_rpsup({}).mechanism, options, observer);
   EXPECT_EQ(end.status, RunStatus::kStepLimit);
   EXPECT_EQ(end.steps, 100);
@@ -151,7 +151,7 @@ TEST(Runs, AStepTooLargeForTheContactIsAFailureNotAResult) {
   RunOptions options;
   options.integrator = Integrator::kRk4;
   options.step = 1e-3;  // ten times the duration of an impact
-  NoObserver observer;
+  IgnoringObserver observer;
   const RunEnd end = simulate(build_rpsup({}).mechanism, options, observer);
   EXPECT_EQ(end.status, RunStatus::kNonFinite);
   EXPECT_LT(end.t, options.duration);

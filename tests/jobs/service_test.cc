@@ -26,14 +26,14 @@ using nlohmann::json;
 
 constexpr auto kLong = 20s;
 
-std::string submit(jobs::Service& service, const char* request) { return service.submit_sweep(request_of(request)).at("id"); }
+std::string submitted(jobs::Service& service, const char* request) { return service.submit_sweep(request_of(request)).at("id"); }
 
 json finished(const jobs::Service& service, const std::string& sweep) {
   EXPECT_TRUE(service.wait_for_sweep(sweep, kLong));
   return service.find_sweep(sweep).value();
 }
 
-std::size_t column(const jobs::ResultTable& table, const std::string& name) {
+std::size_t service_column(const jobs::ResultTable& table, const std::string& name) {
   const auto found = std::find(table.columns.begin(), table.columns.end(), name);
   EXPECT_NE(found, table.columns.end()) << name;
   return static_cast<std::size_t>(found - table.columns.begin());
@@ -46,7 +46,7 @@ TEST(Service, ComputesASweepAndShowsIt) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
   const char* request = R"({"name": "paper", "sweep": {"crank_velocity_rad_s": [5, 10], "clearance_mm": [0.5, 0.25]}, "replicates": {"count": 2}})";
-  const std::string id = submit(service, request);
+  const std::string id = submitted(service, request);
   const json sweep = finished(service, id);
   EXPECT_EQ(sweep.at("state"), "succeeded");
   EXPECT_EQ(sweep.at("counts"), json_of(R"({"queued": 0, "running": 0, "succeeded": 8, "failed": 0, "cancelled": 0, "total": 8})"));
@@ -71,7 +71,7 @@ TEST(Service, ComputesASweepAndShowsIt) {
   ASSERT_EQ(table.rows.size(), 8U);
   EXPECT_EQ((std::vector<json>(table.rows[5].begin() + 1, table.rows[5].begin() + 5)), (std::vector<json>{"succeeded", 1, 10.0, 0.5}));
   const std::string metric = engine::metric_table()[0].key;
-  EXPECT_EQ(table.rows[5][column(table, metric)], std::sqrt(10.0e3 + 0.5e-3));  // what the fake engine makes of it
+  EXPECT_EQ(table.rows[5][service_column(table, metric)], std::sqrt(10.0e3 + 0.5e-3));  // what the fake engine makes of it
   EXPECT_TRUE(table.rows[5][6].is_null());                                      // not a number there
 }
 
@@ -79,7 +79,7 @@ TEST(Service, ShowsAJobWithAllItsParameters) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string sweep = submit(service, R"({"sweep": {"clearance_mm": [0.5]}})");
+  const std::string sweep = submitted(service, R"({"sweep": {"clearance_mm": [0.5]}})");
   finished(service, sweep);
   const json job = service.find_job(first_job(service, sweep)).value();
   EXPECT_EQ(job.at("state"), "succeeded");
@@ -121,17 +121,17 @@ TEST(Service, ComputesIdenticalJobsOnce) {
   engine.hold();
   jobs::Service service(options_of(store, engine, 2));
   const char* request = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
-  const std::string first = submit(service, request);
-  const std::string second = submit(service, request);
+  const std::string first = submitted(service, request);
+  const std::string second = submitted(service, request);
   engine.await_running(1);
   engine.release();
   finished(service, first);
   finished(service, second);
-  const std::string third = submit(service, request);
+  const std::string third = submitted(service, request);
   EXPECT_EQ(service.find_sweep(third).value().at("state"), "succeeded");
   EXPECT_EQ(engine.begun_speeds().size(), 1U);
   EXPECT_EQ(service.find_job(first_job(service, second)).value().at("run").at("reused"), true);
-  const std::string forced = submit(service, R"({"sweep": {"crank_velocity_rad_s": [5]}, "reuse": false})");
+  const std::string forced = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5]}, "reuse": false})");
   finished(service, forced);
   EXPECT_EQ(engine.begun_speeds().size(), 2U);
 }
@@ -141,9 +141,9 @@ TEST(Service, StartsASmallSweepBesideALargeOneAsSoonAsAThreadIsFree) {
   FakeEngine engine;
   engine.hold();
   jobs::Service service(options_of(store, engine, 1));
-  const std::string large = submit(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4, 5, 6]}})");
+  const std::string large = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4, 5, 6]}})");
   engine.await_running(1);
-  const std::string small = submit(service, R"({"sweep": {"crank_velocity_rad_s": [100]}})");
+  const std::string small = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [100]}})");
   engine.release();
   finished(service, small);
   finished(service, large);
@@ -155,7 +155,7 @@ TEST(Service, CancelsQueuedAndRunningJobsOfASweep) {
   FakeEngine engine;
   engine.hold();
   jobs::Service service(options_of(store, engine, 2));
-  const std::string id = submit(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4]}})");
+  const std::string id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4]}})");
   engine.await_running(2);
   EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
   engine.await_running(0);  // they are held: only what is stopped ends
@@ -171,7 +171,7 @@ TEST(Service, CancelsOneJobAndLeavesTheOthers) {
   FakeEngine engine;
   engine.hold();
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submit(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3]}})");
+  const std::string id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3]}})");
   engine.await_running(1);
   const auto rows = service.find_results(id).value().rows;
   EXPECT_EQ(service.cancel_job(rows[0][0]).value().at("state"), "cancelled");  // running
@@ -186,7 +186,7 @@ TEST(Service, RefusesToCancelWhatHasEnded) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submit(service, "{}");
+  const std::string id = submitted(service, "{}");
   finished(service, id);
   EXPECT_THROW((void)service.cancel_sweep(id), jobs::WrongState);
 }
@@ -196,9 +196,9 @@ TEST(Service, RunsWhatWaitedForACancelledJob) {
   FakeEngine engine;
   engine.hold();
   jobs::Service service(options_of(store, engine, 1));
-  const std::string first = submit(service, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  const std::string first = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
   engine.await_running(1);
-  const std::string second = submit(service, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  const std::string second = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
   (void)service.cancel_sweep(first);
   engine.release();
   EXPECT_EQ(finished(service, second).at("state"), "succeeded");
@@ -223,9 +223,9 @@ TEST(Service, WakesAFreeThreadForWhatWaitedForACancelledJob) {
     return fake(spec, stop);
   };
   jobs::Service service(options);
-  const std::string first = submit(service, "{}");
+  const std::string first = submitted(service, "{}");
   begun.wait(0);
-  const std::string waiting = submit(service, "{}");
+  const std::string waiting = submitted(service, "{}");
   std::this_thread::sleep_for(50ms);  // for the free thread to find that it has to wait
   (void)service.cancel_sweep(first);
   EXPECT_EQ(finished(service, waiting).at("state"), "succeeded");
@@ -237,7 +237,7 @@ TEST(Service, LeavesASweepRunningWhenAJobFails) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submit(service, R"({"sweep": {"restitution": [0.5, 0.4, 0.9]}})");
+  const std::string id = submitted(service, R"({"sweep": {"restitution": [0.5, 0.4, 0.9]}})");
   const json sweep = finished(service, id);
   EXPECT_EQ(sweep.at("state"), "failed");
   EXPECT_EQ(sweep.at("counts").at("failed"), 2);
@@ -265,7 +265,7 @@ TEST(Service, PutsRunningJobsBackWhenItStopsAndGoesOnWhenItStarts) {
   std::string id;
   {
     jobs::Service service(options_of(store, engine, 2));
-    id = submit(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3]}})");
+    id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3]}})");
     engine.await_running(2);
     service.stop();
     EXPECT_EQ(service.find_sweep(id).value().at("counts").at("queued"), 3);
@@ -282,7 +282,7 @@ std::string outcome_of(int threads, const char* request) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, threads));
-  const std::string id = submit(service, request);
+  const std::string id = submitted(service, request);
   finished(service, id);
   jobs::ResultTable table = service.find_results(id).value();
   std::string outcome;
@@ -304,7 +304,7 @@ TEST(Service, CutsTrajectories) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string sweep = submit(service, "{}");
+  const std::string sweep = submitted(service, "{}");
   finished(service, sweep);
   const std::string job = first_job(service, sweep);
   const auto all = service.find_trajectory(job, {}).value();
@@ -325,7 +325,7 @@ TEST(Service, ListsInPagesNewestFirst) {
   jobs::Service service(options_of(store, engine, 1));
   std::vector<std::string> ids;
   for (int i = 1; i <= 5; ++i) {
-    ids.push_back(submit(service, (R"({"name": "n", "sweep": {"restitution": [)" + std::to_string(i == 2 ? 0.5 : 0.6) + "]}}").c_str()));
+    ids.push_back(submitted(service, (R"({"name": "n", "sweep": {"restitution": [)" + std::to_string(i == 2 ? 0.5 : 0.6) + "]}}").c_str()));
     finished(service, ids.back());
   }
   std::vector<std::string> listed;
@@ -362,7 +362,7 @@ TEST(Service, DeletesWhatHasEndedOnly) {
   FakeEngine engine;
   engine.hold();
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submit(service, "{}");
+  const std::string id = submitted(service, "{}");
   EXPECT_THROW((void)service.delete_sweep(id), jobs::WrongState);
   engine.release();
   finished(service, id);
@@ -400,9 +400,9 @@ TEST(Service, DeletesOrRefusesToWhereTheDiskIsFull) {
   std::string first;
   {
     jobs::Service service(options);
-    first = submit(service, R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 100}}})");
+    first = submitted(service, R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 100}}})");
     EXPECT_EQ(finished(service, first).at("state"), "succeeded");
-    EXPECT_EQ(finished(service, submit(service, R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.2, "count": 100}}})")).at("state"), "succeeded");
+    EXPECT_EQ(finished(service, submitted(service, R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.2, "count": 100}}})")).at("state"), "succeeded");
   }
   std::vector<std::string> told;
   options.log = [&](const std::string& line) { told.push_back(line); };
@@ -428,7 +428,7 @@ TEST(Service, EstimatesTheTimeThatIsLeft) {
   FakeEngine engine;
   engine.hold();
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submit(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2]}})");
+  const std::string id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2]}})");
   engine.await_running(1);
   EXPECT_TRUE(service.find_sweep(id).value().at("eta_s").is_null());
   EXPECT_EQ(service.find_sweep(id).value().at("progress"), 0.0);
@@ -440,7 +440,7 @@ TEST(Service, WaitsForNoLongerThanItIsTold) {
   FakeEngine engine;
   engine.hold();
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submit(service, "{}");
+  const std::string id = submitted(service, "{}");
   EXPECT_FALSE(service.wait_for_sweep(id, 20ms));
   EXPECT_FALSE(service.wait_for_sweep("swp_none", kLong));
   engine.release();

@@ -17,8 +17,8 @@ namespace validation {
 
 namespace {
 
-constexpr double kMass = 0.8;    // [kg]
-constexpr double kSpeed = 0.05;  // [m/s]
+constexpr double kRingMass = 0.8;    // [kg]
+constexpr double kRingSpeed = 0.05;  // [m/s]
 
 /// Rebound ratio of a ring of infinitely many elements, each with the damping of its own onset: f = s (x - y) (1 + c v / v(y)), never
 /// negative, for the element that is met at the depth y. A shallow arc has elements at equal distances of sqrt(y), so the ratio depends
@@ -53,16 +53,16 @@ double ring_rebound(double c) {
 }
 
 /// @param n_ce  0: the continuum
-Impact simulate_ring_impact(int n_ce, double pitches, double speed = kSpeed, double k_r = 0.9) {
+Impact simulate_ring_impact(int n_ce, double pitches, double speed = kRingSpeed, double k_r = 0.9) {
   ClearanceParameters joint = one_ring();
   joint.chi = 0.75 * (1.0 - k_r * k_r);
-  const double time = calc_hertz_time(joint.K, kMass, speed);
+  const double time = calc_hertz_time(joint.K, kRingMass, speed);
   if (n_ce > 0) {
     joint.form = RadialForm::kElements;
     joint.n_ce = n_ce;
     joint.K /= std::sqrt(joint.r_b / joint.r_j());  // as stiff as the continuum in a shallow arc
   }
-  return simulate_impact(make_sliding_mass(joint, kMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6, speed, time);
+  return simulate_impact(make_sliding_mass(joint, kRingMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6, speed, time);
 }
 
 /// Rebound ratio of 1440 elements in the limit of a shallow arc: from two speeds, as the depth goes to zero.
@@ -86,7 +86,7 @@ Findings compute_impacts_of_a_ring() {
       .head = {"contact", "towards", "rebound ratio", "largest force [N]", "largest penetration [um]", "contact time [us]"},
       .rows = {}};
   const auto add = [&table](const std::string& contact, const std::string& towards, const Impact& impact) {
-    table.rows.push_back({contact, towards, number(impact.speed / kSpeed, 6), number(impact.force, 4), number(1e6 * impact.depth, 4),
+    table.rows.push_back({contact, towards, number(impact.speed / kRingSpeed, 6), number(impact.force, 4), number(1e6 * impact.depth, 4),
                           number(1e6 * impact.contact_time, 5)});
   };
   const Impact continuum = simulate_ring_impact(0, 0.0);

@@ -46,7 +46,7 @@ Load engine_load(const ClearanceParameters& parameters, const Eigen::Vector3d& p
   return {load.force, load.moment};
 }
 
-ClearanceParameters two_levels() {
+ClearanceParameters two_element_levels() {
   ClearanceParameters joint = one_ring(kClearance);
   joint.n_r = 2;
   return joint;
@@ -61,7 +61,7 @@ void add_check(Findings& findings, const std::string& what, const std::string& r
 
 /// Tilt about y in the plane of the offset: the rings are at x +- 10 mm sin(tilt), and press along x.
 void add_tilt_in_plane(Findings& findings, const char* name, double x, double tilt) {
-  const double K = two_levels().K;
+  const double K = two_element_levels().K;
   const auto press = [&](double side) {  // signed force along x of the ring at that end
     const double offset = x + side * kHalfLength * std::sin(tilt);
     const double depth = std::abs(offset) - kClearance;
@@ -69,7 +69,7 @@ void add_tilt_in_plane(Findings& findings, const char* name, double x, double ti
   };
   const double upper = press(1.0);
   const double lower = press(-1.0);
-  const Load load = engine_load(two_levels(), {x, 0.0, 0.0}, turn(tilt, Eigen::Vector3d::UnitY()));
+  const Load load = engine_load(two_element_levels(), {x, 0.0, 0.0}, turn(tilt, Eigen::Vector3d::UnitY()));
   const std::string reference = "statics: K / 2 delta^1.5 of each ring, at its arm of 10 mm cos(tilt)";
   const std::string why = "rounding of the offset, 1e-19 m in 1e-6 m, and of the sine";
   if (upper + lower != 0.0) {
@@ -89,8 +89,8 @@ void add_tilt_across(Findings& findings) {
   const double tilt = 4e-3;
   const double y = kHalfLength * std::sin(tilt);  // the ring at +z goes to -y
   const double distance = std::hypot(x, y);
-  const double force = 0.5 * two_levels().K * std::pow(distance - kClearance, 1.5);
-  const Load load = engine_load(two_levels(), {x, 0.0, 0.0}, turn(tilt, Eigen::Vector3d::UnitX()));
+  const double force = 0.5 * two_element_levels().K * std::pow(distance - kClearance, 1.5);
+  const Load load = engine_load(two_element_levels(), {x, 0.0, 0.0}, turn(tilt, Eigen::Vector3d::UnitX()));
   const std::string reference = "statics: K / 2 delta^1.5 of each ring against its own offset (x, -+y)";
   const std::string why = "rounding of the offset, 1e-19 m in 1e-6 m";
   add_check(findings, "force along the offset, journal tilted across it", reference, load.force.x(), -2.0 * force * x / distance, 1e-9, "N", why);
@@ -121,7 +121,7 @@ Load press_on_elements(const ClearanceParameters& joint, const Eigen::Vector3d& 
 
 /// Rings of 180 elements on a tilted journal whose first element points anywhere.
 void add_tilted_elements(Findings& findings) {
-  ClearanceParameters joint = two_levels();
+  ClearanceParameters joint = two_element_levels();
   joint.form = RadialForm::kElements;
   joint.n_ce = 180;
   const Eigen::Matrix3d turned = turn(0.3, Eigen::Vector3d::UnitZ());
@@ -179,15 +179,15 @@ Findings compute_tilted_journal() {
   add_tilt_in_plane(findings, "rings on opposite sides, 2 um deep: a couple", 0.0, std::asin((kClearance + 2e-6) / kHalfLength));
   add_tilt_across(findings);
   add_tilted_elements(findings);
-  const double force = two_levels().K * std::pow(2e-6, 1.5);
+  const double force = two_element_levels().K * std::pow(2e-6, 1.5);
   for (const int levels : {1, 2, 3, 5}) {
-    ClearanceParameters joint = two_levels();
+    ClearanceParameters joint = two_element_levels();
     joint.n_r = levels;
     const Load load = engine_load(joint, {kClearance + 2e-6, 0.0, 0.0}, Eigen::Matrix3d::Identity());
     add_check(findings, "force of an upright journal 2 um deep, " + std::to_string(levels) + " levels", "K delta^1.5, shared by the levels",
               -load.force.x(), force, 1e-9, "N", "rounding of the offset");
   }
-  const Load inside = engine_load(two_levels(), {0.9 * kClearance, 0.0, 0.0}, turn(1e-3, Eigen::Vector3d::UnitY()));
+  const Load inside = engine_load(two_element_levels(), {0.9 * kClearance, 0.0, 0.0}, turn(1e-3, Eigen::Vector3d::UnitY()));
   findings.checks.push_back(limit("force and moment inside the clearance: tilt of 1 mrad, rings 15 um and 35 um short of the bore", "none",
                                   inside.force.norm() + inside.moment.norm(), 0.0, "N", "no contact"));
   return findings;

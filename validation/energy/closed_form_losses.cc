@@ -39,15 +39,15 @@ double calc_rebound(double c) {
 }
 
 Check compare_impact(double k_r) {
-  constexpr double kMass = 1.0, kSpeed = 0.3, kGap = 0.25e-3;
+  constexpr double kImpactMass = 1.0, kImpactSpeed = 0.3, kImpactGap = 0.25e-3;
   const double chi = 0.75 * (1.0 - k_r * k_r);
-  const Mechanism mass = make_free_mass(kMass, {.c_r = kGap, .K = 4.7e10, .chi = chi, .friction = {}, .worn = {}});
-  LastAccount last(kGap);
+  const Mechanism mass = make_free_mass(kImpactMass, {.c_r = kImpactGap, .K = 4.7e10, .chi = chi, .friction = {}, .worn = {}});
+  LastAccount last(kImpactGap);
   run_from(mass, {.duration = 2e-3, .output_rate = 1.0, .integrator = Integrator::kDopri5,
                   .relative_tolerance = 1e-9, .absolute_tolerance = 1e-10}, Eigen::VectorXd::Zero(1),
-           Eigen::VectorXd::Constant(1, kSpeed), last);
+           Eigen::VectorXd::Constant(1, kImpactSpeed), last);
   const double e = calc_rebound(chi);
-  const double expected = 0.5 * kMass * kSpeed * kSpeed * (1.0 - e * e);
+  const double expected = 0.5 * kImpactMass * kImpactSpeed * kImpactSpeed * (1.0 - e * e);
   return compare("impact loss of 1 kg that meets the bore at 0.3 m/s, k_r = " + number(k_r),
                  "closed form: m v^2 (1 - e^2) / 2, chi (1 + e) = ln((1 + chi) / (1 - chi e))", last.energy.impact_loss, expected, 5e-9, "J",
                  "tolerance of the integration, 1e-9 of 0.045 J, over some hundred steps");

@@ -10,8 +10,8 @@ namespace validation {
 
 namespace {
 
-constexpr double kSpeed = 0.3;     // [m/s]
-constexpr double kGap = 0.25e-3;   // [m]
+constexpr double kOnsetSpeed = 0.3;     // [m/s]
+constexpr double kOnsetGap = 0.25e-3;   // [m]
 
 class LastBalance : public QuietObserver {
  public:
@@ -21,9 +21,9 @@ class LastBalance : public QuietObserver {
 
 /// 1 kg that meets the bore, or with its face the bearing's shoulder.
 Mechanism make_mass(Axis direction) {
-  Mechanism mass = make_free_mass(1.0, {.c_r = kGap, .K = 4.7e10, .K_a = 1e8, .chi = 0.0, .friction = {}, .worn = {}});
+  Mechanism mass = make_free_mass(1.0, {.c_r = kOnsetGap, .K = 4.7e10, .K_a = 1e8, .chi = 0.0, .friction = {}, .worn = {}});
   mass.coordinates[0].axis = direction;
-  if (direction == Axis::kZ) mass.cut_joints[0].clearance->c_a = kGap;
+  if (direction == Axis::kZ) mass.cut_joints[0].clearance->c_a = kOnsetGap;
   return mass;
 }
 
@@ -33,9 +33,9 @@ double measure_error(const Mechanism& mass, double step) {
   double sum = 0.0;
   for (int place = 0; place < kPlaces; ++place) {
     LastBalance last;
-    run_from(mass, {.duration = kGap / kSpeed + 6e-4, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step},
-             Eigen::VectorXd::Constant(1, -kSpeed * step * place / kPlaces), Eigen::VectorXd::Constant(1, kSpeed), last);
-    sum += std::pow(last.balance - 0.5 * kSpeed * kSpeed, 2) / kPlaces;
+    run_from(mass, {.duration = kOnsetGap / kOnsetSpeed + 6e-4, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step},
+             Eigen::VectorXd::Constant(1, -kOnsetSpeed * step * place / kPlaces), Eigen::VectorXd::Constant(1, kOnsetSpeed), last);
+    sum += std::pow(last.balance - 0.5 * kOnsetSpeed * kOnsetSpeed, 2) / kPlaces;
   }
   return std::sqrt(sum);
 }

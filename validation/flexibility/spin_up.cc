@@ -22,7 +22,7 @@ namespace validation {
 
 namespace {
 
-constexpr const char* kGiven = "value given by an independent computation of the same model, to the digits shown";
+constexpr const char* kSpinUpGiven = "value given by an independent computation of the same model, to the digits shown";
 
 constexpr double kLength = 10.0;        // [m]
 constexpr double kEI = 1.4e4;           // [N m^2]
@@ -30,12 +30,12 @@ constexpr double kMassPerLength = 1.2;  // [kg/m]
 
 /// A beam clamped to a hub that is driven: elements and springs by the engine's division, turning in one plane. No gravity, no damping.
 Mechanism make_beam(int segments) {
-  constexpr double kDiameter = 0.1;  // any: E makes up for it
-  const double I = std::numbers::pi * std::pow(kDiameter, 4) / 64.0;
+  constexpr double kBeamDiameter = 0.1;  // any: E makes up for it
+  const double I = std::numbers::pi * std::pow(kBeamDiameter, 4) / 64.0;
   const DividedRod divided = divide_rod({.length = kLength,
                                          .mass = kMassPerLength * kLength,
                                          .I_x = 1e-6,
-                                         .diameter = kDiameter,
+                                         .diameter = kBeamDiameter,
                                          .youngs_modulus = kEI / I,
                                          .shear_modulus = 1.0,
                                          .damping_ratio = 0.0},
@@ -106,13 +106,13 @@ Findings compute_spin_up() {
   const double limit = (16.0 * from_fine - from_coarse) / 15.0;
   const double order = std::log2((five.largest - ten.largest) / (ten.largest - twenty.largest));
   const std::string beam = "largest lag of the tip of a beam spun up from rest to 6 rad/s in 15 s, ";
-  findings.checks.push_back(compare(beam + "10 segments", kGiven, ten.largest, -0.5692, 5.1e-5, "m", "half of its last digit"));
-  findings.checks.push_back(compare(beam + "20 segments", kGiven, twenty.largest, -0.5726, 5.1e-5, "m", "half of its last digit"));
+  findings.checks.push_back(compare(beam + "10 segments", kSpinUpGiven, ten.largest, -0.5692, 5.1e-5, "m", "half of its last digit"));
+  findings.checks.push_back(compare(beam + "20 segments", kSpinUpGiven, twenty.largest, -0.5726, 5.1e-5, "m", "half of its last digit"));
   findings.checks.push_back(
-      compare(beam + "in the limit, from 5, 10 and 20 segments", kGiven, limit, -0.5738, 5.1e-5, "m", "half of its last digit"));
+      compare(beam + "in the limit, from 5, 10 and 20 segments", kSpinUpGiven, limit, -0.5738, 5.1e-5, "m", "half of its last digit"));
   findings.checks.push_back(compare("order of the error of the largest lag of a beam spun up in the number of segments, 5, 10, 20", "2", order, 2.0,
                                     0.06, "1", "terms of n^-4"));
-  findings.checks.push_back(compare("time of the largest lag of the tip of a beam spun up from rest to 6 rad/s in 15 s, 20 segments", kGiven,
+  findings.checks.push_back(compare("time of the largest lag of the tip of a beam spun up from rest to 6 rad/s in 15 s, 20 segments", kSpinUpGiven,
                                     twenty.at, 6.76, 5.1e-3, "s", "half of its last digit"));
   findings.tables.push_back(
       {.caption =

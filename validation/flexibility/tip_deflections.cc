@@ -16,7 +16,7 @@ namespace validation {
 
 namespace {
 
-const Rod kStudyRod{.mass = 0.306, .I_x = 3.829e-6};
+const Rod kTipStudyRod{.mass = 0.306, .I_x = 3.829e-6};
 
 /// Motion of the tip from where it is without load.
 struct TipMotion {
@@ -27,7 +27,7 @@ struct TipMotion {
 /// Static equilibrium under a force and a moment at the tip: Newton's method on forces(q) + K q = 0 with the springs as slope, which is exact
 /// for small loads.
 TipMotion find_equilibrium(int segments, const Wrench& at_tip) {
-  const Mechanism mechanism = cut_coupler(kStudyRod, segments, NearEnd::kClamped);
+  const Mechanism mechanism = cut_coupler(kTipStudyRod, segments, NearEnd::kClamped);
   const auto n = static_cast<Eigen::Index>(mechanism.coordinates.size());
   const auto last = static_cast<FrameIndex>(n) - 1;
   const Eigen::VectorXd K = stiffness_matrix(mechanism).diagonal();
@@ -56,7 +56,7 @@ Findings compute_tip_deflections() {
   const double rod_deflection = kForce * std::pow(Rod::kLength, 3) / (3.0 * Rod::EI());
   const std::string reference = "(1 - 1 / (4 n^2)) P l^3 / (3 E I)";
   for (const int n : {1, 3, 9}) {
-    const Mechanism mechanism = cut_coupler(kStudyRod, n, NearEnd::kClamped);
+    const Mechanism mechanism = cut_coupler(kTipStudyRod, n, NearEnd::kClamped);
     const Eigen::MatrixXd J = calc_tip_jacobian(mechanism);
     const double linear = kForce * (J.row(1).array().square().transpose() / stiffness_matrix(mechanism).diagonal().array()).sum();
     const double along_y = find_equilibrium(n, {{0.0, kForce, 0.0}, Eigen::Vector3d::Zero()}).p.y();

@@ -21,7 +21,7 @@ namespace validation {
 
 namespace {
 
-constexpr int kStates = 1000;
+constexpr int kTraceStates = 1000;
 
 /// What is compared, with which equations, and the bound on it.
 struct Quantity {
@@ -151,7 +151,7 @@ void compare_chains(const RpsupParameters& parameters, Worst& worst) {
   Engine engine(open_chains(build_rpsup(parameters).mechanism));
   const Mechanism paper_chains = make_paper_chains(parameters);
   Random random(7);
-  for (int k = 0; k < kStates; ++k) {
+  for (int k = 0; k < kTraceStates; ++k) {
     const ChainState state = draw_state(paper_chains, random);
     const TraceForm paper = calc_trace_form(paper_chains, state.q, state.qd);
     const ElasticTerms elastic = calc_elastic_terms(parameters, state.q, state.qd);
@@ -177,7 +177,7 @@ void compare_driven_chains(RpsupParameters parameters, DriveEnforcement drive, W
   Evaluation at = system.make_evaluation();
   Eigen::VectorXd rates;
   Random random(9);
-  for (int k = 0; k < kStates; ++k) {
+  for (int k = 0; k < kTraceStates; ++k) {
     const ChainState state = draw_state(paper_chains, random);
     const double t = std::abs(random.symmetric(parameters.run_up));
     const Eigen::VectorXd y = system.make_state(state.q, state.qd);
@@ -205,7 +205,7 @@ void compare_elastic_terms(const RpsupParameters& parameters, Worst& worst) {
   Engine engine(with_heavy_bodies(open_chains(build_rpsup(parameters).mechanism)));
   const Mechanism paper_chains = with_heavy_bodies(make_paper_chains(parameters));
   Random random(8);
-  for (int k = 0; k < kStates; ++k) {
+  for (int k = 0; k < kTraceStates; ++k) {
     const ChainState state = draw_state(paper_chains, random);
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(state.q.size());
     ChainState straight = state;

@@ -27,8 +27,8 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kStates = 10;
-constexpr double kStep = 0.03;  // [rad] and [m], of the differences
+constexpr int kWorkStates = 10;
+constexpr double kWorkStep = 0.03;  // [rad] and [m], of the differences
 constexpr double kMultiplierBound = 1e-11;  // that of the trace form's terms
 
 /// Poses of bearing and journal in the paper's chains, with their derivatives by the coordinates.
@@ -105,7 +105,7 @@ VectorXd calc_virtual_work(const JointPoses& poses, const Evaluation& at) {
   const Matrix3d R = poses.relative(at.q).topLeftCorner<3, 3>();
   VectorXd work(at.q.size());
   for (Eigen::Index i = 0; i < work.size(); ++i) {
-    const Matrix4d slope = first_derivative([&](double s) { return poses.relative(at.q + s * VectorXd::Unit(at.q.size(), i)); }, kStep);
+    const Matrix4d slope = first_derivative([&](double s) { return poses.relative(at.q + s * VectorXd::Unit(at.q.size(), i)); }, kWorkStep);
     const Matrix3d turn = slope.topLeftCorner<3, 3>() * R.transpose();
     work[i] = load.force.dot(slope.topRightCorner<3, 1>()) + load.moment.dot(Vector3d(turn(2, 1), turn(0, 2), turn(1, 0)));
   }
@@ -141,7 +141,7 @@ MultiplierDifferences compare_multipliers(RpsupParameters parameters) {
   Evaluation at = system.make_evaluation();
   Random random(13);
   MultiplierDifferences worst;
-  for (int k = 0; k < kStates; ++k) {
+  for (int k = 0; k < kWorkStates; ++k) {
     const VectorXd q = assembled.q + random.symmetric_vector(assembled.q.size(), 1e-3);
     const VectorXd y = system.make_state(q, random.symmetric_vector(q.size(), 1.0));
     VectorXd rates = VectorXd::Zero(y.size());
@@ -156,18 +156,18 @@ MultiplierDifferences compare_multipliers(RpsupParameters parameters) {
   return worst;
 }
 
-struct Differences {
+struct WorkDifferences {
   Largest virtual_work, paper;
 };
 
-Differences compare_contact_forces(const RpsupParameters& parameters) {
+WorkDifferences compare_contact_forces(const RpsupParameters& parameters) {
   const Mechanism mechanism = build_rpsup(parameters).mechanism;
   const JointPoses poses(parameters);
   MotionSystem system(mechanism);
   Evaluation at = system.make_evaluation();
   Random random(11);
-  Differences worst;
-  for (int k = 0; k < kStates; ++k) {
+  WorkDifferences worst;
+  for (int k = 0; k < kWorkStates; ++k) {
     const VectorXd y = draw_touching_state(mechanism, system, random);
     VectorXd rates = VectorXd::Zero(y.size());
     if (system.calc_derivative(0.01, y, rates, at) != EvaluationStatus::kOk) throw std::runtime_error("a touching state cannot be evaluated");
@@ -192,12 +192,12 @@ Findings compute_virtual_work() {
     }
     for (const DriveEnforcement drive : {DriveEnforcement::kPrescribed, DriveEnforcement::kBaumgarte}) {
       c.parameters.drive = drive;
-      const Differences worst = compare_contact_forces(c.parameters);
+      const WorkDifferences worst = compare_contact_forces(c.parameters);
       const std::string of = ", " + c.name + (drive == DriveEnforcement::kPrescribed ? ", drives prescribed" : ", drives by multipliers");
       const std::string at = of + faces + ", 10 states in contact";
       findings.checks.push_back(limit("c = M qdd + h + g + s_f less drive torque and force" + at,
                                       "virtual work of the contact force and moment at each coordinate, central differences of order 8 over " +
-                                          number(kStep) + " rad or m of the trace form's poses",
+                                          number(kWorkStep) + " rad or m of the trace form's poses",
                                       worst.virtual_work.value(), 1e-11, "1", 
                                       "relative to the largest entry of c; poses round at 2e-16, over the step 2e-14"));
       findings.checks.push_back(limit("c = M qdd + h + g + s_f less drive torque and force, with the contacts found anew" + at,

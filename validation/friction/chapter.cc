@@ -6,7 +6,7 @@ namespace validation {
 
 namespace {
 
-constexpr const char* kText =
+constexpr const char* kFrictionText =
     R"(LuGre's law in the experiments of the article that introduced it: C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky,
 "A New Model for Control of Systems with Friction", IEEE Transactions on Automatic Control 40(3), 1995, with its values
 (F_s = 1.5 N, F_c = 1 N, sigma_0 = 1e5 N/m, sigma_1 = sqrt(1e5) N s/m, sigma_2 = 0.4 N s/m, v_s = 1e-3 m/s; the engine's mu_s, mu_k with a
@@ -32,7 +32,7 @@ table below says how fast runs slide. For a user it means:
 
 Chapter friction_chapter() {
   return {.title = "Friction",
-          .text = kText,
+          .text = kFrictionText,
           .parts = {{"stick_slip", compute_stick_slip},
                     {"break_away_force", compute_break_away},
                     {"pre_sliding_displacement", compute_pre_sliding},

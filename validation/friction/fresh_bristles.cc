@@ -13,10 +13,10 @@ namespace validation {
 
 namespace {
 
-constexpr double kMass = 1.0;         // [kg]
-constexpr double kSpeed = 0.3;        // across the bore, [m/s]
+constexpr double kBristleMass = 1.0;         // [kg]
+constexpr double kBristleSpeed = 0.3;        // across the bore, [m/s]
 constexpr double kGap = 0.25e-3;      // [m]
-constexpr double kStiffness = 4.7e10; // [N/m^1.5]
+constexpr double kBristleStiffness = 4.7e10; // [N/m^1.5]
 constexpr int kContacts = 3;
 
 class LastLoss : public QuietObserver {
@@ -26,34 +26,34 @@ class LastLoss : public QuietObserver {
 };
 
 double duration_of_contact() {
-  return 0.8 * std::beta(0.4, 0.5) * std::pow(5.0 * kMass * kSpeed * kSpeed / (4.0 * kStiffness), 0.4) / kSpeed;
+  return 0.8 * std::beta(0.4, 0.5) * std::pow(5.0 * kBristleMass * kBristleSpeed * kBristleSpeed / (4.0 * kBristleStiffness), 0.4) / kBristleSpeed;
 }
 
 /// A mass that bounces from side to side of the bore, elastically, while it is drawn along the bearing's axis.
 double run_contacts(double sliding) {
-  Mechanism m = make_free_mass(kMass, {.c_r = kGap, .K = kStiffness, .chi = 0.0, .friction = FrictionParameters{}, .worn = {}});
+  Mechanism m = make_free_mass(kBristleMass, {.c_r = kGap, .K = kBristleStiffness, .chi = 0.0, .friction = FrictionParameters{}, .worn = {}});
   m.cut_joints[0].clearance->c_a = 10.0;
   m.coordinates.insert(m.coordinates.begin(), {.name = "carriage", .placement = {}, .motion = Motion::kTranslation, .axis = Axis::kZ});
   m.coordinates[1].parent = 0;
   m.cut_joints[0].journal_frame = 1;
   m.drives = {{0, RunUp{sliding, 0.0}}};
   LastLoss last;
-  const double duration = 2.0 * kContacts * kGap / kSpeed + kContacts * duration_of_contact();  // half way back from the last one
+  const double duration = 2.0 * kContacts * kGap / kBristleSpeed + kContacts * duration_of_contact();  // half way back from the last one
   run_from(m, {.duration = duration, .output_rate = 1.0, .integrator = Integrator::kDopri5,
                .relative_tolerance = 1e-10, .absolute_tolerance = 1e-12}, Eigen::Vector2d::Zero(),
-           Eigen::Vector2d(sliding, kSpeed), last);
+           Eigen::Vector2d(sliding, kBristleSpeed), last);
   return last.loss;
 }
 
 /// One contact that begins with an unbent bristle: m d'' = -K d^1.5, z' = v (1 - sigma_0 z / mu_k), loss' = K d^1.5 (sigma_0 z + sigma_1 z') v.
 double integrate_contact(double sliding) {
   const auto rates = [sliding](const OdeState& y, OdeState& d, double) {
-    const double force = kStiffness * std::pow(std::max(0.0, y[0]), 1.5);
+    const double force = kBristleStiffness * std::pow(std::max(0.0, y[0]), 1.5);
     const double bending = sliding * (1.0 - 100.0 * y[2] / 0.2);
-    d = {y[1], -force / kMass, bending, force * (100.0 * y[2] + 5.0 * bending) * sliding};
+    d = {y[1], -force / kBristleMass, bending, force * (100.0 * y[2] + 5.0 * bending) * sliding};
   };
   auto stepper = make_fehlberg(1e-16, 1e-13);
-  OdeState y{0.0, kSpeed, 0.0, 0.0};
+  OdeState y{0.0, kBristleSpeed, 0.0, 0.0};
   double t = 0.0;
   double dt = 1e-7;
   advance(stepper, rates, y, t, duration_of_contact(), dt);

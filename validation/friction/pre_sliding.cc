@@ -15,9 +15,9 @@ namespace validation {
 namespace {
 
 constexpr double kBreak = 1.5;       // F_s, [N]
-constexpr double kStiffness = 1e5;   // sigma_0, [N/m]
+constexpr double kPreSlidingStiffness = 1e5;   // sigma_0, [N/m]
 constexpr double kTop = 0.95 * kBreak;
-constexpr double kRate = 0.01;       // of the force, [N/s]: all but static
+constexpr double kPreSlidingRate = 0.01;       // of the force, [N/s]: all but static
 constexpr double kHold = 20.0;           // [s]
 constexpr double kSpacing = 0.5;     // of the record, [s]
 
@@ -28,7 +28,7 @@ struct Record {
 /// Displacement while the force changes from one value to another, infinitely slowly: dx = dF / (sigma_0 (1 -+ F / F_s)).
 double dahl_displacement(double from, double to) {
   const double direction = to > from ? 1.0 : -1.0;
-  return -direction * kBreak / kStiffness * std::log((kBreak - direction * to) / (kBreak - direction * from));
+  return -direction * kBreak / kPreSlidingStiffness * std::log((kBreak - direction * to) / (kBreak - direction * from));
 }
 
 class Experiment {
@@ -37,7 +37,7 @@ class Experiment {
   Record ramp(double to) {
     const double from = force_;
     const double begin = t_;
-    const double duration = std::abs(to - from) / kRate;
+    const double duration = std::abs(to - from) / kPreSlidingRate;
     return drive([=](double t) { return from + (to - from) * (t - begin) / duration; }, duration, to);
   }
   void hold() {
@@ -78,7 +78,7 @@ class Experiment {
 double find_distance(const Record& branch, double x_from, double force_from, double direction) {
   Largest worst;
   for (std::size_t k = 0; k < branch.x.size(); ++k) {
-    const double decay = std::exp(-direction * (branch.x[k] - x_from) * kStiffness / kBreak);
+    const double decay = std::exp(-direction * (branch.x[k] - x_from) * kPreSlidingStiffness / kBreak);
     const double expected = direction * kBreak + (force_from - direction * kBreak) * decay;
     worst.take(branch.friction[k] - expected);
   }
@@ -117,10 +117,10 @@ Findings compute_pre_sliding() {
   const double first_load = dahl_displacement(0.0, kTop);
   const double across = dahl_displacement(kTop, -kTop);
   const double ratio = kTop / kBreak;
-  const double area = 2.0 * kBreak * kBreak / kStiffness * (std::log((1.0 + ratio) / (1.0 - ratio)) - 2.0 * ratio);
-  const double end_slope = kStiffness * (1.0 - ratio);                             // of the force at the end of a ramp, [N/m]
-  const double overshoot = kRate / end_slope / std::sqrt(end_slope / 1.0);         // velocity over circular frequency: 2.8e-8 m
-  const double damping_force = std::sqrt(kStiffness) * kRate / kStiffness;         // sigma_1 F' / sigma_0 = 3.2e-5 N
+  const double area = 2.0 * kBreak * kBreak / kPreSlidingStiffness * (std::log((1.0 + ratio) / (1.0 - ratio)) - 2.0 * ratio);
+  const double end_slope = kPreSlidingStiffness * (1.0 - ratio);                             // of the force at the end of a ramp, [N/m]
+  const double overshoot = kPreSlidingRate / end_slope / std::sqrt(end_slope / 1.0);         // velocity over circular frequency: 2.8e-8 m
+  const double damping_force = std::sqrt(kPreSlidingStiffness) * kPreSlidingRate / kPreSlidingStiffness;         // sigma_1 F' / sigma_0 = 3.2e-5 N
 
   const std::string what = "pre-sliding (force on 1 kg 0 to 1.425 N, to -1.425 N, to 1.425 N): ";
   const char* static_limit = "static limit of the law: F = F_s (1 - exp(-sigma_0 x / F_s)) and its branches";
@@ -130,7 +130,7 @@ Findings compute_pre_sliding() {
   const std::size_t early = 2;  // 0.015 N: a hundredth of F_s
   findings.checks.push_back(compare(what + "mean slope of the force over the first 1 % of F_s", "static limit: sigma_0, less 0.5 %",
                                     load.friction[early] / load.x[early], load.friction[early] / dahl_displacement(0.0, load.friction[early]),
-                                    2.0 * damping_force / load.friction[early] * kStiffness, "N/m", damping));
+                                    2.0 * damping_force / load.friction[early] * kPreSlidingStiffness, "N/m", damping));
   findings.checks.push_back(compare(what + "displacement at 1.425 N", static_limit, x_top, first_load, overshoot, "m", swing));
   findings.checks.push_back(compare(what + "displacement at -1.425 N", static_limit, x_bottom, first_load + across, overshoot, "m", swing));
   findings.checks.push_back(compare(what + "displacement at 1.425 N again", "the loop is closed", experiment.x(), x_top, 1e-11, "m",

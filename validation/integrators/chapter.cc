@@ -6,7 +6,7 @@ namespace validation {
 
 namespace {
 
-constexpr const char* kText =
+constexpr const char* kIntegratorsText =
     R"(Five integrators: `rk4`, the paper's classical Runge-Kutta method of order 4 in equal steps; `dopri5`, Dormand and Prince's method of order 5
 with error control; and three implicit ones with error control, `radau5` (Radau IIA of order 5), `rodas5` and `rodas4` (Rosenbrock methods of orders 5
 and 4). The default is `radau5`. The steps of all but `rk4` end where a ring of the journal meets or leaves the bore, and where the rod's
@@ -41,7 +41,7 @@ costs more and changes nothing that the study looks at.)";
 
 Chapter integrators_chapter() {
   return {.title = "Integrators",
-          .text = kText,
+          .text = kIntegratorsText,
           .parts = {{"order_on_a_pendulum", compute_order_on_a_pendulum},
                     {"order_on_the_ideal_linkage", compute_order_on_the_linkage},
                     {"instants_of_contact", compute_contact_instants},

@@ -22,48 +22,48 @@ namespace {
 
 // A compound pendulum let go at 2.5 rad from its rest, in a field that makes it swing some 80 times a second: then it is the tolerance
 // that decides the steps, not the longest one that the engine takes (1 ms).
-constexpr double kGravity = 1e5;   // [m/s^2]
-constexpr double kMass = 2.0;      // [kg]
+constexpr double kPendulumGravity = 1e5;   // [m/s^2]
+constexpr double kPendulumMass = 2.0;      // [kg]
 constexpr double kArm = 0.3;       // to the centre of mass, [m]
-constexpr double kInertia = 0.25;  // about the pivot, [kg m^2]
-constexpr double kStart = 2.5;     // [rad]
-constexpr double kDuration = 0.02; // [s]
+constexpr double kPendulumInertia = 0.25;  // about the pivot, [kg m^2]
+constexpr double kPendulumStart = 2.5;     // [rad]
+constexpr double kPendulumDuration = 0.02; // [s]
 constexpr double kDown = -0.5 * std::numbers::pi;  // the coordinate of its rest
 
 Mechanism make_pendulum() {
   Mechanism m;
-  m.coordinates.push_back({.name = "angle", .placement = {}, .axis = Axis::kZ, .mass = kMass, .com = {kArm, 0.0, 0.0},
-                           .inertia = Eigen::Vector3d(0.01, kInertia, kInertia).asDiagonal()});
-  m.gravity_W = {0.0, -kGravity, 0.0};
+  m.coordinates.push_back({.name = "angle", .placement = {}, .axis = Axis::kZ, .mass = kPendulumMass, .com = {kArm, 0.0, 0.0},
+                           .inertia = Eigen::Vector3d(0.01, kPendulumInertia, kPendulumInertia).asDiagonal()});
+  m.gravity_W = {0.0, -kPendulumGravity, 0.0};
   return m;
 }
 
 /// sin(angle / 2) = k sn(omega t + K(k), k), k = sin(start / 2), omega^2 = m g s / I.
 double exact_angle(double t) {
-  const long double k = std::sin(0.5L * static_cast<long double>(kStart));
-  const long double omega = std::sqrt(static_cast<long double>(kMass * kGravity * kArm / kInertia));
+  const long double k = std::sin(0.5L * static_cast<long double>(kPendulumStart));
+  const long double omega = std::sqrt(static_cast<long double>(kPendulumMass * kPendulumGravity * kArm / kPendulumInertia));
   const long double u = omega * static_cast<long double>(t) + boost::math::ellint_1(k);
   return static_cast<double>(2.0L * std::asin(k * boost::math::jacobi_sn(k, u)));
 }
 
-double calc_error(double coordinate) { return std::abs(coordinate - kDown - exact_angle(kDuration)); }
+double calc_error(double coordinate) { return std::abs(coordinate - kDown - exact_angle(kPendulumDuration)); }
 
 struct ControlledRun {
   double error;
   long steps;
 };
 
-ControlledRun run(const RunOptions& options) {
+ControlledRun swing(const RunOptions& options) {
   LastState last;
-  const RunEnd end = run_from(make_pendulum(), options, Eigen::VectorXd::Constant(1, kStart + kDown), Eigen::VectorXd::Zero(1), last);
+  const RunEnd end = run_from(make_pendulum(), options, Eigen::VectorXd::Constant(1, kPendulumStart + kDown), Eigen::VectorXd::Zero(1), last);
   return {calc_error(last.q[0]), end.steps};
 }
 
 Ladder climb_rk4() {
   Ladder ladder;
   for (const int count : {100, 200, 400, 800, 1600}) {
-    const double step = kDuration / count;
-    ladder.add(step, run({.duration = kDuration, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step}).error);
+    const double step = kPendulumDuration / count;
+    ladder.add(step, swing({.duration = kPendulumDuration, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step}).error);
   }
   return ladder;
 }
@@ -72,8 +72,8 @@ Ladder climb_dopri5() {
   Ladder ladder;
   const Mechanism pendulum = make_pendulum();
   Evaluation start = MotionSystem(pendulum).make_evaluation();
-  start.q[0] = kStart + kDown;
-  for (const int count : {50, 100, 200, 400}) ladder.add(kDuration / count, calc_error(take_equal_steps(pendulum, start, kDuration, count).q[0]));
+  start.q[0] = kPendulumStart + kDown;
+  for (const int count : {50, 100, 200, 400}) ladder.add(kPendulumDuration / count, calc_error(take_equal_steps(pendulum, start, kPendulumDuration, count).q[0]));
   return ladder;
 }
 
@@ -90,9 +90,9 @@ Findings compute_order_on_a_pendulum() {
   std::vector<double> tolerances;
   for (int exponent = 4; exponent <= 12; ++exponent) {
     const double tolerance = std::pow(10.0, -exponent);
-    const ControlledRun r = run({.duration = kDuration, .output_rate = 1.0, .integrator = Integrator::kDopri5, .relative_tolerance = tolerance,
+    const ControlledRun r = swing({.duration = kPendulumDuration, .output_rate = 1.0, .integrator = Integrator::kDopri5, .relative_tolerance = tolerance,
                                  .absolute_tolerance = tolerance});
-    controlled.add(kDuration / static_cast<double>(r.steps), r.error);
+    controlled.add(kPendulumDuration / static_cast<double>(r.steps), r.error);
     tolerances.push_back(tolerance);
     worst.take(r.error / tolerance);
     if (exponent < 12) table.rows.push_back({number(tolerance), std::to_string(r.steps), number(r.error, 2), number(r.error / tolerance, 2)});

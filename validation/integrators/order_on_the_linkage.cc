@@ -12,7 +12,7 @@ namespace validation {
 
 namespace {
 
-constexpr double kDuration = 2.5;  // [s]; the corners of the drive laws fall on steps
+constexpr double kLinkageOrderDuration = 2.5;  // [s]; the corners of the drive laws fall on steps
 
 RpsupParameters ideal() {
   RpsupParameters p;
@@ -25,9 +25,9 @@ RpsupParameters ideal() {
 double find_error(const RpsupLayout& layout, const Eigen::VectorXd& q) {
   const RpsupParameters p = ideal();
   Largest error;
-  error.take(q[layout.crank] - calc_crank_angle(p, kDuration).value());
-  error.take(q[layout.rod] - calc_rod_displacement(p, kDuration).value());
-  error.take(q[layout.slider] - calc_slider(p, kDuration).value());
+  error.take(q[layout.crank] - calc_crank_angle(p, kLinkageOrderDuration).value());
+  error.take(q[layout.rod] - calc_rod_displacement(p, kLinkageOrderDuration).value());
+  error.take(q[layout.slider] - calc_slider(p, kLinkageOrderDuration).value());
   return error.value();
 }
 
@@ -40,7 +40,7 @@ Findings compute_order_on_the_linkage() {
   Ladder rk4;
   for (const double step : {1e-3, 5e-4, 2.5e-4}) {
     LastState last;
-    (void)simulate(mechanism, {.duration = kDuration, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step}, last);
+    (void)simulate(mechanism, {.duration = kLinkageOrderDuration, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step}, last);
     rk4.add(step, find_error(rpsup.layout, last.q));
   }
 
@@ -49,8 +49,8 @@ Findings compute_order_on_the_linkage() {
   (void)closure.assemble(0.0, assembled);
   Ladder dopri5;
   for (const int count : {1250, 2500, 5000}) {
-    const Evaluation at = take_equal_steps(mechanism, assembled, kDuration, count);
-    dopri5.add(kDuration / count, find_error(rpsup.layout, at.q));
+    const Evaluation at = take_equal_steps(mechanism, assembled, kLinkageOrderDuration, count);
+    dopri5.add(kLinkageOrderDuration / count, find_error(rpsup.layout, at.q));
   }
 
   const char* reference = "closed form: drive laws, and the slider by Pythagoras";

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kLongestStep = 1e-3;  // [s], of the error-controlled method
 
-struct Run {
+struct DriftRun {
   Coupler coupler;
   DriveEnforcement drive;
   double step;  ///< [s], of rk4; 0: dopri5
@@ -73,7 +73,7 @@ struct Drift {
   Largest coordinates, rates;    ///< sums of their magnitudes
 };
 
-Drift measure(const RpsupParameters& p, const RunOptions& options) {
+Drift measure_drift(const RpsupParameters& p, const RunOptions& options) {
   const Opening opening(p);
   Drift drift;
   double next_look = 0.0;
@@ -112,13 +112,13 @@ Bound calc_bound(const RpsupParameters& p, double h, const Drift& drift) {
   return {(2.0 * beta * e_q + e_v) / (h * beta * beta), (e_q + 2.0 / std::exp(1.0) / beta * e_v) / h};
 }
 
-std::string name_of(const Run& run) {
+std::string name_of_run(const DriftRun& run) {
   return std::string(run.coupler == Coupler::kRigid ? "rigid" : "flexible") + " coupler, drives " +
          (run.drive == DriveEnforcement::kPrescribed ? "prescribed" : "by multipliers") + ", " +
          (run.step > 0.0 ? "rk4 with steps of " + number(run.step) + " s, rod by the cycloidal law" : "dopri5 with tolerances of 1e-6 and 1e-7");
 }
 
-Findings measure_all(const std::vector<Run>& runs, RpsupParameters p, double duration) {
+Findings measure_all(const std::vector<DriftRun>& runs, RpsupParameters p, double duration) {
   Findings findings;
   const std::string span = number(duration) + " s, crank at " + number(p.crank_velocity) + " rad/s after " + number(p.run_up) + " s";
   Table table{.caption = "Largest violation of the constraints of ideal joint and drives over " + span +
@@ -130,7 +130,7 @@ Findings measure_all(const std::vector<Run>& runs, RpsupParameters p, double dur
                              ", each millisecond.",
                  .head = {"run", "gamma [m/s^2, 1/s^2]"},
                  .rows = {}};
-  for (const Run& run : runs) {
+  for (const DriftRun& run : runs) {
     p.coupler = run.coupler;
     p.drive = run.drive;
     const bool fixed = run.step > 0.0;
@@ -141,18 +141,18 @@ Findings measure_all(const std::vector<Run>& runs, RpsupParameters p, double dur
       options.integrator = Integrator::kRk4;
       options.step = run.step;
     }
-    const Drift drift = measure(p, options);
+    const Drift drift = measure_drift(p, options);
     const Bound bound = calc_bound(p, fixed ? run.step : kLongestStep, drift);
-    const std::string at = ", " + name_of(run) + ", " + span;
+    const std::string at = ", " + name_of_run(run) + ", " + span;
     const std::string why = fixed ? "what stabilisation leaves of rk4's errors and of rounding in a step, e_q and e_v: "
                                   : "that of rk4 with 1 ms, the longest step of this method of order 5: ";
     findings.checks.push_back(limit("largest |Phi|" + at, "the loop is closed", drift.position.value(), bound.position, "m or rad",
                                     why + "(2 alpha e_q + e_v) / (h beta^2)"));
     findings.checks.push_back(limit("largest |dPhi/dt|" + at, "the loop stays closed", drift.velocity.value(), bound.velocity, "m/s or rad/s",
                                     why + "(e_q + 2 e_v / (e alpha)) / h"));
-    table.rows.push_back({name_of(run), number(drift.position.value(), 2), number(bound.position, 2), number(drift.velocity.value(), 2),
+    table.rows.push_back({name_of_run(run), number(drift.position.value(), 2), number(bound.position, 2), number(drift.velocity.value(), 2),
                           number(bound.velocity, 2)});
-    openings.rows.push_back({name_of(run), number(drift.opening.value())});
+    openings.rows.push_back({name_of_run(run), number(drift.opening.value())});
   }
   findings.tables = {std::move(table), std::move(openings)};
   return findings;
@@ -166,7 +166,7 @@ RpsupParameters ideal_parameters() {
 
 /// The drift of two steps, one half of the other: its order.
 void add_order(const RpsupParameters& p, Findings& findings) {
-  const auto drift_at = [&](double step) { return measure(p, {.duration = 0.75, .integrator = Integrator::kRk4, .step = step}); };
+  const auto drift_at = [&](double step) { return measure_drift(p, {.duration = 0.75, .integrator = Integrator::kRk4, .step = step}); };
   const Drift coarse = drift_at(1e-3);
   const Drift fine = drift_at(5e-4);
   const std::string what = ": order in the step, rigid coupler, drives by multipliers, rk4 with steps of 1 ms and 0.5 ms";
@@ -182,7 +182,7 @@ void add_order(const RpsupParameters& p, Findings& findings) {
 Findings compute_constraint_drift() {
   RpsupParameters p = ideal_parameters();
   p.run_up = 0.25;
-  std::vector<Run> runs;
+  std::vector<DriftRun> runs;
   for (const DriveEnforcement drive : {DriveEnforcement::kPrescribed, DriveEnforcement::kBaumgarte}) {
     for (const double step : {1e-3, 5e-4, 1e-4, 1e-5, 0.0}) runs.push_back({Coupler::kRigid, drive, step});
     for (const double step : {5e-5, 0.0}) runs.push_back({Coupler::kFlexible, drive, step});
@@ -194,7 +194,7 @@ Findings compute_constraint_drift() {
 }
 
 Findings compute_long_constraint_drift() {
-  std::vector<Run> runs;
+  std::vector<DriftRun> runs;
   for (const DriveEnforcement drive : {DriveEnforcement::kPrescribed, DriveEnforcement::kBaumgarte}) {
     for (const double step : {1e-4, 1e-5, 0.0}) runs.push_back({Coupler::kRigid, drive, step});
     for (const double step : {1e-5, 0.0}) runs.push_back({Coupler::kFlexible, drive, step});

@@ -17,7 +17,7 @@ namespace validation {
 
 namespace {
 
-constexpr double kDuration = 0.5;  // [s]
+constexpr double kEnforcementDuration = 0.5;  // [s]
 
 struct Tables {
   Table differences, peaks;
@@ -49,8 +49,8 @@ Pair run_pair(RpsupParameters p, const RunOptions& options) {
   return {std::move(prescribed), run_rpsup(p, options)};
 }
 
-RunOptions with_tolerance(double tolerance) {
-  return {.duration = kDuration, .integrator = Integrator::kDopri5,
+RunOptions at_tolerance(double tolerance) {
+  return {.duration = kEnforcementDuration, .integrator = Integrator::kDopri5,
           .relative_tolerance = tolerance, .absolute_tolerance = 0.1 * tolerance, .step_limit = 500'000};
 }
 
@@ -65,14 +65,14 @@ void add_ideal(Findings& findings, Tables& tables) {
   std::array<double, 3> steps{1e-3, 5e-4, 2.5e-4};
   RpsupParameters smooth = p;
   smooth.rod_law = StrokeLaw::kCycloidal;
-  const RunResult smooth_solved = run_rpsup(smooth, {.duration = kDuration});
+  const RunResult smooth_solved = run_rpsup(smooth, {.duration = kEnforcementDuration});
   smooth.drive = DriveEnforcement::kBaumgarte;
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    const Pair pair{smooth_solved, run_rpsup(smooth, {.duration = kDuration, .integrator = Integrator::kRk4, .step = steps[k]})};
+    const Pair pair{smooth_solved, run_rpsup(smooth, {.duration = kEnforcementDuration, .integrator = Integrator::kRk4, .step = steps[k]})};
     differences[k] = pair.slider_difference();
     pair.add_rows("ideal joint, rod by the cycloidal law, rk4 with steps of " + number(steps[k]) + " s", tables);
   }
-  const RunResult solved = run_rpsup(p, {.duration = kDuration});
+  const RunResult solved = run_rpsup(p, {.duration = kEnforcementDuration});
   p.drive = DriveEnforcement::kBaumgarte;
   for (std::size_t k = 0; k + 1 < steps.size(); ++k)
     findings.checks.push_back(compare("slider with drives by multipliers less the exact one: order in the step from " +
@@ -80,7 +80,7 @@ void add_ideal(Findings& findings, Tables& tables) {
                                       "order of rk4", std::log2(differences[k] / differences[k + 1]), 4.0, 0.15, "1",
                                       "higher orders of h beta = 0.1 count some per cent, a tenth of an order"));
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
-    const Pair pair{solved, run_rpsup(p, with_tolerance(tolerance))};
+    const Pair pair{solved, run_rpsup(p, at_tolerance(tolerance))};
     findings.checks.push_back(limit("slider with drives by multipliers, dopri5 with relative tolerance " + number(tolerance) + of, reference,
                                     pair.slider_difference(), std::min(tolerance, 1e-9), "m",
                                     "the tolerance; at loose ones the longest step of 1 ms decides, with a drift below 1e-9 m"));
@@ -99,7 +99,7 @@ void add_clearance(Findings& findings, Tables& tables) {
   const std::string reference = "drives prescribed, same tolerance";
   std::vector<double> differences;
   for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8}) {
-    const Pair pair = run_pair(p, with_tolerance(tolerance));
+    const Pair pair = run_pair(p, at_tolerance(tolerance));
     differences.push_back(pair.slider_difference());
     const double peak = Pair::peak(pair.prescribed);
     const std::string at = ", dopri5 with relative tolerance " + number(tolerance) + of;

@@ -23,7 +23,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kDuration = 5.0;  // [s]
+constexpr double kDriveLawDuration = 5.0;  // [s]
 
 /// Where a law's formula changes.
 struct Seam {
@@ -65,10 +65,10 @@ double per_time(double factor, int order) { return factor * kStroke / std::pow(k
 /// Every half stroke of the run but its start and end: a rise, a return, a pause. At the top the acceleration goes on.
 std::vector<Seam> make_seams(const Stroke& stroke) {
   std::vector<Seam> seams;
-  for (double cycle = 0.0; cycle < kDuration; cycle += 2.0 * kStrokeTime + kPause)
+  for (double cycle = 0.0; cycle < kDriveLawDuration; cycle += 2.0 * kStrokeTime + kPause)
     for (const auto& [halves, jump] : {std::pair{0, stroke.at_ends}, {1, stroke.in_middle}, {2, 0.0}, {3, -stroke.in_middle}, {4, -stroke.at_ends}}) {
       const double t = cycle + 0.5 * halves * kStrokeTime;
-      if (t > 0.0 && t < kDuration) seams.push_back({t, per_time(jump, 2)});
+      if (t > 0.0 && t < kDriveLawDuration) seams.push_back({t, per_time(jump, 2)});
     }
   return seams;
 }
@@ -105,7 +105,7 @@ constexpr std::array<const char*, 3> kOrders{"position", "velocity", "accelerati
 void add_values(const Law& law, Findings& findings) {
   std::array<Largest, 3> worst;
   for (int k = 0; k <= 10'000; ++k) {
-    const double t = kDuration * k / 10'000.0;
+    const double t = kDriveLawDuration * k / 10'000.0;
     const std::array<double, 3> found = values(calc_driven_motion(law.law, t));
     const Taylor expected = law.closed_form(t);
     for (std::size_t order = 0; order < 3; ++order) worst[order].take(found[order] - expected.derivative(order));
@@ -120,7 +120,7 @@ void add_values(const Law& law, Findings& findings) {
 void add_differences(const Law& law, Findings& findings) {
   constexpr double h = 2e-3;
   std::array<Largest, 2> worst;
-  for (double t = 0.0137; t < kDuration - 0.01; t += 0.0371) {
+  for (double t = 0.0137; t < kDriveLawDuration - 0.01; t += 0.0371) {
     if (std::any_of(law.seams.begin(), law.seams.end(), [t](const Seam& seam) { return std::abs(t - seam.t) < 5.0 * h; })) continue;
     const std::array<double, 3> at = values(calc_driven_motion(law.law, t));
     for (std::size_t order = 0; order < 2; ++order) {
@@ -161,11 +161,11 @@ void add_seams(const Law& law, Findings& findings) {
 /// Steps end where the engine says that an acceleration jumps: every jump must be among those instants.
 void add_jumps(const Law& law, Findings& findings) {
   std::vector<double> found;
-  for (double t = find_next_jump(law.law, 0.0); t < kDuration; t = find_next_jump(law.law, t)) found.push_back(t);
+  for (double t = find_next_jump(law.law, 0.0); t < kDriveLawDuration; t = find_next_jump(law.law, t)) found.push_back(t);
   Largest missed;
   for (const Seam& seam : law.seams) {
     if (seam.jump == 0.0) continue;
-    double nearest = kDuration;
+    double nearest = kDriveLawDuration;
     for (const double t : found) nearest = std::min(nearest, std::abs(t - seam.t));
     missed.take(nearest);
   }
@@ -230,7 +230,7 @@ Figure draw_laws() {
   charts::Chart displacement{.title = "Drive of the rod", .x_label = "t [s]", .y_label = "displacement from its rest [m]"};
   charts::Series of_crank{.label = "", .x = {}, .y = {}}, of_rod = of_crank;
   for (int k = 0; k <= 500; ++k) {
-    const double t = kDuration * k / 500.0;
+    const double t = kDriveLawDuration * k / 500.0;
     of_crank.x.push_back(t);
     of_crank.y.push_back(calc_driven_motion(crank, t).qd);
     of_rod.x.push_back(t);

@@ -67,14 +67,14 @@ std::vector<Run> make_runs() {
 }
 
 /// A channel and what it should be.
-struct Compared {
+struct ComparedReactions {
   const char* key;
   const char* name;
   const char* unit;
   std::function<double(const IdealForces&)> expected;
 };
 
-std::vector<Compared> compared_channels() {
+std::vector<ComparedReactions> compared_channels() {
   return {{"reaction_x_n", "joint's force on the cross link along x", "N", [](const IdealForces& f) { return f.reaction_W.x(); }},
           {"reaction_y_n", "joint's force on the cross link along y", "N", [](const IdealForces& f) { return f.reaction_W.y(); }},
           {"reaction_z_n", "joint's force on the cross link along z", "N", [](const IdealForces& f) { return f.reaction_W.z(); }},
@@ -126,7 +126,7 @@ Difference compare_power(const RunResult& run, const RpsupParameters& p) {
   return difference;
 }
 
-void add_run(const Run& r, Findings& findings, Table& differences, Table& magnitudes) {
+void add_reactions_of_run(const Run& r, Findings& findings, Table& differences, Table& magnitudes) {
   const RunResult run = run_rpsup(r.parameters, r.options);
   const std::vector<double>& t = column(run, "t_s");
   std::vector<IdealForces> expected;  // at a jump from before it, as the samples are
@@ -139,7 +139,7 @@ void add_run(const Run& r, Findings& findings, Table& differences, Table& magnit
     row.push_back(number(difference.relative(), 2));
     sizes.push_back(number(difference.largest.value(), 6));
   };
-  for (const Compared& channel : compared_channels()) {
+  for (const ComparedReactions& channel : compared_channels()) {
     const std::vector<double>& found = column(run, channel.key);
     Difference difference;
     for (std::size_t k = 0; k < t.size(); ++k) difference.take(found[k], channel.expected(expected[k]));
@@ -198,7 +198,7 @@ Findings compute_reactions() {
     differences.head.push_back(name);
     magnitudes.head.push_back(name + " [" + unit + "]");
   };
-  for (const Compared& channel : compared_channels()) add_column(channel.name, channel.unit);
+  for (const ComparedReactions& channel : compared_channels()) add_column(channel.name, channel.unit);
   add_column("work of the drives", "J");
   add_column("power of the drives", "W");
   RpsupParameters level;
@@ -206,7 +206,7 @@ Findings compute_reactions() {
   add_statics(findings, ", gravity along the crank's axis", {});
   add_statics(findings, ", gravity along -y", level);
   add_statics(findings, ", second geometry, gravity along -y", across_rpsup());
-  for (const Run& run : make_runs()) add_run(run, findings, differences, magnitudes);
+  for (const Run& run : make_runs()) add_reactions_of_run(run, findings, differences, magnitudes);
   findings.tables = {std::move(differences), std::move(magnitudes)};
   return findings;
 }

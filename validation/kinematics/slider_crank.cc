@@ -20,7 +20,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kTurn = 0.5;                // [s] of a turn of the crank
-constexpr double kOmega = 2.0 * pi / kTurn;  // [rad/s], constant from the start
+constexpr double kSliderCrankOmega = 2.0 * pi / kTurn;  // [rad/s], constant from the start
 
 /// A slider-crank with the crank about z and the slider along x at (y = e, z): seen along z it is a planar one whose rod is as long
 /// as the coupler's projection, L = sqrt(l^2 - z^2), for the coupler keeps its slope against the crank's plane. About
@@ -35,12 +35,12 @@ struct SliderCrank {
   [[nodiscard]] double reach(double angle) const { return std::sqrt(rod() * rod() - std::pow(r * std::sin(angle) - e, 2)); }
   [[nodiscard]] double position(double angle) const { return r * std::cos(angle) + reach(angle); }
   [[nodiscard]] double velocity(double angle) const {
-    return -r * kOmega * (std::sin(angle) + (r * std::sin(angle) - e) * std::cos(angle) / reach(angle));
+    return -r * kSliderCrankOmega * (std::sin(angle) + (r * std::sin(angle) - e) * std::cos(angle) / reach(angle));
   }
   [[nodiscard]] double acceleration(double angle) const {
     const double side = r * std::sin(angle) - e;
     const double w = reach(angle);
-    return -r * kOmega * kOmega *
+    return -r * kSliderCrankOmega * kSliderCrankOmega *
            (std::cos(angle) + (r * std::pow(std::cos(angle), 2) - side * std::sin(angle)) / w +
             r * std::pow(side * std::cos(angle), 2) / (w * w * w));
   }
@@ -59,7 +59,7 @@ RpsupParameters parameters_of(const SliderCrank& c) {
   p.guide_offset_z = c.z;
   p.rod_stroke = 0.0;
   p.run_up = 0.0;
-  p.crank_velocity = kOmega;
+  p.crank_velocity = kSliderCrankOmega;
   return p;
 }
 
@@ -82,7 +82,7 @@ void add_motion(const SliderCrank& c, const RunResult& run, Findings& findings, 
   for (const Compared& quantity : compared) {
     const std::vector<double>& found = column(run, quantity.key);
     Largest worst;
-    for (std::size_t k = 0; k < t.size(); ++k) worst.take(found[k] - quantity.expected(kOmega * t[k]));
+    for (std::size_t k = 0; k < t.size(); ++k) worst.take(found[k] - quantity.expected(kSliderCrankOmega * t[k]));
     findings.checks.push_back(limit(std::string(quantity.name) + " of the slider over a turn, " + c.name,
                                     "closed form of the slider-crank at constant speed", worst.value(), quantity.bound, quantity.unit, quantity.why));
     row.push_back(number(worst.value(), 2));
@@ -104,7 +104,7 @@ void add_planar(const SliderCrank& c, const RunResult& run, Findings& findings) 
   const std::vector<double>& z = column(run, "slider_position_m");
   const std::vector<double>& a = column(run, "slider_acceleration_m_s2");
   const std::size_t half = (z.size() - 1) / 2;
-  const double rw2 = c.r * kOmega * kOmega;
+  const double rw2 = c.r * kSliderCrankOmega * kSliderCrankOmega;
   const auto add = [&](const std::string& what, const char* formula, double found, double expected, const char* unit, double bound) {
     findings.checks.push_back(compare(what + ", " + c.name, formula, found, expected, bound, unit, "Newton's method closes the loop to 1e-13 m"));
   };

@@ -15,17 +15,17 @@
 namespace engine {
 namespace {
 
-using Motion = RelativeMotion<double, double>;
+using RingMotion = RelativeMotion<double, double>;
 
-constexpr double kClearance = 0.25e-3;
+constexpr double kRingsClearance = 0.25e-3;
 
 /// Of a journal that is a little tilted, with rings in contact or not.
 class RandomJournals {
  public:
-  Motion next() {
-    const double tilt_x = 5e-3 * uniform_(random_), tilt_y = 5e-3 * uniform_(random_), far = 1.3 * kClearance * std::abs(uniform_(random_));
+  RingMotion next() {
+    const double tilt_x = 5e-3 * uniform_(random_), tilt_y = 5e-3 * uniform_(random_), far = 1.3 * kRingsClearance * std::abs(uniform_(random_));
     const double direction = 3.2 * uniform_(random_);
-    Motion motion;
+    RingMotion motion;
     motion.R = {{1.0, 0.0, -tilt_y}, {0.0, 1.0, tilt_x}, {tilt_y, -tilt_x, 1.0}};
     motion.p = {far * std::cos(direction), far * std::sin(direction), 1e-5};
     motion.v = {0.1 * uniform_(random_), 0.1 * uniform_(random_), 0.01 * uniform_(random_)};
@@ -53,9 +53,9 @@ int expect_the_same(const ClearanceParameters& joint) {
   int pressing = 0;
   for (int round = 0; round < 2000; ++round) {
     RadialContinuum contact(joint);
-    const Motion journal = journals.next(), before = journals.next();
+    const RingMotion journal = journals.next(), before = journals.next();
     std::array<double, 4> bristles{}, rates{}, rates_by_two{1.0, 1.0, 1.0, 1.0};
-    const auto to_journal = [](const Motion& m) {
+    const auto to_journal = [](const RingMotion& m) {
       JournalMotion to;
       to.R_bj << m.R.x.x, m.R.y.x, m.R.z.x, m.R.x.y, m.R.y.y, m.R.z.y, m.R.x.z, m.R.y.z, m.R.z.z;
       to.p_bj = {m.p.x, m.p.y, m.p.z};
@@ -77,14 +77,14 @@ int expect_the_same(const ClearanceParameters& joint) {
 TEST(TwoRings, DoToTheBitWhatOneDoesAfterTheOther) {
   for (const auto law : {FrictionLaw::kLuGre, FrictionLaw::kDahl, FrictionLaw::kElastoPlastic, FrictionLaw::kCoulomb, FrictionLaw::kAmbrosio}) {
     ClearanceParameters joint;
-    joint.c_r = kClearance;
+    joint.c_r = kRingsClearance;
     joint.friction = FrictionParameters{.law = law};
     const int pressing = expect_the_same(joint);
     EXPECT_GT(pressing, 200);
     EXPECT_LT(pressing, 3800);
   }
   ClearanceParameters smooth;
-  smooth.c_r = kClearance;
+  smooth.c_r = kRingsClearance;
   smooth.damping = 300.0;
   expect_the_same(smooth);
 }

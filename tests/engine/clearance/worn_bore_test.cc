@@ -26,7 +26,7 @@ using std::numbers::pi;
 using validation::column;
 using validation::metric;
 
-constexpr double kClearance = 0.25e-3;
+constexpr double kWornClearance = 0.25e-3;
 
 /// One list for each of two rings, from the depth at the middle of each sector.
 template <typename Depth>
@@ -41,7 +41,7 @@ double grooved(double phi) { return 12e-6 * std::exp(4.0 * (std::cos(phi - 0.7) 
 
 TEST(WornBore, LetsAJournalGoAsMuchFartherAsItIsWornAllAround) {
   for (const double depth : {0.0, 1e-6, 30e-6}) {
-    const WornBore bore(kClearance, make_depth(36, [&](double) { return depth; }));
+    const WornBore bore(kWornClearance, make_depth(36, [&](double) { return depth; }));
     for (double theta = -4.0; theta < 4.0; theta += 0.1) {
       const auto reach = bore.calc_reach(1, theta);
       EXPECT_NEAR(reach.value, depth, 1e-19);
@@ -53,12 +53,12 @@ TEST(WornBore, LetsAJournalGoAsMuchFartherAsItIsWornAllAround) {
 
 // A bore that is worn to a circle about another centre, a off along x: |e - a| = c is how far the journal gets.
 double calc_error_of_offset_circle(std::size_t sectors) {
-  constexpr double a = 20e-6, c = kClearance + a;
-  const WornBore bore(kClearance, make_depth(sectors, [&](double phi) { return a * std::cos(phi) + c - kClearance; }));
+  constexpr double a = 20e-6, c = kWornClearance + a;
+  const WornBore bore(kWornClearance, make_depth(sectors, [&](double phi) { return a * std::cos(phi) + c - kWornClearance; }));
   double worst = 0.0;
   for (double theta = 0.0; theta < 2.0 * pi; theta += 0.037) {
     const double exact = a * std::cos(theta) + std::sqrt(c * c - a * a * std::sin(theta) * std::sin(theta));
-    worst = std::max(worst, std::abs(bore.calc_reach(0, theta).value + kClearance - exact));
+    worst = std::max(worst, std::abs(bore.calc_reach(0, theta).value + kWornClearance - exact));
   }
   return worst;
 }
@@ -73,8 +73,8 @@ TEST(WornBore, HasTheLocusOfABoreAboutAnotherCentre) {
 
 // A groove that is narrower than the journal: it lies on the two edges, at 5 degrees on either side.
 TEST(WornBore, DoesNotLetAJournalIntoANarrowGroove) {
-  const WornBore bore(kClearance, make_depth(360, [](double phi) { return std::abs(phi - 1.0) < 5.0 * pi / 180.0 ? 100e-6 : 0.0; }));
-  const auto lies_on = [](double degrees) { return kClearance / std::cos(degrees * pi / 180.0) - kClearance; };  // about a micrometre
+  const WornBore bore(kWornClearance, make_depth(360, [](double phi) { return std::abs(phi - 1.0) < 5.0 * pi / 180.0 ? 100e-6 : 0.0; }));
+  const auto lies_on = [](double degrees) { return kWornClearance / std::cos(degrees * pi / 180.0) - kWornClearance; };  // about a micrometre
   EXPECT_GT(bore.calc_depth(0, 1.0), 99e-6);
   // The edges lie in sectors of a degree, and the spline rounds them.
   EXPECT_GT(bore.calc_reach(0, 1.0).value, lies_on(5.0));
@@ -90,7 +90,7 @@ ClearanceParameters make_joint(double r_b, double c_r) {
   return joint;
 }
 
-ContactLoad calc_load(const ClearanceParameters& joint, const JournalMotion& journal) {
+ContactLoad calc_worn_load(const ClearanceParameters& joint, const JournalMotion& journal) {
   const std::vector<double> bristles{3e-5, -2e-5, 1e-5, 4e-5};
   std::vector<double> rates(4);
   JointLoad<double> load;
@@ -119,14 +119,14 @@ class AnyJournal {
 
 TEST(WornBore, WornAllAroundItIsAWiderOne) {
   constexpr double kDepth = 20e-6;
-  ClearanceParameters worn = make_joint(5e-3, kClearance);
-  worn.worn = std::make_shared<const WornBore>(kClearance, make_depth(24, [](double) { return kDepth; }));
-  const ClearanceParameters wider = make_joint(5e-3 + kDepth, kClearance + kDepth);  // the same journal
+  ClearanceParameters worn = make_joint(5e-3, kWornClearance);
+  worn.worn = std::make_shared<const WornBore>(kWornClearance, make_depth(24, [](double) { return kDepth; }));
+  const ClearanceParameters wider = make_joint(5e-3 + kDepth, kWornClearance + kDepth);  // the same journal
   AnyJournal any;
   int pressing = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    const JournalMotion journal = any.make(kClearance + kDepth + 2e-6);
-    const ContactLoad a = calc_load(worn, journal), b = calc_load(wider, journal);
+    const JournalMotion journal = any.make(kWornClearance + kDepth + 2e-6);
+    const ContactLoad a = calc_worn_load(worn, journal), b = calc_worn_load(wider, journal);
     pressing += b.radial_normal_sum > 0.0 ? 1 : 0;  // one that parts fast is not held back
     // Differences of lengths of 0.27 mm leave 1e-13 of a penetration of micrometres, its root in the force a little more.
     EXPECT_LE((a.force - b.force).norm(), 1e-9 * b.force.norm());
@@ -140,23 +140,23 @@ TEST(WornBore, WornAllAroundItIsAWiderOne) {
 
 // What the force does to a journal in motion is what its elastic energy loses, also along the slope of a groove.
 TEST(WornBore, ForceIsTheGradientOfWhatItStores) {
-  ClearanceParameters joint = make_joint(5e-3, kClearance);
-  joint.worn = std::make_shared<const WornBore>(kClearance, make_depth(48, grooved));
+  ClearanceParameters joint = make_joint(5e-3, kWornClearance);
+  joint.worn = std::make_shared<const WornBore>(kWornClearance, make_depth(48, grooved));
   joint.friction.reset();
   joint.chi = 0.0;
   AnyJournal any;
   double most_slope = 0.0;
   int touching = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    const JournalMotion journal = any.make(kClearance + 12e-6);
+    const JournalMotion journal = any.make(kWornClearance + 12e-6);
     const auto energy_after = [&](double t) {
       JournalMotion moved = journal;
       moved.p_bj += t * journal.v;
       const Eigen::Vector3d turn = t * journal.w;
       moved.R_bj = Eigen::AngleAxisd(turn.norm(), turn.norm() > 0.0 ? turn.normalized() : Eigen::Vector3d::UnitX()) * journal.R_bj;
-      return calc_load(joint, moved).elastic_energy;
+      return calc_worn_load(joint, moved).elastic_energy;
     };
-    const ContactLoad load = calc_load(joint, journal);
+    const ContactLoad load = calc_worn_load(joint, journal);
     if (load.max_penetration < 1e-6) continue;
     ++touching;
     constexpr double dt = 2e-7;  // 0.03 um

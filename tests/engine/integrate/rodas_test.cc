@@ -89,12 +89,12 @@ double largest(const std::vector<double>& defects) {
   return most;
 }
 
-constexpr double kDigits = 1e-12;  // sixteen digits of coefficients up to 300
+constexpr double kRodasDigits = 1e-12;  // sixteen digits of coefficients up to 300
 
 TYPED_TEST(Methods, MeetTheConditionsOfTheirOrder) {
   const ClassicalForm m = make_classical_form<TypeParam>();
-  for (int order = 1; order <= TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b, order)), kDigits) << order;
-  for (int order = 1; order < TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b_embedded, order)), kDigits) << order;
+  for (int order = 1; order <= TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b, order)), kRodasDigits) << order;
+  for (int order = 1; order < TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b_embedded, order)), kRodasDigits) << order;
   EXPECT_GT(largest(find_defects(m, m.b_embedded, TypeParam::kOrder)), 1e-4);
 }
 
@@ -102,8 +102,8 @@ TYPED_TEST(Methods, MeetTheConditionsOfTheirOrder) {
 TYPED_TEST(Methods, TreatTimeAsAnotherEntryOfTheState) {
   const ClassicalForm m = make_classical_form<TypeParam>();
   for (std::size_t i = 0; i < TypeParam::kStages; ++i) {
-    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::c[i], kDigits) << i;
-    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::d[i], kDigits) << i;
+    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::c[i], kRodasDigits) << i;
+    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::d[i], kRodasDigits) << i;
   }
 }
 

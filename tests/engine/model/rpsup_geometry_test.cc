@@ -48,7 +48,7 @@ RpsupParameters make_parameters(const Geometry& g) {
   return p;
 }
 
-/// C(u) = u - sin(2 pi u) / (2 pi)
+/// C(u) = u - sin(2 std::numbers::pi u) / (2 std::numbers::pi)
 double cycloid(double u) { return u - std::sin(2.0 * std::numbers::pi * u) / (2.0 * std::numbers::pi); }
 
 double part_of_stroke(StrokeLaw law, double u) {
@@ -171,12 +171,12 @@ double largest_acceleration_of_the_rod(StrokeLaw law, double clearance, Integrat
 }
 
 TEST(StrokeLaws, GiveTheIdealSliderTheirLargestAcceleration) {
-  constexpr double kStroke = 0.015, kTime = 0.5, kOver = kStroke / (kTime * kTime), kPi = std::numbers::pi;
+  constexpr double kStroke = 0.015, kTime = 0.5, kOver = kStroke / (kTime * kTime);
   EXPECT_NEAR(largest_acceleration_of_the_rod(StrokeLaw::kCycloidal, 0.0, Integrator::kAuto),
-              2.0 * kPi * kOver, 1e-9);
+              2.0 * std::numbers::pi * kOver, 1e-9);
   // At the ends of a stroke, where the acceleration jumps: steps see both sides.
   EXPECT_NEAR(largest_acceleration_of_the_rod(StrokeLaw::kCosine, 0.0, Integrator::kAuto),
-              0.5 * kPi * kPi * kOver, 1e-9);
+              0.5 * std::numbers::pi * std::numbers::pi * kOver, 1e-9);
   EXPECT_NEAR(largest_acceleration_of_the_rod(StrokeLaw::kParabolic, 0.0, Integrator::kAuto), 4.0 * kOver,
               1e-9);
 }

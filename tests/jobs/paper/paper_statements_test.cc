@@ -54,13 +54,13 @@ jobs::ResultTable heading_of(const Setting& setting) {
   return table;
 }
 
-jobs::ResultTable table_of(const StudyPeaks& peaks) {
+jobs::ResultTable paper_table_of(const StudyPeaks& peaks) {
   jobs::ResultTable table = heading_of({});
   add_rows(peaks, {}, table);
   return table;
 }
 
-json cell(const jobs::ResultTable& table, std::size_t row, const std::string& column) {
+json paper_cell(const jobs::ResultTable& table, std::size_t row, const std::string& column) {
   const auto found = std::ranges::find(table.columns, column);
   EXPECT_NE(found, table.columns.end()) << column;
   if (found == table.columns.end()) return nullptr;
@@ -68,7 +68,7 @@ json cell(const jobs::ResultTable& table, std::size_t row, const std::string& co
 }
 
 TEST(PaperStatements, AllHoldWhereThePeaksAreThePapers) {
-  const auto table = jobs::hold_against_paper(table_of(holding_peaks()));
+  const auto table = jobs::hold_against_paper(paper_table_of(holding_peaks()));
   EXPECT_EQ(table.columns, (std::vector<std::string>{"statement", "number", "text", "paper", "found_least", "found_largest",
                                                      "settings", "share", "holds"}));
   EXPECT_TRUE(table.ended);
@@ -88,15 +88,15 @@ TEST(PaperStatements, AllHoldWhereThePeaksAreThePapers) {
                   {"order_of_clearances_10_rad_s", nullptr, 2, 2.5},
                   {"order_of_couplers_10_rad_s", nullptr, 0.8, 1}};
   for (std::size_t k = 0; k < table.rows.size(); ++k) {
-    EXPECT_EQ(cell(table, k, "statement"), expected[k].statement);
-    EXPECT_EQ(cell(table, k, "number"), k < 7 ? json(k + 1) : json()) << k;
-    EXPECT_EQ(cell(table, k, "paper"), expected[k].paper) << k;
-    EXPECT_DOUBLE_EQ(cell(table, k, "found_least").get<double>(), expected[k].least) << k;
-    EXPECT_DOUBLE_EQ(cell(table, k, "found_largest").get<double>(), expected[k].largest) << k;
-    EXPECT_EQ(cell(table, k, "settings"), 1) << k;
-    EXPECT_EQ(cell(table, k, "share"), k < 7 ? 1.0 : 0.0) << k;
-    EXPECT_EQ(cell(table, k, "holds"), k < 7) << k;
-    EXPECT_FALSE(cell(table, k, "text").get<std::string>().empty()) << k;
+    EXPECT_EQ(paper_cell(table, k, "statement"), expected[k].statement);
+    EXPECT_EQ(paper_cell(table, k, "number"), k < 7 ? json(k + 1) : json()) << k;
+    EXPECT_EQ(paper_cell(table, k, "paper"), expected[k].paper) << k;
+    EXPECT_DOUBLE_EQ(paper_cell(table, k, "found_least").get<double>(), expected[k].least) << k;
+    EXPECT_DOUBLE_EQ(paper_cell(table, k, "found_largest").get<double>(), expected[k].largest) << k;
+    EXPECT_EQ(paper_cell(table, k, "settings"), 1) << k;
+    EXPECT_EQ(paper_cell(table, k, "share"), k < 7 ? 1.0 : 0.0) << k;
+    EXPECT_EQ(paper_cell(table, k, "holds"), k < 7) << k;
+    EXPECT_FALSE(paper_cell(table, k, "text").get<std::string>().empty()) << k;
   }
 }
 
@@ -115,10 +115,10 @@ TEST_P(PaperStatementEdge, IsWhereItCeasesToHold) {
   const EdgeCase& edge = GetParam();
   StudyPeaks peaks = holding_peaks();
   peaks.at(edge.changed) = edge.peak;
-  const auto table = jobs::hold_against_paper(table_of(peaks));
-  EXPECT_EQ(cell(table, edge.number - 1, "number"), edge.number);
-  EXPECT_EQ(cell(table, edge.number - 1, "holds"), edge.holds);
-  EXPECT_EQ(cell(table, edge.number - 1, "share"), edge.holds ? 1.0 : 0.0);
+  const auto table = jobs::hold_against_paper(paper_table_of(peaks));
+  EXPECT_EQ(paper_cell(table, edge.number - 1, "number"), edge.number);
+  EXPECT_EQ(paper_cell(table, edge.number - 1, "holds"), edge.holds);
+  EXPECT_EQ(paper_cell(table, edge.number - 1, "share"), edge.holds ? 1.0 : 0.0);
 }
 
 // Statement 1 holds within 5 %, a growth within 20 % of the paper's, an order below 0.999. Ratios are a thousandth or less inside
@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(All, PaperStatementEdge, testing::ValuesIn(kEdges),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(PaperStatements, AreHeldAgainstTheMediansOverReplicates) {
-  jobs::ResultTable table = table_of(holding_peaks());
+  jobs::ResultTable table = paper_table_of(holding_peaks());
   const auto add = [&](double velocity, const json& peak) {
     table.rows.push_back({"job", 0.25, velocity, "rigid", peak});
   };
@@ -166,29 +166,29 @@ TEST(PaperStatements, AreHeldAgainstTheMediansOverReplicates) {
   add(10, 300);                                        // the mean of the middle two, 200
   add(10, nullptr);                                    // a job without a peak
   const auto found = jobs::hold_against_paper(table);
-  EXPECT_EQ(cell(found, 1, "found_least"), 850.0 / 200.0);
-  EXPECT_EQ(cell(found, 1, "settings"), 1);
-  EXPECT_EQ(cell(found, 5, "holds"), true);
+  EXPECT_EQ(paper_cell(found, 1, "found_least"), 850.0 / 200.0);
+  EXPECT_EQ(paper_cell(found, 1, "settings"), 1);
+  EXPECT_EQ(paper_cell(found, 5, "holds"), true);
 }
 
 TEST(PaperStatements, SpeakOfSpeedWhicheverWayTheCrankTurns) {
-  jobs::ResultTable table = table_of(holding_peaks());
+  jobs::ResultTable table = paper_table_of(holding_peaks());
   for (auto& row : table.rows) row[2] = -row[2].get<double>();
   const auto found = jobs::hold_against_paper(table);
   ASSERT_EQ(found.rows.size(), 9U);
-  EXPECT_EQ(cell(found, 1, "found_least"), 8.5);
+  EXPECT_EQ(paper_cell(found, 1, "found_least"), 8.5);
 }
 
 TEST(PaperStatements, AreOpenWhereACaseIsMissing) {
   const auto open_without = [](const Case& missing) {
     StudyPeaks peaks = holding_peaks();
     peaks.erase(missing);
-    const auto table = jobs::hold_against_paper(table_of(peaks));
+    const auto table = jobs::hold_against_paper(paper_table_of(peaks));
     std::vector<int> open;
     for (std::size_t k = 0; k < 7; ++k) {
-      const bool is_open = cell(table, k, "settings") == 0;
+      const bool is_open = paper_cell(table, k, "settings") == 0;
       for (const char* column : {"found_least", "found_largest", "share", "holds"})
-        EXPECT_EQ(cell(table, k, column).is_null(), is_open) << k << column;
+        EXPECT_EQ(paper_cell(table, k, column).is_null(), is_open) << k << column;
       if (is_open) open.push_back(static_cast<int>(k) + 1);
     }
     return open;
@@ -201,11 +201,11 @@ TEST(PaperStatements, AreOpenWhereACaseIsMissing) {
 }
 
 TEST(PaperStatements, AreOpenWithoutAnyPeak) {
-  jobs::ResultTable table = table_of(holding_peaks());
+  jobs::ResultTable table = paper_table_of(holding_peaks());
   for (auto& row : table.rows) row.back() = nullptr;
   const auto found = jobs::hold_against_paper(table);
   ASSERT_EQ(found.rows.size(), 7U);
-  for (std::size_t k = 0; k < 7; ++k) EXPECT_TRUE(cell(found, k, "holds").is_null()) << k;
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_TRUE(paper_cell(found, k, "holds").is_null()) << k;
 }
 
 // Peaks at 10 rad/s divided by 1, 1.1, 1.5 and 2: the growths of the rigid coupler with 0.25 mm are 8.5, 9.35, 12.75
@@ -220,15 +220,15 @@ TEST(PaperStatements, HoldInAShareOfTheSettings) {
     add_rows(peaks, {{"restitution", restitution += 0.05}}, table);
   }
   const auto found = jobs::hold_against_paper(table);
-  EXPECT_EQ(cell(found, 1, "settings"), 4);
-  EXPECT_EQ(cell(found, 1, "share"), 0.5);
-  EXPECT_EQ(cell(found, 1, "holds"), false);
+  EXPECT_EQ(paper_cell(found, 1, "settings"), 4);
+  EXPECT_EQ(paper_cell(found, 1, "share"), 0.5);
+  EXPECT_EQ(paper_cell(found, 1, "holds"), false);
   const double median = 0.5 * (9.35 + 12.75);
-  for (const char* column : {"found_least", "found_largest"}) EXPECT_NEAR(cell(found, 1, column).get<double>(), median, 1e-12);
-  EXPECT_EQ(cell(found, 2, "share"), 1.0);
-  EXPECT_EQ(cell(found, 2, "holds"), true);
-  EXPECT_EQ(cell(found, 3, "settings"), 3);
-  EXPECT_EQ(cell(found, 3, "share"), 1.0);
+  for (const char* column : {"found_least", "found_largest"}) EXPECT_NEAR(paper_cell(found, 1, column).get<double>(), median, 1e-12);
+  EXPECT_EQ(paper_cell(found, 2, "share"), 1.0);
+  EXPECT_EQ(paper_cell(found, 2, "holds"), true);
+  EXPECT_EQ(paper_cell(found, 3, "settings"), 3);
+  EXPECT_EQ(paper_cell(found, 3, "share"), 1.0);
   for (const std::string& column : found.columns) EXPECT_FALSE(column.starts_with("index.")) << column;
 }
 
@@ -250,22 +250,22 @@ jobs::ResultTable table_of_settings(std::size_t count) {
 // squares within the classes between them.
 TEST(PaperStatements, HaveIndicesFromFiftySettingsOn) {
   const auto found = jobs::hold_against_paper(table_of_settings(64));
-  EXPECT_NEAR(cell(found, 1, "index.restitution").get<double>(), 0.9 - 0.1 * 7.0 / 56.0, 1e-12);
-  EXPECT_EQ(cell(found, 1, "index.friction"), 0.0) << "0.1 is less than 0.9 7/56";
-  EXPECT_TRUE(cell(found, 2, "index.restitution").is_null()) << "a ratio that is always the same";
-  for (std::size_t k = 7; k < 9; ++k) EXPECT_TRUE(cell(found, k, "index.restitution").is_null()) << "no number";
+  EXPECT_NEAR(paper_cell(found, 1, "index.restitution").get<double>(), 0.9 - 0.1 * 7.0 / 56.0, 1e-12);
+  EXPECT_EQ(paper_cell(found, 1, "index.friction"), 0.0) << "0.1 is less than 0.9 7/56";
+  EXPECT_TRUE(paper_cell(found, 2, "index.restitution").is_null()) << "a ratio that is always the same";
+  for (std::size_t k = 7; k < 9; ++k) EXPECT_TRUE(paper_cell(found, k, "index.restitution").is_null()) << "no number";
   for (const std::string& column : found.columns) EXPECT_EQ(column.find("index.clearance_mm"), std::string::npos);
 
   const auto fifty = jobs::hold_against_paper(table_of_settings(50));
-  EXPECT_TRUE(cell(fifty, 1, "index.restitution").is_number());
-  EXPECT_TRUE(cell(fifty, 3, "index.restitution").is_null()) << "only 49 settings have its peaks";
+  EXPECT_TRUE(paper_cell(fifty, 1, "index.restitution").is_number());
+  EXPECT_TRUE(paper_cell(fifty, 3, "index.restitution").is_null()) << "only 49 settings have its peaks";
   const auto fewer = jobs::hold_against_paper(table_of_settings(49));
   for (const std::string& column : fewer.columns) EXPECT_FALSE(column.starts_with("index.")) << column;
 }
 
 TEST(PaperStatements, NeedTheirThreeAxes) {
   for (std::size_t axis = 1; axis <= 3; ++axis) {
-    jobs::ResultTable table = table_of(holding_peaks());
+    jobs::ResultTable table = paper_table_of(holding_peaks());
     const std::string name = table.columns[axis];
     table.columns[axis] = "restitution";
     try {

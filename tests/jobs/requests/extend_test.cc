@@ -10,13 +10,13 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-constexpr std::size_t kMaxJobs = 100;
+constexpr std::size_t kMaxExtendedJobs = 100;
 
 jobs::Extension extension_of(const char* former, const char* addition) {
-  return jobs::plan_extension(request_of(former), request_of(addition), kMaxJobs);
+  return jobs::plan_extension(request_of(former), request_of(addition), kMaxExtendedJobs);
 }
 
-Strings swept_values(const jobs::Extension& extension) {
+Strings extended_values(const jobs::Extension& extension) {
   Strings values;
   for (const jobs::PlannedJob& job : extension.jobs) values.push_back(job.swept);
   return values;
@@ -27,12 +27,12 @@ constexpr const char* kGrid = R"({"name": "n", "sweep": {"clearance_mm": [0.1, 0
 TEST(PlanExtension, AddsValuesToAxes) {
   const auto extension = extension_of(kGrid, R"({"sweep": {"clearance_mm": [0.3]}})");
   EXPECT_EQ(extension.request, request_of(R"({"name": "n", "sweep": {"clearance_mm": [0.1, 0.2, 0.3], "coupler": ["rigid"]}})"));
-  EXPECT_EQ(swept_values(extension), (Strings{R"([0.3,"rigid"])"}));
+  EXPECT_EQ(extended_values(extension), (Strings{R"([0.3,"rigid"])"}));
 }
 
 TEST(PlanExtension, MultipliesWhatIsAddedToTwoAxes) {
   const auto extension = extension_of(kGrid, R"({"sweep": {"coupler": ["flexible"], "clearance_mm": [0.3]}})");
-  EXPECT_EQ(swept_values(extension), (Strings{R"([0.1,"flexible"])", R"([0.2,"flexible"])", R"([0.3,"rigid"])", R"([0.3,"flexible"])"}));
+  EXPECT_EQ(extended_values(extension), (Strings{R"([0.1,"flexible"])", R"([0.2,"flexible"])", R"([0.3,"rigid"])", R"([0.3,"flexible"])"}));
 }
 
 TEST(PlanExtension, LeavesOutWhatTheSweepHas) {
@@ -40,26 +40,26 @@ TEST(PlanExtension, LeavesOutWhatTheSweepHas) {
   EXPECT_EQ(nothing.request, request_of(kGrid));
   EXPECT_TRUE(nothing.jobs.empty());
   const auto one = extension_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})", R"({"sweep": {"crank_velocity_rad_s": [5.0, 6]}})");
-  EXPECT_EQ(swept_values(one), (Strings{"[6.0]"}));
+  EXPECT_EQ(extended_values(one), (Strings{"[6.0]"}));
 }
 
 TEST(PlanExtension, WritesARangeOutWhenItGrows) {
   const auto extension = extension_of(R"({"sweep": {"clearance_mm": {"from": 0, "to": 0.5, "count": 3}}})",
                                       R"({"sweep": {"clearance_mm": {"from": 0.5, "to": 1, "count": 3}}})");
   EXPECT_EQ(extension.request, request_of(R"({"sweep": {"clearance_mm": [0.0, 0.25, 0.5, 0.75, 1.0]}})"));
-  EXPECT_EQ(swept_values(extension), (Strings{"[0.75]", "[1.0]"}));
+  EXPECT_EQ(extended_values(extension), (Strings{"[0.75]", "[1.0]"}));
 }
 
 TEST(PlanExtension, AddsCasesTimesAllAxes) {
   const auto extension = extension_of(R"({"cases": [{"restitution": 0.9}], "sweep": {"clearance_mm": [0.1, 0.2]}})",
                                       R"({"cases": [{"restitution": 0.9}, {"restitution": 0.8}]})");
   EXPECT_EQ(extension.request.at("cases"), request_of(R"([{"restitution": 0.9}, {"restitution": 0.8}])"));
-  EXPECT_EQ(swept_values(extension), (Strings{"[0.1,0.8]", "[0.2,0.8]"}));
+  EXPECT_EQ(extended_values(extension), (Strings{"[0.1,0.8]", "[0.2,0.8]"}));
 }
 
 TEST(PlanExtension, RefusesMoreCasesThanASweepMayHaveJobs) {
   std::string cases = "{}";
-  for (std::size_t k = 0; k < kMaxJobs; ++k) cases += ",{}";
+  for (std::size_t k = 0; k < kMaxExtendedJobs; ++k) cases += ",{}";
   const auto faults = faults_of([&] { (void)extension_of(R"({"cases": [{"restitution": 0.9}]})", (R"({"cases": [)" + cases + "]}").c_str()); });
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].pointer, "/cases");
@@ -78,7 +78,7 @@ TEST(PlanExtension, KnowsItsOwnCasesAmongMany) {
 TEST(PlanExtension, KeepsThePointsOfADesign) {
   const char* const former = R"({"design": {"type": "latin_hypercube", "count": 3, "over": {"restitution": {"from": 0.6, "to": 0.9}}}, "sweep": {"coupler": ["rigid"]}})";
   const auto extension = extension_of(former, R"({"sweep": {"coupler": ["flexible"]}})");
-  const auto before = jobs::plan_sweep(request_of(former), kMaxJobs);
+  const auto before = jobs::plan_sweep(request_of(former), kMaxExtendedJobs);
   EXPECT_EQ(extension.request.at("design"), request_of(former).at("design"));
   ASSERT_EQ(extension.jobs.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {

@@ -16,15 +16,15 @@ namespace {
 
 using nlohmann::json;
 
-struct FaultCase {
+struct ParameterFaultCase {
   const char* name;
   const char* given;
   const char* pointer;
   const char* says;  ///< part of the detail
 };
-void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const ParameterFaultCase& c, std::ostream* out) { *out << c.name; }
 
-class ParameterFault : public testing::TestWithParam<FaultCase> {};
+class ParameterFault : public testing::TestWithParam<ParameterFaultCase> {};
 
 TEST_P(ParameterFault, IsNamedWithItsPlaceAndRange) {
   const auto faults = faults_of([] { (void)jobs::complete_parameters(json_of(GetParam().given), "/parameters"); });
@@ -33,7 +33,7 @@ TEST_P(ParameterFault, IsNamedWithItsPlaceAndRange) {
   EXPECT_NE(faults[0].detail.find(GetParam().says), std::string::npos) << faults[0].detail;
 }
 
-constexpr FaultCase kFaultCases[] = {
+constexpr ParameterFaultCase kParameterFaults[] = {
     {"not_an_object", "[1]", "", "object"},
     {"unknown_key", R"({"colour": 1})", "/colour", "unknown key; all are listed at GET /v1/parameters"},
     {"parameters_one_level_too_deep", R"({"parameters": {"clearance_mm": 1}})", "/parameters", "parameters stand in this object itself"},
@@ -108,7 +108,7 @@ constexpr FaultCase kFaultCases[] = {
     {"triangle_broken_about_the_centre", R"({"links": {"1,3": {"inertia_kg_m2": [5e-5, 0.02, 0.0201]}}})", "/links/1,3/inertia_kg_m2", "sum of the other two"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, ParameterFault, testing::ValuesIn(kFaultCases), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, ParameterFault, testing::ValuesIn(kParameterFaults), [](const auto& tested) { return tested.param.name; });
 
 TEST(CompleteParameters, ReportsEveryFaultAtOnce) {
   const json given = json_of(R"({"coupler": 1, "clearance_mm": -1, "x": 0, "links": {"1,1": {"mass_kg": -1, "inertia_kg_m2": [0, -1, 1]}}})");

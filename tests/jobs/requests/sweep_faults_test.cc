@@ -8,15 +8,15 @@
 namespace jobs_tests {
 namespace {
 
-struct FaultCase {
+struct SweepFaultCase {
   const char* name;
   const char* request;
   const char* pointer;
   const char* says;
 };
-void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const SweepFaultCase& c, std::ostream* out) { *out << c.name; }
 
-class SweepFault : public testing::TestWithParam<FaultCase> {};
+class SweepFault : public testing::TestWithParam<SweepFaultCase> {};
 
 TEST_P(SweepFault, IsNamedWithItsPlace) {
   const auto faults = faults_of([] { (void)jobs::plan_sweep(request_of(GetParam().request), 10'000); });
@@ -33,7 +33,7 @@ TEST(SweepFaults, OfAListThatAParameterIsSayNothingOfSweeping) {
   EXPECT_EQ(faults[0].detail.find("sweep"), std::string::npos) << faults[0].detail;
 }
 
-constexpr FaultCase kFaultCases[] = {
+constexpr SweepFaultCase kSweepFaults[] = {
     {"not_an_object", "[]", "", "object"},
     {"unknown_key", R"({"swep": {}})", "/swep", "did you mean sweep?"},
     {"key_of_another_tool", R"({"axes": {}})", "/axes", "unknown key; allowed: name, parameters, sweep, design, cases, replicates, reuse, priority, executor"},
@@ -99,7 +99,7 @@ constexpr FaultCase kFaultCases[] = {
      "/parameters/links/1,3/inertia_kg_m2", "(at links.1,3.mass_kg = 0.4)"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, SweepFault, testing::ValuesIn(kFaultCases), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, SweepFault, testing::ValuesIn(kSweepFaults), [](const auto& tested) { return tested.param.name; });
 
 TEST(SweepFaults, AreAllReportedAtOnce) {
   const auto faults = faults_of([] {
@@ -132,14 +132,14 @@ TEST(SweepFaults, ComeFromKnownPlacesOnly) {
   EXPECT_EQ(pointers_of(faults), std::vector<std::string>{"/sweep/" + path});
 }
 
-struct SizeCase {
+struct SweepSize {
   const char* name;
   const char* request;
   const char* size;
 };
-void PrintTo(const SizeCase& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const SweepSize& c, std::ostream* out) { *out << c.name; }
 
-class SweepTooLarge : public testing::TestWithParam<SizeCase> {};
+class SweepTooLarge : public testing::TestWithParam<SweepSize> {};
 
 TEST_P(SweepTooLarge, IsRefusedWithItsSize) {
   const auto faults = faults_of([] { (void)jobs::plan_sweep(request_of(GetParam().request), 10'000); });
@@ -147,7 +147,7 @@ TEST_P(SweepTooLarge, IsRefusedWithItsSize) {
   EXPECT_NE(faults[0].detail.find(std::string("would have ") + GetParam().size + " jobs; at most 10000"), std::string::npos) << faults[0].detail;
 }
 
-constexpr SizeCase kSizeCases[] = {
+constexpr SweepSize kSweepSizes[] = {
     {"one_too_many", R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 10001}}})", "10001"},
     {"by_replicates", R"({"replicates": {"count": 10001}})", "10001"},
     {"by_product", R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 200}, "crank_velocity_rad_s": {"from": 0, "to": 1, "count": 100}}})", "20000"},
@@ -156,7 +156,7 @@ constexpr SizeCase kSizeCases[] = {
        "gravity_m_s2": {"from": 0, "to": 1, "count": 1e9}}})", "more than 18446744073709551615"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, SweepTooLarge, testing::ValuesIn(kSizeCases), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, SweepTooLarge, testing::ValuesIn(kSweepSizes), [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace jobs_tests

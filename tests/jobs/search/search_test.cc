@@ -44,7 +44,7 @@ json list(const jobs::Service& service, const std::string& state, const std::str
   return service.list_studies(jobs::Study::kLimit, query).at("items");
 }
 
-std::set<std::string> faults_of(jobs::Service& service, const ordered_json& request) {
+std::set<std::string> search_faults_of(jobs::Service& service, const ordered_json& request) {
   try {
     (void)service.submit_study(jobs::Study::kLimit, request);
   } catch (const jobs::InvalidRequest& invalid) {
@@ -229,28 +229,28 @@ TEST(Search, IsRefusedWithEveryFault) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  EXPECT_EQ(faults_of(service, ordered_json::object()), (std::set<std::string>{"/over", "/metric", "/bound"}));
+  EXPECT_EQ(search_faults_of(service, ordered_json::object()), (std::set<std::string>{"/over", "/metric", "/bound"}));
   ordered_json request = request_for(5.3);
   request["over"]["crank_velocity_rad_s"] = {{"from", 1}, {"to", 5000}, {"tolerance", 0}, {"first", 1}, {"steps", 3}};
   request["metric"] = "peak";
   request["quantile"] = 1.5;
   request["sweep"] = {{"restitution", {2}}};
   request["bounds"] = 1;
-  EXPECT_EQ(faults_of(service, request),
+  EXPECT_EQ(search_faults_of(service, request),
             (std::set<std::string>{"/bounds", "/over/crank_velocity_rad_s/steps", "/over/crank_velocity_rad_s/tolerance",
                 "/over/crank_velocity_rad_s/first",
                                    "/metric", "/quantile", "/sweep/restitution/0"}));
   request = request_for(5.3);
   request["sweep"] = {{"crank_velocity_rad_s", {5}}};
-  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"});
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"});
   request = request_for(5.3);
   request["replicates"] = {{"count", 5000}};
-  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"}) << "65,000 jobs";
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"}) << "65,000 jobs";
   // The clearance is less than the bearing's radius, which only both together show.
   request = {{"over", {{"clearance_mm", {{"from", 1}, {"to", 6}}}}}, {"metric", engine::metric_table()[0].key}, {"bound", 1}};
-  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/clearance_mm"});
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/clearance_mm"});
   request["over"] = {{"bristle_stiffness_1_m", {{"from", 1e-310}, {"to", 1e9}, {"scale", "log"}}}};
-  EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/bristle_stiffness_1_m/to"});
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/bristle_stiffness_1_m/to"});
   EXPECT_TRUE(list(service, "").empty());
 }
 
@@ -262,10 +262,10 @@ TEST(Search, IsRefusedOverNumbersOfADescribedLinkage) {
   for (const std::string path : {"linkage.bodies.rod.mass_kg", "linkage.01", "linkage.3000", "linkage.-", "linkage.123456789012345678901"}) {
     ordered_json request = request_for(5.3);
     request["over"] = {{path, {{"from", 0}, {"to", 1}}}};
-    EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/over/" + path});
+    EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/" + path});
     request = request_for(5.3);
     request["sweep"] = {{path, {1, 2}}};
-    EXPECT_EQ(faults_of(service, request), std::set<std::string>{"/sweep/" + path});
+    EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/sweep/" + path});
   }
 }
 

@@ -24,7 +24,7 @@ struct Ended {
 };
 
 /// Runs a sweep on the fake engine, whose metric number 0 is sqrt(1000 crank_velocity + c_r).
-Ended run(const ordered_json& request) {
+Ended run_sensitivity(const ordered_json& request) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
@@ -40,7 +40,7 @@ ordered_json design_of(const std::string& type) {
   return {{"design", design}, {"sweep", {{"coupler", {"rigid", "flexible"}}}}, {"replicates", {{"count", 2}}}};
 }
 
-json cell(const jobs::ResultTable& table, std::size_t row, const std::string& column) {
+json effect_cell(const jobs::ResultTable& table, std::size_t row, const std::string& column) {
   const auto found = std::find(table.columns.begin(), table.columns.end(), column);
   EXPECT_NE(found, table.columns.end()) << column;
   return table.rows.at(row).at(static_cast<std::size_t>(found - table.columns.begin()));
@@ -49,58 +49,58 @@ json cell(const jobs::ResultTable& table, std::size_t row, const std::string& co
 const std::string& peak() { return engine::metric_table()[0].key; }
 
 TEST(Sensitivity, FindsTheOneParameterThatMatters) {
-  const Ended ended = run(design_of("saltelli"));
+  const Ended ended = run_sensitivity(design_of("saltelli"));
   EXPECT_EQ(ended.results.rows.size(), 16U * 4 * 2 * 2);
   const auto table = calc_sensitivity(ended.sweep, ended.results, peak());
   ASSERT_EQ(table.rows.size(), 4U) << "two parameters, two couplers";
   for (std::size_t group = 0; group < 4; group += 2) {
-    EXPECT_EQ(cell(table, group, "parameter"), "restitution");
-    EXPECT_EQ(cell(table, group, "total"), 0.0);
-    EXPECT_EQ(cell(table, group, "noise"), 0.0);
-    EXPECT_EQ(cell(table, group, "blocks"), 16);
+    EXPECT_EQ(effect_cell(table, group, "parameter"), "restitution");
+    EXPECT_EQ(effect_cell(table, group, "total"), 0.0);
+    EXPECT_EQ(effect_cell(table, group, "noise"), 0.0);
+    EXPECT_EQ(effect_cell(table, group, "blocks"), 16);
     // All of the variance, in each of its samples; those of 16 blocks differ by 1.96 / 4 of a mean at most.
-    EXPECT_EQ(cell(table, group + 1, "parameter"), "crank_velocity_rad_s");
-    EXPECT_NEAR(cell(table, group + 1, "total").get<double>(), 1.0, 0.25);
-    EXPECT_GT(cell(table, group + 1, "first_order_high").get<double>(), 1.0);
-    EXPECT_LT(cell(table, group + 1, "first_order_low").get<double>(), 1.0);
+    EXPECT_EQ(effect_cell(table, group + 1, "parameter"), "crank_velocity_rad_s");
+    EXPECT_NEAR(effect_cell(table, group + 1, "total").get<double>(), 1.0, 0.25);
+    EXPECT_GT(effect_cell(table, group + 1, "first_order_high").get<double>(), 1.0);
+    EXPECT_LT(effect_cell(table, group + 1, "first_order_low").get<double>(), 1.0);
   }
-  EXPECT_EQ(cell(table, 0, "coupler"), "rigid");
-  EXPECT_EQ(cell(table, 2, "coupler"), "flexible");
+  EXPECT_EQ(effect_cell(table, 0, "coupler"), "rigid");
+  EXPECT_EQ(effect_cell(table, 2, "coupler"), "flexible");
 }
 
 // Along the grid of 4 levels the effect of the speed v is (sqrt(1000 (v + 2/3 5)) - sqrt(1000 v)) / (2/3) with v = 4 or 5.667.
 TEST(Sensitivity, HasTheElementaryEffectsOfTheWholeRange) {
-  const Ended ended = run(design_of("morris"));
+  const Ended ended = run_sensitivity(design_of("morris"));
   const auto table = calc_sensitivity(ended.sweep, ended.results, peak());
   ASSERT_EQ(table.rows.size(), 4U);
-  EXPECT_EQ(cell(table, 0, "effect_size"), 0.0);
+  EXPECT_EQ(effect_cell(table, 0, "effect_size"), 0.0);
   const auto effect = [](double v) { return 1.5 * (std::sqrt(1e3 * (v + 10.0 / 3.0)) - std::sqrt(1e3 * v)); };
-  const double size = cell(table, 1, "effect_size");
+  const double size = effect_cell(table, 1, "effect_size");
   EXPECT_LE(size, effect(4.0) * (1 + 1e-6));
   EXPECT_GE(size, effect(4.0 + 5.0 / 3.0) * (1 - 1e-6));
-  EXPECT_EQ(cell(table, 1, "effect_mean"), size);
-  EXPECT_EQ(cell(table, 1, "metric"), peak());
+  EXPECT_EQ(effect_cell(table, 1, "effect_mean"), size);
+  EXPECT_EQ(effect_cell(table, 1, "metric"), peak());
 }
 
 // The fake engine fails at a restitution of 0.5: of those blocks nothing is used.
 TEST(Sensitivity, LeavesOutBlocksWithoutValues) {
   ordered_json request = design_of("saltelli");
   request["design"]["over"]["restitution"] = {0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
-  const Ended ended = run(request);
+  const Ended ended = run_sensitivity(request);
   const auto table = calc_sensitivity(ended.sweep, ended.results, peak());
-  const int missing = cell(table, 1, "blocks_missing");
+  const int missing = effect_cell(table, 1, "blocks_missing");
   EXPECT_GT(missing, 0);
-  EXPECT_EQ(cell(table, 1, "blocks").get<int>() + missing, 16);
-  EXPECT_GT(cell(table, 1, "total").get<double>(), 0.5);
+  EXPECT_EQ(effect_cell(table, 1, "blocks").get<int>() + missing, 16);
+  EXPECT_GT(effect_cell(table, 1, "total").get<double>(), 0.5);
 }
 
 TEST(Sensitivity, NeedsItsDesignAndAMetric) {
-  const Ended ended = run({{"sweep", {{"crank_velocity_rad_s", {5, 6}}}}});
+  const Ended ended = run_sensitivity({{"sweep", {{"crank_velocity_rad_s", {5, 6}}}}});
   EXPECT_THROW((void)calc_sensitivity(ended.sweep, ended.results, peak()), jobs::WrongState);
   EXPECT_THROW((void)calc_sensitivity(ended.sweep, ended.results, "state"), jobs::InvalidRequest);
 }
 
-std::set<std::string> faults_of(const ordered_json& design) {
+std::set<std::string> sensitivity_faults_of(const ordered_json& design) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
@@ -116,11 +116,11 @@ std::set<std::string> faults_of(const ordered_json& design) {
 
 TEST(Sensitivity, HasDesignsThatRefuseWhatTheyDoNotKnow) {
   const ordered_json over{{"restitution", {{"from", 0.6}, {"to", 0.9}}}};
-  EXPECT_EQ(faults_of({{"type", "morris"}, {"trajectories", 1}, {"levels", 3}, {"over", over}}),
+  EXPECT_EQ(sensitivity_faults_of({{"type", "morris"}, {"trajectories", 1}, {"levels", 3}, {"over", over}}),
       (std::set<std::string>{"/design/trajectories", "/design/levels"}));
-  EXPECT_EQ(faults_of({{"type", "saltelli"}, {"seed", -1}, {"levels", 4}, {"over", over}}),
+  EXPECT_EQ(sensitivity_faults_of({{"type", "saltelli"}, {"seed", -1}, {"levels", 4}, {"over", over}}),
       (std::set<std::string>{"/design/count", "/design/seed", "/design/levels"}));
-  EXPECT_EQ(faults_of({{"type", "saltelli"}, {"count", 5000}, {"over", over}}), (std::set<std::string>{"/design"})) << "15,000 jobs";
+  EXPECT_EQ(sensitivity_faults_of({{"type", "saltelli"}, {"count", 5000}, {"over", over}}), (std::set<std::string>{"/design"})) << "15,000 jobs";
 }
 
 // A described linkage names its metrics by its joints; what was swept, and what tells jobs apart, is none.

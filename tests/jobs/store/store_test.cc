@@ -13,11 +13,11 @@
 namespace jobs_tests {
 namespace {
 
-constexpr std::size_t kMaxQueued = 1000;
+constexpr std::size_t kMaxQueuedInStore = 1000;
 
-jobs::SweepPlan plan_of(const char* request) { return jobs::plan_sweep(request_of(request), 10'000); }
+jobs::SweepPlan stored_plan_of(const char* request) { return jobs::plan_sweep(request_of(request), 10'000); }
 
-std::string add_sweep(jobs::Store& store, const char* request) { return store.add_sweep(plan_of(request), request, kMaxQueued); }
+std::string add_sweep(jobs::Store& store, const char* request) { return store.add_sweep(stored_plan_of(request), request, kMaxQueuedInStore); }
 
 jobs::RunRecord success(double metric) {
   jobs::RunRecord record;
@@ -124,7 +124,7 @@ TEST(Store, IsTakenFromOthersWhoCouldReadIt) {
   }
 }
 
-std::string refusal_of(const std::filesystem::path& file) {
+std::string store_refusal_of(const std::filesystem::path& file) {
   try {
     const jobs::Store store(file);
   } catch (const jobs::StorageError& error) {
@@ -133,7 +133,7 @@ std::string refusal_of(const std::filesystem::path& file) {
   return "accepted";
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
+std::string stored_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -142,7 +142,7 @@ TEST(Store, RefusesTheFormOfANewerProgramAndLeavesItAlone) {
   const TemporaryStore temporary;
   { const jobs::Store store(temporary.file()); }
   execute_sql(temporary.file(), "PRAGMA user_version = 1000");
-  EXPECT_NE(refusal_of(temporary.file()).find("newer program"), std::string::npos);
+  EXPECT_NE(store_refusal_of(temporary.file()).find("newer program"), std::string::npos);
   EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "1000");
 }
 
@@ -150,17 +150,17 @@ TEST(Store, RefusesTheDatabaseOfAnotherProgramAndLeavesItAlone) {
   const TemporaryStore temporary;
   { std::ofstream(temporary.file()) << ""; }
   execute_sql(temporary.file(), "CREATE TABLE notes (text)");
-  const std::string before = bytes_of(temporary.file());
-  EXPECT_NE(refusal_of(temporary.file()).find("not a store of this program"), std::string::npos);
-  EXPECT_EQ(bytes_of(temporary.file()), before);
+  const std::string before = stored_bytes(temporary.file());
+  EXPECT_NE(store_refusal_of(temporary.file()).find("not a store of this program"), std::string::npos);
+  EXPECT_EQ(stored_bytes(temporary.file()), before);
 }
 
 TEST(Store, RefusesWhatIsNoDatabaseAndLeavesItAlone) {
   const TemporaryStore temporary;
   const std::string text(10'000, 'x');
   { std::ofstream(temporary.file()) << text; }
-  EXPECT_NE(refusal_of(temporary.file()).find("left as it is"), std::string::npos);
-  EXPECT_EQ(bytes_of(temporary.file()), text);
+  EXPECT_NE(store_refusal_of(temporary.file()).find("left as it is"), std::string::npos);
+  EXPECT_EQ(stored_bytes(temporary.file()), text);
 }
 
 TEST(Store, RefusesADamagedFileAndLeavesItAlone) {
@@ -169,12 +169,12 @@ TEST(Store, RefusesADamagedFileAndLeavesItAlone) {
     jobs::Store store(temporary.file());
     add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 300}}})");
   }
-  std::string damaged = bytes_of(temporary.file());
+  std::string damaged = stored_bytes(temporary.file());
   ASSERT_GT(damaged.size(), 400'000U);
   for (std::size_t i = damaged.size() / 4; i < damaged.size(); ++i) damaged[i] = static_cast<char>(i * 37);
   { std::ofstream(temporary.file(), std::ios::binary) << damaged; }
-  EXPECT_NE(refusal_of(temporary.file()).find("damaged"), std::string::npos);
-  EXPECT_EQ(bytes_of(temporary.file()), damaged);
+  EXPECT_NE(store_refusal_of(temporary.file()).find("damaged"), std::string::npos);
+  EXPECT_EQ(stored_bytes(temporary.file()), damaged);
 }
 
 TEST(Store, RefusesAFileThatWasCutOff) {
@@ -184,7 +184,7 @@ TEST(Store, RefusesAFileThatWasCutOff) {
     add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 300}}})");
   }
   std::filesystem::resize_file(temporary.file(), std::filesystem::file_size(temporary.file()) / 2);
-  EXPECT_NE(refusal_of(temporary.file()).find("damaged"), std::string::npos);
+  EXPECT_NE(store_refusal_of(temporary.file()).find("damaged"), std::string::npos);
 }
 
 /// The files of a store that is in use, as a kill would leave them.
@@ -202,11 +202,11 @@ TEST(Store, LeavesTheLogOfAStoreThatItRefusesAlone) {
     newer.exec("PRAGMA user_version = 1000");
     copy_files(temporary.file(), killed);
   }
-  const std::string log = bytes_of(killed.string() + "-wal"), file = bytes_of(killed);
+  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
   ASSERT_FALSE(log.empty());
-  EXPECT_NE(refusal_of(killed).find("newer program"), std::string::npos);
-  EXPECT_EQ(bytes_of(killed.string() + "-wal"), log);
-  EXPECT_EQ(bytes_of(killed), file);
+  EXPECT_NE(store_refusal_of(killed).find("newer program"), std::string::npos);
+  EXPECT_EQ(stored_bytes(killed.string() + "-wal"), log);
+  EXPECT_EQ(stored_bytes(killed), file);
 }
 
 TEST(Store, LeavesTheLogOfAStoreAloneWhoseDamageIsOnlySeenAsItIsWritten) {
@@ -229,11 +229,11 @@ TEST(Store, LeavesTheLogOfAStoreAloneWhoseDamageIsOnlySeenAsItIsWritten) {
     other.exec("UPDATE sweeps SET name = 'in the log'");
     copy_files(temporary.file(), killed);
   }
-  const std::string log = bytes_of(killed.string() + "-wal"), file = bytes_of(killed);
+  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
   ASSERT_FALSE(log.empty());
-  EXPECT_NE(refusal_of(killed).find("is damaged"), std::string::npos);
-  EXPECT_TRUE(bytes_of(killed.string() + "-wal") == log);
-  EXPECT_TRUE(bytes_of(killed) == file);
+  EXPECT_NE(store_refusal_of(killed).find("is damaged"), std::string::npos);
+  EXPECT_TRUE(stored_bytes(killed.string() + "-wal") == log);
+  EXPECT_TRUE(stored_bytes(killed) == file);
 }
 
 TEST(Store, RefusesALogWhoseStoreIsGone) {
@@ -244,11 +244,11 @@ TEST(Store, RefusesALogWhoseStoreIsGone) {
     add_sweep(store, R"({"sweep": {"clearance_mm": [0.1, 0.2]}})");
     copy_files(temporary.file(), killed);
   }
-  const std::string log = bytes_of(killed.string() + "-wal"), file = bytes_of(killed);
+  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
   ASSERT_FALSE(log.empty());
   std::filesystem::remove(killed);
-  EXPECT_NE(refusal_of(killed).find("its log"), std::string::npos);
-  EXPECT_EQ(bytes_of(killed.string() + "-wal"), log);
+  EXPECT_NE(store_refusal_of(killed).find("its log"), std::string::npos);
+  EXPECT_EQ(stored_bytes(killed.string() + "-wal"), log);
   EXPECT_FALSE(std::filesystem::exists(killed));
   { std::ofstream(killed) << file; }
   const jobs::Store store(killed);
@@ -321,7 +321,7 @@ TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
   const auto claim = [&] { speeds.push_back(json_of(store.claim().value().parameters).at("crank_velocity_rad_s").dump()); };
   claim();
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [11, 12]}})");
-  (void)store.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueued);
+  (void)store.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueuedInStore);
   for (int i = 0; i < 6; ++i) claim();
   EXPECT_EQ(speeds, (std::vector<std::string>{"1.0", "11.0", "21.0", "2.0", "12.0", "3.0", "4.0"}));
 }
@@ -329,10 +329,10 @@ TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
 TEST(Store, RefusesMoreThanMayWaitAndStoresNoneOfThem) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
-  EXPECT_THROW((void)store.add_sweep(plan_of(kThreeJobs), kThreeJobs, 2), jobs::QueueFull);
+  EXPECT_THROW((void)store.add_sweep(stored_plan_of(kThreeJobs), kThreeJobs, 2), jobs::QueueFull);
   EXPECT_TRUE(store.list_sweeps("", "", 10).empty());
   EXPECT_TRUE(store.list_jobs("", "", 10).empty());
-  EXPECT_NO_THROW((void)store.add_sweep(plan_of(kThreeJobs), kThreeJobs, 3));
+  EXPECT_NO_THROW((void)store.add_sweep(stored_plan_of(kThreeJobs), kThreeJobs, 3));
 }
 
 TEST(Store, DropsTheResultOfACancelledJob) {
@@ -474,20 +474,20 @@ TEST(Store, TellsWhichResultsAreNew) {
 
 // More cases than calls may stand inside one another, with numbers that only all their digits tell apart.
 TEST(Store, AddsCasesToARequestAsTheyAreWritten) {
-  constexpr int kCases = 250;
+  constexpr int kExtension = 250;
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   const char* const request = R"({"name":"é","cases":[{"clearance_mm":0.1}]})";
   const std::string sweep = add_sweep(store, request);
   auto expected = nlohmann::ordered_json::parse(request);
   auto cases = nlohmann::ordered_json::array();
-  for (int k = 1; k <= kCases; ++k) cases.push_back({{"clearance_mm", 0.1 + k / 3000.0}});
+  for (int k = 1; k <= kExtension; ++k) cases.push_back({{"clearance_mm", 0.1 + k / 3000.0}});
   auto added = expected;
   added["cases"] = cases;
   EXPECT_TRUE(store.add_cases(sweep, cases, jobs::plan_sweep(added, 10'000).jobs));
   for (const auto& one : cases) expected["cases"].push_back(one);
   EXPECT_EQ(store.find_sweep(sweep)->request, expected.dump());
-  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 1 + kCases);
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 1 + kExtension);
   EXPECT_FALSE(store.add_cases("swp_none", cases, {}));
 }
 

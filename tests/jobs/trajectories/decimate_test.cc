@@ -27,18 +27,18 @@ TEST(Decimate, KeepsTheExtremesOfEveryStretch) {
   for (const std::size_t channels : {1U, 3U}) {
     const auto all = noise(5001, channels);
     auto some = all;
-    constexpr std::size_t kPoints = 302;
-    jobs::decimate(kPoints, some);
+    constexpr std::size_t kMostPoints = 302;
+    jobs::decimate(kMostPoints, some);
     const auto& t = some.columns.front();
-    ASSERT_LE(t.size(), kPoints);
-    ASSERT_GT(t.size(), kPoints / 2);
+    ASSERT_LE(t.size(), kMostPoints);
+    ASSERT_GT(t.size(), kMostPoints / 2);
     EXPECT_EQ(t.front(), all.columns.front().front());
     EXPECT_EQ(t.back(), all.columns.front().back());
     // Each tenth of the time has whole stretches in it, and so the extremes of what it had, next to its borders excepted.
     for (std::size_t c = 1; c <= channels; ++c) {
       EXPECT_EQ(std::ranges::max(some.columns[c]), std::ranges::max(all.columns[c]));
       EXPECT_EQ(std::ranges::min(some.columns[c]), std::ranges::min(all.columns[c]));
-      const std::size_t stretches = (kPoints - 2) / (2 * channels);
+      const std::size_t stretches = (kMostPoints - 2) / (2 * channels);
       for (std::size_t s = 0; s < stretches; ++s) {
         const auto begin = all.columns[c].begin() + static_cast<std::ptrdiff_t>(5001 * s / stretches);
         const auto end = all.columns[c].begin() + static_cast<std::ptrdiff_t>(5001 * (s + 1) / stretches);

@@ -77,7 +77,7 @@ jobs::ServiceOptions options_for(const TemporaryStore& store, SlidingEngine& eng
 const ordered_json kRequest{{"name", "worn"}, {"parameters", {{"duration_s", 3}, {"output_rate_hz", 10}}}, {"wear_coefficient_m2_n", 1e-15},
                             {"hours", 2}, {"max_rate_change", 10}};
 
-json wait_for_end(const jobs::Service& service, const std::string& id) {
+json wait_for_study_end(const jobs::Service& service, const std::string& id) {
   for (int tries = 0; tries < 4000; ++tries) {
     json study = service.find_study(Study::kWear, id).value();
     if (study.at("state") != "running") return study;
@@ -98,7 +98,7 @@ TEST(WearStudy, WearsTheVolumeOfItsSlidingWork) {
   SlidingEngine engine;
   jobs::Service service(options_for(store, engine));
   const json begun = service.submit_study(Study::kWear, kRequest);
-  const json ended = wait_for_end(service, begun.at("id"));
+  const json ended = wait_for_study_end(service, begun.at("id"));
   EXPECT_EQ(ended.at("state"), "succeeded");
   EXPECT_EQ(ended.at("verdict"), "hours_reached");
   EXPECT_EQ(ended.at("progress"), 1.0);
@@ -125,7 +125,7 @@ TEST(WearStudy, WearsTheVolumeOfItsSlidingWork) {
   EXPECT_EQ(table.columns.at(11), engine::metric_table()[0].key);
   EXPECT_NEAR(table.rows.back().at(11).get<double>(), last.at("deepest_um"), 1e-9);
   // The same study once more takes what has been computed.
-  const json again = wait_for_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
+  const json again = wait_for_study_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
   EXPECT_EQ(again.at("cycles").back().at("wear_depth_um"), last.at("wear_depth_um"));
   EXPECT_EQ(cycles.size(), static_cast<std::size_t>(engine.begun));
 }
@@ -142,7 +142,7 @@ TEST(WearStudy, GoesOnAfterARestart) {
   }
   engine.held = false;
   jobs::Service service(options_for(store, engine));
-  const json ended = wait_for_end(service, id);
+  const json ended = wait_for_study_end(service, id);
   EXPECT_EQ(ended.at("verdict"), "hours_reached");
   EXPECT_EQ(ended.at("cycles").size(), ended.at("counts").at("succeeded"));
 }
@@ -158,7 +158,7 @@ TEST(WearStudy, IsCancelledAndTakenUpAgain) {
   wait_until([&] { return service.find_study(Study::kWear, id).value().at("counts").at("cancelled") == 1; });
   engine.held = false;
   EXPECT_EQ(service.retry_study(Study::kWear, id).value().at("state"), "running");
-  EXPECT_EQ(wait_for_end(service, id).at("verdict"), "hours_reached");
+  EXPECT_EQ(wait_for_study_end(service, id).at("verdict"), "hours_reached");
   EXPECT_TRUE(service.delete_study(Study::kWear, id));
   EXPECT_FALSE(service.find_study(Study::kWear, id));
 }
@@ -167,11 +167,11 @@ TEST(WearStudy, IsStoredOnceUnderOneKey) {
   const TemporaryStore store;
   SlidingEngine engine;
   jobs::Service service(options_for(store, engine));
-  (void)wait_for_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
+  (void)wait_for_study_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
   // The first job's result is known at once; the kept answer is of a study that begins all the same.
   const json first = service.submit_study(Study::kWear, kRequest, "key");
   EXPECT_EQ(first.at("verdict"), "open");
-  EXPECT_EQ(wait_for_end(service, first.at("id")).at("verdict"), "hours_reached");
+  EXPECT_EQ(wait_for_study_end(service, first.at("id")).at("verdict"), "hours_reached");
   EXPECT_EQ(service.submit_study(Study::kWear, kRequest, "key"), first);
   EXPECT_EQ(service.list_studies(Study::kWear, {}).at("items").size(), 2U);
 }
@@ -181,14 +181,14 @@ TEST(WearStudy, SaysThatAJobIsInItsWay) {
   SlidingEngine engine;
   engine.fails_beyond_um = 1.5;
   jobs::Service service(options_for(store, engine));
-  const json ended = wait_for_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
+  const json ended = wait_for_study_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
   EXPECT_EQ(ended.at("state"), "failed");
   EXPECT_EQ(ended.at("verdict"), "lost");
   EXPECT_TRUE(ended.at("error").is_string());
   EXPECT_EQ(ended.at("cycles").size(), 2U);
 }
 
-std::set<std::string> faults_of(jobs::Service& service, const ordered_json& request) {
+std::set<std::string> wear_faults_of(jobs::Service& service, const ordered_json& request) {
   try {
     (void)service.submit_study(Study::kWear, request);
   } catch (const jobs::InvalidRequest& invalid) {
@@ -204,18 +204,18 @@ TEST(WearStudy, IsRefusedWithEveryFault) {
   const TemporaryStore store;
   SlidingEngine engine;
   jobs::Service service(options_for(store, engine));
-  EXPECT_EQ(faults_of(service, ordered_json::array()), Pointers{""});
-  EXPECT_EQ(faults_of(service, {{"hour", 3}}), (Pointers{"/hour", "/hours"}));
-  EXPECT_EQ(faults_of(service, {{"hours", 0}, {"sectors", 7}, {"max_depth_step_um", "fine"}, {"max_cycles", 1.5}, {"wear_coefficient_m2_n", -1},
+  EXPECT_EQ(wear_faults_of(service, ordered_json::array()), Pointers{""});
+  EXPECT_EQ(wear_faults_of(service, {{"hour", 3}}), (Pointers{"/hour", "/hours"}));
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 0}, {"sectors", 7}, {"max_depth_step_um", "fine"}, {"max_cycles", 1.5}, {"wear_coefficient_m2_n", -1},
                                 {"max_rate_change", 0}, {"worn_clearance_mm", 0.25}}),
             (Pointers{"/hours", "/sectors", "/max_depth_step_um", "/max_cycles", "/wear_coefficient_m2_n", "/max_rate_change",
                       "/worn_clearance_mm"}));
-  EXPECT_EQ(faults_of(service, {{"hours", 1}, {"parameters", {{"contact", "elements"}, {"duration_s", 2}}}}),
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"contact", "elements"}, {"duration_s", 2}}}}),
             (Pointers{"/parameters/contact", "/parameters/duration_s"}));
-  EXPECT_EQ(faults_of(service, {{"hours", 1}, {"parameters", {{"clearance_mm", 0}}}}), Pointers{"/parameters/clearance_mm"});
-  EXPECT_EQ(faults_of(service, {{"hours", 1}, {"parameters", {{"wear_depth_um", json::array({std::vector<double>(8)})}}}}),
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"clearance_mm", 0}}}}), Pointers{"/parameters/clearance_mm"});
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"wear_depth_um", json::array({std::vector<double>(8)})}}}}),
             Pointers{"/parameters/wear_depth_um"});
-  EXPECT_EQ(faults_of(service, {{"hours", 1}, {"parameters", {{"clearance", 0.1}}}}), Pointers{"/parameters/clearance"});
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"clearance", 0.1}}}}), Pointers{"/parameters/clearance"});
   EXPECT_EQ(engine.begun, 0);
 }
 
@@ -224,7 +224,7 @@ TEST(WearStudy, IsListedApartFromSearches) {
   SlidingEngine engine;
   jobs::Service service(options_for(store, engine));
   const std::string id = service.submit_study(Study::kWear, kRequest).at("id");
-  (void)wait_for_end(service, id);
+  (void)wait_for_study_end(service, id);
   EXPECT_EQ(service.list_studies(Study::kWear, {}).at("items").at(0).at("id"), id);
   EXPECT_TRUE(service.list_studies(Study::kLimit, {}).at("items").empty());
   EXPECT_FALSE(service.find_study(Study::kLimit, id));

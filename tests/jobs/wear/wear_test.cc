@@ -17,8 +17,8 @@ namespace {
 using nlohmann::json;
 using std::numbers::pi;
 
-constexpr double kPower = 40.0;  // 100 N at 0.4 m/s
-constexpr double kCoefficient = 2e-14;
+constexpr double kWearPower = 40.0;  // 100 N at 0.4 m/s
+constexpr double kWearCoefficient = 2e-14;
 
 const json kParameters{{"clearance_mm", 0.25}, {"bearing_radius_mm", 5.0}, {"bearing_length_mm", 20.0}, {"radial_levels", 2}};
 
@@ -35,41 +35,41 @@ engine::Trajectory sliding(double turns) {
     const double t = k / 1000.0;
     const double angle = 1.0 + rate * t;
     const bool still = rate == 0.0;
-    const double x = kPower * (still ? t * std::cos(1.0) : (std::sin(angle) - std::sin(1.0)) / rate);
-    const double y = kPower * (still ? t * std::sin(1.0) : (std::cos(1.0) - std::cos(angle)) / rate);
-    const std::vector<double> row{t, kPower * t, x, y, 0.0, 0.0, 0.0};
+    const double x = kWearPower * (still ? t * std::cos(1.0) : (std::sin(angle) - std::sin(1.0)) / rate);
+    const double y = kWearPower * (still ? t * std::sin(1.0) : (std::cos(1.0) - std::cos(angle)) / rate);
+    const std::vector<double> row{t, kWearPower * t, x, y, 0.0, 0.0, 0.0};
     for (std::size_t c = 0; c < row.size(); ++c) run.columns[c].push_back(row[c]);
   }
   return run;
 }
 
-double cell(const jobs::ResultTable& table, std::size_t row, std::size_t column) { return table.rows.at(row).at(column); }
+double wear_cell(const jobs::ResultTable& table, std::size_t row, std::size_t column) { return table.rows.at(row).at(column); }
 
 // Archard: depth = k F v t / A, with the area of the whole strip of a ring, 2 pi r_b L / 2, where the contact goes round evenly.
 TEST(WearMap, HasTheDepthOfASteadilySlidingJournal) {
-  const auto table = jobs::make_wear_map(kParameters, sliding(25.0), {.wear_coefficient = kCoefficient, .sectors = 20, .worn_clearance = {}});
+  const auto table = jobs::make_wear_map(kParameters, sliding(25.0), {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = {}});
   ASSERT_EQ(table.rows.size(), 40U);
-  const double depth_um = 1e6 * kCoefficient * kPower * 10.0 / (2.0 * pi * 5e-3 * 10e-3);
+  const double depth_um = 1e6 * kWearCoefficient * kWearPower * 10.0 / (2.0 * pi * 5e-3 * 10e-3);
   // 400 samples a turn, 20 a sector: those at a sector's edges go to one side or the other, by the same number each turn.
-  for (std::size_t s = 0; s < 20; ++s) EXPECT_NEAR(cell(table, s, 4), depth_um, 0.06 * depth_um) << s;
+  for (std::size_t s = 0; s < 20; ++s) EXPECT_NEAR(wear_cell(table, s, 4), depth_um, 0.06 * depth_um) << s;
   double sum = 0.0;
-  for (std::size_t s = 0; s < 20; ++s) sum += cell(table, s, 4) / 20.0;
+  for (std::size_t s = 0; s < 20; ++s) sum += wear_cell(table, s, 4) / 20.0;
   EXPECT_NEAR(sum, depth_um, 1e-9 * depth_um);
-  for (std::size_t s = 20; s < 40; ++s) EXPECT_EQ(cell(table, s, 4), 0.0) << "the second ring does not touch";
-  EXPECT_EQ(cell(table, 0, 1), -10.0);
-  EXPECT_EQ(cell(table, 20, 1), 10.0);
+  for (std::size_t s = 20; s < 40; ++s) EXPECT_EQ(wear_cell(table, s, 4), 0.0) << "the second ring does not touch";
+  EXPECT_EQ(wear_cell(table, 0, 1), -10.0);
+  EXPECT_EQ(wear_cell(table, 20, 1), 10.0);
 }
 
 // The same where it stays: all of it in the sector that holds 1 rad, number 3 of 20.
 TEST(WearMap, GathersWhatStaysInItsSectorAndTellsItsLife) {
-  const auto table = jobs::make_wear_map(kParameters, sliding(0.0), {.wear_coefficient = kCoefficient, .sectors = 20, .worn_clearance = 0.35});
-  const double depth_um = 1e6 * kCoefficient * kPower * 10.0 / (2.0 * pi / 20.0 * 5e-3 * 10e-3);
-  EXPECT_NEAR(cell(table, 3, 4), depth_um, 1e-9 * depth_um);
-  EXPECT_NEAR(cell(table, 3, 2), 3.5 * 2.0 * pi / 20.0, 1e-12);
-  EXPECT_NEAR(cell(table, 3, 5), depth_um * 360.0, 1e-6 * depth_um);
-  EXPECT_NEAR(cell(table, 3, 6), 100.0 / (depth_um * 360.0), 1e-9) << "a tenth of a millimetre";
+  const auto table = jobs::make_wear_map(kParameters, sliding(0.0), {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = 0.35});
+  const double depth_um = 1e6 * kWearCoefficient * kWearPower * 10.0 / (2.0 * pi / 20.0 * 5e-3 * 10e-3);
+  EXPECT_NEAR(wear_cell(table, 3, 4), depth_um, 1e-9 * depth_um);
+  EXPECT_NEAR(wear_cell(table, 3, 2), 3.5 * 2.0 * pi / 20.0, 1e-12);
+  EXPECT_NEAR(wear_cell(table, 3, 5), depth_um * 360.0, 1e-6 * depth_um);
+  EXPECT_NEAR(wear_cell(table, 3, 6), 100.0 / (depth_um * 360.0), 1e-9) << "a tenth of a millimetre";
   EXPECT_TRUE(table.rows.at(4).at(6).is_null());
-  EXPECT_EQ(cell(table, 4, 4), 0.0);
+  EXPECT_EQ(wear_cell(table, 4, 4), 0.0);
 }
 
 // In a worn bore the wear is spread over the arc that is pressed, and what is worn already counts for the life.
@@ -83,17 +83,17 @@ TEST(WearMap, OfAWornBoreIsSpreadOverTheArcThatIsPressed) {
     for (double& work : run.columns.back()) work *= 2e-6;
   }
   EXPECT_EQ(jobs::wear_channels(parameters).size(), 8U);
-  const auto table = jobs::make_wear_map(parameters, run, {.wear_coefficient = kCoefficient, .sectors = 120, .worn_clearance = 0.35});
+  const auto table = jobs::make_wear_map(parameters, run, {.wear_coefficient = kWearCoefficient, .sectors = 120, .worn_clearance = 0.35});
   const double half = std::acos(0.28 / 0.282);  // in rad; sectors of 3 degrees
   double sum = 0.0;
   int worn = 0;
   for (std::size_t s = 0; s < 120; ++s) {
-    sum += cell(table, s, 3);
-    worn += cell(table, s, 3) > 0.0 ? 1 : 0;
+    sum += wear_cell(table, s, 3);
+    worn += wear_cell(table, s, 3) > 0.0 ? 1 : 0;
   }
-  EXPECT_NEAR(sum, kPower * 10.0, 1e-9 * sum);
+  EXPECT_NEAR(sum, kWearPower * 10.0, 1e-9 * sum);
   EXPECT_NEAR(worn, 2.0 * half / (2.0 * pi / 120.0), 1.6);
-  EXPECT_NEAR(cell(table, 19, 6) * cell(table, 19, 5), 70.0, 1e-6) << "0.1 mm less what is worn already";
+  EXPECT_NEAR(wear_cell(table, 19, 6) * wear_cell(table, 19, 5), 70.0, 1e-6) << "0.1 mm less what is worn already";
   run.channels.pop_back();
   EXPECT_THROW((void)jobs::make_wear_map(parameters, run, {}), jobs::WrongState);
 }

@@ -13,7 +13,7 @@ namespace {
 using server::find_fault_in_head;
 using server::OriginCheck;
 
-constexpr std::size_t kBodyBytes = 1000;
+constexpr std::size_t kHeadBodyBytes = 1000;
 
 struct HeadCase {
   std::string name;
@@ -25,7 +25,7 @@ void PrintTo(const HeadCase& c, std::ostream* out) { *out << c.name; }
 class Head : public testing::TestWithParam<HeadCase> {};
 
 TEST_P(Head, IsRefusedWithItsStatus) {
-  const auto fault = find_fault_in_head(GetParam().head + "\r\n\r\n", kBodyBytes);
+  const auto fault = find_fault_in_head(GetParam().head + "\r\n\r\n", kHeadBodyBytes);
   EXPECT_EQ(fault ? fault->status : 0, GetParam().status) << (fault ? fault->detail : "");
 }
 

@@ -29,7 +29,7 @@ using server_tests::status_of;
 const char* const kSweep = R"({"sweep": {"clearance_mm": [0.1, 0.2, 0.3]}})";
 
 /// What stands after `name: ` in the lines of a text.
-std::vector<std::string> lines_of(const std::string& text, const std::string& name) {
+std::vector<std::string> event_lines_of(const std::string& text, const std::string& name) {
   std::vector<std::string> values;
   std::size_t start = 0;
   while (start < text.size()) {
@@ -57,25 +57,25 @@ TEST(SweepEvents, TellOfEveryJobThenOfTheEnd) {
   const auto response = follow(bench, id);
   EXPECT_EQ(response.content_type, "text/event-stream");
   const std::string text = response.events->next();
-  EXPECT_EQ(lines_of(text, "event"), (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
+  EXPECT_EQ(event_lines_of(text, "event"), (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
   EXPECT_TRUE(response.events->has_ended());
-  for (const std::string& data : lines_of(text, "data")) EXPECT_TRUE(json::accept(data));
-  EXPECT_EQ(json::parse(lines_of(text, "data").back()).at("state"), "succeeded");
+  for (const std::string& data : event_lines_of(text, "data")) EXPECT_TRUE(json::accept(data));
+  EXPECT_EQ(json::parse(event_lines_of(text, "data").back()).at("state"), "succeeded");
 }
 
 TEST(SweepEvents, GoOnAfterTheLastOneThatTheClientHas) {
   Bench bench;
   const std::string id = bench.run(kSweep);
   const std::string all = follow(bench, id).events->next();
-  const auto ids = lines_of(all, "id");
+  const auto ids = event_lines_of(all, "id");
   ASSERT_EQ(ids.size(), 4U);
   const std::string rest = follow(bench, id, ids[0]).events->next();
-  EXPECT_EQ(lines_of(rest, "event"), (std::vector<std::string>{"job", "job", "progress", "done"}));
-  EXPECT_EQ(lines_of(follow(bench, id, ids[2]).events->next(), "event"), (std::vector<std::string>{"progress", "done"}));
+  EXPECT_EQ(event_lines_of(rest, "event"), (std::vector<std::string>{"job", "job", "progress", "done"}));
+  EXPECT_EQ(event_lines_of(follow(bench, id, ids[2]).events->next(), "event"), (std::vector<std::string>{"progress", "done"}));
   EXPECT_EQ(follow(bench, id, ids[3]).status, 204);
   bench.call("POST", "/v1/sweeps/" + id + "/extend", R"({"sweep": {"clearance_mm": [0.4]}})");
   ASSERT_TRUE(bench.service().wait_for_sweep(id, 20s));
-  EXPECT_EQ(lines_of(follow(bench, id, ids[3]).events->next(), "event"), (std::vector<std::string>{"job", "progress", "done"}));
+  EXPECT_EQ(event_lines_of(follow(bench, id, ids[3]).events->next(), "event"), (std::vector<std::string>{"job", "progress", "done"}));
 }
 
 TEST(SweepEvents, AreSilentWhileNothingHappens) {
@@ -83,13 +83,13 @@ TEST(SweepEvents, AreSilentWhileNothingHappens) {
   const std::string id = bench.submit(kSweep);
   while (json::parse(bench.call("GET", "/v1/sweeps/" + id).body).at("counts").at("running") == 0) std::this_thread::sleep_for(5ms);
   const auto response = follow(bench, id);
-  EXPECT_EQ(lines_of(response.events->next(), "event"), (std::vector<std::string>{"progress"}));
+  EXPECT_EQ(event_lines_of(response.events->next(), "event"), (std::vector<std::string>{"progress"}));
   EXPECT_EQ(response.events->next(), "");
   bench.call("POST", "/v1/sweeps/" + id + "/cancel");
   const std::string text = response.events->next();
   // Jobs that ended together have one id, at the last of them.
-  EXPECT_EQ(lines_of(text, "event"), (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
-  EXPECT_EQ(lines_of(text, "id").size(), 2U);
+  EXPECT_EQ(event_lines_of(text, "event"), (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
+  EXPECT_EQ(event_lines_of(text, "id").size(), 2U);
   EXPECT_LT(text.find("event: job"), text.find("id: "));
 }
 
@@ -128,14 +128,14 @@ TEST_P(StudyEvents, TellOfEveryJobThenOfTheEndAndAreResumed) {
   EXPECT_EQ(study.at("links").at("events"), path + "/events");
   const auto jobs = study.at("counts").at("succeeded").get<std::size_t>();
   const std::string all = follow_path(bench, path, "").events->next();
-  const auto events = lines_of(all, "event");
+  const auto events = event_lines_of(all, "event");
   ASSERT_EQ(events.size(), jobs + 2);
   EXPECT_EQ(events[jobs], "progress");
   EXPECT_EQ(events.back(), "done");
-  const json last = json::parse(lines_of(all, "data").back());
+  const json last = json::parse(event_lines_of(all, "data").back());
   EXPECT_EQ(last, (json{{"id", study.at("id")}, {"sweep_id", study.at("sweep_id")}, {"state", "succeeded"}, {"counts", study.at("counts")}, {"progress", 1.0}}));
-  const auto ids = lines_of(all, "id");
-  EXPECT_LT(lines_of(follow_path(bench, path, ids[0]).events->next(), "event").size(), events.size());
+  const auto ids = event_lines_of(all, "id");
+  EXPECT_LT(event_lines_of(follow_path(bench, path, ids[0]).events->next(), "event").size(), events.size());
   EXPECT_EQ(follow_path(bench, path, ids.back()).status, 204);
   EXPECT_EQ(follow_path(bench, path, "x").status, 400);
   EXPECT_EQ(follow_path(bench, path + "x", "").status, 404);
@@ -146,8 +146,8 @@ TEST_P(StudyEvents, EndOnlyWithTheStudy) {
   const std::string path = submit(bench);
   const auto response = follow_path(bench, path, "");
   const std::string first = response.events->next();
-  EXPECT_EQ(lines_of(first, "event"), (std::vector<std::string>{"progress"}));
-  EXPECT_EQ(json::parse(lines_of(first, "data").back()).at("state"), "running");
+  EXPECT_EQ(event_lines_of(first, "event"), (std::vector<std::string>{"progress"}));
+  EXPECT_EQ(json::parse(event_lines_of(first, "data").back()).at("state"), "running");
   EXPECT_FALSE(response.events->has_ended());
   bench.call("POST", path + "/cancel");
   std::string rest;
@@ -155,8 +155,8 @@ TEST_P(StudyEvents, EndOnlyWithTheStudy) {
     rest += response.events->next();
     std::this_thread::sleep_for(5ms);
   }
-  EXPECT_EQ(lines_of(rest, "event").back(), "done");
-  EXPECT_EQ(json::parse(lines_of(rest, "data").back()).at("state"), "cancelled");
+  EXPECT_EQ(event_lines_of(rest, "event").back(), "done");
+  EXPECT_EQ(json::parse(event_lines_of(rest, "data").back()).at("state"), "cancelled");
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, StudyEvents,
@@ -193,7 +193,7 @@ TEST_F(EventsOverHttp, ArriveAsTheyHappen) {
   EXPECT_EQ(status_of(answer), 200);
   EXPECT_NE(answer.find("Content-Type: text/event-stream\r\n"), std::string::npos);
   EXPECT_EQ(answer.find("Content-Length"), std::string::npos);
-  EXPECT_EQ(lines_of(body_of(answer), "event").back(), "done");
+  EXPECT_EQ(event_lines_of(body_of(answer), "event").back(), "done");
 }
 
 TEST_F(EventsOverHttp, GoOnForLongerThanAnAnswerMayTake) {
@@ -202,7 +202,7 @@ TEST_F(EventsOverHttp, GoOnForLongerThanAnAnswerMayTake) {
   ASSERT_TRUE(client.answered_within(5s));
   std::this_thread::sleep_for(2 * kResponseTime);
   bench_.call("POST", "/v1/sweeps/" + id_ + "/cancel");
-  EXPECT_EQ(lines_of(body_of(client.read_all()), "event").back(), "done");
+  EXPECT_EQ(event_lines_of(body_of(client.read_all()), "event").back(), "done");
 }
 
 TEST_F(EventsOverHttp, TakeNoThreadFromOthersAndHaveABound) {

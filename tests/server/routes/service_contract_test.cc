@@ -21,7 +21,7 @@ using server_tests::Bench;
 using server_tests::endless_run;
 using server_tests::header;
 
-const char* const kSweep = R"({"sweep": {"clearance_mm": [0.1, 0.2, 0.3]}})";
+const char* const kContractSweep = R"({"sweep": {"clearance_mm": [0.1, 0.2, 0.3]}})";
 
 server::Request with_key(const std::string& path, const std::string& body, const std::string& key) {
   server::Request request{.method = "POST", .path = path, .query = {}, .accept = {}, .body = body, .id = "test-1"};
@@ -46,7 +46,7 @@ TEST(IdempotencyKey, GivesTheSameBytesAgain) {
 TEST(IdempotencyKey, HasToBeAKey) {
   Bench bench;
   for (const std::string& key : {std::string(), std::string("a b"), std::string("\x01"), std::string(256, 'k')}) {
-    EXPECT_EQ(bench.call(with_key("/v1/sweeps", kSweep, key)).status, 400) << key;
+    EXPECT_EQ(bench.call(with_key("/v1/sweeps", kContractSweep, key)).status, 400) << key;
   }
 }
 
@@ -58,7 +58,7 @@ server::Response get_if_none_match(Bench& bench, const std::string& path, const 
 
 TEST(ETag, SparesWhatTheClientHas) {
   Bench bench;
-  const std::string id = bench.run(kSweep);
+  const std::string id = bench.run(kContractSweep);
   const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
   for (const std::string& path : {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results", "/v1/jobs/" + job, "/v1/jobs/" + job + "/trajectory", std::string("/"),
                                   std::string("/app.js")}) {
@@ -77,7 +77,7 @@ TEST(ETag, SparesWhatTheClientHas) {
 
 TEST(ETag, IsNotOfWhatStillChanges) {
   Bench bench(endless_run);
-  const std::string id = bench.submit(kSweep);
+  const std::string id = bench.submit(kContractSweep);
   for (const std::string& path : {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results"}) {
     const auto response = bench.call("GET", path);
     EXPECT_EQ(header(response, "ETag"), "");
@@ -96,7 +96,7 @@ TEST(Prefer, IsReadFromItsList) {
 
 TEST(Prefer, WaitsForTheEndOfASweep) {
   Bench bench;
-  server::Request request{.method = "POST", .path = "/v1/sweeps", .query = {}, .accept = {}, .body = kSweep, .id = "test-1"};
+  server::Request request{.method = "POST", .path = "/v1/sweeps", .query = {}, .accept = {}, .body = kContractSweep, .id = "test-1"};
   request.prefer = "wait=20";
   const auto created = bench.call(request);
   EXPECT_EQ(created.status, 201);
@@ -124,7 +124,7 @@ TEST(Prefer, WaitsForTheEndOfAJob) {
 
 TEST(Prefer, WaitsNoLongerThanItIsTold) {
   Bench bench(endless_run);
-  const std::string id = bench.submit(kSweep);
+  const std::string id = bench.submit(kContractSweep);
   server::Request request{.method = "GET", .path = "/v1/sweeps/" + id, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.prefer = "wait=1";
   const auto start = std::chrono::steady_clock::now();
@@ -138,7 +138,7 @@ TEST(Prefer, WaitsNoLongerThanItIsTold) {
 
 TEST(Prefer, LeavesThreadsToOthers) {
   Bench bench(endless_run);
-  const std::string id = bench.submit(kSweep);
+  const std::string id = bench.submit(kContractSweep);
   server::WaitingRoom room;
   server::Request request{};
   request.prefer = "wait=60";
@@ -169,7 +169,7 @@ TEST(Prefer, FreesThePlaceOfAWaitThatFailed) {
 
 TEST(GetResults, TakesFieldsFiltersAndOrder) {
   Bench bench;
-  const std::string path = "/v1/sweeps/" + bench.run(kSweep) + "/results";
+  const std::string path = "/v1/sweeps/" + bench.run(kContractSweep) + "/results";
   const auto rows = bench.call("GET", path, "", {{"fields", "clearance_mm"}, {"order_by", "-clearance_mm"}, {"clearance_mm_lt", "0.3"}});
   EXPECT_EQ(json::parse(rows.body), json::parse(R"([{"clearance_mm": 0.2}, {"clearance_mm": 0.1}])"));
   EXPECT_EQ(bench.call("GET", path, "", {{"fields", "clearance_mm"}, {"limit", "1"}, {"format", "ndjson"}}).body, "{\"clearance_mm\":0.1}\n");
@@ -189,7 +189,7 @@ std::string pointers_of(const server::Response& answer) {
 
 TEST(Query, IsRefusedWithFaultsOfFormAndOfMeaningAtOnce) {
   Bench bench;
-  const std::string results = "/v1/sweeps/" + bench.run(kSweep) + "/results";
+  const std::string results = "/v1/sweeps/" + bench.run(kContractSweep) + "/results";
   const std::string job = json::parse(bench.call("GET", results).body)[0].at("job_id");
   EXPECT_EQ(pointers_of(bench.call("GET", results, "", {{"limit", "x"}, {"fields", "nope"}, {"clearance_mm_gt", "much"}})), "/limit /clearance_mm_gt /fields/0");
   EXPECT_EQ(pointers_of(bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"format", "xml"}, {"channels", "t_s,,nope"}, {"from", "1"}, {"to", "0"}})),
@@ -201,7 +201,7 @@ TEST(Query, IsRefusedWithFaultsOfFormAndOfMeaningAtOnce) {
 
 TEST(GetResults, TakesTheFormThatIsAcceptedFirst) {
   Bench bench;
-  const std::string path = "/v1/sweeps/" + bench.run(kSweep) + "/results";
+  const std::string path = "/v1/sweeps/" + bench.run(kContractSweep) + "/results";
   EXPECT_EQ(bench.call("GET", path, "", {}, "application/x-ndjson, */*").content_type, "application/x-ndjson");
   EXPECT_EQ(bench.call("GET", path, "", {}, "application/json, text/csv").content_type, "application/json");
   EXPECT_EQ(bench.call("GET", path, "", {{"format", "npz"}}).status, 422);
@@ -221,7 +221,7 @@ TEST(GetTrajectory, IsAFileOfNumPy) {
 
 TEST(RetryAndExtend, AnswerWithTheSweep) {
   Bench bench;
-  const std::string path = "/v1/sweeps/" + bench.run(kSweep);
+  const std::string path = "/v1/sweeps/" + bench.run(kContractSweep);
   EXPECT_EQ(json::parse(bench.call("POST", path + "/retry").body).at("counts").at("succeeded"), 3);
   const auto extended = bench.call("POST", path + "/extend", R"({"sweep": {"clearance_mm": [0.4]}})");
   EXPECT_EQ(extended.status, 200);
@@ -234,7 +234,7 @@ TEST(RetryAndExtend, AnswerWithTheSweep) {
 
 TEST(GetStore, IsAFileThatNobodyElseSees) {
   Bench bench;
-  (void)bench.run(kSweep);
+  (void)bench.run(kContractSweep);
   const auto copy = bench.call("GET", "/v1/store");
   EXPECT_EQ(copy.status, 200);
   EXPECT_EQ(copy.content_type, "application/vnd.sqlite3");

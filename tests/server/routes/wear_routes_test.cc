@@ -20,14 +20,14 @@ using server_tests::header;
 
 const char* const kStudy = R"({"name": "worn", "parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})";
 
-std::string submit(Bench& bench) {
+std::string submit_wear(Bench& bench) {
   const auto created = bench.call("POST", "/v1/wear-studies", kStudy);
   EXPECT_EQ(created.status, 201) << created.body;
   EXPECT_EQ(header(created, "Location"), "/v1/wear-studies/" + json::parse(created.body).at("id").get<std::string>());
   return header(created, "Location");
 }
 
-json wait_for_end(Bench& bench, const std::string& path) {
+json wait_for_wear_end(Bench& bench, const std::string& path) {
   for (int tries = 0; tries < 4000; ++tries) {
     const json study = json::parse(bench.call("GET", path).body);
     if (study.at("state") != "running") return study;
@@ -38,8 +38,8 @@ json wait_for_end(Bench& bench, const std::string& path) {
 
 TEST(WearStudies, WearTheBoreAndHandOutItsCyclesAsRows) {
   Bench bench;
-  const std::string path = submit(bench);
-  const json study = wait_for_end(bench, path);
+  const std::string path = submit_wear(bench);
+  const json study = wait_for_wear_end(bench, path);
   EXPECT_EQ(study.at("state"), "succeeded") << study;
   EXPECT_EQ(study.at("verdict"), "clearance_reached");
   const json rows = json::parse(bench.call("GET", path + "/results").body);
@@ -71,7 +71,7 @@ TEST(WearStudies, WearTheBoreAndHandOutItsCyclesAsRows) {
 
 TEST(WearStudies, AreCancelledAndRetried) {
   Bench bench(endless_run);
-  const std::string path = submit(bench);
+  const std::string path = submit_wear(bench);
   EXPECT_EQ(bench.call("DELETE", path).status, 409);
   EXPECT_EQ(json::parse(bench.call("POST", path + "/cancel").body).at("state"), "cancelled");
   EXPECT_EQ(json::parse(bench.call("POST", path + "/retry").body).at("state"), "running");
