@@ -16,15 +16,15 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///
 /// The multipliers are the forces that the rows exert: of an ideal joint on its journal (in W), of a drive on its coordinate.
 ///
-/// Shapes: the tree's joints, AnyShapes or known ones.
-template <typename Shapes>
+/// @tparam Rows  an array of one number a row: Buffer<double>, or FixedBuffer where the number of rows is known at compile time
+template <typename Rows>
 struct ConstraintRows {
   RPSUP_INLINE explicit ConstraintRows(const TreeModel& model)
       : Phi(static_cast<std::size_t>(model.rows)), Phi_d(Phi.size()), bias(Phi.size()) {}
 
-  typename Shapes::template RowRoom<double> Phi;    ///< [m] and [1]
-  typename Shapes::template RowRoom<double> Phi_d;  ///< first derivative by time
-  typename Shapes::template RowRoom<double> bias;   ///< second derivative without the unknown accelerations
+  Rows Phi;    ///< [m] and [1]
+  Rows Phi_d;  ///< first derivative by time
+  Rows bias;   ///< second derivative without the unknown accelerations
 };
 
 /// Phi_q, row after row, one entry a coordinate. Those of couplings and drives never change.
@@ -170,8 +170,8 @@ RPSUP_INLINE void add_chain(const TreeModel& model, const Frame<double, double>*
 }
 
 /// @param violation  of the joint
-template <typename Shapes>
-RPSUP_INLINE void set_joint_rows(const CutRows& of, int first, const JointViolation<double, double>& violation, ConstraintRows<Shapes>& rows) {
+template <typename Rows>
+RPSUP_INLINE void set_joint_rows(const CutRows& of, int first, const JointViolation<double, double>& violation, ConstraintRows<Rows>& rows) {
   for (int r = 0; r < of.count(); ++r) {
     const auto row = static_cast<std::size_t>(first + r);
     rows.Phi[row] = violation.Phi[r];
@@ -198,8 +198,8 @@ RPSUP_INLINE void calc_joint_entries(const TreeModel& model, const TreeCutJoint&
 }
 
 /// @param q, qd, qdd  one entry a coordinate; qdd of driven ones only
-template <typename Shapes>
-RPSUP_INLINE void calc_coupling_rows(const TreeModel& model, const double* q, const double* qd, const double* qdd, ConstraintRows<Shapes>& rows) {
+template <typename Rows>
+RPSUP_INLINE void calc_coupling_rows(const TreeModel& model, const double* q, const double* qd, const double* qdd, ConstraintRows<Rows>& rows) {
   const auto given = [&](int coordinate) RPSUP_INLINE_LAMBDA { return model.is_eliminated(coordinate) ? qdd[coordinate] : 0.0; };
   for (std::size_t k = 0; k < model.couplings.size(); ++k) {
     const Coupling& coupling = model.couplings[k];

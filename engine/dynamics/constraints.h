@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 
 #include "engine/dynamics/constraint_rows.h"
-#include "engine/dynamics/shapes.h"
 #include "engine/kinematics/frame_motion.h"
 #include "engine/kinematics/tree_model.h"
+#include "engine/math/buffer.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -23,7 +23,7 @@ class Constraints {
   Buffer<Frame<double, double>> frames_;
   Buffer<JointAxes> axes_;
   Buffer<JointViolation<double, double>> violations_;  ///< one a cut joint
-  ConstraintRows<AnyShapes> rows_;
+  ConstraintRows<Buffer<double>> rows_;
   ConstraintEntries entries_;
 
   /// Ideal cut joints with their bearings and journals: visit(index, joint, b, j).

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "engine/dynamics/body_force.h"
+#include "engine/dynamics/newton_euler.h"
 #include "engine/kinematics/plain_frame.h"
 
 namespace engine {

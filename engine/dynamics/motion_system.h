@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "engine/clearance/clearance_joint.h"
-#include "engine/dynamics/equations.h"
+#include "engine/dynamics/dynamics_kernel.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/model/drive_piece.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/kinematics/joint_shape.h"
+#include "engine/kinematics/joint_traits.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {

@@ -10,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/dynamics/equations.h"
+#include "engine/dynamics/dynamics_kernel.h"
 #include "jobs/base/provenance.h"
 
 namespace server::commands {

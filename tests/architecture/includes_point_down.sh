@@ -33,6 +33,14 @@ forbid server "$http" '^server/http/http(_[a-z]+)?\.(h|cc)$'
 # Positions and rates come before forces.
 forbid engine/kinematics 'engine/dynamics/'
 forbid engine/model 'engine/(kinematics|dynamics)/'
+# The kernel of the dynamics stands behind engine/dynamics/dynamics_kernel.h. Its chapters build on each other: topology, forward, tangent, newton.
+kernel='engine/dynamics/kernel/'
+forbid engine "$kernel" "^$kernel"
+for folder in jobs server validation tests; do forbid "$folder" "$kernel"; done
+forbid ${kernel}topology 'engine/dynamics/([a-z_]+\.h|kernel/([a-z_]+\.h|forward|tangent|newton))'
+forbid ${kernel}forward "$kernel([a-z_]+\.h|tangent|newton)"
+forbid ${kernel}tangent "$kernel([a-z_]+\.h|newton)"
+forbid ${kernel}newton "$kernel[a-z_]+\.h"
 forbid charts "(engine|validation|jobs|server|web|tests)/"
 forbid validation "(jobs|server|web|tests)/" '^validation/(studies|program)/'
 forbid validation/studies "(server|web|tests)/"

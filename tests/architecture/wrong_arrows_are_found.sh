@@ -10,10 +10,18 @@ trap 'rm -rf "$tree"' EXIT
 # plant FILE INCLUDE: the tree of correct includes with one more
 plant() {
   rm -rf "${tree:?}"/*
-  mkdir -p "$tree"/{charts,jobs} "$tree"/engine/{kinematics,model} "$tree/server/http" "$tree"/validation/{studies,program}
+  mkdir -p "$tree"/{charts,jobs,tests} "$tree"/engine/{kinematics,model} "$tree"/engine/dynamics/kernel/{topology,forward,tangent,newton} "$tree/server/http" "$tree"/validation/{studies,program}
   echo '#include <vector>' >"$tree/engine/simulate.h"
   echo '#include <vector>' >"$tree/engine/model/mechanism.h"
   echo '#include "engine/model/mechanism.h"' >"$tree/engine/kinematics/frame_motion.h"
+  echo '#include <vector>' >"$tree/engine/dynamics/dynamics_kernel.h"
+  echo '#include <vector>' >"$tree/engine/dynamics/kernel/topology/topology.h"
+  echo '#include "engine/dynamics/kernel/topology/topology.h"' >"$tree/engine/dynamics/kernel/forward/forward_dynamics.h"
+  echo '#include "engine/dynamics/kernel/forward/forward_dynamics.h"' >"$tree/engine/dynamics/kernel/tangent/linearised_dynamics.h"
+  echo '#include "engine/dynamics/kernel/tangent/linearised_dynamics.h"' >"$tree/engine/dynamics/kernel/newton/newton_matrix.h"
+  echo '#include "engine/dynamics/kernel/newton/newton_matrix.h"' >"$tree/engine/dynamics/kernel/compiled_kernel.h"
+  echo '#include "engine/dynamics/dynamics_kernel.h"' >>"$tree/engine/dynamics/kernel/compiled_kernel.h"
+  echo '#include "engine/simulate.h"' >"$tree/tests/simulate_test.cc"
   echo '#include "engine/simulate.h"' >"$tree/jobs/store.cc"
   echo '#include "jobs/store.h"' >"$tree/server/routes.cc"
   echo '#include <httplib.h>' >"$tree/server/http/http_guard.cc"
@@ -48,8 +56,19 @@ expect_refused server/routes.cc '#include "validation/report.h"'
 expect_refused charts/chart.h '#include "engine/simulate.h"'
 expect_refused validation/findings.h '#include "jobs/store.h"'
 expect_refused validation/studies/study.cc '#include "server/routes.h"'
-expect_refused engine/kinematics/frame_motion.h '#include "engine/dynamics/equations.h"'
+expect_refused engine/kinematics/frame_motion.h '#include "engine/dynamics/dynamics_kernel.h"'
 expect_refused engine/model/mechanism.h '#include "engine/kinematics/frame_motion.h"'
+expect_refused engine/simulate.h '#include "engine/dynamics/kernel/forward/forward_dynamics.h"'
+expect_refused engine/dynamics/dynamics_kernel.h '#include "engine/dynamics/kernel/compiled_kernel.h"'
+expect_refused jobs/store.cc '#include "engine/dynamics/kernel/compiled_kernel.h"'
+expect_refused server/routes.cc '#include "engine/dynamics/kernel/compiled_kernel.h"'
+expect_refused validation/findings.h '#include "engine/dynamics/kernel/newton/newton_matrix.h"'
+expect_refused tests/simulate_test.cc '#include "engine/dynamics/kernel/topology/topology.h"'
+expect_refused engine/dynamics/kernel/topology/topology.h '#include "engine/dynamics/dynamics_kernel.h"'
+expect_refused engine/dynamics/kernel/topology/topology.h '#include "engine/dynamics/kernel/forward/forward_dynamics.h"'
+expect_refused engine/dynamics/kernel/forward/forward_dynamics.h '#include "engine/dynamics/kernel/tangent/linearised_dynamics.h"'
+expect_refused engine/dynamics/kernel/tangent/linearised_dynamics.h '#include "engine/dynamics/kernel/newton/newton_matrix.h"'
+expect_refused engine/dynamics/kernel/newton/newton_matrix.h '#include "engine/dynamics/kernel/compiled_kernel.h"'
 
 rm -rf "${tree:?}"/*
 mkdir -p "$tree"/{charts,engine,jobs,server,validation}

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/clearance/contact_derivative.h"
-#include "engine/dynamics/body_force.h"
 #include "engine/dynamics/cut_joint_motion.h"
-#include "engine/dynamics/varied_frame.h"
+#include "engine/dynamics/kernel/tangent/frame_tangent.h"
+#include "engine/dynamics/newton_euler.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {

@@ -6,10 +6,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "engine/dynamics/angles_of.h"
-#include "engine/dynamics/known_joint.h"
-#include "engine/dynamics/rod_motion.h"
-#include "engine/kinematics/joint_shape.h"
+#include "engine/dynamics/kernel/topology/joint_angles.h"
+#include "engine/dynamics/kernel/topology/static_joint.h"
+#include "engine/kinematics/joint_traits.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
 #include "engine/math/instruction_set.h"
@@ -67,7 +66,8 @@ struct AnyShapes {
   using SpringRoom = Buffer<T>;
   template <typename T>
   using RowRoom = Buffer<T>;
-  using RodRoom = FixedBuffer<RodMotion, 0>;
+  template <typename T>
+  using RodRoom = FixedBuffer<T, 0>;
 
   using Looped = AnyShapes;
 
@@ -127,7 +127,8 @@ struct KnownShapes {
   static constexpr int row_count = clearance ? 0 : CutJoint::rows.count();
   template <typename T>
   using RowRoom = FixedBuffer<T, row_count>;
-  using RodRoom = FixedBuffer<RodMotion, n>;
+  template <typename T>
+  using RodRoom = FixedBuffer<T, n>;
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
     if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() || !model.couplings.empty()) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/dynamics/held_motion.h"
+#include "engine/dynamics/kernel/tangent/nominal_motion.h"
 #include "engine/math/dual.h"
 
 namespace engine {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/clearance/contact_derivative.h"
-#include "engine/dynamics/direction_plan.h"
-#include "engine/dynamics/state_jacobian.h"
-#include "engine/dynamics/varied_equations.h"
+#include "engine/dynamics/kernel/tangent/linearised_dynamics.h"
+#include "engine/dynamics/kernel/tangent/seed_schedule.h"
+#include "engine/dynamics/kernel/tangent/state_jacobian.h"
 #include "engine/math/buffer.h"
 
 namespace engine {

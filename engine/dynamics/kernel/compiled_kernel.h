@@ -3,14 +3,14 @@
 
 #include <memory>
 
-#include "engine/dynamics/bristle_derivatives.h"
-#include "engine/dynamics/direction_plan.h"
-#include "engine/dynamics/equations.h"
-#include "engine/dynamics/equations_of_motion.h"
-#include "engine/dynamics/shifted_bodies.h"
-#include "engine/dynamics/shifted_jacobian.h"
-#include "engine/dynamics/state_jacobian.h"
-#include "engine/dynamics/varied_equations.h"
+#include "engine/dynamics/dynamics_kernel.h"
+#include "engine/dynamics/kernel/forward/forward_dynamics.h"
+#include "engine/dynamics/kernel/newton/newton_matrix.h"
+#include "engine/dynamics/kernel/newton/recursive_newton.h"
+#include "engine/dynamics/kernel/tangent/bristle_jacobian.h"
+#include "engine/dynamics/kernel/tangent/linearised_dynamics.h"
+#include "engine/dynamics/kernel/tangent/seed_schedule.h"
+#include "engine/dynamics/kernel/tangent/state_jacobian.h"
 #include "engine/math/complex.h"
 
 namespace engine {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
-#include "engine/dynamics/compiled_equations.h"
+#include "engine/dynamics/kernel/compiled_kernel.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/dynamics/equations.h"
+#include "engine/dynamics/dynamics_kernel.h"
 
 #include <algorithm>
 #include <cassert>

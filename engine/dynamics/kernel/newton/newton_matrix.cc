@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
-#include "engine/dynamics/shifted_jacobian.h"
+#include "engine/dynamics/kernel/newton/newton_matrix.h"
 
 #include <cstddef>
 #include <utility>

@@ -3,9 +3,9 @@
 
 #include <type_traits>
 
-#include "engine/dynamics/body_force.h"
-#include "engine/dynamics/rod_motion.h"
-#include "engine/dynamics/shapes.h"
+#include "engine/dynamics/kernel/forward/slender_body.h"
+#include "engine/dynamics/kernel/topology/topology.h"
+#include "engine/dynamics/newton_euler.h"
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"

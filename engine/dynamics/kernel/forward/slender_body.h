@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/dynamics/body_force.h"
+#include "engine/dynamics/newton_euler.h"
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/math/vec3.h"
 

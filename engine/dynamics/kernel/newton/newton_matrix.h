@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/dynamics/state_jacobian.h"
+#include "engine/dynamics/kernel/tangent/state_jacobian.h"
 #include "engine/math/buffer.h"
 #include "engine/math/number_rows.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
-#include "engine/dynamics/shifted_bodies.h"
+#include "engine/dynamics/kernel/newton/recursive_newton.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "engine/kinematics/joint_shape.h"
+#include "engine/kinematics/joint_traits.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/instruction_set.h"
 

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "engine/clearance/joint_contact.h"
-#include "engine/dynamics/articulated_bodies.h"
 #include "engine/dynamics/cut_joint_motion.h"
-#include "engine/dynamics/equations.h"
-#include "engine/dynamics/loop_equations.h"
-#include "engine/dynamics/loss_powers.h"
-#include "engine/dynamics/rod_motion.h"
-#include "engine/dynamics/spring_pull.h"
+#include "engine/dynamics/dynamics_kernel.h"
+#include "engine/dynamics/kernel/forward/articulated_bodies.h"
+#include "engine/dynamics/kernel/forward/constraint_solver.h"
+#include "engine/dynamics/kernel/forward/loss_powers.h"
+#include "engine/dynamics/kernel/forward/point_spring.h"
+#include "engine/dynamics/kernel/forward/slender_body.h"
 #include "engine/math/finite.h"
 #include "engine/math/sine_cosine.h"
 
@@ -323,7 +323,7 @@ class EquationsOfMotion {
   typename Shapes::SineRoom sines_, cosines_;
   JointRoom<SpatialForce<double>> given_;       ///< needed by the bodies that move with time only
   JointRoom<SpatialForce<double>> needed_;
-  typename Shapes::RodRoom rods_;
+  typename Shapes::template RodRoom<RodMotion> rods_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

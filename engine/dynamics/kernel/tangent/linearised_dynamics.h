@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "engine/dynamics/equations_of_motion.h"
-#include "engine/dynamics/varied_contact.h"
-#include "engine/dynamics/varied_frame.h"
+#include "engine/dynamics/kernel/forward/forward_dynamics.h"
+#include "engine/dynamics/kernel/tangent/contact_tangent.h"
+#include "engine/dynamics/kernel/tangent/frame_tangent.h"
 #include "engine/math/dual_vec3.h"
 
 namespace engine {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "engine/dynamics/articulated_bodies.h"
 #include "engine/dynamics/constraint_rows.h"
-#include "engine/dynamics/multiplier_matrix.h"
+#include "engine/dynamics/kernel/forward/articulated_bodies.h"
+#include "engine/dynamics/kernel/forward/delassus_matrix.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
 #include "engine/math/lanes.h"
@@ -70,7 +70,7 @@ class LoopEquations {
         units_(lambda.size()),
         rest_(lambda.size()) {}
 
-  ConstraintRows<Shapes> rows;
+  ConstraintRows<RowRoom<double>> rows;
   std::conditional_t<Shapes::known, KnownRows, AnyRows> general;
   RowRoom<double> lambda;                                 ///< the rows' multipliers
   typename Shapes::template CutRoom<ClosedJoint> joints;  ///< ideal cut joints

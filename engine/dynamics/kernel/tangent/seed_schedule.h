@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "engine/dynamics/state_jacobian.h"
-#include "engine/dynamics/varied_equations.h"
+#include "engine/dynamics/kernel/tangent/linearised_dynamics.h"
+#include "engine/dynamics/kernel/tangent/state_jacobian.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
 #include "engine/math/lanes.h"
