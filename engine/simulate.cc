@@ -39,7 +39,7 @@ RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer&
   if (ideal && closure.is_determined() && closure.redundant() == 0) return run_kinematics(mechanism, closure, options, observer, assembled);
   if (closure.redundant() == 0) return Integration(mechanism, options, observer).run(assembled);
   Mechanism dependent = mechanism;
-  dependent.least_multipliers = true;
+  dependent.minimum_norm_multipliers = true;
   RunEnd end = Integration(dependent, options, observer).run(assembled);
   end.redundant_constraints = static_cast<int>(closure.redundant());
   return end;

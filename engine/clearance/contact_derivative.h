@@ -10,24 +10,24 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// How the journal's motion as seen from the bearing varies, all in {b}. @tparam T  a number, or one for each of several directions
+/// Tangent of the journal's motion in the bearing, all in {b}. (JournalTangent_W is the same in W.) @tparam T  a number, or a pack
 template <typename T>
-struct JournalVariation {
-  Vec3<T> turn, p;  ///< of {j}, [rad]; of the journal's centre, [m]
-  Vec3<T> v, w;     ///< of the journal's velocity, [m/s], and angular velocity, [rad/s]
+struct JournalTangent_b {
+  Vec3<T> rotation, p;  ///< of {j}, [rad]; of the journal's centre, [m]
+  Vec3<T> v, w;         ///< of the centre's velocity, [m/s], and of the angular velocity, [rad/s]
 };
 
-/// How what the contacts of a joint do varies.
+/// Tangent of the load of a joint's contacts, and of the powers that they dissipate.
 template <typename T>
-struct LoadVariation {
+struct LoadTangent {
   Vec3<T> force, moment;
   T impact_power{}, friction_power{};
 };
 
-/// The bristles of a joint that touch or are bent: the others do nothing, and stay as they are.
+/// The acting bristles of a joint: those that touch or are bent. The others have no force and no rate.
 struct ActingBristles {
   int first = 0;             ///< of the joint's bristles among all
-  const int* own = nullptr;  ///< which of the joint's bristles, in pairs
+  const int* index = nullptr;  ///< of each acting one among the joint's, in pairs
   int count = 0;
 };
 
@@ -38,8 +38,8 @@ struct ContactRowOf {
   Block by_rate;      ///< v, w, and the touch's own two bristles
 
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE T apply(const JournalVariation<T>& varies) const {
-    return dot3(by_position, 0, varies.turn) + dot3(by_position, 3, varies.p) + dot3(by_rate, 0, varies.v) + dot3(by_rate, 3, varies.w);
+  [[nodiscard]] RPSUP_INLINE T apply(const JournalTangent_b<T>& journal) const {
+    return dot3(by_position, 0, journal.rotation) + dot3(by_position, 3, journal.p) + dot3(by_rate, 0, journal.v) + dot3(by_rate, 3, journal.w);
   }
   template <typename T>
   [[nodiscard]] RPSUP_INLINE static T dot3(const Block& by, int first, const Vec3<T>& v) {
@@ -54,8 +54,8 @@ struct ContactRowsOf {
   static constexpr int kImpactPower = 6, kFrictionPower = 7, kCount = 8;
 
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE LoadVariation<T> apply(const JournalVariation<T>& varies) const {
-    const auto row = [&](int i) RPSUP_INLINE_LAMBDA { return of[i].apply(varies); };
+  [[nodiscard]] RPSUP_INLINE LoadTangent<T> apply(const JournalTangent_b<T>& journal) const {
+    const auto row = [&](int i) RPSUP_INLINE_LAMBDA { return of[i].apply(journal); };
     return {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, row(kImpactPower), row(kFrictionPower)};
   }
 
@@ -83,8 +83,8 @@ class ContactDerivative {
 
   /// What comes of a variation of the journal's motion, the bristles held.
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE LoadVariation<T> apply(const JournalVariation<T>& varies) const {
-    return rows_.apply(varies);
+  [[nodiscard]] RPSUP_INLINE LoadTangent<T> apply(const JournalTangent_b<T>& journal) const {
+    return rows_.apply(journal);
   }
 
   /// Of a bristle's rate, by one of the two that its touch reads.
@@ -126,10 +126,10 @@ class ContactDerivative {
     double before[2][kOutputs] = {};
   };
 
-  RPSUP_INLINE void set_bristles(const double* own, const ActingBristles& acting) {
+  RPSUP_INLINE void set_bristles(const double* values, const ActingBristles& acting) {
     for (int i = 0; i < acting.count; ++i) {
-      const auto b = static_cast<std::size_t>(acting.own[i]);
-      constant_bristles_[b].value = bristles_[b].value = own[b];
+      const auto b = static_cast<std::size_t>(acting.index[i]);
+      constant_bristles_[b].value = bristles_[b].value = values[b];
       rates_[b] = Dual(0.0);
       by_bristle_[b] = {};
     }
@@ -137,15 +137,15 @@ class ContactDerivative {
   /// Those that do not act are zero, and so is what they do.
   RPSUP_INLINE void relax_bristles(const ActingBristles& acting) {
     for (int i = 0; i < acting.count; ++i) {
-      const auto b = static_cast<std::size_t>(acting.own[i]);
+      const auto b = static_cast<std::size_t>(acting.index[i]);
       constant_bristles_[b].value = bristles_[b].value = 0.0;
     }
   }
 
   RPSUP_INLINE void differentiate_by_position(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal,
                                               const ActingBristles& acting) {
-    const Vec3<Lanes> turn{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
-    const auto turned = [&](const Vec3<double>& u) RPSUP_INLINE_LAMBDA { return join(u, cross(turn, u)); };
+    const Vec3<Lanes> rotation{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
+    const auto turned = [&](const Vec3<double>& u) RPSUP_INLINE_LAMBDA { return join(u, cross(rotation, u)); };
     const Vec3<Lanes> shift{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)};
     const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)}, join(journal.p, shift),
                                             join(journal.v, Vec3<Lanes>{}), join(journal.w, Vec3<Lanes>{})};
@@ -169,7 +169,7 @@ class ContactDerivative {
                                      &load.impact_power, &load.friction_power};
     for (int i = 0; i < kOutputs; ++i) rows_.of[i].*part = outputs[i]->d;
     for (int i = 0; i < acting.count; ++i) {
-      const auto b = static_cast<std::size_t>(acting.own[i]);
+      const auto b = static_cast<std::size_t>(acting.index[i]);
       rate_rows_[b].*part = rates_[b].d;
     }
   }

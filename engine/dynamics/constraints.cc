@@ -7,9 +7,11 @@ namespace engine {
 
 namespace {
 
-RPSUP_INLINE Frame<double, double> calc_end(const Mechanism& mechanism, FrameIndex frame, const Placement& placement,
+RPSUP_INLINE Frame<double, double> calc_end(const Mechanism& mechanism, FrameIndex frame,
+                                            const Placement& placement,
                                             const std::vector<FrameMotion>& frames) {
-  Frame<double, double> end = to_frame(frame == kGround ? ground_motion(mechanism) : frames[static_cast<std::size_t>(frame)]);
+  Frame<double, double> end =
+      to_frame(frame == kGround ? ground_motion(mechanism) : frames[static_cast<std::size_t>(frame)]);
   move_to(placement, end);
   return end;
 }
@@ -21,13 +23,13 @@ Constraints::Constraints(const Mechanism& mechanism)
       model_(make_given_model(mechanism)),
       frames_(model_.joints.size()),
       axes_(model_.joints.size()),
-      violations_(model_.cut_joints.size()),
+      residuals_(model_.cut_joints.size()),
       rows_(model_),
-      entries_(model_),
-      Phi(rows_.Phi.data(), entries_.count),
-      Phi_d(rows_.Phi_d.data(), entries_.count),
-      bias(rows_.bias.data(), entries_.count),
-      Phi_q(entries_.Phi_q.data(), entries_.count, entries_.coordinates) {}
+      jacobian_(model_),
+      Phi(rows_.Phi.data(), jacobian_.count),
+      Phi_d(rows_.Phi_d.data(), jacobian_.count),
+      bias(rows_.bias.data(), jacobian_.count),
+      Phi_q(jacobian_.Phi_q.data(), jacobian_.count, jacobian_.coordinates) {}
 
 template <typename Visit>
 RPSUP_INLINE void Constraints::each_joint(const std::vector<FrameMotion>& frames, const Visit& visit) const {
@@ -41,32 +43,38 @@ RPSUP_INLINE void Constraints::each_joint(const std::vector<FrameMotion>& frames
 
 void Constraints::calc_positions(const Eigen::VectorXd& q, const std::vector<FrameMotion>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames_[i].p = to_vec3(frames[i].p);  // all that the rows' derivatives by the coordinates take of it
+    frames_[i].p = to_vec3(frames[i].p);  // Phi_q takes no more of a frame
     axes_[i].axis[0] = to_vec3(frames[i].axis);
   }
-  each_joint(frames, [&](std::size_t, const TreeCutJoint& joint, const auto& b, const auto& j) RPSUP_INLINE_LAMBDA {
-    // Velocities may be those of another instant: nothing of them is taken.
-    const JointViolation<double, double> violation = calc_joint_violation(joint.rows, b, j);
-    for (int r = 0; r < joint.rows.count(); ++r) rows_.Phi[static_cast<std::size_t>(joint.first_row + r)] = violation.Phi[r];
-    calc_joint_entries(model_, joint, frames_.data(), axes_.data(), b, j, violation, entries_);
-  });
+  each_joint(frames,
+             [&](std::size_t, const TreeCutJoint& joint, const auto& b, const auto& j) RPSUP_INLINE_LAMBDA {
+               // Velocities may be those of another instant: Phi_d and Phi_dd are not used.
+               const JointResidual<double, double> residual = calc_joint_residual(joint.rows, b, j);
+               for (int r = 0; r < joint.rows.count(); ++r)
+                 rows_.Phi[static_cast<std::size_t>(joint.first_row + r)] = residual.Phi[r];
+               calc_joint_jacobian(model_, joint, frames_.data(), axes_.data(), b, j, residual, jacobian_);
+             });
   for (std::size_t k = 0; k < model_.couplings.size(); ++k)
-    rows_.Phi[static_cast<std::size_t>(model_.first_coupling_row) + k] = calc_coupling_row(model_.couplings[k], q.data());
+    rows_.Phi[static_cast<std::size_t>(model_.first_coupling_row) + k] =
+        calc_coupling_residual(model_.couplings[k], q.data());
 }
 
 void Constraints::calc_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
                              const std::vector<FrameMotion>& frames) {
-  each_joint(frames, [&](std::size_t k, const TreeCutJoint& joint, const auto& b, const auto& j) RPSUP_INLINE_LAMBDA {
-    violations_[k] = calc_joint_violation(joint.rows, b, j);
-    set_joint_rows(joint.rows, joint.first_row, violations_[k], rows_);
-  });
-  calc_coupling_rows(model_, q.data(), qd.data(), qdd.data(), rows_);
+  each_joint(frames,
+             [&](std::size_t k, const TreeCutJoint& joint, const auto& b, const auto& j) RPSUP_INLINE_LAMBDA {
+               residuals_[k] = calc_joint_residual(joint.rows, b, j);
+               set_joint_residual(joint.rows, joint.first_row, residuals_[k], rows_);
+             });
+  calc_coupling_residuals(model_, q.data(), qd.data(), qdd.data(), rows_);
 }
 
-JointReaction<double> Constraints::calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const {
+JointReaction<double> Constraints::calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda,
+                                                 const std::vector<FrameMotion>& frames) const {
   const TreeCutJoint& cut = model_.cut_joints[joint];
-  const Frame<double, double> b = calc_end(mechanism_, mechanism_.cut_joints[joint].bearing_frame, mechanism_.cut_joints[joint].bearing, frames);
-  return calc_joint_reaction(cut.rows, violations_[joint], b.R, lambda.data() + cut.first_row);
+  const Frame<double, double> b = calc_end(mechanism_, mechanism_.cut_joints[joint].bearing_frame,
+                                           mechanism_.cut_joints[joint].bearing, frames);
+  return calc_joint_reaction(cut.rows, residuals_[joint], b.R, lambda.data() + cut.first_row);
 }
 
 }  // namespace engine

@@ -14,7 +14,8 @@
 
 namespace engine {
 
-/// The rows Phi(q) = 0 of all ideal cut joints and couplings, for whoever gives the motion of every coordinate; see ConstraintRows.
+/// Residuals and Jacobian of the rows of all ideal cut joints and couplings, of given coordinates and frames:
+/// see ConstraintResiduals.
 class Constraints {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -22,11 +23,11 @@ class Constraints {
   TreeModel model_;
   Buffer<Frame<double, double>> frames_;
   Buffer<JointAxes> axes_;
-  Buffer<JointViolation<double, double>> violations_;  ///< one a cut joint
-  ConstraintRows<Buffer<double>> rows_;
-  ConstraintEntries entries_;
+  Buffer<JointResidual<double, double>> residuals_;  ///< one a cut joint
+  ConstraintResiduals<Buffer<double>> rows_;
+  ConstraintJacobian jacobian_;
 
-  /// Ideal cut joints with their bearings and journals: visit(index, joint, b, j).
+  /// Visits the ideal cut joints with the frames of bearing and journal: visit(index, joint, b, j).
   template <typename Visit>
   void each_joint(const std::vector<FrameMotion>& frames, const Visit& visit) const;
 
@@ -38,15 +39,19 @@ class Constraints {
   /// Computes Phi and Phi_q from the coordinates and the frames' poses.
   void calc_positions(const Eigen::VectorXd& q, const std::vector<FrameMotion>& frames);
 
-  /// Computes all but Phi_q from the frames' motions. Bias is Phi's second derivative with the accelerations given.
-  void calc_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, const std::vector<FrameMotion>& frames);
+  /// Computes all but Phi_q from the frames' motions. The bias is the second derivative of Phi with the
+  /// accelerations given.
+  void calc_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
+                  const std::vector<FrameMotion>& frames);
 
-  /// After calc_rates(): what these multipliers are on the journal of an ideal cut joint
-  [[nodiscard]] JointReaction<double> calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda, const std::vector<FrameMotion>& frames) const;
+  /// The reaction of an ideal cut joint's multipliers, after calc_rates().
+  [[nodiscard]] JointReaction<double> calc_reaction(std::size_t joint, const Eigen::VectorXd& lambda,
+                                                    const std::vector<FrameMotion>& frames) const;
 
   const Eigen::Map<const Eigen::VectorXd> Phi;    ///< [m] and [1]
   const Eigen::Map<const Eigen::VectorXd> Phi_d;  ///< first derivative by time
-  const Eigen::Map<const Eigen::VectorXd> bias;   ///< second derivative without the unknown accelerations
+  /// second derivative by time but for the unknown accelerations
+  const Eigen::Map<const Eigen::VectorXd> bias;
   const Eigen::Map<const Rows> Phi_q;             ///< count x coordinates
 };
 

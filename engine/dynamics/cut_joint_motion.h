@@ -8,21 +8,23 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A cut joint at one instant.
+/// Motion and load of a cut joint.
 template <typename P, typename V>
 struct CutJointMotion {
   Frame<P, V> b, j;                ///< bearing and journal
-  RelativeMotion<P, V> journal;    ///< {j} seen from {b}
+  RelativeMotion<P, V> journal;    ///< of {j} in {b}
   JointLoad<V> load;               ///< of a joint with clearance
   Vec3<V> reaction;                ///< force on the journal at its centre, in W, [N]
   Vec3<V> moment;                  ///< on the journal, about its centre, in W, [N m]
 };
 
-/// A bearing or journal on its body. @param accelerations  whether they are wanted
+/// Frame of a bearing or journal, from the frame of its body. @param accelerations  whether to compute wd and
+/// vd
 template <typename Placement, typename P, typename V>
-[[nodiscard]] RPSUP_INLINE Frame<P, V> place(const Placement& placement, const Frame<P, V>& body, bool accelerations) {
+[[nodiscard]] RPSUP_INLINE Frame<P, V> placed_frame(const Placement& placement, const Frame<P, V>& body,
+                                                    bool accelerations) {
   Frame<P, V> placed;
-  placed.R = placement.turned ? multiply_constant(body.R, placement.numbers().R) : body.R;
+  placed.R = placement.rotated ? multiply_constant(body.R, placement.data().R) : body.R;
   placed.p = body.p;
   placed.w = body.w;
   placed.v = body.v;
@@ -31,7 +33,7 @@ template <typename Placement, typename P, typename V>
     placed.vd = body.vd;
   }
   if (!placement.shifted) return placed;
-  const Vec3<P> r = rotate_constant(body.R, placement.numbers().p, placement.along_x);
+  const Vec3<P> r = rotate_constant(body.R, placement.data().p, placement.along_x);
   if (accelerations) {
     shift_frame(r, true, placed);
   } else {
@@ -41,17 +43,21 @@ template <typename Placement, typename P, typename V>
   return placed;
 }
 
-/// Sets both parts from the frames of the bodies that they sit on, and how the one moves in the other.
+/// Computes the frames of bearing and journal from those of their bodies, and the journal's motion in the
+/// bearing. Accelerations are computed for ideal joints only: their rows need them.
 template <typename Joint, typename P, typename V>
-RPSUP_INLINE void place_parts(const Joint& joint, const Frame<P, V>& bearing_body, const Frame<P, V>& journal_body, CutJointMotion<P, V>& cut) {
+RPSUP_INLINE void calc_cut_joint_motion(const Joint& joint, const Frame<P, V>& bearing_body,
+                                        const Frame<P, V>& journal_body, CutJointMotion<P, V>& cut) {
   const bool ideal = !joint.has_clearance();
-  cut.b = place(joint.bearing, bearing_body, ideal);
-  cut.j = place(joint.journal, journal_body, ideal);
+  cut.b = placed_frame(joint.bearing, bearing_body, ideal);
+  cut.j = placed_frame(joint.journal, journal_body, ideal);
   const Vec3<P> offset = cut.j.p - cut.b.p;
   const Mat3<P>& R = cut.b.R;
-  cut.journal.R = {transpose_times(R, cut.j.R.x), transpose_times(R, cut.j.R.y), transpose_times(R, cut.j.R.z)};
+  cut.journal.R = {transpose_times(R, cut.j.R.x), transpose_times(R, cut.j.R.y),
+                   transpose_times(R, cut.j.R.z)};
   cut.journal.p = transpose_times(R, offset);
-  cut.journal.v = transpose_times(R, cut.j.v - bearing_body.v - cross(bearing_body.w, cut.j.p - bearing_body.p));
+  cut.journal.v =
+      transpose_times(R, cut.j.v - bearing_body.v - cross(bearing_body.w, cut.j.p - bearing_body.p));
   cut.journal.w = transpose_times(R, cut.j.w - cut.b.w);
 }
 

@@ -10,13 +10,16 @@ namespace engine {
 
 // compiled_equations.cc, once for each.
 inline namespace baseline {
-Equations* make_compiled_equations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles);
+DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
+                                     std::size_t bristles);
 }
 namespace avx2 {
-Equations* make_compiled_equations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles);
+DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
+                                     std::size_t bristles);
 }
 namespace avx512 {
-Equations* make_compiled_equations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles);
+DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
+                                     std::size_t bristles);
 }
 
 namespace {
@@ -24,20 +27,24 @@ namespace {
 struct InstructionSet {
   std::string_view name;
   bool (*is_supported)();
-  decltype(&baseline::make_compiled_equations) make;
+  decltype(&baseline::make_compiled_kernel) make;
 };
 
 /// What this program was compiled for (RPSUP_INSTRUCTION_SETS), the best one last.
 constexpr InstructionSet kCompiled[] = {
 #ifdef RPSUP_HAS_baseline
-    {"baseline", [] { return true; }, baseline::make_compiled_equations},
+    {"baseline", [] { return true; }, baseline::make_compiled_kernel},
 #endif
 #ifdef RPSUP_HAS_avx2
-    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, avx2::make_compiled_equations},
+    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, avx2::make_compiled_kernel},
 #endif
 #ifdef RPSUP_HAS_avx512
-    {"avx512", [] { return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"); },
-     avx512::make_compiled_equations},
+    {"avx512",
+     [] {
+       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+              __builtin_cpu_supports("avx512vl");
+     },
+     avx512::make_compiled_kernel},
 #endif
 };
 
@@ -50,12 +57,13 @@ std::vector<std::string_view> instruction_sets() {
   return sets;
 }
 
-std::unique_ptr<Equations> make_equations(std::string_view instruction_set, const TreeModel& model, const std::vector<ClearanceJoint>& joints) {
+std::unique_ptr<DynamicsKernel> make_dynamics_kernel(std::string_view instruction_set, const TreeModel& model,
+                                                     const std::vector<ClearanceJoint>& joints) {
   std::size_t bristles = 0;
   for (const ClearanceJoint& joint : joints) bristles += static_cast<std::size_t>(joint.bristle_count());
   const auto* const set = std::ranges::find(kCompiled, instruction_set, &InstructionSet::name);
   assert(set != std::end(kCompiled));
-  return std::unique_ptr<Equations>(set->make(model, joints, bristles));
+  return std::unique_ptr<DynamicsKernel>(set->make(model, joints, bristles));
 }
 
 }  // namespace engine

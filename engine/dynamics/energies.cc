@@ -17,12 +17,14 @@ double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMo
     const FrameMotion& f = frames[i];
     const Eigen::Vector3d w_F = f.R.transpose() * f.w;
     const Eigen::Vector3d v_F = f.R.transpose() * f.v;
-    twice += body.mass * (v_F.squaredNorm() + 2.0 * v_F.dot(w_F.cross(body.com))) + w_F.dot(body.inertia * w_F);
+    twice +=
+        body.mass * (v_F.squaredNorm() + 2.0 * v_F.dot(w_F.cross(body.com))) + w_F.dot(body.inertia * w_F);
   }
   return 0.5 * twice;
 }
 
-double calc_potential_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames, const Eigen::VectorXd& q) {
+double calc_potential_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames,
+                             const Eigen::VectorXd& q) {
   double energy = 0.0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Coordinate& c = mechanism.coordinates[i];

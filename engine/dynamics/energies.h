@@ -14,6 +14,7 @@ namespace engine {
 [[nodiscard]] double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames);
 
 /// Energy of gravity (zero at the global origin) and of all springs, [J].
-[[nodiscard]] double calc_potential_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames, const Eigen::VectorXd& q);
+[[nodiscard]] double calc_potential_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames,
+                                           const Eigen::VectorXd& q);
 
 }  // namespace engine

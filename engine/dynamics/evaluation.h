@@ -14,7 +14,7 @@ namespace engine {
 /// A cut joint at one instant.
 struct JointState {
   JournalMotion journal;                                    ///< {j} seen from {b}
-  ContactLoad load;                                         ///< of a joint with clearance; zero for an ideal one
+  ContactLoad load;  ///< of a joint with clearance; zero for an ideal one
   Eigen::Vector3d reaction_W = Eigen::Vector3d::Zero();     ///< force on the journal at its centre, [N]
   Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();       ///< on the journal, about its centre, [N m]
 };
@@ -36,7 +36,8 @@ struct EnergyAccount {
   /// Work that the drives did and took, and energy that was lost, since an instant shortly before.
   [[nodiscard]] double calc_turned_over_since(const EnergyAccount& before) const {
     return (drive_work - before.drive_work).cwiseAbs().sum() + std::abs(impact_loss - before.impact_loss) +
-           std::abs(friction_loss - before.friction_loss) + std::abs(structural_loss - before.structural_loss);
+           std::abs(friction_loss - before.friction_loss) +
+           std::abs(structural_loss - before.structural_loss);
   }
 };
 

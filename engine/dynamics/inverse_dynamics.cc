@@ -12,7 +12,7 @@
 namespace engine {
 
 InverseDynamics::InverseDynamics(const Mechanism& mechanism)
-    : model_(make_given_model(mechanism)), loads_(model_.joints.size()), needed_(model_.joints.size()) {
+    : model_(make_given_model(mechanism)), loads_(model_.joints.size()), transmitted_(model_.joints.size()) {
   forces_.setZero(model_.coordinates);
 }
 
@@ -24,19 +24,19 @@ void InverseDynamics::add_load(FrameIndex frame, const Wrench& about_origin) {
 
 const Eigen::VectorXd& InverseDynamics::calc(const std::vector<FrameMotion>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const SpatialForce<double> needed = calc_body_force(model_.joints[i], to_frame(frames[i]));
-    needed_[i] = {to_eigen(needed.force) - loads_[i].force, to_eigen(needed.moment) - loads_[i].moment};
+    const SpatialForce<double> force = calc_newton_euler_force(model_.joints[i], to_frame(frames[i]));
+    transmitted_[i] = {to_eigen(force.force) - loads_[i].force, to_eigen(force.moment) - loads_[i].moment};
   }
   std::fill(loads_.begin(), loads_.end(), Wrench{});
   for (std::size_t i = frames.size(); i-- > 0;) {
     const TreeJoint& joint = model_.joints[i];
-    const Wrench& needed = needed_[i];
+    const Wrench& force = transmitted_[i];
     const bool slides = joint.kind == TreeJoint::Kind::kTranslation;
-    forces_[static_cast<Eigen::Index>(i)] = frames[i].axis.dot(slides ? needed.force : needed.moment);
+    forces_[static_cast<Eigen::Index>(i)] = frames[i].axis.dot(slides ? force.force : force.moment);
     if (joint.parent < 0) continue;
-    Wrench& parent = needed_[static_cast<std::size_t>(joint.parent)];
-    parent.force += needed.force;
-    parent.moment += needed.moment + frames[i].p_parent.cross(needed.force);
+    Wrench& parent = transmitted_[static_cast<std::size_t>(joint.parent)];
+    parent.force += force.force;
+    parent.moment += force.moment + frames[i].p_parent.cross(force.force);
   }
   return forces_;
 }

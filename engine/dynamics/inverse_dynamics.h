@@ -17,8 +17,9 @@ struct Wrench {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [N m]
 };
 
-/// The generalised forces that hold a given motion of the open chains: M qdd + h + g of Eqs. (5)-(7) less what the loads do. Newton and
-/// Euler's recursion in W, each frame about its own origin (about a common one, the spin inertia of a thin rod would lose its last digits).
+/// The generalised forces that hold a given motion of the open chains: M qdd + h + g of Eqs. (5)-(7) less
+/// what the loads do. Newton and Euler's recursion in W, each frame about its own origin (about a common one,
+/// the spin inertia of a slender body would lose its last digits).
 class InverseDynamics {
  public:
   explicit InverseDynamics(const Mechanism& mechanism);
@@ -26,16 +27,18 @@ class InverseDynamics {
   /// External forces for the next calc(); cleared by it.
   void add_load(FrameIndex frame, const Wrench& about_origin);
 
-  /// Computes the forces, one a coordinate, [N] or [N m], from the frames' motions, accelerations with them, and the loads added since.
-  /// Allocates nothing.
+  /// Computes the forces, one a coordinate, [N] or [N m], from the frames' motions, accelerations with them,
+  /// and the loads added since. Allocates nothing.
   const Eigen::VectorXd& calc(const std::vector<FrameMotion>& frames);
-  /// What calc() found to pass from a coordinate's joint to its frame, about the frame's origin.
-  [[nodiscard]] const Wrench& transmitted(FrameIndex frame) const { return needed_[static_cast<std::size_t>(frame)]; }
+  /// The force that a coordinate's joint transmits to its frame, about the frame's origin, after calc().
+  [[nodiscard]] const Wrench& transmitted(FrameIndex frame) const {
+    return transmitted_[static_cast<std::size_t>(frame)];
+  }
 
  private:
   TreeModel model_;
   std::vector<Wrench> loads_;
-  std::vector<Wrench> needed_;  ///< to move all that a frame carries
+  std::vector<Wrench> transmitted_;  ///< by the joint of each frame
   Eigen::VectorXd forces_;
 };
 

@@ -12,44 +12,46 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
     : mechanism_(mechanism),
       model_(mechanism),
       instruction_set_(instruction_set.empty() ? instruction_sets().back() : instruction_set),
+      layout_{static_cast<int>(model_.free.size()), 0, static_cast<int>(mechanism.drives.size())},
       drives_(mechanism.drives.size()) {
   for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
     if (!mechanism.cut_joints[k].clearance) continue;
     clearance_joints_.emplace_back(*mechanism.cut_joints[k].clearance);
     clearance_joint_of_.push_back(k);
-    bristles_ += clearance_joints_.back().bristle_count();
+    layout_.bristles += static_cast<int>(clearance_joints_.back().bristle_count());
   }
-  make_room();
+  allocate();
 }
 
-/// Everything that depends on the number of bristles.
-void MotionSystem::make_room() {
-  equations_ = make_equations(instruction_set_, model_, clearance_joints_);
+/// Allocates everything that depends on the number of bristles.
+void MotionSystem::allocate() {
+  kernel_ = make_dynamics_kernel(instruction_set_, model_, clearance_joints_);
   drives_time_ = std::numeric_limits<double>::quiet_NaN();
   solved_ = false;
   set_error_weights();
-  const Eigen::Index size = controlled_size() + static_cast<Eigen::Index>(drives_.size()) + 3;
-  solved_y_.resize(size);
-  dydt_.resize(size);
-  time_derivative_.resize(size);
+  solved_y_.resize(layout_.size());
+  dydt_.resize(layout_.size());
+  time_derivative_.resize(layout_.size());
 }
 
-/// All bristles of a ring together count as much as the two that a continuum has there: at first by shares, of which the roots are taken.
+/// All bristles of a ring together count as much as the two that a continuum has there: at first by shares,
+/// of which the roots are taken.
 void MotionSystem::set_error_weights() {
   error_weights_.setOnes(controlled_size());
-  Eigen::Index first = 2 * free_count();
+  Eigen::Index first = layout_.bristle();
   for (const ClearanceJoint& joint : clearance_joints_) {
-    error_weights_.segment(first, joint.bristle_count()).setConstant(2.0 * joint.ring_count() / joint.bristle_count());
+    error_weights_.segment(first, joint.bristle_count())
+        .setConstant(2.0 * joint.ring_count() / joint.bristle_count());
     first += joint.bristle_count();
   }
   error_weights_ = (error_weights_ / error_weights_.sum()).cwiseSqrt().eval();
 }
 
 Eigen::VectorXd MotionSystem::make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(controlled_size() + static_cast<Eigen::Index>(mechanism_.drives.size()) + 3);
-  for (Eigen::Index k = 0; k < free_count(); ++k) {
-    y[k] = q[model_.free[static_cast<std::size_t>(k)]];
-    y[free_count() + k] = qd[model_.free[static_cast<std::size_t>(k)]];
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(layout_.size());
+  for (int k = 0; k < layout_.free; ++k) {
+    y[layout_.q(k)] = q[model_.free[static_cast<std::size_t>(k)]];
+    y[layout_.v(k)] = qd[model_.free[static_cast<std::size_t>(k)]];
   }
   return y;
 }
@@ -73,53 +75,56 @@ void MotionSystem::follow_drives(const DrivePiece& piece) {
   solved_ = false;
 }
 
-/// @returns true if they are elsewhere than in the last evaluation
+/// @returns true if the drives have moved since the last evaluation
 bool MotionSystem::move_drives(double t) {
   if (t == drives_time_) return false;
   drives_time_ = t;
-  for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k] = calc_driven_motion(mechanism_.drives[k].law, piece_.clamp(t));
+  for (std::size_t k = 0; k < drives_.size(); ++k)
+    drives_[k] = calc_driven_motion(mechanism_.drives[k].law, piece_.clamp(t));
   return true;
 }
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
   solved_ = false;
-  return equations_->evaluate(y.data(), drives_.data(), moved, dydt.data());
+  return kernel_->evaluate(y.data(), drives_.data(), moved, dydt.data());
 }
 
 EvaluationStatus MotionSystem::solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
-  const EvaluationStatus status = equations_->evaluate_and_keep(y.data(), drives_.data(), moved, dydt.data());
+  const EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives_.data(), moved, dydt.data());
   solved_ = status == EvaluationStatus::kOk;
   solved_y_ = y;
   return status;
 }
 
-EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at) {
+EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt,
+                                               Evaluation& at) {
   const EvaluationStatus status = solve(t, y, dydt);
   at.t = t;
-  const Eigen::Index drives = at.drive_force.size();
-  at.energy.drive_work = y.segment(controlled_size(), drives);
-  at.energy.impact_loss = y[controlled_size() + drives];
-  at.energy.friction_loss = y[controlled_size() + drives + 1];
-  at.energy.structural_loss = y[controlled_size() + drives + 2];
-  equations_->read_out(at);
+  at.energy.drive_work = y.segment(layout_.work(), layout_.drives);
+  at.energy.impact_loss = y[layout_.impact()];
+  at.energy.friction_loss = y[layout_.friction()];
+  at.energy.structural_loss = y[layout_.structural()];
+  kernel_->read_out(at);
   return status;
 }
 
-EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, Elimination elimination) {
+EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, NewtonSolver newton_solver) {
   const bool is_solved = solved_ && t == drives_time_ && y == solved_y_;
   const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : solve(t, y, dydt_);
   if (status != EvaluationStatus::kOk) return status;
-  equations_->linearise(y.data(), drives_.data(), elimination, time_derivative_.data());
+  kernel_->linearise(y.data(), drives_.data(), newton_solver, time_derivative_.data());
   return EvaluationStatus::kOk;
 }
 
-Elimination MotionSystem::choose_elimination(Shifts shifts) const {
-  // Measured with one joint and the continuum, by rodas5 and by radau5, both take as long there; each joint that touches costs the bodies about as much.
+NewtonSolver MotionSystem::choose_newton_solver(Shifts shifts) const {
+  // Break-even of whole runs by rodas5 and by radau5, measured with one joint and the continuum law. The cost
+  // of each joint in contact (Woodbury) is about that of one such mechanism.
   const Eigen::Index many_coordinates = shifts == Shifts::kReal ? 26 : 47;
   const auto joints = static_cast<Eigen::Index>(std::max<std::size_t>(1, clearance_joints_.size()));
-  return free_count() >= many_coordinates * joints && can_solve_by_bodies() ? Elimination::kBodies : Elimination::kMatrix;
+  return free_count() >= many_coordinates * joints && can_solve_recursively() ? NewtonSolver::kRecursive
+                                                                              : NewtonSolver::kDense;
 }
 
 void MotionSystem::calc_energies(Evaluation& at) const {
@@ -135,7 +140,7 @@ void MotionSystem::add_penetrations(const Evaluation& at, std::vector<Penetratio
 
 bool MotionSystem::prepare_step(const Evaluation& at, double dt, Eigen::VectorXd& y) {
   bool moved = false;
-  double* bristles = y.data() + 2 * free_count();
+  double* bristles = y.data() + layout_.bristle();
   for (std::size_t k = 0; k < clearance_joints_.size(); ++k) {
     moved |= clearance_joints_[k].follow(at.joints[clearance_joint_of_[k]].journal, dt, bristles);
     bristles += clearance_joints_[k].bristle_count();
@@ -146,11 +151,11 @@ bool MotionSystem::prepare_step(const Evaluation& at, double dt, Eigen::VectorXd
 
 ContactChange MotionSystem::accept_step(const Evaluation& start, const Evaluation& end, Eigen::VectorXd& y) {
   ContactChange sum;
-  double* bristles = y.data() + 2 * free_count();
+  double* bristles = y.data() + layout_.bristle();
   for (std::size_t k = 0; k < clearance_joints_.size(); ++k) {
     const std::size_t joint = clearance_joint_of_[k];
-    const ContactChange change =
-        clearance_joints_[k].advance(start.joints[joint].journal, end.joints[joint].journal, end.t - start.t, bristles);
+    const ContactChange change = clearance_joints_[k].advance(
+        start.joints[joint].journal, end.joints[joint].journal, end.t - start.t, bristles);
     sum.any |= change.any;
     sum.abrupt |= change.abrupt;
     sum.ring_onsets += change.ring_onsets;
@@ -161,7 +166,7 @@ ContactChange MotionSystem::accept_step(const Evaluation& start, const Evaluatio
 }
 
 void MotionSystem::widen_bristles(Eigen::VectorXd& y) {
-  const Eigen::Index first = 2 * free_count();
+  const Eigen::Index first = layout_.bristle();
   Eigen::VectorXd wide = y.head(first);
   const auto append = [&wide](const Eigen::VectorXd& part) {
     wide.conservativeResize(wide.size() + part.size());
@@ -174,9 +179,9 @@ void MotionSystem::widen_bristles(Eigen::VectorXd& y) {
     read += before;
   }
   append(y.tail(y.size() - read));
-  bristles_ = wide.size() - first - (y.size() - read);
+  layout_.bristles = static_cast<int>(wide.size() - first - (y.size() - read));
   y = wide;
-  make_room();
+  allocate();
 }
 
 }  // namespace engine

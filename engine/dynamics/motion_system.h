@@ -12,6 +12,7 @@
 #include "engine/clearance/clearance_joint.h"
 #include "engine/dynamics/dynamics_kernel.h"
 #include "engine/dynamics/evaluation.h"
+#include "engine/dynamics/state_layout.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/model/drive_piece.h"
 #include "engine/model/mechanism.h"
@@ -23,12 +24,12 @@ enum class Shifts { kReal, kRealAndComplex };
 
 /// The mechanism as a first-order system dy/dt = f(t, y), Eqs. (13.1) and (13.2).
 ///
-///     y = (q of the free coordinates, their rates, bristles, work of each drive, impact, friction and structural loss)
-///
-/// f depends on which contacts are on: that memory changes between steps only, by accept_step().
+/// StateLayout says what y is. f depends on which contacts are on: that memory changes between steps only, by
+/// accept_step().
 class MotionSystem {
  public:
-  /// @param instruction_set  one of instruction_sets(), the best one if empty; results are the same to the last bit
+  /// @param instruction_set  one of instruction_sets(), the best one if empty; results are the same to the
+  /// last bit
   explicit MotionSystem(const Mechanism& mechanism, std::string_view instruction_set = {});
   MotionSystem(const MotionSystem&) = delete;
   MotionSystem& operator=(const MotionSystem&) = delete;
@@ -38,39 +39,48 @@ class MotionSystem {
 
   /// State at t = 0 for given coordinates (of all the mechanism).
   [[nodiscard]] Eigen::VectorXd make_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const;
-  /// An Evaluation with room for everything, so that evaluating allocates nothing.
+  /// An Evaluation of the right sizes, so that evaluating allocates nothing.
   [[nodiscard]] Evaluation make_evaluation() const;
 
   /// Computes dy/dt. Allocates nothing.
   [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
-  /// Computes dy/dt and tells everything found on the way to it. Allocates nothing.
-  [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt, Evaluation& at);
+  /// Computes dy/dt, and all intermediate results. Allocates nothing.
+  [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt,
+                                                 Evaluation& at);
 
-  /// Computes the exact Jacobian J = df/dy, or what solving body by body needs of it, and df/dt at (t, y), with the contacts as they are. All is
-  /// valid until the next call.
-  [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y, Elimination elimination = Elimination::kMatrix);
-  /// Which one is the cheaper for this mechanism.
-  [[nodiscard]] Elimination choose_elimination(Shifts shifts) const;
-  [[nodiscard]] bool can_solve_by_bodies() const { return equations_->can_solve_by_bodies(); }
+  /// Computes the exact Jacobian J = df/dy, or the operating point that the recursive solver needs instead,
+  /// and df/dt at (t, y), with the contacts as they are. All is valid until the next call.
+  [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y,
+                                           NewtonSolver newton_solver = NewtonSolver::kDense);
+  /// The cheaper solver for this mechanism.
+  [[nodiscard]] NewtonSolver choose_newton_solver(Shifts shifts) const;
+  [[nodiscard]] bool can_solve_recursively() const { return kernel_->can_solve_recursively(); }
   /// df/dt of the last linearise(), one for each entry of y.
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return time_derivative_; }
-  /// Factors (shift 1 - J). False if it is singular. There is room for one real and one complex shift.
-  [[nodiscard]] bool factor(double shift) { return equations_->factor(shift); }
-  [[nodiscard]] bool factor(std::complex<double> shift) { return equations_->factor(shift.real(), shift.imag()); }
+  /// Factors (shift 1 - J). False if it is singular. One real and one complex shift can be factored at a
+  /// time.
+  [[nodiscard]] bool factor(double shift) { return kernel_->factor(shift); }
+  [[nodiscard]] bool factor(std::complex<double> shift) {
+    return kernel_->factor(shift.real(), shift.imag());
+  }
   /// x <- (shift 1 - J)^-1 x after factor() of such a shift.
-  void solve_in_place(Eigen::VectorXd& x) { equations_->solve(x.data()); }
+  void solve_in_place(Eigen::VectorXd& x) { kernel_->solve(x.data()); }
   /// The same of a complex x, by its parts.
-  void solve_in_place(Eigen::VectorXd& real, Eigen::VectorXd& imag) { equations_->solve(real.data(), imag.data()); }
+  void solve_in_place(Eigen::VectorXd& real, Eigen::VectorXd& imag) {
+    kernel_->solve(real.data(), imag.data());
+  }
 
   /// Kinetic and potential energy of an evaluation.
   void calc_energies(Evaluation& at) const;
 
-  /// Entries of y that error control looks at: all but work and losses.
-  [[nodiscard]] Eigen::Index controlled_size() const { return 2 * free_count() + bristles_; }
-  /// What their errors are multiplied by for a root mean square over all; their squares sum to 1. A bristle of a contact element counts less than
-  /// one of a continuum: elements that are more, or stand ready for more contact, would else make room for larger errors of the coordinates.
+  [[nodiscard]] const StateLayout& layout() const { return layout_; }
+  /// Entries of y whose errors are controlled: all but works.
+  [[nodiscard]] Eigen::Index controlled_size() const { return layout_.controlled_size(); }
+  /// Weights of their errors in the root mean square of all; the squares of the weights sum to 1. A bristle
+  /// of a contact element counts less than one of a continuum: more elements, or more bristles in reserve,
+  /// would else allow larger errors of the coordinates.
   [[nodiscard]] const Eigen::VectorXd& error_weights() const { return error_weights_; }
-  [[nodiscard]] Eigen::Index free_count() const { return static_cast<Eigen::Index>(model_.free.size()); }
+  [[nodiscard]] Eigen::Index free_count() const { return layout_.free; }
   [[nodiscard]] const std::vector<FrameIndex>& free_coordinates() const { return model_.free; }
 
   /// Appends the penetration of every ring of every joint with clearance.
@@ -79,14 +89,14 @@ class MotionSystem {
   [[nodiscard]] bool prepare_step(const Evaluation& at, double dt, Eigen::VectorXd& y);
   /// Takes note of the contacts that began or ended in a step; f is another one if any did.
   [[nodiscard]] ContactChange accept_step(const Evaluation& start, const Evaluation& end, Eigen::VectorXd& y);
-  /// Makes room for half as many bristles again in y.
+  /// Adds half as many bristles again to y.
   void widen_bristles(Eigen::VectorXd& y);
 
  private:
   [[nodiscard]] bool move_drives(double t);
-  /// Computes dy/dt and keeps the equations' solution.
+  /// Computes dy/dt; the kernel keeps its solution.
   [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
-  void make_room();
+  void allocate();
   void set_error_weights();
 
   const Mechanism& mechanism_;
@@ -94,14 +104,15 @@ class MotionSystem {
   std::string_view instruction_set_;
   std::vector<ClearanceJoint> clearance_joints_;
   std::vector<std::size_t> clearance_joint_of_;  ///< index into cut_joints
-  Eigen::Index bristles_ = 0;
+  StateLayout layout_;
   Eigen::VectorXd error_weights_;
 
   double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
   std::vector<DrivenMotion> drives_;
   DrivePiece piece_;
-  std::unique_ptr<Equations> equations_;
-  bool solved_ = false;        ///< the equations hold their solution at (drives_time_, solved_y_), with the contacts as they are
+  std::unique_ptr<DynamicsKernel> kernel_;
+  /// the kernel holds the solution at (drives_time_, solved_y_), with the contacts as they are
+  bool solved_ = false;
   Eigen::VectorXd solved_y_;
   Eigen::VectorXd dydt_;       ///< for linearise()
   Eigen::VectorXd time_derivative_;

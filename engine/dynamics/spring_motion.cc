@@ -8,7 +8,9 @@
 namespace engine {
 
 SpringMotion calc_spring_motion(const PointSpring& spring, const std::vector<FrameMotion>& frames) {
-  const auto body_of = [&](FrameIndex frame) { return frame == kGround ? FrameMotion{} : frames[static_cast<std::size_t>(frame)]; };
+  const auto body_of = [&](FrameIndex frame) {
+    return frame == kGround ? FrameMotion{} : frames[static_cast<std::size_t>(frame)];
+  };
   const FrameMotion from = body_of(spring.from_frame), to = body_of(spring.to_frame);
   SpringMotion motion;
   motion.from = from.p + from.R * spring.from;
@@ -17,7 +19,8 @@ SpringMotion calc_spring_motion(const PointSpring& spring, const std::vector<Fra
   motion.length = way.norm();
   if (!(motion.length > 0.0)) return motion;
   const Eigen::Vector3d v = to.v + to.w.cross(to.R * spring.to) - from.v - from.w.cross(from.R * spring.from);
-  motion.tension = spring.stiffness * (motion.length - spring.free_length) + spring.damping * way.dot(v) / motion.length;
+  motion.tension =
+      spring.stiffness * (motion.length - spring.free_length) + spring.damping * way.dot(v) / motion.length;
   motion.force = -motion.tension / motion.length * way;
   return motion;
 }

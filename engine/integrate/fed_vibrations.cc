@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <complex>
 
+#include "engine/dynamics/state_layout.h"
+
 namespace engine {
 
 namespace {
@@ -28,14 +30,15 @@ FedVibration FedVibrations::find(MotionSystem& system) {
 }
 
 void FedVibrations::find_response(MotionSystem& system) {
-  const Eigen::Index n = system.free_count();
-  response_.resize(2 * n, 2 * n);
+  const StateLayout& layout = system.layout();
+  const int states = layout.bristle();  // (q, v)
+  response_.resize(states, states);
   column_.resize(system.time_derivative().size());
-  for (Eigen::Index k = 0; k < 2 * n; ++k) {
+  for (int k = 0; k < states; ++k) {
     column_.setZero();
-    column_[k] = k < n ? 1.0 / kShift : 1.0;
+    column_[k] = k < layout.v() ? 1.0 / kShift : 1.0;
     system.solve_in_place(column_);
-    response_.col(k) << kShift * column_.head(n), column_.segment(n, n);
+    response_.col(k) << kShift * column_.head(layout.free), column_.segment(layout.v(), layout.free);
   }
 }
 

@@ -107,8 +107,8 @@ void Integration::look_for_vibrations() {
   longest_fed_ = longest_step_;
   const double grown = std::exchange(grown_, 0.0);
   if (std::ranges::none_of(start_.at.joints, [](const JointState& joint) { return joint.load.friction_sum > 0.0; })) return;
-  const Elimination elimination = system_.choose_elimination(options_.integrator == Integrator::kRadau5 ? Shifts::kRealAndComplex : Shifts::kReal);
-  if (system_.linearise(start_.t, start_.y, elimination) != EvaluationStatus::kOk) return forget_equations();
+  const NewtonSolver solver = system_.choose_newton_solver(options_.integrator == Integrator::kRadau5 ? Shifts::kRealAndComplex : Shifts::kReal);
+  if (system_.linearise(start_.t, start_.y, solver) != EvaluationStatus::kOk) return forget_equations();
   const FedVibration found = fed_vibrations_.find(system_);
   rodas4_.take_jacobian();
   rodas5_.take_jacobian();
@@ -307,7 +307,7 @@ void Integration::take_samples() {
 /// Evaluates the last step at one time into sample_. What lies between two states that could be evaluated nearly always can be, too.
 EvaluationStatus Integration::evaluate_inside(double t) {
   if (t < end_.t)
-    interpolate_state(start_, end_, system_.free_count(), (t - start_.t) / (end_.t - start_.t), sample_.y);
+    interpolate_state(start_, end_, system_.layout(), (t - start_.t) / (end_.t - start_.t), sample_.y);
   else
     sample_.y = end_.y;
   const EvaluationStatus status = system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/dynamics/state_layout.h"
 #include "engine/integrate/step_method.h"
 
 namespace engine {
@@ -10,6 +11,6 @@ namespace engine {
 /// State inside an accepted step: quintic in the coordinates (from q, qd, qdd at both ends) with its derivative for their rates,
 /// cubic for the rest. Contact is stiff: a cubic in q would be wrong by a part of the penetration.
 /// @param s  place in the step, 0 to 1
-void interpolate_state(const StepEnd& start, const StepEnd& end, Eigen::Index free_coordinates, double s, Eigen::VectorXd& y);
+void interpolate_state(const StepEnd& start, const StepEnd& end, const StateLayout& layout, double s, Eigen::VectorXd& y);
 
 }  // namespace engine

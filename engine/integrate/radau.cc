@@ -88,14 +88,14 @@ void Radau5::make_room(const MotionSystem& system, const Eigen::VectorXd& y) {
 }
 
 /// From the polynomial of the step before, gone on; from the accelerations at the start if there is none.
-void Radau5::guess_stages(const StepEnd& start, Eigen::Index free, double dt) {
+void Radau5::guess_stages(const StepEnd& start, const StateLayout& layout, double dt) {
   if (last_dt_ > 0.0)
     extrapolate(dt / last_dt_);
   else
     for (std::size_t i = 0; i < K::kStages; ++i) {
       const double until = K::c[i] * dt;
       Z_[i] = until * start.f;
-      Z_[i].head(free) += 0.5 * until * until * start.f.segment(free, free);
+      Z_[i].head(layout.free) += 0.5 * until * until * start.f.segment(layout.v(), layout.free);
     }
   combine(K::T_inverse[0], Z_, W_);
   combine(K::T_inverse[1], Z_, W_real_);
@@ -119,7 +119,7 @@ void Radau5::extrapolate(double ratio) {
 
 Radau5::Newton Radau5::solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial) {
   if (!linearised_) {
-    trial.status = system.linearise(start.t, start.y, system.choose_elimination(Shifts::kRealAndComplex));
+    trial.status = system.linearise(start.t, start.y, system.choose_newton_solver(Shifts::kRealAndComplex));
     if (trial.status != EvaluationStatus::kOk) return Newton::kFailed;
     linearised_ = fresh_ = true;
     factored_dt_ = 0.0;
@@ -132,7 +132,7 @@ Radau5::Newton Radau5::solve_stages(MotionSystem& system, const StepEnd& start, 
 
 /// Newton's method with the Jacobian at hand.
 Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial) {
-  guess_stages(start, system.free_count(), dt);
+  guess_stages(start, system.layout(), dt);
   double last_change = 0.0;
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
     for (std::size_t i = 0; i < K::kStages; ++i) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/dynamics/state_layout.h"
 #include "engine/integrate/step_method.h"
 #include "engine/integrate/tolerance.h"
 
@@ -36,7 +37,7 @@ class Radau5 {
   enum class Newton { kConverged, kTooSlow, kFailed };
 
   void make_room(const MotionSystem& system, const Eigen::VectorXd& y);
-  void guess_stages(const StepEnd& start, Eigen::Index free, double dt);
+  void guess_stages(const StepEnd& start, const StateLayout& layout, double dt);
   void extrapolate(double ratio);
   [[nodiscard]] Newton solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
   [[nodiscard]] Newton iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);

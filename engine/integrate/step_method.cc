@@ -45,7 +45,7 @@ class RodasSystem : public StageSystem {
   RodasSystem(MotionSystem& system, Trial& trial, bool& linearised) : StageSystem(system, trial), linearised_(linearised) {}
 
   void linearise(const Eigen::VectorXd& y, double t) {
-    if (!linearised_) trial_.status = system_.linearise(t, y, system_.choose_elimination(Shifts::kReal));
+    if (!linearised_) trial_.status = system_.linearise(t, y, system_.choose_newton_solver(Shifts::kReal));
     linearised_ = trial_.status == EvaluationStatus::kOk;
   }
   [[nodiscard]] const Eigen::VectorXd& time_derivative() const { return system_.time_derivative(); }

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/dynamics/state_layout.h"
+
 namespace engine {
 
 namespace {
@@ -50,12 +52,12 @@ double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y
     const double part = error_weights[i] * radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
     sum += part * part;
   };
-  const Eigen::Index n = radii_.size();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    add(i, radii_[i]);
-    add(n + i, radii_[i]);
+  const StateLayout layout{.free = static_cast<int>(radii_.size())};
+  for (int k = 0; k < layout.free; ++k) {
+    add(layout.q(k), radii_[k]);
+    add(layout.v(k), radii_[k]);
   }
-  for (Eigen::Index i = 2 * n; i < error_weights.size(); ++i) add(i, 1.0);
+  for (Eigen::Index i = layout.bristle(); i < error_weights.size(); ++i) add(i, 1.0);
   return std::sqrt(sum);
 }
 

@@ -35,7 +35,7 @@ void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q, std:
       along = axis_of(R, static_cast<int>(c.axis));
       r += q_i * along;
     } else {
-      along = turn_axes(static_cast<int>(c.axis), {std::sin(q_i), std::cos(q_i)}, R);
+      along = rotate_axes(static_cast<int>(c.axis), {std::sin(q_i), std::cos(q_i)}, R);
     }
     p += r;
     FrameMotion& f = frames[i];
@@ -60,10 +60,10 @@ void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, con
     const Vec3<double> along = to_vec3(own.axis);
     shift_frame(to_vec3(own.p_parent), true, f);
     if (c.motion == Motion::kTranslation) {
-      add_sliding(along, true, qd[k], f);
+      add_translation_rate(along, true, qd[k], f);
       f.vd += qdd[k] * along;
     } else {
-      add_turning(along, true, qd[k], f);
+      add_rotation_rate(along, true, qd[k], f);
       f.wd += qdd[k] * along;
     }
     copy(f.w, own.w.data());

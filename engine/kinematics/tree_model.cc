@@ -22,11 +22,11 @@ TreePlacement make_placement(const Placement& placement) {
   return {!is_unturned(placement), !placement.p.isZero(0.0), is_along_x(placement.p), columns_of(placement.R), array_of(placement.p)};
 }
 
-JointShape::Inertia kind_of_inertia(const Coordinate& c) {
-  if (c.mass == 0.0) return JointShape::Inertia::kNone;
+JointTraits::Inertia kind_of_inertia(const Coordinate& c) {
+  if (c.mass == 0.0) return JointTraits::Inertia::kNone;
   const Eigen::Matrix3d& I = c.inertia;
-  if (!I.isDiagonal(0.0)) return JointShape::Inertia::kFull;
-  return I(1, 1) == I(2, 2) ? JointShape::Inertia::kAxisymmetric : JointShape::Inertia::kDiagonal;
+  if (!I.isDiagonal(0.0)) return JointTraits::Inertia::kFull;
+  return I(1, 1) == I(2, 2) ? JointTraits::Inertia::kAxisymmetric : JointTraits::Inertia::kDiagonal;
 }
 
 void set_body(const Coordinate& c, TreeJoint& joint) {
@@ -45,7 +45,7 @@ class JointFinder {
 
   std::vector<TreeJoint> find() {
     for (int i = 0; i < static_cast<int>(mechanism_.coordinates.size()); i += joints_.back().count()) add_joint(i);
-    complete_shapes(joints_);
+    complete_traits(joints_);
     return joints_;
   }
 
@@ -57,11 +57,11 @@ class JointFinder {
   void add_joint(int i) {
     const Coordinate& c = coordinate(i);
     TreeJoint joint;
-    joint.kind = is_spherical(i) ? JointShape::Kind::kSpherical
-                                 : c.motion == Motion::kRotation ? JointShape::Kind::kRotation : JointShape::Kind::kTranslation;
+    joint.kind = is_spherical(i) ? JointTraits::Kind::kSpherical
+                                 : c.motion == Motion::kRotation ? JointTraits::Kind::kRotation : JointTraits::Kind::kTranslation;
     joint.axis = static_cast<int>(c.axis);
     joint.placement = make_placement(c.placement);
-    joint.turned = joint.placement.turned;
+    joint.rotated = joint.placement.rotated;
     joint.shifted = joint.placement.shifted;
     joint.shifted_along_x = joint.placement.along_x;
     joint.drive = eliminating_drive(i);
@@ -129,7 +129,7 @@ TreeModel::TreeModel(const Mechanism& mechanism)
     : coordinates(static_cast<int>(mechanism.coordinates.size())),
       couplings(mechanism.couplings),
       drive_rows(mechanism.drive_rows == DriveRows::kMultipliers),
-      least_multipliers(mechanism.least_multipliers),
+      minimum_norm_multipliers(mechanism.minimum_norm_multipliers),
       alpha(mechanism.baumgarte_alpha),
       beta(mechanism.baumgarte_beta),
       gravity(array_of(mechanism.gravity_W)) {

@@ -11,28 +11,30 @@ namespace engine {
 
 /// A frame fixed to another one, with what is zero marked.
 struct TreePlacement {
-  bool turned = false;                ///< R is no identity
+  bool rotated = false;                ///< R is no identity
   bool shifted = false;               ///< p is not zero
   bool along_x = false;               ///< p = (x, 0, 0)
   std::array<double, 9> R{};          ///< column after column
   std::array<double, 3> p{};          ///< [m]
 
-  [[nodiscard]] const TreePlacement& numbers() const { return *this; }
+  [[nodiscard]] const TreePlacement& data() const { return *this; }
 };
 
 /// A joint and the body that it carries, with their numbers.
-struct TreeJoint : JointShape {
+struct TreeJoint : JointTraits {
   TreePlacement placement;            ///< in the parent's frame
-  std::array<double, 3> stiffness{}, damping{};  ///< of its coordinates, [N/m] or [N m/rad], and the same times [s]
+  std::array<double, 3> stiffness{},
+      damping{};                      ///< of its coordinates, [N/m] or [N m/rad], and the same times [s]
   double mass = 0.0;                  ///< [kg]
   std::array<double, 3> mc{};         ///< mass times centre of mass, [kg m]
   std::array<double, 9> I{};          ///< about the frame's origin, [kg m^2]
 
-  [[nodiscard]] const TreeJoint& numbers() const { return *this; }
+  [[nodiscard]] const TreeJoint& data() const { return *this; }
 };
 
-/// The rows of an ideal cut joint: that the journal's centre stays at the bearing's, in W or, where it may slide, across the bearing's z;
-/// then that pairs of axes of bearing and journal stay at right angles, the first so many of (z, x), (z, y), (x, y).
+/// The rows of an ideal cut joint: that the journal's centre stays at the bearing's, in W or, where it may
+/// slide, across the bearing's z; then that pairs of axes of bearing and journal stay at right angles, the
+/// first so many of (z, x), (z, y), (x, y).
 struct CutRows {
   int positions = 3;  ///< 3, or 2: along the bearing's x and y
   int axes = 2;
@@ -44,7 +46,8 @@ struct CutRows {
 
 [[nodiscard]] CutRows rows_of(CutKind kind);
 
-/// A joint at which a loop is cut. Its bearing and journal sit on the bodies of two joints of the tree, -1: on the ground.
+/// A joint at which a loop is cut. Its bearing and journal sit on the bodies of two joints of the tree, -1:
+/// on the ground.
 struct TreeCutJoint {
   int bearing_joint = -1, journal_joint = -1;
   TreePlacement bearing, journal;
@@ -53,7 +56,7 @@ struct TreeCutJoint {
   CutRows rows;
 
   [[nodiscard]] bool has_clearance() const { return clearance >= 0; }
-  [[nodiscard]] const TreeCutJoint& numbers() const { return *this; }
+  [[nodiscard]] const TreeCutJoint& data() const { return *this; }
 };
 
 /// A spring between points on the bodies of two joints, -1: on the ground.
@@ -78,7 +81,7 @@ struct TreeModel {
   std::vector<int> free;              ///< free coordinates
   std::vector<int> drives;            ///< coordinate of each drive
   bool drive_rows = false;            ///< drives are constraint rows
-  bool least_multipliers = false;     ///< see Mechanism
+  bool minimum_norm_multipliers = false;     ///< see Mechanism
   int rows = 0;                       ///< constraint rows
   int first_coupling_row = 0;
   int first_drive_row = 0;

@@ -198,7 +198,7 @@ template <int count>
 
 using Lanes = LaneBlock<8>;
 /// Numbers in several directions, one a lane: no more than registers hold side by side, so that a vector of them need not leave its registers.
-using Directions = LaneBlock<kWidestPart>;
+using TangentPack = LaneBlock<kWidestPart>;
 using LanePair = LaneBlock<2>;
 
 /// Stores the first half of the lanes, and the second one elsewhere.

@@ -118,7 +118,7 @@ struct Mechanism {
   std::vector<Coupling> couplings;
   std::vector<PointSpring> springs;
   /// The constraints depend on each other, here or somewhere on the way: of the multipliers that do, the least ones are taken.
-  bool least_multipliers = false;
+  bool minimum_norm_multipliers = false;
   std::vector<Drive> drives;
   DriveRows drive_rows = DriveRows::kEliminated;
   double baumgarte_alpha = 100.0;                         ///< [1/s]

@@ -9,8 +9,8 @@ namespace=$1
 shift
 
 offered=$(nm --demangle --defined-only "$@" | grep -E '^[0-9a-f]+ [TWu] ' || true)
-if ! grep -q "$namespace::make_compiled_equations" <<<"$offered"; then
-  echo "$*: make_compiled_equations is not in them; are these the objects meant?"
+if ! grep -q "$namespace::make_compiled_kernel" <<<"$offered"; then
+  echo "$*: make_compiled_kernel is not in them; are these the objects meant?"
   exit 1
 fi
 if foreign=$(grep -v "$namespace::" <<<"$offered"); then

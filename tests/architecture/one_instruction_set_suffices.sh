@@ -11,12 +11,12 @@ symbols() {
 }
 
 needed=$(comm -23 <(symbols --undefined-only "$@") <(symbols --defined-only "$@"))
-makers=$(grep -c '::make_compiled_equations(' <<<"$needed" || true)
+makers=$(grep -c '::make_compiled_kernel(' <<<"$needed" || true)
 if [ "$makers" -eq 0 ]; then
-  echo "$*: make_compiled_equations is not asked for; are these the objects meant?"
+  echo "$*: make_compiled_kernel is not asked for; are these the objects meant?"
   exit 1
 fi
-if others=$(grep -v '::make_compiled_equations(' <<<"$needed"); then
+if others=$(grep -v '::make_compiled_kernel(' <<<"$needed"); then
   echo "the engine needs more of the equations of an instruction set than what makes them:"
   echo "$others"
   exit 1

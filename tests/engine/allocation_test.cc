@@ -57,7 +57,7 @@ TEST_P(RightHandSide, AllocatesNothing) {
   ASSERT_EQ(system.calc_derivative(0.0, start.y, start.f, start.at), EvaluationStatus::kOk);
   EXPECT_EQ(start.at.joints[0].load.max_penetration > 0.0, GetParam().parameters.c_r > 0.0);
   for (const Shifts shifts : {Shifts::kReal, Shifts::kRealAndComplex})
-    EXPECT_EQ(system.choose_elimination(shifts) == Elimination::kBodies, GetParam().parameters.rigid_elements > 4);
+    EXPECT_EQ(system.choose_newton_solver(shifts) == NewtonSolver::kRecursive, GetParam().parameters.rigid_elements > 4);
   Rodas5 rodas(tolerance);
   Radau5 radau(tolerance);
   ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);  // the methods' own vectors

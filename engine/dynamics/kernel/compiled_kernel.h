@@ -9,88 +9,103 @@
 #include "engine/dynamics/kernel/newton/recursive_newton.h"
 #include "engine/dynamics/kernel/tangent/bristle_jacobian.h"
 #include "engine/dynamics/kernel/tangent/linearised_dynamics.h"
+#include "engine/dynamics/kernel/tangent/operating_point.h"
 #include "engine/dynamics/kernel/tangent/seed_schedule.h"
 #include "engine/dynamics/kernel/tangent/state_jacobian.h"
+#include "engine/dynamics/state_layout.h"
 #include "engine/math/complex.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// The equations of motion and their derivatives between the plain arrays of states. What is kept stands in memory anyhow: there rods in series are
-/// visited in loops.
-template <typename Shapes>
-class CompiledEquations final : public Equations {
+/// The dynamics kernel of a topology: state vectors in and out, around ForwardDynamics, LinearisedDynamics
+/// and the Newton solvers.
+/// @tparam Topology  DynamicTopology or a StaticTopology; of the evaluations that are kept, which are in
+/// memory anyway, the rolled one
+template <typename Topology>
+class CompiledKernel final : public DynamicsKernel {
  public:
-  CompiledEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles)
+  CompiledKernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles)
       : model_(model),
-        free_(static_cast<int>(model.free.size())),
-        bristles_(static_cast<int>(bristles)),
+        layout_{static_cast<int>(model.free.size()), static_cast<int>(bristles),
+                static_cast<int>(model.drives.size())},
         joints_(joints),
         bristle_rates_(bristles),
         kept_(model, joints),
-        varied_(model, joints, bristles, kept_),
-        jacobian_(free_, bristles_, static_cast<int>(model.drives.size())),
-        plan_(model, BristleDerivatives::kMostLoads * joints.size(), jacobian_.by_t.size()),
-        bristle_derivatives_(joints, plan_.moving_groups(), jacobian_.by_t.size()),
-        bodies_(fits_bodies(model) ? std::make_unique<Bodies>(model, joints) : nullptr) {
+        point_(model, joints, bristles, kept_),
+        linearised_(model, kept_, point_, joints.size()),
+        jacobian_(layout_),
+        schedule_(model, BristleJacobian::kMaxLoads * joints.size(), jacobian_.by_t.size()),
+        bristle_jacobian_(joints, schedule_.motion_chunks(), jacobian_.by_t.size()),
+        recursive_(fits_recursive_solver(model) ? std::make_unique<RecursiveSolvers>(model, joints, layout_)
+                                                : nullptr) {
     kept_.drive_force.fill(0.0);  // to be read if the first evaluation fails
   }
 
-  EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
-    if constexpr (Shapes::known) {
-      EquationsOfMotion<Shapes> at(model_, joints_);
-      at.bristle_rates = dydt + 2 * free_;
+  EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved,
+                            double* dydt) override {
+    if constexpr (Topology::is_static) {
+      ForwardDynamics<Topology> at(model_, joints_);
+      at.bristle_rates = dydt + layout_.bristle();
       return evaluate(y, drives, at, dydt);
     } else {
       return evaluate_and_keep(y, drives, drives_moved, dydt);
     }
   }
 
-  EvaluationStatus evaluate_and_keep(const double* y, const DrivenMotion* drives, bool drives_moved, double* dydt) override {
-    kept_.drives_moved = Shapes::known || drives_moved;
+  EvaluationStatus evaluate_and_keep(const double* y, const DrivenMotion* drives, bool drives_moved,
+                                     double* dydt) override {
+    kept_.drives_moved = Topology::is_static || drives_moved;
     kept_.bristle_rates = bristle_rates_.data();
     const EvaluationStatus status = evaluate(y, drives, kept_, dydt);
     kept_.bristles = nullptr;
-    for (int b = 0; b < bristles_; ++b) dydt[2 * free_ + b] = bristle_rates_[static_cast<std::size_t>(b)];
+    for (int b = 0; b < layout_.bristles; ++b)
+      dydt[layout_.bristle(b)] = bristle_rates_[b];
     return status;
   }
 
   void read_out(Evaluation& at) const override;
 
-  bool can_solve_by_bodies() const override { return bodies_ != nullptr; }
+  bool can_solve_recursively() const override { return recursive_ != nullptr; }
 
-  void linearise(const double* y, const DrivenMotion* drives, Elimination elimination, double* by_t) override {
-    elimination_ = elimination;
+  void linearise(const double* y, const DrivenMotion* drives, NewtonSolver newton_solver,
+                 double* by_t) override {
+    newton_solver_ = newton_solver;
     find_acting_bristles(y);
-    varied_.hold(y + 2 * free_, jacobian_.acting.data(), 2 * jacobian_.pairs);
-    if (elimination == Elimination::kBodies)
-      linearise_bodies(drives);
+    point_.set(y + layout_.bristle(), jacobian_.acting.data(), 2 * jacobian_.pairs);
+    if (newton_solver == NewtonSolver::kRecursive)
+      linearise_for_recursive(drives);
     else
-      linearise_matrix(drives);
+      linearise_for_dense(drives);
     jacobian_.write_time_derivative(by_t);
   }
 
-  bool factor(double shift) override { return elimination_ == Elimination::kBodies ? bodies_->real.factor(shift) : shifted_->real.factor(shift); }
+  bool factor(double shift) override {
+    return newton_solver_ == NewtonSolver::kRecursive ? recursive_->real.factor(shift)
+                                                      : dense_->real.factor(shift);
+  }
   bool factor(double real, double imag) override {
     const Complex<double> shift{real, imag};
-    return elimination_ == Elimination::kBodies ? bodies_->complex.factor(shift) : shifted_->complex.factor(shift);
+    return newton_solver_ == NewtonSolver::kRecursive ? recursive_->complex.factor(shift)
+                                                      : dense_->complex.factor(shift);
   }
   void solve(double* x) override {
-    if (elimination_ == Elimination::kBodies)
-      bodies_->real.solve_in_place({x});
+    if (newton_solver_ == NewtonSolver::kRecursive)
+      recursive_->real.solve_in_place({x});
     else
-      shifted_->real.solve_in_place({x});
+      dense_->real.solve_in_place({x});
   }
   void solve(double* real, double* imag) override {
-    if (elimination_ == Elimination::kBodies)
-      bodies_->complex.solve_in_place({real, imag});
+    if (newton_solver_ == NewtonSolver::kRecursive)
+      recursive_->complex.solve_in_place({real, imag});
     else
-      shifted_->complex.solve_in_place({real, imag});
+      dense_->complex.solve_in_place({real, imag});
   }
 
  private:
   template <typename Visited>
-  RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, EquationsOfMotion<Visited>& at, double* dydt) const {
+  RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives,
+                                         ForwardDynamics<Visited>& at, double* dydt) const {
     set_state(y, drives, at);
     const EvaluationStatus status = at.evaluate(drives);
     if (status == EvaluationStatus::kOk) write_rates(at, dydt);
@@ -99,47 +114,52 @@ class CompiledEquations final : public Equations {
 
   /// Sets q, qd, the driven qdd and the bristles; the free qdd to zero.
   template <typename Visited>
-  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives, EquationsOfMotion<Visited>& at) const {
-    Visited::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
-      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
-        const auto i = static_cast<std::size_t>(joint.first + k);
-        at.q[i] = joint.driven ? drives[joint.drive].q : y[joint.first_free + k];
-        at.qd[i] = joint.driven ? drives[joint.drive].qd : y[free_ + joint.first_free + k];
+  RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives,
+                              ForwardDynamics<Visited>& at) const {
+    Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      for_each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
+        const int i = joint.first + k;
+        at.q[i] = joint.driven ? drives[joint.drive].q : y[layout_.q(joint.first_free + k)];
+        at.qd[i] = joint.driven ? drives[joint.drive].qd : y[layout_.v(joint.first_free + k)];
         at.qdd[i] = joint.driven ? drives[joint.drive].qdd : 0.0;
       });
     });
-    at.bristles = y + 2 * free_;
+    at.bristles = y + layout_.bristle();
   }
 
   template <typename Visited>
-  RPSUP_INLINE void write_rates(const EquationsOfMotion<Visited>& at, double* dydt) const {
-    Visited::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+  RPSUP_INLINE void write_rates(const ForwardDynamics<Visited>& at, double* dydt) const {
+    Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.driven) return;
-      each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
-        dydt[joint.first_free + k] = at.qd[static_cast<std::size_t>(joint.first + k)];
-        dydt[free_ + joint.first_free + k] = at.qdd[static_cast<std::size_t>(joint.first + k)];
+      for_each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
+        dydt[layout_.q(joint.first_free + k)] = at.qd[joint.first + k];
+        dydt[layout_.v(joint.first_free + k)] = at.qdd[joint.first + k];
       });
     });
-    double* next = dydt + 2 * free_ + bristles_;
-    if constexpr (!Shapes::known) {
-      for (std::size_t k = 0; k < at.drive_force.size(); ++k) next[k] = at.drive_force[k] * at.qd[static_cast<std::size_t>(model_.drives[k])];
+    double* works = dydt + layout_.work();
+    if constexpr (!Topology::is_static) {
+      for (std::size_t k = 0; k < at.drive_force.size(); ++k)
+        works[k] = at.drive_force[k] * at.qd[model_.drives[k]];
     } else {
-      Visited::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
-        if (joint.driven) next[joint.drive] = at.drive_force[static_cast<std::size_t>(joint.drive)] * at.qd[static_cast<std::size_t>(joint.first)];
+      Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+        if (!joint.driven) return;
+        works[joint.drive] = at.drive_force[joint.drive] *
+                             at.qd[joint.first];
       });
     }
-    next += at.drive_force.size();
-    *next++ = at.losses.impact;
-    *next++ = at.losses.friction;
-    *next++ = at.losses.structural;
+    works[layout_.impact_in_works()] = at.losses.impact;
+    works[layout_.friction_in_works()] = at.losses.friction;
+    works[layout_.structural_in_works()] = at.losses.structural;
   }
 
-  /// Bristles whose contacts touch: the others neither move nor act.
+  /// Pairs of bristles that touch or are bent. The others have no rate and no force.
   void find_acting_bristles(const double* y) {
     std::size_t count = 0;
-    for (int b = 0; b < bristles_; b += 2) {
-      const bool acts = bristle_rates_[static_cast<std::size_t>(b)] != 0.0 || bristle_rates_[static_cast<std::size_t>(b + 1)] != 0.0 ||
-                        y[2 * free_ + b] != 0.0 || y[2 * free_ + b + 1] != 0.0;
+    const double* bristles = y + layout_.bristle();
+    for (int b = 0; b < layout_.bristles; b += 2) {
+      const bool acts = bristle_rates_[b] != 0.0 ||
+                        bristle_rates_[b + 1] != 0.0 || bristles[b] != 0.0 ||
+                        bristles[b + 1] != 0.0;
       if (!acts) continue;
       jacobian_.acting[count++] = b;
       jacobian_.acting[count++] = b + 1;
@@ -147,80 +167,82 @@ class CompiledEquations final : public Equations {
     jacobian_.pairs = static_cast<int>(count / 2);
   }
 
-  void linearise_matrix(const DrivenMotion* drives) {
-    if (!shifted_) {
+  /// Computes all blocks of the Jacobian, chunk by chunk of seeds.
+  void linearise_for_dense(const DrivenMotion* drives) {
+    if (!dense_) {
       jacobian_.make_matrices();
-      shifted_ = std::make_unique<Shifted>(jacobian_);
+      dense_ = std::make_unique<DenseSolvers>(jacobian_);
     }
-    bristle_derivatives_.find_loads(varied_.contacts(), varied_.acting(), jacobian_);
-    plan_.start(drives, bristle_derivatives_.loads(), bristle_derivatives_.load_count(), jacobian_);
-    for (int group = 0; group < plan_.groups(); ++group) {
-      const int load = plan_.first_load(group);
-      varied_.differentiate(plan_.coordinates(group), plan_.loads() + load, plan_.end_load(group) - load, plan_.time(group), drives);
-      take_outputs(group);
+    bristle_jacobian_.collect_load_seeds(point_.contacts.data(), point_.acting.data(), jacobian_);
+    schedule_.start(drives, bristle_jacobian_.loads(), bristle_jacobian_.load_count(), jacobian_);
+    for (int chunk = 0; chunk < schedule_.chunks(); ++chunk) {
+      const int load = schedule_.first_load(chunk);
+      linearised_.calc_tangents(schedule_.coordinate_seeds(chunk), schedule_.loads() + load,
+                                schedule_.end_load(chunk) - load, schedule_.time(chunk), drives);
+      store_outputs(chunk);
     }
-    bristle_derivatives_.write(plan_, varied_.contacts(), varied_.acting(), jacobian_);
+    bristle_jacobian_.write(schedule_, point_.contacts.data(), point_.acting.data(), jacobian_);
   }
 
-  /// The derivatives by time alone.
-  void linearise_bodies(const DrivenMotion* drives) {
-    plan_.start(drives, nullptr, 0, jacobian_);
-    varied_.differentiate(plan_.coordinates(0), nullptr, 0, plan_.time(0), drives);
-    take_outputs(0);
-    bristle_derivatives_.write_by_time(varied_.contacts(), varied_.acting(), jacobian_);
-    const BodiesSolution solution{kept_.frames.data(), kept_.axes.data(), varied_.held(),   varied_.held_coordinates(),
-                                  kept_.cuts.data(),   varied_.contacts(), varied_.acting(), kept_.qd.data()};
-    bodies_->real.take_up(solution);
-    bodies_->complex.take_up(solution);
+  /// Computes df/dt alone: the recursive solvers take the operating point in the place of the Jacobian.
+  void linearise_for_recursive(const DrivenMotion* drives) {
+    schedule_.start(drives, nullptr, 0, jacobian_);
+    linearised_.calc_tangents(schedule_.coordinate_seeds(0), nullptr, 0, schedule_.time(0), drives);
+    store_outputs(0);
+    bristle_jacobian_.write_by_time(point_.contacts.data(), point_.acting.data(), jacobian_);
+    recursive_->real.set_operating_point(point_.view());
+    recursive_->complex.set_operating_point(point_.view());
   }
 
-  void take_outputs(int group) {
-    if (group < plan_.moving_groups()) bristle_derivatives_.take_journals(group, varied_.journals.data());
+  void store_outputs(int chunk) {
+    if (chunk < schedule_.motion_chunks())
+      bristle_jacobian_.store_journal_tangents(chunk, linearised_.journals.data());
     int row = 0;
-    for (const int i : model_.free) plan_.output(row++) = varied_.qdd[static_cast<std::size_t>(i)];
+    for (const int i : model_.free) schedule_.output(row++) = linearised_.qdd[i];
     row = jacobian_.first_work;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
       const int drive = model_.drives[k];
-      plan_.output(row++) = kept_.qd[static_cast<std::size_t>(drive)] * varied_.drive_force[k] +
-                            kept_.drive_force[k] * plan_.coordinates(group)[drive].qd;
+      schedule_.output(row++) = kept_.qd[drive] * linearised_.drive_force[k] +
+                                kept_.drive_force[k] * schedule_.coordinate_seeds(chunk)[drive].qd;
     }
-    plan_.output(row++) = varied_.losses.impact;
-    plan_.output(row++) = varied_.losses.friction;
-    plan_.output(row++) = varied_.losses.structural;
-    plan_.store(group);
+    schedule_.output(row++) = linearised_.losses.impact;
+    schedule_.output(row++) = linearised_.losses.friction;
+    schedule_.output(row++) = linearised_.losses.structural;
+    schedule_.store(chunk);
   }
 
-  /// Solves with the Jacobian's matrices.
-  struct Shifted {
-    explicit Shifted(const StateJacobian& J) : real(J), complex(J) {}
-    ShiftedJacobian<double> real;
-    ShiftedJacobian<Complex<double>> complex;
+  struct DenseSolvers {
+    explicit DenseSolvers(const StateJacobian& J) : real(J), complex(J) {}
+    NewtonMatrix<double> real;
+    NewtonMatrix<Complex<double>> complex;
   };
 
-  /// Solves body by body.
-  struct Bodies {
-    Bodies(const TreeModel& model, const std::vector<ClearanceJoint>& joints) : real(model, joints), complex(model, joints) {}
-    ShiftedBodies<double> real;
-    ShiftedBodies<Complex<double>> complex;
+  struct RecursiveSolvers {
+    RecursiveSolvers(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
+                     const StateLayout& layout)
+        : real(model, joints, layout), complex(model, joints, layout) {}
+    RecursiveNewtonSolver<double> real;
+    RecursiveNewtonSolver<Complex<double>> complex;
   };
 
   const TreeModel& model_;
-  int free_, bristles_;
+  StateLayout layout_;
   const std::vector<ClearanceJoint>& joints_;
-  Buffer<double> bristle_rates_;                ///< of the solution that is kept
-  EquationsOfMotion<typename Shapes::Looped> kept_;
-  VariedEquations<typename Shapes::Looped> varied_;
+  Buffer<double> bristle_rates_;                ///< of the kept evaluation
+  ForwardDynamics<typename Topology::Rolled> kept_;
+  OperatingPoint<typename Topology::Rolled> point_;
+  LinearisedDynamics<typename Topology::Rolled> linearised_;
   StateJacobian jacobian_;
-  DirectionPlan plan_;
-  BristleDerivatives bristle_derivatives_;
-  std::unique_ptr<Bodies> bodies_;              ///< null: the tree is none for them
-  std::unique_ptr<Shifted> shifted_;            ///< null until it is needed
-  Elimination elimination_ = Elimination::kMatrix;  ///< of the last linearise()
+  SeedSchedule schedule_;
+  BristleJacobian bristle_jacobian_;
+  std::unique_ptr<RecursiveSolvers> recursive_; ///< null: see fits_recursive_solver()
+  std::unique_ptr<DenseSolvers> dense_;         ///< null until it is needed
+  NewtonSolver newton_solver_ = NewtonSolver::kDense;  ///< of the last linearise()
 };
 
 /// Copies numbers one by one: functions of Eigen would be shared between instruction sets by the linker.
-template <typename Shapes>
-void CompiledEquations<Shapes>::read_out(Evaluation& at) const {
+template <typename Topology>
+void CompiledKernel<Topology>::read_out(Evaluation& at) const {
   const auto copy = [](const Vec3<double>& v, double* to) {
     to[0] = v.x;
     to[1] = v.y;

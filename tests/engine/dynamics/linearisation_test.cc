@@ -111,7 +111,7 @@ std::vector<Case> all_cases() {
   };
   const auto of_linkage = [](std::string name, const Linkage& linkage, double offset, double disturbance) {
     Mechanism mechanism = build_linkage(linkage).mechanism;
-    mechanism.least_multipliers = disturbance == 0.0;
+    mechanism.minimum_norm_multipliers = disturbance == 0.0;
     return Case{std::move(name), std::move(mechanism), 0, offset, 1e-5, disturbance};
   };
   const Linkage loose = make_loose_loops(*build_rpsup(rigid).mechanism.cut_joints[0].clearance);
@@ -198,9 +198,9 @@ class Moving {
 class Linearisation : public testing::TestWithParam<Case> {};
 
 /// The ways to solve an implicit step's systems that a mechanism takes.
-std::vector<Elimination> eliminations_of(const MotionSystem& system) {
-  if (!system.can_solve_by_bodies()) return {Elimination::kMatrix};
-  return {Elimination::kMatrix, Elimination::kBodies};
+std::vector<NewtonSolver> solvers_of(const MotionSystem& system) {
+  if (!system.can_solve_recursively()) return {NewtonSolver::kDense};
+  return {NewtonSolver::kDense, NewtonSolver::kRecursive};
 }
 
 TEST_P(Linearisation, IsTheDerivativeInEveryDirection) {
@@ -210,8 +210,8 @@ TEST_P(Linearisation, IsTheDerivativeInEveryDirection) {
   std::vector<Eigen::VectorXd> columns;
   for (Eigen::Index j = 0; j < moving.y.size(); ++j)
     columns.push_back(moving.differ(j, j < system.free_count() ? GetParam().step : j < 2 * system.free_count() ? 1e-5 : 1e-7));
-  for (const Elimination elimination : eliminations_of(system)) {
-    ASSERT_EQ(system.linearise(Moving::kTime, moving.y, elimination), EvaluationStatus::kOk);
+  for (const NewtonSolver solver : solvers_of(system)) {
+    ASSERT_EQ(system.linearise(Moving::kTime, moving.y, solver), EvaluationStatus::kOk);
     EXPECT_LE((system.time_derivative() - by_time).cwiseAbs().maxCoeff(), 2e-6 * by_time.cwiseAbs().maxCoeff());  // 0 without drives
     // (shift 1 - J) is known by its inverse only: what it makes of its own columns, taken by differences, is a unit vector.
     constexpr double kShift = 3e4;
@@ -237,8 +237,8 @@ TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
   constexpr std::complex<double> kShift(2e4, 3e4);
   std::vector<Eigen::VectorXd> columns;
   for (Eigen::Index j = 0; j < moving.y.size(); ++j) columns.push_back(column(j));
-  for (const Elimination elimination : eliminations_of(system)) {
-    ASSERT_EQ(system.linearise(Moving::kTime, moving.y, elimination), EvaluationStatus::kOk);
+  for (const NewtonSolver solver : solvers_of(system)) {
+    ASSERT_EQ(system.linearise(Moving::kTime, moving.y, solver), EvaluationStatus::kOk);
     ASSERT_TRUE(system.factor(kShift));
     for (Eigen::Index j = 0; j + 1 < moving.y.size(); ++j) {
       Eigen::VectorXd real = -columns[static_cast<std::size_t>(j)], imag = -columns[static_cast<std::size_t>(j) + 1];
@@ -274,15 +274,15 @@ class OpenChains : public testing::TestWithParam<Case> {};
 TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrix) {
   Moving moving(GetParam(), {});
   MotionSystem& system = moving.system_;
-  ASSERT_TRUE(system.can_solve_by_bodies());
+  ASSERT_TRUE(system.can_solve_recursively());
   constexpr double kSame = 1e-7;  // a stiff contact is put on what moves without it, which costs digits: 1e-8 where a millimetre is pressed in
   for (const double shift : {3e2, 3e4, 3e6}) {
     Eigen::VectorXd right = moving.f;
     for (Eigen::Index i = 0; i < right.size(); ++i) right[i] += static_cast<double>(i % 5 - 2);
     Eigen::VectorXd solutions[2], times[2];
-    for (const Elimination elimination : eliminations_of(system)) {
-      const bool bodies = elimination == Elimination::kBodies;
-      ASSERT_EQ(system.linearise(Moving::kTime, moving.y, elimination), EvaluationStatus::kOk);
+    for (const NewtonSolver solver : solvers_of(system)) {
+      const bool bodies = solver == NewtonSolver::kRecursive;
+      ASSERT_EQ(system.linearise(Moving::kTime, moving.y, solver), EvaluationStatus::kOk);
       ASSERT_TRUE(system.factor(shift));
       solutions[bodies] = right;
       system.solve_in_place(solutions[bodies]);
@@ -304,18 +304,18 @@ TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrix) {
 TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrixWithAComplexShift) {
   Moving moving(GetParam(), {});
   MotionSystem& system = moving.system_;
-  ASSERT_TRUE(system.can_solve_by_bodies());
+  ASSERT_TRUE(system.can_solve_recursively());
   constexpr double kSame = 1e-7;  // as above
   const Eigen::Index free = system.free_count(), controlled = system.controlled_size();
   for (const std::complex<double> shift : {std::complex<double>(3e2, 4e2), {3e4, -4e4}, {3e6, 4e6}}) {
     Eigen::VectorXcd solutions[2];
-    for (const Elimination elimination : eliminations_of(system)) {
-      ASSERT_EQ(system.linearise(Moving::kTime, moving.y, elimination), EvaluationStatus::kOk);
+    for (const NewtonSolver solver : solvers_of(system)) {
+      ASSERT_EQ(system.linearise(Moving::kTime, moving.y, solver), EvaluationStatus::kOk);
       ASSERT_TRUE(system.factor(shift));
       Eigen::VectorXd real = moving.f, imag = moving.f.reverse();
       for (Eigen::Index i = 0; i < real.size(); ++i) imag[i] += static_cast<double>(i % 5 - 2);
       system.solve_in_place(real, imag);
-      Eigen::VectorXcd& x = solutions[elimination == Elimination::kBodies];
+      Eigen::VectorXcd& x = solutions[solver == NewtonSolver::kRecursive];
       x.resize(real.size());
       x.real() = real;
       x.imag() = imag;
@@ -343,7 +343,7 @@ TEST_P(OpenChains, WhatIsHeldOutlivesOtherEvaluations) {
     system.solve_in_place(x);
     return x;
   };
-  const auto linearise = [&] { ASSERT_EQ(system.linearise(Moving::kTime, moving.y, Elimination::kBodies), EvaluationStatus::kOk); };
+  const auto linearise = [&] { ASSERT_EQ(system.linearise(Moving::kTime, moving.y, NewtonSolver::kRecursive), EvaluationStatus::kOk); };
   linearise();
   const Eigen::VectorXd first = solve(1e5, [] {}), second = solve(3e4, [] {});
   const auto go_elsewhere = [&] {
@@ -362,7 +362,7 @@ TEST_P(OpenChains, ARealAndAComplexShiftAreHeldSideBySide) {
   Moving moving(GetParam(), {});
   MotionSystem& system = moving.system_;
   constexpr std::complex<double> kShift(2e4, 3e4);
-  const auto linearise = [&] { ASSERT_EQ(system.linearise(Moving::kTime, moving.y, Elimination::kBodies), EvaluationStatus::kOk); };
+  const auto linearise = [&] { ASSERT_EQ(system.linearise(Moving::kTime, moving.y, NewtonSolver::kRecursive), EvaluationStatus::kOk); };
   const auto solve_real = [&] {
     Eigen::VectorXd x = moving.f;
     system.solve_in_place(x);
@@ -395,9 +395,9 @@ TEST_P(Linearisation, AndTheRatesAreTheSameBytesWithEveryInstructionSet) {
   for (const std::string_view set : instruction_sets()) {
     Moving other(GetParam(), set);
     EXPECT_EQ((first.f - other.f).cwiseAbs().maxCoeff(), 0.0) << set;
-    for (const Elimination elimination : eliminations_of(first.system_)) {
-      ASSERT_EQ(first.system_.linearise(Moving::kTime, first.y, elimination), EvaluationStatus::kOk);
-      ASSERT_EQ(other.system_.linearise(Moving::kTime, other.y, elimination), EvaluationStatus::kOk);
+    for (const NewtonSolver solver : solvers_of(first.system_)) {
+      ASSERT_EQ(first.system_.linearise(Moving::kTime, first.y, solver), EvaluationStatus::kOk);
+      ASSERT_EQ(other.system_.linearise(Moving::kTime, other.y, solver), EvaluationStatus::kOk);
       EXPECT_EQ((first.system_.time_derivative() - other.system_.time_derivative()).cwiseAbs().maxCoeff(), 0.0) << set;
       Eigen::VectorXd x = first.f;
       Eigen::VectorXd y = first.f;
@@ -434,7 +434,7 @@ std::vector<Case> ideal_linkages() {
     universal.name += "_universal";
     universal.mechanism.cut_joints[0].kind = CutKind::kUniversal;
     dependent.name += "_dependent";
-    dependent.mechanism.least_multipliers = true;
+    dependent.mechanism.minimum_norm_multipliers = true;
     cases.push_back(universal);
     cases.push_back(dependent);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "engine/dynamics/constraint_rows.h"
@@ -14,217 +15,257 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// An ideal cut joint at one instant, as its multipliers act on it.
-struct ClosedJoint {
-  JointViolation<double, double> violation;
+/// An ideal cut joint: its rows' residuals, and where its reaction acts.
+struct LoopJoint {
+  JointResidual<double, double> residual;
   Mat3<double> R_b;                       ///< of the bearing
-  Vec3<double> bearing_arm, journal_arm;  ///< from the bodies' origins to where the reaction acts on them
+  Vec3<double> bearing_offset,
+      journal_offset;  ///< from the bodies' origins to the points where the reaction acts
 };
 
-/// What a tree needs that is not known when the program is compiled: its rows may be of coordinates, and may depend on each other.
-struct AnyRows {
-  explicit AnyRows(const TreeModel& model)
-      : entries(model), tau(static_cast<std::size_t>(model.coordinates)), responses(tau.size()) {}
+/// Rows of a dynamic topology, which may be of coordinates, and may be redundant.
+struct DynamicRows {
+  explicit DynamicRows(const TreeModel& model)
+      : jacobian(model), tau(model.coordinates), qdd(tau.size()) {}
 
-  ConstraintEntries entries;           ///< set only where rows may depend on each other
-  Buffer<Directions> tau, responses;   ///< one a coordinate
+  ConstraintJacobian jacobian;           ///< computed only where rows may be redundant
+  Buffer<TangentPack> tau, qdd;   ///< one a coordinate
 };
-struct KnownRows {
-  RPSUP_INLINE explicit KnownRows(const TreeModel&) {}
+/// Rows of a static topology: of one joint, and independent.
+struct StaticRows {
+  RPSUP_INLINE explicit StaticRows(const TreeModel&) {}
 };
 
-/// What moves the bodies if there are no multipliers, as ArticulatedBodies::solve() takes it.
-struct FreeMotion {
-  const SpatialForce<double>* needed;  ///< one a joint
+/// Input of ArticulatedBodies::solve() without multipliers.
+struct UnconstrainedMotion {
+  const SpatialForce<double>* bias_force;  ///< one a joint
   const double* tau;                   ///< one a coordinate
-  const RodMotion* rods;               ///< one a joint, of known shapes
+  const SlenderBodyMotion* slender;        ///< one a joint, of a static topology
 };
 
-/// The constraints of closed loops and enforced drives, solved for their multipliers lambda:
+/// The multipliers lambda of closed loops and enforced drives, Eq. (K12):
 ///
 ///     (Phi_q M^-1 Phi_q^T) lambda = wanted - Phi_q qdd_0
 ///
-/// without Phi_q: a joint's rows say which forces their multipliers exert on two bodies, and what they make of the accelerations of these two.
-/// (Only to find idle rows among those that depend on each other it is computed, see MultiplierMatrix::start.)
-template <typename Shapes>
-class LoopEquations {
-  using Bodies = ArticulatedBodies<Shapes>;
-  using Matrix = typename MatrixOf<Shapes>::Type;
+/// Column r of the Delassus matrix Phi_q M^-1 Phi_q^T is Phi_q times the accelerations that a unit multiplier
+/// of row r causes: the articulated-body algorithm computes as many columns at once as a pack has lanes.
+/// Phi_q itself is not needed: a joint's rows turn multipliers into forces on two bodies,
+/// calc_joint_reaction(), and accelerations of two bodies into Phi_q qdd, subtract_joint_acceleration(). (It
+/// is computed to find the active ones among redundant rows only, see DelassusMatrix::find_active_rows.)
+/// Source of the name: J. Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of constrained
+/// dynamic equations (2021).
+/// @tparam Topology  DynamicTopology or a StaticTopology
+template <typename Topology>
+class ConstraintSolver {
+  using Bodies = ArticulatedBodies<Topology>;
+  using Delassus = typename DelassusOf<Topology>::Type;
   template <typename T>
-  using RowRoom = typename Shapes::template RowRoom<T>;
+  using PerRow = typename Topology::template PerRow<T>;
 
  public:
-  /// Room for solve() and find_multipliers().
+  /// Workspace of solve() and solve_for_multipliers().
   template <typename T>
-  using Scratch = typename Matrix::template Scratch<T>;
+  using Workspace = typename Delassus::template Workspace<T>;
 
-  RPSUP_INLINE explicit LoopEquations(const TreeModel& model)
+  RPSUP_INLINE explicit ConstraintSolver(const TreeModel& model)
       : rows(model),
-        general(model),
-        lambda(static_cast<std::size_t>(model.rows)),
+        dynamic_rows(model),
+        lambda(model.rows),
         joints(model.cut_joints.size()),
         model_(model),
-        matrix_(model),
-        bodies_scratch_(model),
-        lacking_(lambda.size()),
-        units_(lambda.size()),
-        rest_(lambda.size()) {}
+        delassus_(model),
+        work_(model),
+        free_residual_(lambda.size()),
+        unit_multipliers_(lambda.size()),
+        residual_(lambda.size()) {}
 
-  ConstraintRows<RowRoom<double>> rows;
-  std::conditional_t<Shapes::known, KnownRows, AnyRows> general;
-  RowRoom<double> lambda;                                 ///< the rows' multipliers
-  typename Shapes::template CutRoom<ClosedJoint> joints;  ///< ideal cut joints
+  ConstraintResiduals<PerRow<double>> rows;
+  std::conditional_t<Topology::is_static, StaticRows, DynamicRows> dynamic_rows;
+  PerRow<double> lambda;                                 ///< multipliers of the last solve() of the caller
+  typename Topology::template PerCutJoint<LoopJoint> joints;  ///< ideal cut joints
 
-  /// Computes the multipliers of a motion from the joints as they stand. False if the loops cannot follow.
+  /// Assembles and factors the Delassus matrix, and solves for the multipliers of a motion. False if the
+  /// matrix is singular.
   /// @param multipliers  in: wanted
-  [[nodiscard]] RPSUP_INLINE bool solve(const Bodies& bodies, const JointAxes* axes, const FreeMotion& motion, double* multipliers,
-                                        Scratch<double>& scratch) {
+  [[nodiscard]] RPSUP_INLINE bool solve(const Bodies& bodies, const JointAxes* axes,
+                                        const UnconstrainedMotion& motion, double* multipliers,
+                                        Workspace<double>& work) {
     if (!factor(bodies, axes, motion)) return false;
-    for (std::size_t r = 0; r < lacking_.size(); ++r) multipliers[r] += lacking_[r];
-    matrix_.solve(multipliers, scratch);
+    for (std::size_t r = 0; r < free_residual_.size(); ++r) multipliers[r] += free_residual_[r];
+    delassus_.solve(multipliers, work);
     return true;
   }
 
-  /// What accelerations lack of those that are wanted, as multipliers. After solve().
-  /// @param multipliers  in: wanted  @tparam T  a number, or several side by side
-  template <typename T>
-  RPSUP_INLINE void find_multipliers(const SpatialAcceleration<T>* accelerations, const T* qdd, T* multipliers, Scratch<T>& scratch) const {
-    subtract_answers(accelerations, qdd, multipliers);
-    matrix_.solve(multipliers, scratch);
+  /// Whether a loop has opened. Redundant rows give no singular matrix that would tell.
+  [[nodiscard]] RPSUP_INLINE bool is_torn_apart() const {
+    constexpr double kTorn = 1e-2;  // [m] or [1]
+    double largest = 0.0;
+    for (int r = 0; r < model_.first_drive_row; ++r) largest = std::max(largest, std::abs(rows.Phi[r]));
+    return !(largest < kTorn);
   }
 
-  /// What multipliers exert: joints on bodies, the others on coordinates.
+  /// Solves for the multipliers that make up for wanted - Phi_q qdd, after solve().
+  /// @param multipliers  in: wanted  @tparam T  a number, or a pack
   template <typename T>
-  RPSUP_INLINE void add_reactions(const T* multipliers, SpatialForce<T>* needed, T* tau) const {
-    load_bodies(multipliers, needed);
-    if constexpr (!Shapes::known) load_coordinates(multipliers, tau);
+  RPSUP_INLINE void solve_for_multipliers(const SpatialAcceleration<T>* accelerations, const T* qdd,
+                                          T* multipliers, Workspace<T>& work) const {
+    subtract_constraint_acceleration(accelerations, qdd, multipliers);
+    delassus_.solve(multipliers, work);
+  }
+
+  /// Adds Phi_q^T lambda: the reactions of joints to the bias forces, those of couplings and drives to tau.
+  template <typename T>
+  RPSUP_INLINE void add_reactions(const T* multipliers, SpatialForce<T>* bias_force, T* tau) const {
+    add_joint_reactions(multipliers, bias_force);
+    if constexpr (!Topology::is_static) add_coordinate_reactions(multipliers, tau);
   }
 
  private:
-  /// Of the acting rows the columns of the matrix, and before the first of them the motion without multipliers: as many at once as there are
-  /// directions.
-  [[nodiscard]] RPSUP_INLINE bool factor(const Bodies& bodies, const JointAxes* axes, const FreeMotion& motion) {
-    if constexpr (!Shapes::known)
-      if (model_.least_multipliers) matrix_.start(general.entries, model_.free);
-    const int count = matrix_.acting_count();
-    matrix_.template each_place<Directions::kCount>([&](auto place) RPSUP_INLINE_LAMBDA {
-      calc_responses(bodies, axes, motion, place);
-      for (int k = std::max<int>(place, 0); k < count; ++k) matrix_.set(k, place, rest_[static_cast<std::size_t>(matrix_.acting(k))]);
+  /// Assembles the columns of the active rows, and before the first of them, as column kUnconstrained, the
+  /// unconstrained motion: it is one more solution of the same systems.
+  [[nodiscard]] RPSUP_INLINE bool factor(const Bodies& bodies, const JointAxes* axes,
+                                         const UnconstrainedMotion& motion) {
+    if constexpr (!Topology::is_static)
+      if (model_.minimum_norm_multipliers) delassus_.find_active_rows(dynamic_rows.jacobian, model_.free);
+    const int count = delassus_.active_count();
+    delassus_.template for_each_pack_of_columns<TangentPack::kCount>([&](auto column) RPSUP_INLINE_LAMBDA {
+      calc_columns_from(bodies, axes, motion, column);
+      for (int k = std::max<int>(column, 0); k < count; ++k)
+        delassus_.set(k, column, residual_[delassus_.active_row(k)]);
     });
-    return matrix_.factor();
+    return delassus_.factor();
   }
 
-  /// rest_ <- Phi_q M^-1 Phi_q^T, of the acting rows from a place on the columns, side by side; at place -1 the motion, and lacking_ of it.
-  RPSUP_INLINE void calc_responses(const Bodies& bodies, const JointAxes* axes, const FreeMotion& motion, int place) {
-    auto& forces = bodies_scratch_.forces;
-    forces.fill({});
-    if (place < 0)
-      for (std::size_t i = 0; i < forces.size(); ++i)
-        forces[i] = {as_first<Directions>(motion.needed[i].force), as_first<Directions>(motion.needed[i].moment)};
-    units_.fill({});
-    for (int k = std::max(place, 0); k < std::min(place + Directions::kCount, matrix_.acting_count()); ++k)
-      units_[static_cast<std::size_t>(matrix_.acting(k))] = -Directions::unit(k - place);
-    load_bodies(units_.data(), forces.data());
-    rest_.fill({});
-    if constexpr (Shapes::known) {
-      static constexpr double no_tau[Shapes::n_q]{};
-      bodies.solve_bodies_lanes(axes, place < 0 ? motion.tau : no_tau, bodies_scratch_, place < 0 ? motion.rods : nullptr);
-      subtract_accelerations(bodies_scratch_.accelerations.data(), rest_.data());
+  /// residual_ <- Phi_q M^-1 Phi_q^T of a pack of columns. The pack that begins with kUnconstrained brings
+  /// free_residual_, too.
+  RPSUP_INLINE void calc_columns_from(const Bodies& bodies, const JointAxes* axes,
+                                      const UnconstrainedMotion& motion, int column) {
+    auto& bias_forces = work_.bias_forces;
+    bias_forces.fill({});
+    if (column == kUnconstrained)
+      for (std::size_t i = 0; i < bias_forces.size(); ++i)
+        bias_forces[i] = {in_first_lane<TangentPack>(motion.bias_force[i].force),
+                          in_first_lane<TangentPack>(motion.bias_force[i].moment)};
+    unit_multipliers_.fill({});
+    for (int k = std::max(column, 0); k < std::min(column + TangentPack::kCount, delassus_.active_count());
+         ++k)
+      unit_multipliers_[delassus_.active_row(k)] = -TangentPack::unit(k - column);
+    add_joint_reactions(unit_multipliers_.data(), bias_forces.data());
+    residual_.fill({});
+    if constexpr (Topology::is_static) {
+      static constexpr double kNoTau[Topology::n_q]{};
+      bodies.solve_bodies_pack(axes, column == kUnconstrained ? motion.tau : kNoTau, work_,
+                               column == kUnconstrained ? motion.slender : nullptr);
+      subtract_joint_accelerations(work_.accelerations.data(), residual_.data());
     } else {
-      general.tau.fill({});
-      if (place < 0)
-        for (std::size_t i = 0; i < general.tau.size(); ++i) general.tau[i] = Directions::first(motion.tau[i]);
-      load_coordinates(units_.data(), general.tau.data());
-      bodies.solve_lanes(axes, general.tau.data(), bodies_scratch_, general.responses.data());
-      subtract_answers(bodies_scratch_.accelerations.data(), general.responses.data(), rest_.data());
+      dynamic_rows.tau.fill({});
+      if (column == kUnconstrained)
+        for (std::size_t i = 0; i < dynamic_rows.tau.size(); ++i)
+          dynamic_rows.tau[i] = TangentPack::first(motion.tau[i]);
+      add_coordinate_reactions(unit_multipliers_.data(), dynamic_rows.tau.data());
+      bodies.solve_pack(axes, dynamic_rows.tau.data(), work_, dynamic_rows.qdd.data());
+      subtract_constraint_acceleration(work_.accelerations.data(), dynamic_rows.qdd.data(), residual_.data());
     }
-    if (place < 0)
-      for (std::size_t r = 0; r < lacking_.size(); ++r) lacking_[r] = rest_[r][0];
+    if (column == kUnconstrained)
+      for (std::size_t r = 0; r < free_residual_.size(); ++r) free_residual_[r] = residual_[r][0];
   }
 
-  /// Takes what the joints' multipliers exert from what each joint's body needs.
+  /// Subtracts the reactions of the joints from the bias forces.
   template <typename T>
-  RPSUP_INLINE void load_bodies(const T* multipliers, SpatialForce<T>* needed) const {
-    Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
+  RPSUP_INLINE void add_joint_reactions(const T* multipliers, SpatialForce<T>* bias_force) const {
+    Topology::for_each_cut_joint(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
-      const ClosedJoint& closed = joints[k];
-      const JointReaction<T> reaction = calc_joint_reaction(joint.rows, closed.violation, closed.R_b, multipliers + joint.numbers().first_row);
+      const LoopJoint& loop = joints[k];
+      const JointReaction<T> reaction =
+          calc_joint_reaction(joint.rows, loop.residual, loop.R_b, multipliers + joint.data().first_row);
       if (joint.journal_joint >= 0) {
-        SpatialForce<T>& on_journal = needed[joint.journal_joint];
+        SpatialForce<T>& on_journal = bias_force[joint.journal_joint];
         on_journal.force -= reaction.force;
         on_journal.moment -= reaction.moment;
-        if (joint.journal.shifted) on_journal.moment -= cross(closed.journal_arm, reaction.force);
+        if (joint.journal.shifted) on_journal.moment -= cross(loop.journal_offset, reaction.force);
       }
       if (joint.bearing_joint >= 0) {
-        SpatialForce<T>& on_bearing = needed[joint.bearing_joint];
+        SpatialForce<T>& on_bearing = bias_force[joint.bearing_joint];
         on_bearing.force += reaction.force;
-        on_bearing.moment += reaction.moment + cross(closed.bearing_arm, reaction.force);
+        on_bearing.moment += reaction.moment + cross(loop.bearing_offset, reaction.force);
       }
     });
   }
 
-  /// Driven coordinates, too: their drives bear it.
+  /// Adds the reactions of couplings and drives to tau. A driven coordinate has its share, too: the drive
+  /// bears it.
   template <typename T>
-  RPSUP_INLINE void load_coordinates(const T* multipliers, T* tau) const {
+  RPSUP_INLINE void add_coordinate_reactions(const T* multipliers, T* tau) const {
     for (std::size_t k = 0; k < model_.couplings.size(); ++k) {
       const Coupling& coupling = model_.couplings[k];
-      const T& multiplier = multipliers[static_cast<std::size_t>(model_.first_coupling_row) + k];
+      const T& multiplier = multipliers[model_.first_coupling_row + k];
       tau[coupling.coordinate] += multiplier;
       tau[coupling.follows] -= coupling.ratio * multiplier;
     }
     if (!model_.drive_rows) return;
-    for (std::size_t k = 0; k < model_.drives.size(); ++k) tau[model_.drives[k]] += multipliers[static_cast<std::size_t>(model_.first_drive_row) + k];
+    for (std::size_t k = 0; k < model_.drives.size(); ++k)
+      tau[model_.drives[k]] += multipliers[model_.first_drive_row + k];
   }
 
-  /// rest <- rest - Phi_q qdd. @param accelerations  of each joint's body, by the free coordinates
+  /// residual <- residual - Phi_q qdd. @param accelerations  of the bodies, by the free coordinates
   template <typename T>
-  RPSUP_INLINE void subtract_answers(const SpatialAcceleration<T>* accelerations, const T* qdd, T* rest) const {
-    subtract_accelerations(accelerations, rest);
-    if constexpr (!Shapes::known) subtract_coordinates(qdd, rest);
+  RPSUP_INLINE void subtract_constraint_acceleration(const SpatialAcceleration<T>* accelerations,
+                                                     const T* qdd, T* residual) const {
+    subtract_joint_accelerations(accelerations, residual);
+    if constexpr (!Topology::is_static) subtract_coordinate_accelerations(qdd, residual);
   }
 
   template <typename T>
-  RPSUP_INLINE void subtract_accelerations(const SpatialAcceleration<T>* accelerations, T* rest) const {
-    Shapes::cut_joints(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
+  RPSUP_INLINE void subtract_joint_accelerations(const SpatialAcceleration<T>* accelerations,
+                                                 T* residual) const {
+    Topology::for_each_cut_joint(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
-      const ClosedJoint& closed = joints[k];
-      const SpatialAcceleration<T> b = see_at(accelerations, joint.bearing_joint, closed.bearing_arm);
-      const SpatialAcceleration<T> j = see_at(accelerations, joint.journal_joint, closed.journal_arm);
-      subtract_joint_answer(joint.rows, closed.violation, closed.R_b, j.angular - b.angular, j.linear - b.linear, rest + joint.numbers().first_row);
+      const LoopJoint& loop = joints[k];
+      const SpatialAcceleration<T> b =
+          acceleration_at(accelerations, joint.bearing_joint, loop.bearing_offset);
+      const SpatialAcceleration<T> j =
+          acceleration_at(accelerations, joint.journal_joint, loop.journal_offset);
+      subtract_joint_acceleration(joint.rows, loop.residual, loop.R_b, j.angular - b.angular,
+                                  j.linear - b.linear, residual + joint.data().first_row);
     });
   }
 
   template <typename T>
-  RPSUP_INLINE void subtract_coordinates(const T* qdd, T* rest) const {
-    const auto free = [&](int coordinate) RPSUP_INLINE_LAMBDA { return model_.is_eliminated(coordinate) ? T{} : qdd[coordinate]; };
+  RPSUP_INLINE void subtract_coordinate_accelerations(const T* qdd, T* residual) const {
+    const auto free = [&](int coordinate) RPSUP_INLINE_LAMBDA {
+      return model_.is_eliminated(coordinate) ? T{} : qdd[coordinate];
+    };
     for (std::size_t k = 0; k < model_.couplings.size(); ++k) {
       const Coupling& coupling = model_.couplings[k];
-      rest[static_cast<std::size_t>(model_.first_coupling_row) + k] -= free(coupling.coordinate) - coupling.ratio * free(coupling.follows);
+      residual[model_.first_coupling_row + k] -=
+          free(coupling.coordinate) - coupling.ratio * free(coupling.follows);
     }
     if (!model_.drive_rows) return;
-    for (std::size_t k = 0; k < model_.drives.size(); ++k) rest[static_cast<std::size_t>(model_.first_drive_row) + k] -= qdd[model_.drives[k]];
+    for (std::size_t k = 0; k < model_.drives.size(); ++k)
+      residual[model_.first_drive_row + k] -= qdd[model_.drives[k]];
   }
 
-  /// Of a joint's body, at the end of an arm from its origin.
+  /// Acceleration of a joint's body at an offset from its origin.
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE SpatialAcceleration<T> see_at(const SpatialAcceleration<T>* accelerations, int joint, const Vec3<double>& arm) const {
-    if (joint < 0 || !model_.joints[static_cast<std::size_t>(joint)].moves) return {};
+  [[nodiscard]] RPSUP_INLINE SpatialAcceleration<T> acceleration_at(
+      const SpatialAcceleration<T>* accelerations, int joint, const Vec3<double>& offset) const {
+    if (joint < 0 || !model_.joints[joint].moves) return {};
     const SpatialAcceleration<T>& body = accelerations[joint];
-    return {body.angular, body.linear + cross(body.angular, arm)};
+    return {body.angular, body.linear + cross(body.angular, offset)};
   }
 
   const TreeModel& model_;
-  Matrix matrix_;                  ///< factored
-  typename Bodies::template Scratch<Directions> bodies_scratch_;
-  RowRoom<double> lacking_;        ///< -Phi_q qdd_0
-  RowRoom<Directions> units_, rest_;
+  Delassus delassus_;                  ///< factored by solve()
+  typename Bodies::template Workspace<TangentPack> work_;
+  PerRow<double> free_residual_;        ///< -Phi_q qdd_0
+  PerRow<TangentPack> unit_multipliers_, residual_;
 };
-/// There are none.
-struct NoLoops {
-  RPSUP_INLINE explicit NoLoops(const TreeModel&) {}
+/// Stands for the solver where a topology has no constraints.
+struct NoConstraints {
+  RPSUP_INLINE explicit NoConstraints(const TreeModel&) {}
 
   template <typename T>
-  using Scratch = NoLoops;
+  using Workspace = NoConstraints;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -12,10 +12,16 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-constexpr double kSingularPivot = 1e-12;  ///< a pivot so small, of its diagonal entry: the loop stands at the end of its reach
+/// A pivot below this share of its diagonal entry counts as zero: the mechanism stands in a singular
+/// position.
+constexpr double kSingularPivot = 1e-12;
+/// The column before the first one of the matrix: the unconstrained motion, which ConstraintSolver solves for
+/// together with the columns.
+constexpr int kUnconstrained = -1;
 
-/// The lower triangle of a symmetric matrix, factored in place: L L^T. False if a pivot is below `singular` of its diagonal entry.
-/// Without loops where n is known: they take as long as what they repeat.
+/// Cholesky factorisation A = L L^T in place, in the lower triangle; the diagonal of L is stored inverted.
+/// False if a pivot is below `singular` times its diagonal entry. The loops are unrolled where n is a
+/// constant.
 /// @param stride  from row to row
 [[nodiscard]] RPSUP_INLINE bool factor_cholesky(int n, int stride, double singular, double* A) {
 #pragma GCC unroll 8
@@ -26,7 +32,7 @@ constexpr double kSingularPivot = 1e-12;  ///< a pivot so small, of its diagonal
     for (int k = 0; k < c; ++k) pivot -= row_c[k] * row_c[k];
     if (!(pivot > singular * row_c[c])) return false;
     const double inverse = 1.0 / std::sqrt(pivot);
-    row_c[c] = inverse;  // what solving needs
+    row_c[c] = inverse;  
 #pragma GCC unroll 8
     for (int r = c + 1; r < n; ++r) {
       double* row = A + r * stride;
@@ -39,7 +45,7 @@ constexpr double kSingularPivot = 1e-12;  ///< a pivot so small, of its diagonal
   return true;
 }
 
-/// x <- (L L^T)^-1 x. @tparam T  a number, or several side by side
+/// x <- (L L^T)^-1 x. @tparam T  a number, or a pack
 template <typename T>
 RPSUP_INLINE void solve_cholesky(int n, int stride, const double* L, T* x) {
 #pragma GCC unroll 8
@@ -56,193 +62,210 @@ RPSUP_INLINE void solve_cholesky(int n, int stride, const double* L, T* x) {
   }
 }
 
-/// Phi_q M^-1 Phi_q^T of so many constraints that do not depend on each other.
+/// Delassus matrix of n independent constraints, n a compile-time constant: factored by Cholesky.
 template <int n>
-class IndependentMatrix {
+class FullRankDelassus {
  public:
-  RPSUP_INLINE explicit IndependentMatrix(const TreeModel&) {}
+  RPSUP_INLINE explicit FullRankDelassus(const TreeModel&) {}
 
-  /// Room for solve(): needs none.
+  /// Workspace of solve(): none.
   template <typename T>
-  struct Scratch {
-    RPSUP_INLINE explicit Scratch(const TreeModel&) {}
+  struct Workspace {
+    RPSUP_INLINE explicit Workspace(const TreeModel&) {}
   };
 
-  [[nodiscard]] static constexpr int acting_count() { return n; }
-  [[nodiscard]] static constexpr int acting(int k) { return k; }
+  [[nodiscard]] static constexpr int active_count() { return n; }
+  [[nodiscard]] static constexpr int active_row(int k) { return k; }
 
-  /// Visits the places -1, -1 + width and so on of columns that are set together. That at -1 is none of the matrix.
+  /// Visits the first columns of packs: kUnconstrained, kUnconstrained + width and so on.
   template <int width, typename Visit>
-  RPSUP_INLINE static void each_place(const Visit& visit) {
+  RPSUP_INLINE static void for_each_pack_of_columns(const Visit& visit) {
     [&]<int... group>(std::integer_sequence<int, group...>) RPSUP_INLINE_LAMBDA {
       (visit(std::integral_constant<int, group * width - 1>()), ...);
     }(std::make_integer_sequence<int, (n + width) / width>());
   }
-  /// Of a row the entries from a place on, one a lane.
-  RPSUP_INLINE void set(int k, int place, const Directions& entries) { entries.store(A_ + k * kStride + 1 + place); }
+  /// Sets the entries of row k in a pack of columns, one a lane.
+  RPSUP_INLINE void set(int k, int column, const TangentPack& entries) {
+    entries.store(A_ + k * kStride + 1 + column);
+  }
 
   [[nodiscard]] RPSUP_INLINE bool factor() { return factor_cholesky(n, kStride, kSingularPivot, A_ + 1); }
   template <typename T>
-  RPSUP_INLINE void solve(T* x, Scratch<T>&) const {
+  RPSUP_INLINE void solve(T* x, Workspace<T>&) const {
     solve_cholesky(n, kStride, A_ + 1, x);
   }
 
  private:
-  static constexpr int kStride = (n + Directions::kCount) / Directions::kCount * Directions::kCount;
-  double A_[n * kStride];  ///< each row behind a number that is none of the matrix
+  static constexpr int kStride = (n + TangentPack::kCount) / TangentPack::kCount * TangentPack::kCount;
+  double A_[n * kStride];  ///< row by row, each behind an entry of column kUnconstrained, which is not used
 };
 
-/// A = Phi_q M^-1 Phi_q^T, of which the multipliers are found.
+/// Delassus matrix A = Phi_q M^-1 Phi_q^T of any constraints, Eq. (K12).
 ///
-/// Where constraints depend on each other (Mechanism::least_multipliers) many multipliers do the same. Of these the least are taken: those
-/// of the least sum of (lambda_r / w_r)^2, where w counts the force of a joint, and its moment, each by what it moves. They are the limit, for
-/// a vanishing e, of
+/// Redundant constraints (Mechanism::minimum_norm_multipliers) make A singular, and A lambda = b has many
+/// solutions. The minimum-norm one is taken: that of the least sum of (lambda_r / w_r)^2, with a weight w for
+/// the rows of a joint's force, and one for those of its moment. With S = w A w, it is found by iterated
+/// Tikhonov regularisation, Eq. (K13):
 ///
-///     (S + e 1) x = w b,  lambda = w x,   S = w A w,  w_r = 1 / sqrt(largest A_ss of the rows s of the same joint and kind)
+///     x <- x + (S + e 1)^-1 (w b - S x),   lambda = w x
+///     w_r = 1 / sqrt(largest A_ss of the rows s of the same joint and kind)
 ///
-/// and for a small e repeating with what is left of b gets there. So a mechanism also passes the positions in which it gains a freedom for
-/// an instant: its rows, all of a joint measured alike, fade there. Rows that move nothing at all, as those out of the plane of a flat
-/// mechanism, have no part in it.
-class MultiplierMatrix {
+/// which is the proximal point iteration (J. Carpentier, R. Budhiraja, N. Mansard, 2021). Its first step
+/// alone is Tikhonov's solution, whose limit for e -> 0 is the minimum-norm one. A mechanism so passes
+/// positions in which it gains a freedom for an instant: there rows of a joint, all with one weight, fade
+/// together. Inactive rows, which no coordinate moves (those out of the plane of a flat mechanism), are left
+/// out.
+class DelassusMatrix {
  public:
-  explicit MultiplierMatrix(const TreeModel& model)
-      : count_(model.rows), dependent_(model.least_multipliers), acting_count_(count_), acting_(room(count_)), A_(room(count_ * count_)),
-        S_(room(dependent_ ? count_ * count_ : 0)), weight_(room(dependent_ ? count_ : 0)), block_(room(count_)), largest_(room(count_)) {
-    for (int r = 0; r < count_; ++r) acting_[room(r)] = block_[room(r)] = r;
+  explicit DelassusMatrix(const TreeModel& model)
+      : count_(model.rows),
+        redundant_(model.minimum_norm_multipliers),
+        active_count_(count_),
+        active_(count_),
+        A_(count_ * count_),
+        S_(redundant_ ? count_ * count_ : 0),
+        weight_(redundant_ ? count_ : 0),
+        block_(count_),
+        largest_(count_) {
+    for (int r = 0; r < count_; ++r) active_[r] = block_[r] = r;
     for (const TreeCutJoint& joint : model.cut_joints) {
       if (joint.first_row < 0) continue;
       for (int k = 0; k < joint.rows.count(); ++k)
-        block_[room(joint.first_row + k)] = joint.first_row + (k < joint.rows.positions ? 0 : joint.rows.positions);
+        block_[joint.first_row + k] =
+            joint.first_row + (k < joint.rows.positions ? 0 : joint.rows.positions);
     }
   }
 
-  /// Room for solve().
+  /// Workspace of solve().
   template <typename T>
-  struct Scratch {
-    explicit Scratch(const TreeModel& model) : known(room(model.rows)), rest(room(model.rows)), solution(room(model.rows)) {}
-    Buffer<T> known, rest, solution;
+  struct Workspace {
+    explicit Workspace(const TreeModel& model)
+        : rhs(model.rows), remainder(model.rows), solution(model.rows) {}
+    Buffer<T> rhs, remainder, solution;
   };
 
-  /// Where rows may depend on each other: finds out which have a part.
-  RPSUP_INLINE void start(const ConstraintEntries& entries, const std::vector<int>& free) {
-    constexpr double kIdle = 1e-10;  // of a row's entries, [m/rad] or [1]
-    acting_count_ = 0;
+  /// Of redundant constraints: finds the active rows.
+  RPSUP_INLINE void find_active_rows(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
+    constexpr double kInactive = 1e-10;  // of a row's entries, [m/rad] or [1]
+    active_count_ = 0;
     for (int r = 0; r < count_; ++r) {
       double largest = 0.0;
-      for (const int i : free) largest = std::max(largest, std::abs(entries.row(r)[i]));
-      if (largest > kIdle) acting_[room(acting_count_++)] = r;
+      for (const int i : free) largest = std::max(largest, std::abs(jacobian.row(r)[i]));
+      if (largest > kInactive) active_[active_count_++] = r;
     }
   }
 
-  /// Rows that have a part: their number, and which one the k-th of them is.
-  [[nodiscard]] RPSUP_INLINE int acting_count() const { return acting_count_; }
-  [[nodiscard]] RPSUP_INLINE int acting(int k) const { return acting_[room(k)]; }
+  /// The active rows: their number, and the k-th of them.
+  [[nodiscard]] RPSUP_INLINE int active_count() const { return active_count_; }
+  [[nodiscard]] RPSUP_INLINE int active_row(int k) const { return active_[k]; }
 
-  /// As IndependentMatrix has them, of the rows that have a part.
+  /// As those of FullRankDelassus, of the active rows.
   template <int width, typename Visit>
-  RPSUP_INLINE void each_place(const Visit& visit) const {
-    for (int place = -1; place < acting_count_; place += width) visit(place);
+  RPSUP_INLINE void for_each_pack_of_columns(const Visit& visit) const {
+    for (int column = kUnconstrained; column < active_count_; column += width) visit(column);
   }
-  RPSUP_INLINE void set(int k, int place, const Directions& entries) {
-    double numbers[Directions::kCount];
+  RPSUP_INLINE void set(int k, int column, const TangentPack& entries) {
+    double numbers[TangentPack::kCount];
     entries.store(numbers);
-    for (int l = std::max(place, 0); l < std::min(place + Directions::kCount, k + 1); ++l) entry(k, l) = numbers[l - place];
+    for (int l = std::max(column, 0); l < std::min(column + TangentPack::kCount, k + 1); ++l)
+      entry(k, l) = numbers[l - column];
   }
 
-  /// False if the matrix is singular, and no dependence is expected.
+  /// False if the matrix of constraints that should be independent is singular.
   [[nodiscard]] RPSUP_INLINE bool factor() {
-    if (dependent_) scale();
-    return factor_cholesky(acting_count_, acting_count_, dependent_ ? 0.0 : kSingularPivot, A_.data());
+    if (redundant_) regularise();
+    return factor_cholesky(active_count_, active_count_, redundant_ ? 0.0 : kSingularPivot, A_.data());
   }
 
-  /// x <- A^-1 x. @tparam T  a number, or several side by side
+  /// x <- A^-1 x, or the minimum-norm solution. @tparam T  a number, or a pack
   template <typename T>
-  RPSUP_INLINE void solve(T* x, Scratch<T>& scratch) const {
-    if (!dependent_) return solve_cholesky(count_, count_, A_.data(), x);
-    const int n = acting_count_;
-    T* known = scratch.known.data();
-    const T* solution = scratch.solution.data();
-    for (int k = 0; k < n; ++k) known[k] = weight_[room(k)] * x[acting(k)];
-    // What contradicts itself in `known`, be it a rounding, would come out times 1 / e: it is what S makes nothing of.
-    repeat_solve(scratch);
-    multiply(solution, known);
-    repeat_solve(scratch);
+  RPSUP_INLINE void solve(T* x, Workspace<T>& work) const {
+    if (!redundant_) return solve_cholesky(count_, count_, A_.data(), x);
+    const int n = active_count_;
+    T* rhs = work.rhs.data();
+    const T* solution = work.solution.data();
+    for (int k = 0; k < n; ++k) rhs[k] = weight_[k] * x[active_row(k)];
+    // (K14): S times a first solution is the projection of the right-hand side on the range of S. The part
+    // outside, if only by rounding, would be amplified by 1 / e.
+    refine_regularised(work);
+    multiply(solution, rhs);
+    refine_regularised(work);
     for (int r = 0; r < count_; ++r) x[r] = {};
-    for (int k = 0; k < n; ++k) x[acting(k)] = weight_[room(k)] * solution[k];
+    for (int k = 0; k < n; ++k) x[active_row(k)] = weight_[k] * solution[k];
   }
 
  private:
-  /// scratch.solution <- S^-1 scratch.known, by (S + e 1)^-1 again and again for what is left.
+  /// work.solution <- S^-1 work.rhs by the iteration (K13).
   template <typename T>
-  RPSUP_INLINE void repeat_solve(Scratch<T>& scratch) const {
-    constexpr int kRepeats = 3;
-    const int n = acting_count_;
-    T* rest = scratch.rest.data();
-    T* solution = scratch.solution.data();
+  RPSUP_INLINE void refine_regularised(Workspace<T>& work) const {
+    constexpr int kIterations = 3;
+    const int n = active_count_;
+    T* remainder = work.remainder.data();
+    T* solution = work.solution.data();
     for (int k = 0; k < n; ++k) {
-      rest[k] = scratch.known[room(k)];
+      remainder[k] = work.rhs[k];
       solution[k] = {};
     }
-    for (int repeat = 0; repeat <= kRepeats; ++repeat) {
-      solve_cholesky(n, n, A_.data(), rest);
-      for (int k = 0; k < n; ++k) solution[k] += rest[k];
-      if (repeat == kRepeats) break;
-      multiply(solution, rest);
-      for (int k = 0; k < n; ++k) rest[k] = scratch.known[room(k)] - rest[k];
+    for (int iteration = 0; iteration <= kIterations; ++iteration) {
+      solve_cholesky(n, n, A_.data(), remainder);
+      for (int k = 0; k < n; ++k) solution[k] += remainder[k];
+      if (iteration == kIterations) break;
+      multiply(solution, remainder);
+      for (int k = 0; k < n; ++k) remainder[k] = work.rhs[k] - remainder[k];
     }
   }
 
   /// product <- S x
   template <typename T>
   RPSUP_INLINE void multiply(const T* x, T* product) const {
-    const int n = acting_count_;
+    const int n = active_count_;
     for (int k = 0; k < n; ++k) {
       product[k] = {};
-      for (int l = 0; l < n; ++l) product[k] += S_[room(k * n + l)] * x[l];
+      for (int l = 0; l < n; ++l) product[k] += S_[k * n + l] * x[l];
     }
   }
 
-  [[nodiscard]] static std::size_t room(int n) { return static_cast<std::size_t>(n); }
-  /// Of two rows that have a part, the second no later one than the first.
-  [[nodiscard]] RPSUP_INLINE double& entry(int k, int l) { return A_[room(k * acting_count_ + l)]; }
+  /// Entry of the k-th and l-th active rows, l <= k.
+  [[nodiscard]] RPSUP_INLINE double& entry(int k, int l) { return A_[k * active_count_ + l]; }
 
-  /// A <- S + e 1, the lower triangle.
-  RPSUP_INLINE void scale() {
-    constexpr double kAdded = 1e-9;  // e
-    const int n = acting_count_;
+  /// Computes the weights and S. A <- S + e 1, the lower triangle.
+  RPSUP_INLINE void regularise() {
+    constexpr double kEpsilon = 1e-9;  // e
+    const int n = active_count_;
     largest_.fill(0.0);
     for (int k = 0; k < n; ++k) {
-      double& largest = largest_[room(block_[room(acting(k))])];
+      double& largest = largest_[block_[active_row(k)]];
       largest = std::max(largest, entry(k, k));
     }
-    for (int k = 0; k < n; ++k) weight_[room(k)] = 1.0 / std::sqrt(largest_[room(block_[room(acting(k))])]);
+    for (int k = 0; k < n; ++k)
+      weight_[k] = 1.0 / std::sqrt(largest_[block_[active_row(k)]]);
     for (int k = 0; k < n; ++k)
       for (int l = 0; l <= k; ++l) {
-        const double scaled = weight_[room(k)] * weight_[room(l)] * entry(k, l);
-        S_[room(k * n + l)] = S_[room(l * n + k)] = scaled;
-        entry(k, l) = scaled + (k == l ? kAdded : 0.0);
+        const double scaled = weight_[k] * weight_[l] * entry(k, l);
+        S_[k * n + l] = S_[l * n + k] = scaled;
+        entry(k, l) = scaled + (k == l ? kEpsilon : 0.0);
       }
   }
 
   int count_;
-  bool dependent_;
-  int acting_count_;
-  Buffer<int> acting_;
-  Buffer<double> A_;                 ///< row after row; then its factor, or that of S + e 1
+  bool redundant_;
+  int active_count_;
+  Buffer<int> active_;
+  Buffer<double> A_;                 ///< row by row; then its Cholesky factor, or that of S + e 1
   Buffer<double> S_, weight_;
-  Buffer<int> block_;                ///< of each row: the first one of its joint and kind
-  Buffer<double> largest_;           ///< diagonal entry of each block
+  Buffer<int> block_;                ///< of each row: the first row of the same joint and kind
+  Buffer<double> largest_;           ///< diagonal entry of each block of rows
 };
 
-/// Of constraints of a tree with such shapes.
-template <typename Shapes>
-struct MatrixOf {
-  using Type = MultiplierMatrix;
+/// The Delassus matrix of a topology.
+template <typename Topology>
+struct DelassusOf {
+  using Type = DelassusMatrix;
 };
-template <typename Shapes>
-  requires Shapes::known
-struct MatrixOf<Shapes> {
-  using Type = IndependentMatrix<Shapes::row_count>;
+template <typename Topology>
+  requires Topology::is_static
+struct DelassusOf<Topology> {
+  using Type = FullRankDelassus<Topology::row_count>;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

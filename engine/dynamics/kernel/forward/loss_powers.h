@@ -6,7 +6,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Work and losses by time.
+/// Dissipated powers, [W], or their tangents: of contacts along their normals, of friction, of springs'
+/// dampers.
 template <typename T>
 struct LossPowers {
   T impact{}, friction{}, structural{};

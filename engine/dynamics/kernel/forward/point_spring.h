@@ -9,32 +9,34 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A spring between two points at one instant, all in W.
+/// Force of a spring between two points, all in W.
 template <typename T>
-struct SpringPull {
+struct PointSpringForce {
   Vec3<T> from, to;   ///< its ends, [m]
   Vec3<T> force;      ///< on the second end; the opposite on the first, [N]
-  T loss{};           ///< what the damper takes, [W]
+  T loss{};           ///< power that the damper dissipates, [W]
 };
 
-/// f = -(k (L - L_0) + d L') e with e from the first end to the second one; where the ends meet, without a direction, 0. Without free
-/// length and damper that is -k L e, smooth there as well.
+/// f = -(k (L - L_0) + d L') e, with e the unit vector from the first end to the second one. Where the ends
+/// meet, e has no direction, and f = 0. Without free length and damper f = -k L e is smooth there, too.
 /// @param from_body, to_body  frames of the bodies that the ends are on
 template <typename T>
-[[nodiscard]] RPSUP_INLINE SpringPull<T> calc_spring_pull(const TreeSpring& spring, const Frame<T, T>& from_body, const Frame<T, T>& to_body) {
-  const Frame<T, T> from = place(spring.from, from_body, false);
-  const Frame<T, T> to = place(spring.to, to_body, false);
-  SpringPull<T> pull{from.p, to.p, {}, {}};
-  const Vec3<T> way = to.p - from.p;
-  const T length = sqrt(dot(way, way));
+[[nodiscard]] RPSUP_INLINE PointSpringForce<T> calc_point_spring_force(const TreeSpring& spring,
+                                                                       const Frame<T, T>& from_body,
+                                                                       const Frame<T, T>& to_body) {
+  const Frame<T, T> from = placed_frame(spring.from, from_body, false);
+  const Frame<T, T> to = placed_frame(spring.to, to_body, false);
+  PointSpringForce<T> result{from.p, to.p, {}, {}};
+  const Vec3<T> displacement = to.p - from.p;
+  const T length = sqrt(dot(displacement, displacement));
   T per_length = spring.stiffness;
   if (value_of(length) > 0.0) {
-    const T rate = dot(way, to.v - from.v) / length;
+    const T rate = dot(displacement, to.v - from.v) / length;
     per_length -= (spring.stiffness * spring.free_length - spring.damping * rate) / length;
-    pull.loss = spring.damping * (rate * rate);
+    result.loss = spring.damping * (rate * rate);
   }
-  pull.force = -per_length * way;
-  return pull;
+  result.force = -per_length * displacement;
+  return result;
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

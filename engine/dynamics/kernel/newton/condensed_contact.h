@@ -13,24 +13,29 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// The contacts of a joint in the system (shift 1 - J) x = known, with their bristles z eliminated. From the derivatives by the journal's motion y
-/// and by z, of which each pair answers itself alone,
+/// Contacts of a joint in the Newton system, with their bristles z condensed (static condensation, a Schur
+/// complement of 2 x 2 blocks): Eq. (K32). From the derivatives by the journal's tangent y and by z, of which
+/// each pair depends on itself alone,
 ///
-///     load = L y + B z,  shift z - known = D y + E z,
-///     z = (shift 1 - E)^-1 (known + D y),  load = (L + B (shift 1 - E)^-1 D) y + B (shift 1 - E)^-1 known
+///     load = L y + B z,   sigma z - b_z = D y + E z
+///     =>   z = (sigma 1 - E)^-1 (b_z + D y),   load = (L + B (sigma 1 - E)^-1 D) y + B (sigma 1 - E)^-1 b_z
 ///
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>
-class ShiftedContact {
+class CondensedContact {
  public:
   static constexpr std::size_t kJournal = 12;  ///< numbers of a journal's motion
 
-  explicit ShiftedContact(std::size_t bristles)
-      : stride_(in_row_blocks(static_cast<int>(bristles))), inverse_(2 * bristles), response_(kJournal, stride_), own_(1, stride_) {}
+  explicit CondensedContact(std::size_t bristles)
+      : stride_(in_row_blocks(static_cast<int>(bristles))),
+        inverse_(2 * bristles),
+        response_(kJournal, stride_),
+        z_(1, stride_) {}
 
-  /// @param contact  with its derivatives; it and `acting` must stay as they are
-  /// @returns false if the bristles' own matrix is singular
-  [[nodiscard]] RPSUP_INLINE bool factor(const ContactDerivative& contact, const ActingBristles& acting, const Scalar& shift) {
+  /// Condenses the bristles. @param contact, acting  must stay as they are until finish()
+  /// @returns false if sigma 1 - E is singular
+  [[nodiscard]] RPSUP_INLINE bool factor(const ContactDerivative& contact, const ActingBristles& acting,
+                                         const Scalar& shift) {
     contact_ = &contact;
     acting_ = acting;
     for (int row = 0; row < ContactRows::kCount; ++row) {
@@ -39,15 +44,15 @@ class ShiftedContact {
     }
     bool regular = true;
     for (int i = 0; i < acting.count; i += 2) {
-      const int b = acting.own[i];
-      Scalar* inverse = &inverse_[at(2 * i)];
+      const int b = acting.index[i];
+      Scalar* inverse = &inverse_[2 * i];
       regular = invert_pair(b, shift, inverse) && regular;
       const ContactRow& first = contact.rate_row(b);
       const ContactRow& second = contact.rate_row(b + 1);
       for (int k = 0; k < 2; ++k) {
         const Row response{first.by_position * inverse[2 * k] + second.by_position * inverse[2 * k + 1],
                            first.by_rate * inverse[2 * k] + second.by_rate * inverse[2 * k + 1]};
-        keep(i + k, response);
+        store_response(i + k, response);
         for (int row = 0; row < ContactRows::kCount; ++row) {
           rows_.of[row].by_position += contact.load_by_bristle(b + k)[row] * response.by_position;
           rows_.of[row].by_rate += contact.load_by_bristle(b + k)[row] * response.by_rate;
@@ -57,48 +62,51 @@ class ShiftedContact {
     return regular;
   }
 
-  /// The load that comes of what is known of the bristles. @param z  all of this joint's
-  [[nodiscard]] RPSUP_INLINE LoadVariation<Scalar> start(NumbersAt<Scalar> z) {
-    const NumbersAt<Scalar> own = own_.first();
-    Wide load{};
+  /// The load by the right-hand side b_z, with y = 0. @param z  b_z of all bristles of this joint
+  [[nodiscard]] RPSUP_INLINE LoadTangent<Scalar> start(NumbersAt<Scalar> z) {
+    const NumbersAt<Scalar> z_free = z_.first();
+    Pack8 load{};
     for (int i = 0; i < acting_.count; ++i) {
-      const int first = acting_.own[i] & ~1;
-      const Scalar* inverse = &inverse_[at(2 * i)];
+      const int first = acting_.index[i] & ~1;
+      const Scalar* inverse = &inverse_[2 * i];
       const Scalar z_i = inverse[0] * z[first] + inverse[1] * z[first + 1];
-      own.set(i, z_i);
-      load += Lanes::load(contact_->load_by_bristle(acting_.own[i])) * z_i;
+      z_free.set(i, z_i);
+      load += Lanes::load(contact_->load_by_bristle(acting_.index[i])) * z_i;
     }
     const auto number = [&](int i) RPSUP_INLINE_LAMBDA { return number_in(load, i); };
-    return {{number(0), number(1), number(2)}, {number(3), number(4), number(5)}, number(ContactRows::kImpactPower), number(ContactRows::kFrictionPower)};
+    return {{number(0), number(1), number(2)},
+            {number(3), number(4), number(5)},
+            number(ContactRows::kImpactPower),
+            number(ContactRows::kFrictionPower)};
   }
 
-  /// What comes of the journal's motion, that of the bristles with it. @tparam T  Scalar, or several of them
+  /// The load by y. @tparam T  Scalar, or a pack
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE LoadVariation<T> apply(const JournalVariation<T>& y) const {
+  [[nodiscard]] RPSUP_INLINE LoadTangent<T> apply(const JournalTangent_b<T>& y) const {
     return rows_.apply(y);
   }
 
-  /// Sets the acting bristles, after start().
-  RPSUP_INLINE void finish(const JournalVariation<Scalar>& y, NumbersAt<Scalar> z) {
-    const Scalar numbers[kJournal] = {y.turn.x, y.turn.y, y.turn.z, y.p.x, y.p.y, y.p.z, y.v.x, y.v.y, y.v.z, y.w.x, y.w.y, y.w.z};
-    const NumbersAt<Scalar> own = own_.first();
+  /// Writes the acting bristles into z, after start().
+  RPSUP_INLINE void finish(const JournalTangent_b<Scalar>& y, NumbersAt<Scalar> z) {
+    const Scalar numbers[kJournal] = {y.rotation.x, y.rotation.y, y.rotation.z, y.p.x, y.p.y, y.p.z,
+                                      y.v.x,        y.v.y,        y.v.z,        y.w.x, y.w.y, y.w.z};
+    const NumbersAt<Scalar> z_free = z_.first();
     const RowsAt<Scalar> response = response_.rows(stride_);
     for (int i = 0; i < acting_.count; i += RowLanes::kCount) {
-      auto found = own.load(i);
+      auto found = z_free.load(i);
       for (int k = 0; k < static_cast<int>(kJournal); ++k) found += numbers[k] * response.row(k).load(i);
-      own.store(i, found);
+      z_free.store(i, found);
     }
-    for (int i = 0; i < acting_.count; ++i) z.set(acting_.own[i], own[i]);
+    for (int i = 0; i < acting_.count; ++i) z.set(acting_.index[i], z_free[i]);
   }
 
  private:
-  using Wide = typename NumbersOf<Scalar>::template Block<Lanes::kCount>;
-  using Row = ContactRowOf<Wide>;
-
-  [[nodiscard]] RPSUP_INLINE static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  using Pack8 = typename NumbersOf<Scalar>::template Block<Lanes::kCount>;
+  using Row = ContactRowOf<Pack8>;
 
   RPSUP_INLINE bool invert_pair(int b, const Scalar& shift, Scalar* inverse) const {
-    const Scalar a00 = shift - Scalar{contact_->rate_by_bristle(b, b)}, a11 = shift - Scalar{contact_->rate_by_bristle(b + 1, b + 1)};
+    const Scalar a00 = shift - Scalar{contact_->rate_by_bristle(b, b)},
+                 a11 = shift - Scalar{contact_->rate_by_bristle(b + 1, b + 1)};
     const double a01 = -contact_->rate_by_bristle(b, b + 1), a10 = -contact_->rate_by_bristle(b + 1, b);
     const Scalar inverse_determinant = 1.0 / (a00 * a11 - Scalar{a01 * a10});
     inverse[0] = a11 * inverse_determinant;
@@ -108,7 +116,7 @@ class ShiftedContact {
     return is_number(size_of(inverse_determinant));
   }
 
-  RPSUP_INLINE void keep(int i, const Row& response) {
+  RPSUP_INLINE void store_response(int i, const Row& response) {
     const RowsAt<Scalar> to = response_.rows(stride_);
     for (int k = 0; k < 6; ++k) {
       to.row(k).set(i, number_in(response.by_position, k));
@@ -118,11 +126,11 @@ class ShiftedContact {
 
   const ContactDerivative* contact_ = nullptr;
   ActingBristles acting_;
-  ContactRowsOf<Wide> rows_;
-  int stride_;                    ///< room for all bristles in whole groups
-  Buffer<Scalar> inverse_;        ///< 2 x 2 for each acting pair, row after row
-  NumberRows<Scalar> response_;   ///< of the acting bristles to each number of the journal's motion, side by side
-  NumberRows<Scalar> own_;        ///< what they would be with the journal held; then what they are
+  ContactRowsOf<Pack8> rows_;
+  int stride_;                    ///< bristles, padded to whole blocks
+  Buffer<Scalar> inverse_;        ///< (sigma 1 - E)^-1: 2 x 2 for each acting pair, row by row
+  NumberRows<Scalar> response_;   ///< (sigma 1 - E)^-1 D: a row for each number of y
+  NumberRows<Scalar> z_;        ///< z with y = 0; then z
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

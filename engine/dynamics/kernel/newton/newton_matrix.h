@@ -8,22 +8,27 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// The matrix (shift 1 - J) of an implicit step, J the Jacobian of MotionSystem's state equation, with a real or a complex shift.
+/// The Newton matrix sigma 1 - J of an implicit step, J = df/dy of MotionSystem's state equation, condensed
+/// to a dense matrix of the free rates and factored. (SUNDIALS calls gamma (sigma 1 - J) M, SciML W.) The
+/// shift sigma is real or complex.
 ///
-/// Eliminating all that StateJacobian says of J leaves a matrix of the free coordinates' number to be factored. With
-/// a = (by_q, by_v, by_z) y for the accelerations, the same for the bristles' rates and those of work and loss, K = by_v + by_q / shift,
-/// and x = (q, v, z, w) as given:
+/// With the right-hand side b = (b_q, b_v, b_z, b_w), the blocks a = (by_q, by_v, by_z) of accelerations, of
+/// the bristles' rates (subscript z) and of powers (subscript w), and K = by_v + by_q / sigma, the block
+/// elimination is, Eqs. (K24) to (K27):
 ///
-///     own_z = shift 1 - by_z of the bristles' rates,   response = own_z^-1 K_z,   condensed = K + by_z response
-///     known_z = own_z^-1 (z + by_q q / shift),   known = (v, w) + by_q q / shift + by_z known_z
-///     (shift 1 - condensed_v) v = known_v,   q = (q + v) / shift,   z = known_z + response v,   w = (known_w + condensed_w v) / shift
+///     E = by_z of the bristles' rates,  response = (sigma 1 - E)^-1 K_z                              (K25)
+///     z_free = (sigma 1 - E)^-1 (b_z + by_q b_q / sigma)                                             (K25)
+///     condensed = K + by_z response,  rhs = (b_v, 0) + by_q b_q / sigma + by_z z_free                (K26)
+///     (sigma 1 - condensed_v) v = rhs_v                                                              (K26)
+///     q = (b_q + v) / sigma,  z = z_free + response v,  w = (b_w + rhs_w + condensed_w v) / sigma    (K27)
 ///
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>
-class ShiftedJacobian {
+class NewtonMatrix {
  public:
-  /// @param J  with its matrices; must outlive this, and stay as it is from factor() to the last solve_in_place()
-  explicit ShiftedJacobian(const StateJacobian& J);
+  /// @param J  with its matrices; must outlive this, and stay as it is from factor() to the last
+  /// solve_in_place()
+  explicit NewtonMatrix(const StateJacobian& J);
 
   /// Factors (shift 1 - J). False if it is singular.
   [[nodiscard]] bool factor(const Scalar& shift);
@@ -33,35 +38,37 @@ class ShiftedJacobian {
  private:
   using WideScalar = typename NumbersAt<Scalar>::WideScalar;
 
-  // Sizes: those of J, some of them as the compiler knows them.
+  // Sizes: those of J, some as compile-time constants.
   template <typename Sizes>
-  void reduce(const Sizes& size, const Scalar& shift);
+  void condense(const Sizes& size, const Scalar& shift);
   template <typename Sizes>
-  void invert_own(const Sizes& size, const Scalar& shift);
+  void invert_bristle_blocks(const Sizes& size, const Scalar& shift);
   template <typename Sizes>
-  void find_response(const Sizes& size, const Scalar& inverse_shift);
+  void calc_bristle_response(const Sizes& size, const Scalar& inverse_shift);
   template <typename Sizes>
-  [[nodiscard]] bool factor_reduced(const Sizes& size);
+  [[nodiscard]] bool factor_lu(const Sizes& size);
   template <typename Sizes>
   void solve_sized(const Sizes& size, NumbersAt<Scalar> state);
   template <typename Sizes>
-  void start_bristles(const Sizes& size, NumbersAt<Scalar> z, NumbersAt<Scalar> scaled_q);
+  void calc_free_bristles(const Sizes& size, NumbersAt<Scalar> z, NumbersAt<Scalar> scaled_q);
   template <typename Sizes>
-  void solve_reduced(const Sizes& size, NumbersAt<Scalar> known, NumbersAt<Scalar> v);
+  void solve_lu(const Sizes& size, NumbersAt<Scalar> rhs, NumbersAt<Scalar> v);
   template <typename Sizes>
-  void add_response(const Sizes& size, NumbersAt<Scalar> v);
+  void add_bristle_response(const Sizes& size, NumbersAt<Scalar> v);
 
   const StateJacobian& J_;
   Scalar inverse_shift_{};
-  NumberRows<Scalar> own_inverse_;   ///< own_z^-1 of each pair: rows as rates_by_own
-  NumberRows<Scalar> response_;      ///< of each pair's first bristle to a free rate, of its second, ...
-  NumberRows<Scalar> lower_;         ///< of the reduced matrix, a row for each column; at first all of it
-  NumberRows<Scalar> upper_;         ///< the same, each over its pivot
-  NumberRows<Scalar> condensed_w_;   ///< a row for each column
+  NumberRows<Scalar> bristle_inverse_;   ///< (sigma 1 - E)^-1 of each pair: rows as rates_by_own
+  /// rows 2 j and 2 j + 1: of the first and second bristles to the free rate j
+  NumberRows<Scalar> bristle_response_;
+  /// L, stored by columns: row(k) is column k. Before factor_lu(): the condensed matrix
+  NumberRows<Scalar> lower_;
+  NumberRows<Scalar> upper_;         ///< U, stored by columns: row(k) is column k, divided by its pivot u_kk
+  NumberRows<Scalar> condensed_w_;   ///< stored by columns
   NumberRows<Scalar> inverse_pivot_;
-  Buffer<int> order_;                ///< of the rows, as pivoting has exchanged them
-  NumberRows<Scalar> bristle_;       ///< first bristles, second ones
-  NumberRows<Scalar> scaled_q_, v_, known_;
+  Buffer<int> order_;                ///< permutation of the rows by pivoting
+  NumberRows<Scalar> bristle_;       ///< z_free, then z: a row of first bristles, one of second ones
+  NumberRows<Scalar> scaled_q_, v_, rhs_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

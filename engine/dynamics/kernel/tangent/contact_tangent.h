@@ -1,69 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "engine/clearance/contact_derivative.h"
 #include "engine/dynamics/cut_joint_motion.h"
 #include "engine/dynamics/kernel/tangent/frame_tangent.h"
 #include "engine/dynamics/newton_euler.h"
+#include "engine/math/lanes.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// How a journal's place and motion against its bearing vary, in W, as an observer sees them who turns with the bearing.
+/// Tangent of the journal's motion in the bearing, in W, corotational with the bearing. (JournalTangent_b is
+/// the same in {b}.)
 template <typename T>
-struct VariedJournal {
-  Vec3<T> turn, offset;
+struct JournalTangent_W {
+  Vec3<T> rotation, offset;  ///< of {j} in {b}; of the journal's centre from the bearing's
   Vec3<T> v, w;
 };
 
-/// How a frame varies whose origin is at r from that of f, and which moves with it: its turn, shift, v and w.
+/// Tangent of a journal's motion from those of bearing and journal, Eq. (K19).
 template <typename T>
-[[nodiscard]] RPSUP_INLINE VariedFrame<T> move_origin(VariedFrame<T> f, const Vec3<double>& r) {
-  f.shift += cross(f.turn, r);
-  f.v += cross(f.w, r);
-  return f;
-}
-
-/// @param b, j  variations of bearing and journal
-template <typename T>
-[[nodiscard]] RPSUP_INLINE VariedJournal<T> vary_journal(const CutJointMotion<double, double>& cut, const VariedFrame<T>& b,
-                                                         const VariedFrame<T>& j) {
+[[nodiscard]] RPSUP_INLINE JournalTangent_W<T> calc_journal_tangent(const CutJointMotion<double, double>& cut,
+                                                                    const FrameTangent<T>& b,
+                                                                    const FrameTangent<T>& j) {
   const Vec3<double> d = cut.j.p - cut.b.p;
-  VariedJournal<T> varied;
-  varied.turn = j.turn - b.turn;
-  varied.offset = j.shift - b.shift - cross(b.turn, d);
-  varied.w = j.w + cross(varied.turn, cut.j.w) - b.w;
-  varied.v = j.v + cross(varied.turn, cut.j.v) - b.v - cross(b.w, d) - cross(cut.b.w, varied.offset);
-  return varied;
+  JournalTangent_W<T> journal;
+  journal.rotation = j.rotation - b.rotation;
+  journal.offset = j.translation - b.translation - cross(b.rotation, d);
+  journal.w = j.w + cross(journal.rotation, cut.j.w) - b.w;
+  journal.v = j.v + cross(journal.rotation, cut.j.v) - b.v - cross(b.w, d) - cross(cut.b.w, journal.offset);
+  return journal;
 }
 
-/// In {b}. @param R  the bearing's
+/// The same quantity in {b}. @param R  of the bearing
 template <typename T>
-[[nodiscard]] RPSUP_INLINE JournalVariation<T> see_from_bearing(const Mat3<double>& R, const VariedJournal<T>& varied) {
-  return {transpose_times(R, varied.turn), transpose_times(R, varied.offset), transpose_times(R, varied.v), transpose_times(R, varied.w)};
+[[nodiscard]] RPSUP_INLINE JournalTangent_b<T> to_bearing_frame(const Mat3<double>& R,
+                                                                const JournalTangent_W<T>& journal) {
+  return {transpose_times(R, journal.rotation), transpose_times(R, journal.offset),
+          transpose_times(R, journal.v), transpose_times(R, journal.w)};
 }
 
-/// How what the bodies of bearing and journal need varies with the load of their contacts, about their origins, each seen by the observer who
-/// turns with it.
-template <typename T>
-struct VariedNeed {
-  SpatialForce<T> of_bearing, of_journal;
+/// A load on a journal as a seed.
+struct ContactLoadSeed {
+  std::size_t joint;   ///< of those with clearance
+  const double* load;  ///< force, and moment about the journal's centre, in {b}
+  double* column;      ///< of the Jacobian, for the derivatives by this load
+  TangentPack seed;    ///< one in the load's lane
 };
 
-/// @param turn, offset  of the journal, as VariedJournal has them
-/// @param load          in {b}
-/// @param bearing_arm, journal_arm  from the bodies' origins to the journal's centre
+/// Tangents of the bias forces of bearing and journal by the load of their contacts, about the origins of the
+/// bodies, each corotational with its body.
 template <typename T>
-[[nodiscard]] RPSUP_INLINE VariedNeed<T> vary_need(const CutJointMotion<double, double>& cut, const Vec3<T>& turn, const Vec3<T>& offset,
-                                                   const LoadVariation<T>& load, const Vec3<double>& bearing_arm, const Vec3<double>& journal_arm) {
+struct ContactForceTangent {
+  SpatialForce<T> on_bearing, on_journal;
+};
+
+/// Eq. (K20).
+/// @param rotation, offset  of JournalTangent_W
+/// @param load  in {b}
+/// @param bearing_offset, journal_offset  from the bodies' origins to the journal's centre
+template <typename T>
+[[nodiscard]] RPSUP_INLINE ContactForceTangent<T> calc_contact_force_tangent(
+    const CutJointMotion<double, double>& cut, const Vec3<T>& rotation, const Vec3<T>& offset,
+    const LoadTangent<T>& load, const Vec3<double>& bearing_offset, const Vec3<double>& journal_offset) {
   const Vec3<T> force = cut.b.R * load.force;
   const Vec3<T> moment = cut.b.R * load.moment;
-  const Vec3<T> own_force = force - cross(turn, cut.reaction);
-  const Vec3<T> own_moment = moment - cross(turn, cut.b.R * cut.load.moment);
-  VariedNeed<T> need;
-  need.of_bearing = {force, moment + cross(bearing_arm, force) + cross(offset, cut.reaction)};
-  need.of_journal = {-own_force, -(own_moment + cross(journal_arm, own_force))};
-  return need;
+  const Vec3<T> force_j = force - cross(rotation, cut.reaction);
+  const Vec3<T> moment_j = moment - cross(rotation, cut.b.R * cut.load.moment);
+  ContactForceTangent<T> forces;
+  forces.on_bearing = {force, moment + cross(bearing_offset, force) + cross(offset, cut.reaction)};
+  forces.on_journal = {-force_j, -(moment_j + cross(journal_offset, force_j))};
+  return forces;
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

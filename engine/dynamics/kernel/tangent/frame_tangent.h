@@ -7,86 +7,106 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// How a coordinate varies. @tparam T  a number, or one for each of several directions
+/// Tangent (dq, dqd, dqdd) of a coordinate. @tparam T  a number, or a pack: one lane a seed
 template <typename T>
-struct CoordinateVariation {
-  bool varies = false;
+struct CoordinateTangent {
+  bool active = false;  ///< not zero in all lanes
   T q{}, qd{}, qdd{};
 };
 
-/// How a frame's motion varies, w, v, wd and vd as an observer sees them who turns with the frame: R d(R^T w). For him a
-/// chain that is turned as a whole stays as it is, R with it.
+/// Corotational tangent of a frame: its rotation and translation, and the tangents of w, v, wd, vd as seen in
+/// the frame, Eq. (K16),
+///
+///     w stands for R d(R^T w) = dw - rotation x w
+///
+/// so that a chain that is rotated as a whole has no tangent but the rotation and the translation.
 template <typename T>
-struct VariedFrame {
-  Vec3<T> turn, shift;  ///< by how much the frame turns and its origin moves
+struct FrameTangent {
+  Vec3<T> rotation, translation;  ///< of the frame, and of its origin, in W
   Vec3<T> w, v, wd, vd;
 };
 
-/// From the variation of the frame of a joint's parent to that of its own.
-/// @param coordinates, varies  of the joint's first coordinate on
-/// @param own_turn  out: by how much the joint itself turns its frame
+/// Tangent of a joint's frame, Eq. (K17).
+/// @param coordinates, seed  of the joint's first coordinate on
+/// @param f               in: tangent of the parent's frame; out: of the joint's
+/// @param joint_rotation  out: rotation of the frame against the parent's
 template <typename Joint, typename T>
-RPSUP_INLINE void vary_joint_frame(const Joint& joint, const JointAxes& axes, const HeldJoint& held, const HeldCoordinate* coordinates,
-                                   const CoordinateVariation<T>* varies, VariedFrame<T>& f, Vec3<T>& own_turn) {
-  const bool slides = joint.kind == JointShape::Kind::kTranslation;
-  if (joint.parent_turns && (joint.shifted || slides)) {
+RPSUP_INLINE void calc_frame_tangent(const Joint& joint, const JointAxes& axes, const NominalJoint& nominal,
+                                     const NominalCoordinate* coordinates, const CoordinateTangent<T>* seed,
+                                     FrameTangent<T>& f, Vec3<T>& joint_rotation) {
+  const bool slides = joint.kind == JointTraits::Kind::kTranslation;
+  if (joint.parent_frame_rotates && (joint.shifted || slides)) {
     const Vec3<T> carried = cross(f.w, axes.r);
     f.v += carried;
-    f.vd += cross(f.wd, axes.r) + cross(f.w, held.w_r) + cross(held.parent_w, carried);
-    f.shift += cross(f.turn, axes.r);
+    f.vd += cross(f.wd, axes.r) + cross(f.w, nominal.w_r) + cross(nominal.parent_w, carried);
+    f.translation += cross(f.rotation, axes.r);
   }
-  own_turn = {};
-  bool turned = false;
+  joint_rotation = {};
+  bool rotated = false;
   for (int k = 0; k < joint.count(); ++k) {
     const Vec3<double>& s = axes.axis[k];
-    const HeldCoordinate& held_k = coordinates[k];
+    const NominalCoordinate& nominal_k = coordinates[k];
     if (slides) {
-      if (joint.parent_turns) f.vd += 2.0 * cross(f.w, held_k.rate);
-      if (!varies[k].varies) continue;
-      f.v += varies[k].qd * s - varies[k].q * held_k.s_w;
-      f.vd += varies[k].qdd * s - 2.0 * (varies[k].qd * held_k.s_w) - varies[k].q * held_k.s_wd;
-      f.shift += varies[k].q * s;
+      if (joint.parent_frame_rotates) f.vd += 2.0 * cross(f.w, nominal_k.rate);
+      if (!seed[k].active) continue;
+      f.v += seed[k].qd * s - seed[k].q * nominal_k.s_w;
+      f.vd += seed[k].qdd * s - 2.0 * (seed[k].qd * nominal_k.s_w) - seed[k].q * nominal_k.s_wd;
+      f.translation += seed[k].q * s;
       continue;
     }
-    if (varies[k].varies) {
-      f.w -= varies[k].q * held_k.s_w;
-      f.wd -= varies[k].q * held_k.s_wd;
+    if (seed[k].active) {
+      f.w -= seed[k].q * nominal_k.s_w;
+      f.wd -= seed[k].q * nominal_k.s_wd;
     }
-    if (joint.parent_turns || k > 0) f.wd += cross(f.w, held_k.rate);
-    if (varies[k].varies) {
-      f.wd += varies[k].qdd * s - varies[k].qd * held_k.s_w;
-      f.w += varies[k].qd * s;
-      own_turn += varies[k].q * s;
-      turned = true;
+    if (joint.parent_frame_rotates || k > 0) f.wd += cross(f.w, nominal_k.rate);
+    if (seed[k].active) {
+      f.wd += seed[k].qdd * s - seed[k].qd * nominal_k.s_w;
+      f.w += seed[k].qd * s;
+      joint_rotation += seed[k].q * s;
+      rotated = true;
     }
   }
-  if (!turned) return;
-  f.v -= cross(own_turn, held.mid_v);
-  f.vd -= cross(own_turn, held.mid_vd);
-  f.turn += own_turn;
+  if (!rotated) return;
+  f.v -= cross(joint_rotation, nominal.mid_v);
+  f.vd -= cross(joint_rotation, nominal.mid_vd);
+  f.rotation += joint_rotation;
 }
 
-/// How the force that a joint's body needs varies, seen by the observer who turns with it.
+/// Tangent of a frame that is fixed to that of f, with its origin at r from the origin of f. wd and vd are
+/// left as they are.
+template <typename T>
+[[nodiscard]] RPSUP_INLINE FrameTangent<T> shift_origin(FrameTangent<T> f, const Vec3<double>& r) {
+  f.translation += cross(f.rotation, r);
+  f.v += cross(f.w, r);
+  return f;
+}
+
+/// Corotational tangent of the Newton-Euler force of a joint's body: Eq. (K18).
 template <typename Joint, typename T>
-[[nodiscard]] RPSUP_INLINE SpatialForce<T> vary_body_force(const Joint& body, const Mat3<double>& R, const HeldJoint& held, const VariedFrame<T>& f) {
-  SpatialForce<T> varied;
-  if (body.inertia == JointShape::Inertia::kNone) return varied;
-  varied.force = body.numbers().mass * f.vd;
+[[nodiscard]] RPSUP_INLINE SpatialForce<T> calc_newton_euler_tangent(const Joint& body, const Mat3<double>& R,
+                                                                     const NominalJoint& nominal,
+                                                                     const FrameTangent<T>& f) {
+  SpatialForce<T> force;
+  if (body.inertia == JointTraits::Inertia::kNone) return force;
+  force.force = body.data().mass * f.vd;
   if (!body.com_at_origin) {
-    const Vec3<double> mc = rotate_constant(R, body.numbers().mc, body.com_along_x);
-    varied.moment = cross(mc, f.vd);
-    if (body.turns) varied.force += cross(f.wd, mc) + cross(f.w, cross(held.w, mc)) + cross(held.w, cross(f.w, mc));
+    const Vec3<double> mc = rotate_constant(R, body.data().mc, body.com_along_x);
+    force.moment = cross(mc, f.vd);
+    if (body.frame_rotates)
+      force.force += cross(f.wd, mc) + cross(f.w, cross(nominal.w, mc)) + cross(nominal.w, cross(f.w, mc));
   }
-  if (!body.turns) return varied;
-  if (body.inertia == JointShape::Inertia::kAxisymmetric) {
-    const double across = body.numbers().I[4];
-    const double more = body.numbers().I[0] - across;
+  if (!body.frame_rotates) return force;
+  if (body.inertia == JointTraits::Inertia::kAxisymmetric) {
+    const double across = body.data().I[4];
+    const double more = body.data().I[0] - across;
     const Vec3<double>& x = R.x;
-    varied.moment += across * f.wd + (more * dot(x, f.wd)) * x + (more * dot(x, held.w)) * cross(f.w, x) + (more * dot(x, f.w)) * cross(held.w, x);
+    force.moment += across * f.wd + (more * dot(x, f.wd)) * x + (more * dot(x, nominal.w)) * cross(f.w, x) +
+                    (more * dot(x, f.w)) * cross(nominal.w, x);
   } else {
-    varied.moment += apply_inertia(body, R, f.wd) + cross(f.w, apply_inertia(body, R, held.w)) + cross(held.w, apply_inertia(body, R, f.w));
+    force.moment += apply_inertia(body, R, f.wd) + cross(f.w, apply_inertia(body, R, nominal.w)) +
+                    cross(nominal.w, apply_inertia(body, R, f.w));
   }
-  return varied;
+  return force;
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -1,398 +1,297 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <cstddef>
 
 #include "engine/dynamics/kernel/forward/forward_dynamics.h"
 #include "engine/dynamics/kernel/tangent/contact_tangent.h"
 #include "engine/dynamics/kernel/tangent/frame_tangent.h"
+#include "engine/dynamics/kernel/tangent/load_tangents.h"
+#include "engine/dynamics/kernel/tangent/operating_point.h"
 #include "engine/math/dual_vec3.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// With how it varies in several directions.
-using VariedNumber = DualOf<Directions::kCount>;
-
-/// A load on a journal in one of the directions.
-struct LoadDirection {
-  std::size_t joint;   ///< of those with clearance
-  const double* load;  ///< force, and moment about the journal's centre, in {b}
-  double* effect;      ///< where the column of the outputs' derivatives by it goes
-  Directions lanes;    ///< one where it acts
-};
-
-/// How the solution of the equations of motion varies with the state, in several directions at once, exact to rounding.
+/// Linearised forward dynamics: the tangents of accelerations, drive forces, journal motions and dissipated
+/// powers by a pack of seeds, exact to rounding (forward-mode differentiation).
 ///
-/// The forces that hold the motion, R(q, qd, qdd, lambda) = M qdd + bias - tau - Phi_q^T lambda, vary with qdd and lambda held where they are;
-/// what then is missing is made up for by the accelerations: M dqdd = Phi_q^T dlambda - dR. So no matrix is ever differentiated. Where a joint
-/// turns all that it carries, the forces there turn with it, and need not be found again: see VariedFrame.
-/// Source: A. Jain, G. Rodriguez, Linearization of manipulator dynamics using spatial operators (1993).
-template <typename Shapes>
-class VariedEquations {
+/// The residual of inverse dynamics R(q, qd, qdd, lambda) = M qdd + h - tau - Phi_q^T lambda is
+/// differentiated with qdd and lambda held, and the accelerations make up for its tangent, Eq. (K15):
+///
+///     M dqdd = Phi_q^T dlambda - dR
+///
+/// so that M is not differentiated. The steps of calc_tangents(): frames (K17), Newton-Euler forces (K18),
+/// loads (K19), (K20), joint forces (K21), joint springs, M^-1 by ArticulatedBodies, multipliers (K22). All
+/// tangents are corotational, each seen in the frame of its own body, Eq. (K16): where a joint rotates a
+/// subtree, no force in it changes. Sources: A. Jain, G. Rodriguez, Linearization of manipulator dynamics
+/// using spatial operators (1993); J. Carpentier, N. Mansard, Analytical derivatives of rigid body dynamics
+/// algorithms (2018).
+/// @tparam Topology  DynamicTopology or a StaticTopology
+template <typename Topology>
+class LinearisedDynamics {
  public:
-  /// @param solved  the equations; evaluated and kept before hold()
-  VariedEquations(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles,
-                  const EquationsOfMotion<Shapes>& solved)
-      : qdd(static_cast<std::size_t>(model.coordinates)),
+  /// @param point  the operating point, of the same dynamics; must outlive this
+  LinearisedDynamics(const TreeModel& model, const ForwardDynamics<Topology>& dynamics,
+                     const OperatingPoint<Topology>& point, std::size_t joints_with_clearance)
+      : qdd(model.coordinates),
         drive_force(model.drives.size()),
-        journals(joints.size()),
+        journals(joints_with_clearance),
         model_(model),
-        joints_(joints),
-        solved_(solved),
-        held_(model.joints.size()),
-        held_coordinates_(qdd.size()),
-        acting_(joints.size()),
-        own_bristles_(bristles),
+        dynamics_(dynamics),
+        point_(point),
         frames_(model.joints.size()),
-        own_turns_(model.joints.size()),
-        still_(model.joints.size()),
-        scratch_(model),
-        needed_(Shapes::have_rows ? model.joints.size() : 0),
+        joint_rotations_(model.joints.size()),
+        inactive_(model.joints.size()),
+        work_(model),
+        unconstrained_forces_(Topology::has_constraints ? model.joints.size() : 0),
         tau_(qdd.size()),
-        lambda_(static_cast<std::size_t>(model.rows)),
-        multiplier_scratch_(model) {
-    ground_.vd = {-model.gravity[0], -model.gravity[1], -model.gravity[2]};
-    for (const ClearanceJoint& joint : joints)
-      contacts_.push_back(std::make_unique<ContactDerivative>(static_cast<std::size_t>(joint.bristle_count())));
-  }
+        lambda_(model.rows),
+        constraint_work_(model) {}
 
-  /// Takes up the solution: what all directions share. Like differentiate() much code, which two functions call: not inlined into both.
-  /// @param acting  the bristles that touch or are bent, in pairs and in their order
-  [[gnu::noinline]] void hold(const double* bristles, const int* acting, int acting_count) {
-    find_acting(acting, acting_count);
-    hold_motion();
-    hold_loads(bristles);
-    Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      if (joint.parent < 0) return;
-      const SpatialForce<double>& force = held_[i].force;
-      SpatialForce<double>& parent = held_[static_cast<std::size_t>(joint.parent)].force;
-      parent.force += force.force;
-      parent.moment += force.moment + cross(solved_.axes[i].r, force.force);
-    });
-  }
-
-  /// @param coordinates  one a coordinate; qdd of driven ones only
-  /// @param time         lane in which time varies, the drives' coordinates with it
-  [[gnu::noinline]] void differentiate(const CoordinateVariation<Directions>* coordinates, const LoadDirection* loads, int load_count,
-                                       const Directions& time, const DrivenMotion* drives) {
-    coordinates_ = coordinates;
-    loads_ = loads;
+  /// Computes the tangents by a pack of seeds. Much code with two callers: not inlined into both.
+  /// @param coordinates  seeds, one a coordinate; qdd of driven ones only
+  /// @param time         one in the lane of time, in which the drives' coordinates have seeds, too
+  [[gnu::noinline]] void calc_tangents(const CoordinateTangent<TangentPack>* coordinates,
+                                       const ContactLoadSeed* loads, int load_count, const TangentPack& time,
+                                       const DrivenMotion* drives) {
+    seeds_ = coordinates;
+    load_seeds_ = loads;
     load_count_ = load_count;
-    vary_frames();
-    vary_loads();
-    carry_forces();
-    vary_applied_forces();
-    if constexpr (Shapes::have_rows)
-      for (std::size_t i = 0; i < needed_.size(); ++i) needed_[i] = scratch_.forces[i];
+    calc_frame_tangents();
+    calc_load_tangents();
+    rotate_joint_forces();
+    add_joint_spring_tangents<Topology>(model_, seeds_, tau_.data());
+    if constexpr (Topology::has_constraints)
+      for (std::size_t i = 0; i < unconstrained_forces_.size(); ++i)
+        unconstrained_forces_[i] = work_.bias_forces[i];
     solve();
-    if constexpr (Shapes::have_rows)
-      if (model_.rows > 0) vary_multipliers(time, drives);
-    vary_drive_forces();
-    vary_losses();
+    if constexpr (Topology::has_constraints)
+      if (model_.rows > 0) calc_multiplier_tangents(time, drives);
+    calc_drive_force_tangents();
+    calc_loss_tangents();
   }
-
-  // Of the solution taken up, for others
-  [[nodiscard]] const HeldJoint* held() const { return held_.data(); }
-  [[nodiscard]] const HeldCoordinate* held_coordinates() const { return held_coordinates_.data(); }
-  [[nodiscard]] const std::unique_ptr<ContactDerivative>* contacts() const { return contacts_.data(); }
-  [[nodiscard]] const ActingBristles* acting() const { return acting_.data(); }
 
   // Out
-  Buffer<Directions> qdd;                         ///< of free coordinates
-  Buffer<Directions> drive_force;
-  Buffer<JournalVariation<Directions>> journals;  ///< of each joint with clearance
-  LossPowers<Directions> losses;
+  Buffer<TangentPack> qdd;  ///< of free coordinates
+  Buffer<TangentPack> drive_force;
+  Buffer<JournalTangent_b<TangentPack>> journals;  ///< of each joint with clearance
+  LossPowers<TangentPack> losses;
 
  private:
-  /// Sorts the acting bristles by joints.
-  RPSUP_INLINE void find_acting(const int* acting, int count) {
-    int first = 0, next = 0;
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const int end = first + joints_[k].bristle_count();
-      ActingBristles& own = acting_[k];
-      own = {first, own_bristles_.data() + next, 0};
-      for (; next < count && acting[next] < end; ++next, ++own.count) own_bristles_[static_cast<std::size_t>(next)] = acting[next] - first;
-      first = end;
-    }
-  }
-
-  RPSUP_INLINE void hold_motion() {
-    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      const auto first = static_cast<std::size_t>(joint.first);
-      const HeldJoint& parent = joint.parent < 0 ? ground_ : held_[static_cast<std::size_t>(joint.parent)];
-      hold_joint(joint, parent, solved_.axes[i], &solved_.qd[first], &solved_.qdd[first], &held_coordinates_[first], held_[i]);
-      hold_force(joint, solved_.frames[i].R, held_[i]);
-    });
-  }
-
-  RPSUP_INLINE void hold_loads(const double* bristles) {
-    for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
-      const TreeCutJoint& joint = model_.cut_joints[k];
-      const CutJointMotion<double, double>& cut = solved_.cuts[k];
-      if (!joint.has_clearance()) {
-        hold_load(joint.journal_joint, cut.j.p, cut.reaction, cut.moment);
-        hold_load(joint.bearing_joint, bearing_point(joint.rows, cut.b, cut.j), -cut.reaction, -cut.moment);
-        continue;
-      }
-      const auto own = static_cast<std::size_t>(joint.clearance);
-      contacts_[own]->calc(joints_[own], cut.journal, bristles, acting_[own]);
-      hold_load(joint.journal_joint, cut.j.p, cut.reaction, cut.moment);
-      hold_load(joint.bearing_joint, cut.j.p, -cut.reaction, -cut.moment);
-    }
-    if constexpr (Shapes::have_springs) hold_springs();
-  }
-
-  RPSUP_INLINE void hold_springs() {
-    for (std::size_t k = 0; k < model_.springs.size(); ++k) {
-      const SpringPull<double>& pull = solved_.pulls[k];
-      hold_load(model_.springs[k].to_joint, pull.to, pull.force, {});
-      hold_load(model_.springs[k].from_joint, pull.from, -pull.force, {});
-    }
-  }
-
-  /// A force at p, with a moment about it, on a joint's body.
-  RPSUP_INLINE void hold_load(int joint, const Vec3<double>& p, const Vec3<double>& force, const Vec3<double>& moment) {
-    if (joint < 0) return;
-    SpatialForce<double>& needed = held_[static_cast<std::size_t>(joint)].force;
-    needed.force -= force;
-    needed.moment -= moment + cross(p - solved_.frames[static_cast<std::size_t>(joint)].p, force);
-  }
-
-  RPSUP_INLINE void vary_frames() {
-    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      const auto first = static_cast<std::size_t>(joint.first);
-      const bool parent_still = joint.parent < 0 || still_[static_cast<std::size_t>(joint.parent)];
-      bool still = parent_still;
-      for (int k = 0; k < joint.count(); ++k) still = still && !coordinates_[joint.first + k].varies;
-      still_[i] = still;
-      if (still) {
-        scratch_.forces[i] = {};
+  RPSUP_INLINE void calc_frame_tangents() {
+    Topology::base_to_tip(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      const int first = joint.first;
+      const bool parent_inactive = joint.parent < 0 || inactive_[joint.parent];
+      bool inactive = parent_inactive;
+      for (int k = 0; k < joint.count(); ++k) inactive = inactive && !seeds_[joint.first + k].active;
+      inactive_[i] = inactive;
+      if (inactive) {
+        work_.bias_forces[i] = {};
         return;
       }
-      VariedFrame<Directions> f;
-      if (!parent_still) f = frames_[static_cast<std::size_t>(joint.parent)];
-      vary_joint_frame(joint, solved_.axes[i], held_[i], &held_coordinates_[first], coordinates_ + joint.first, f, own_turns_[i]);
-      scratch_.forces[i] = vary_body_force(joint, solved_.frames[i].R, held_[i], f);
+      FrameTangent<TangentPack> f;
+      if (!parent_inactive) f = frames_[joint.parent];
+      calc_frame_tangent(joint, dynamics_.axes[i], point_.nominal[i], &point_.coordinates[first],
+                         seeds_ + joint.first, f, joint_rotations_[i]);
+      work_.bias_forces[i] = calc_newton_euler_tangent(joint, dynamics_.frames[i].R, point_.nominal[i], f);
       frames_[i] = f;
     });
   }
 
-  [[nodiscard]] RPSUP_INLINE bool is_still(int joint) const { return joint < 0 || still_[static_cast<std::size_t>(joint)]; }
+  [[nodiscard]] RPSUP_INLINE bool is_inactive(int joint) const { return joint < 0 || inactive_[joint]; }
 
-  /// How the frame of a joint's body varies, with the origin at p.
-  [[nodiscard]] RPSUP_INLINE VariedFrame<Directions> see_at(int joint, const Vec3<double>& p) const {
-    if (is_still(joint)) return {};
-    return move_origin(frames_[static_cast<std::size_t>(joint)], arm_of(joint, p));
+  /// Tangent of the frame of a joint's body, with its origin at p.
+  [[nodiscard]] RPSUP_INLINE FrameTangent<TangentPack> tangent_at_point(int joint,
+                                                                        const Vec3<double>& p) const {
+    if (is_inactive(joint)) return {};
+    return shift_origin(frames_[joint], offset_from_origin(joint, p));
   }
 
-  RPSUP_INLINE void vary_loads() {
+  RPSUP_INLINE void calc_load_tangents() {
     losses = {};
     for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
       if (!joint.has_clearance()) {
-        if constexpr (Shapes::have_rows) vary_reaction(joint);
+        if constexpr (Topology::has_constraints) calc_reaction_tangent(joint);
         continue;
       }
-      vary_contact(joint, solved_.cuts[k]);
+      calc_contact_tangent(joint, dynamics_.cuts[k]);
     }
-    if constexpr (Shapes::have_springs)
-      for (const TreeSpring& spring : model_.springs) vary_spring(spring);
+    if constexpr (Topology::has_point_springs)
+      for (const TreeSpring& spring : model_.springs) calc_point_spring_tangent(spring);
   }
 
-  RPSUP_INLINE void vary_spring(const TreeSpring& spring) {
-    if (is_still(spring.from_joint) && is_still(spring.to_joint)) return;
-    const SpringPull<VariedNumber> pull = calc_spring_pull(spring, see_at_rest(spring.from_joint), see_at_rest(spring.to_joint));
-    vary_load(spring.to_joint, pull.to, pull.force, {});
-    vary_load(spring.from_joint, pull.from, -pull.force, {});
-    losses.structural += pull.loss.d;
+  RPSUP_INLINE void calc_point_spring_tangent(const TreeSpring& spring) {
+    if (is_inactive(spring.from_joint) && is_inactive(spring.to_joint)) return;
+    const PointSpringForce<TangentDual> spring_force =
+        calc_point_spring_force(spring, inertial_frame(spring.from_joint), inertial_frame(spring.to_joint));
+    add_load_tangent(spring.to_joint, spring_force.to, spring_force.force, {});
+    add_load_tangent(spring.from_joint, spring_force.from, -spring_force.force, {});
+    losses.structural += spring_force.loss.d;
   }
 
-  /// All in W as an observer sees it who turns with the bearing, until the journal's own is needed.
-  RPSUP_INLINE void vary_contact(const TreeCutJoint& joint, const CutJointMotion<double, double>& cut) {
-    const ContactDerivative& contact = *contacts_[static_cast<std::size_t>(joint.clearance)];
-    JournalVariation<Directions>& varies = journals[static_cast<std::size_t>(joint.clearance)];
-    LoadVariation<Directions> load;
-    VariedJournal<Directions> journal;
-    if (is_still(joint.bearing_joint) && is_still(joint.journal_joint)) {
-      varies = {};
+  /// Corotational with the bearing, in W, up to the forces on the two bodies.
+  RPSUP_INLINE void calc_contact_tangent(const TreeCutJoint& joint,
+                                         const CutJointMotion<double, double>& cut) {
+    const ContactDerivative& contact = *point_.contacts[joint.clearance];
+    JournalTangent_b<TangentPack>& journal_b = journals[joint.clearance];
+    LoadTangent<TangentPack> load;
+    JournalTangent_W<TangentPack> journal;
+    if (is_inactive(joint.bearing_joint) && is_inactive(joint.journal_joint)) {
+      journal_b = {};
     } else {
-      journal = vary_journal(cut, see_at(joint.bearing_joint, cut.b.p), see_at(joint.journal_joint, cut.j.p));
-      varies = see_from_bearing(cut.b.R, journal);
-      load = contact.apply(varies);
+      journal = calc_journal_tangent(cut, tangent_at_point(joint.bearing_joint, cut.b.p),
+                                     tangent_at_point(joint.journal_joint, cut.j.p));
+      journal_b = to_bearing_frame(cut.b.R, journal);
+      load = contact.apply(journal_b);
     }
     for (int i = 0; i < load_count_; ++i)
-      if (loads_[i].joint == static_cast<std::size_t>(joint.clearance)) add_load(loads_[i], load);
+      if (load_seeds_[i].joint == static_cast<std::size_t>(joint.clearance))
+        add_load_seed(load_seeds_[i], load);
     losses.impact += load.impact_power;
     losses.friction += load.friction_power;
-    const VariedNeed<Directions> need =
-        vary_need(cut, journal.turn, journal.offset, load, arm_of(joint.bearing_joint, cut.j.p), arm_of(joint.journal_joint, cut.j.p));
-    if (joint.bearing_joint >= 0) scratch_.forces[static_cast<std::size_t>(joint.bearing_joint)] += need.of_bearing;
-    if (joint.journal_joint >= 0) scratch_.forces[static_cast<std::size_t>(joint.journal_joint)] += need.of_journal;
+    const ContactForceTangent<TangentPack> forces = calc_contact_force_tangent(
+        cut, journal.rotation, journal.offset, load, offset_from_origin(joint.bearing_joint, cut.j.p),
+        offset_from_origin(joint.journal_joint, cut.j.p));
+    if (joint.bearing_joint >= 0) work_.bias_forces[joint.bearing_joint] += forces.on_bearing;
+    if (joint.journal_joint >= 0) work_.bias_forces[joint.journal_joint] += forces.on_journal;
   }
 
-  RPSUP_INLINE static void add_load(const LoadDirection& of, LoadVariation<Directions>& load) {
-    load.force += Vec3<Directions>{of.load[0] * of.lanes, of.load[1] * of.lanes, of.load[2] * of.lanes};
-    load.moment += Vec3<Directions>{of.load[3] * of.lanes, of.load[4] * of.lanes, of.load[5] * of.lanes};
+  RPSUP_INLINE static void add_load_seed(const ContactLoadSeed& of, LoadTangent<TangentPack>& load) {
+    load.force += Vec3<TangentPack>{of.load[0] * of.seed, of.load[1] * of.seed, of.load[2] * of.seed};
+    load.moment += Vec3<TangentPack>{of.load[3] * of.seed, of.load[4] * of.seed, of.load[5] * of.seed};
   }
 
   /// From the origin of a joint's body to p.
-  [[nodiscard]] RPSUP_INLINE Vec3<double> arm_of(int joint, const Vec3<double>& p) const {
+  [[nodiscard]] RPSUP_INLINE Vec3<double> offset_from_origin(int joint, const Vec3<double>& p) const {
     if (joint < 0) return p;
-    return p - solved_.frames[static_cast<std::size_t>(joint)].p;
+    return p - dynamics_.frames[joint].p;
   }
 
-  /// What an ideal joint exerts with its multipliers held, and what its rows lack then.
-  RPSUP_INLINE void vary_reaction(const TreeCutJoint& joint) {
-    const Frame<VariedNumber, VariedNumber> b = place(joint.bearing, see_at_rest(joint.bearing_joint), true);
-    const Frame<VariedNumber, VariedNumber> j = place(joint.journal, see_at_rest(joint.journal_joint), true);
-    const JointViolation<VariedNumber, VariedNumber> violation = calc_joint_violation(joint.rows, b, j);
-    const auto first = static_cast<std::size_t>(joint.first_row);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(joint.rows.count()); ++r)
-      lambda_[first + r] =
-          -(violation.Phi_dd[r].d + 2.0 * model_.alpha * violation.Phi_d[r].d + (model_.beta * model_.beta) * violation.Phi[r].d);
-    const JointReaction<VariedNumber> reaction = calc_joint_reaction(joint.rows, violation, b.R, solved_.loops.lambda.data() + first);
-    vary_load(joint.journal_joint, j.p, reaction.force, reaction.moment);
-    vary_load(joint.bearing_joint, bearing_point(joint.rows, b, j), -reaction.force, -reaction.moment);
+  /// Tangents of an ideal joint's reaction, with the multipliers held, and of the right-hand side of its
+  /// rows.
+  RPSUP_INLINE void calc_reaction_tangent(const TreeCutJoint& joint) {
+    const Frame<TangentDual, TangentDual> b =
+        placed_frame(joint.bearing, inertial_frame(joint.bearing_joint), true);
+    const Frame<TangentDual, TangentDual> j =
+        placed_frame(joint.journal, inertial_frame(joint.journal_joint), true);
+    const JointResidual<TangentDual, TangentDual> residual = calc_joint_residual(joint.rows, b, j);
+    const int first = joint.first_row;
+    for (int r = 0; r < joint.rows.count(); ++r)
+      lambda_[first + r] = -(residual.Phi_dd[r].d + 2.0 * model_.alpha * residual.Phi_d[r].d +
+                             (model_.beta * model_.beta) * residual.Phi[r].d);
+    const JointReaction<TangentDual> reaction =
+        calc_joint_reaction(joint.rows, residual, b.R, dynamics_.constraints.lambda.data() + first);
+    add_load_tangent(joint.journal_joint, j.p, reaction.force, reaction.moment);
+    add_load_tangent(joint.bearing_joint, bearing_point(joint.rows, b, j), -reaction.force, -reaction.moment);
   }
 
-  /// The frame of a joint's body, with all accelerations, as an observer at rest sees it.
-  [[nodiscard]] RPSUP_INLINE Frame<VariedNumber, VariedNumber> see_at_rest(int joint) const {
-    const VariedFrame<Directions>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
-    const HeldJoint& held = joint < 0 ? ground_ : held_[static_cast<std::size_t>(joint)];
-    const Frame<double, double>& stands = joint < 0 ? solved_.ground() : solved_.frames[static_cast<std::size_t>(joint)];
-    const auto turned = [&](const Vec3<double>& v) RPSUP_INLINE_LAMBDA { return join(v, cross(f.turn, v)); };
-    const auto turned_too = [&](const Vec3<double>& v, const Vec3<Directions>& own) RPSUP_INLINE_LAMBDA { return join(v, own + cross(f.turn, v)); };
-    return {{turned(stands.R.x), turned(stands.R.y), turned(stands.R.z)}, join(stands.p, f.shift), turned_too(held.w, f.w), turned_too(held.v, f.v),
-            turned_too(held.wd, f.wd), turned_too(held.vd, f.vd)};
+  [[nodiscard]] RPSUP_INLINE const FrameTangent<TangentPack>& tangent_of(int joint) const {
+    return is_inactive(joint) ? zero_tangent_ : frames_[joint];
+  }
+  [[nodiscard]] RPSUP_INLINE Frame<TangentDual, TangentDual> inertial_frame(int joint) const {
+    return add_inertial_tangent(joint < 0 ? dynamics_.ground() : dynamics_.frames[joint],
+                                joint < 0 ? point_.ground : point_.nominal[joint], tangent_of(joint));
   }
 
-  /// A force at p, with a moment about it, as an observer at rest sees them, on a joint's body.
-  RPSUP_INLINE void vary_load(int joint, const Vec3<VariedNumber>& p, const Vec3<VariedNumber>& force, const Vec3<VariedNumber>& moment) {
+  /// Subtracts the load on a joint's body of a force at p, with a moment about p, given with inertial
+  /// tangents.
+  RPSUP_INLINE void add_load_tangent(int joint, const Vec3<TangentDual>& p, const Vec3<TangentDual>& force,
+                                     const Vec3<TangentDual>& moment) {
     if (joint < 0) return;
-    const VariedFrame<Directions>& f = is_still(joint) ? at_rest_ : frames_[static_cast<std::size_t>(joint)];
-    const Vec3<VariedNumber> origin = join(solved_.frames[static_cast<std::size_t>(joint)].p, f.shift);
-    const Vec3<VariedNumber> about_origin = moment + cross(p - origin, force);
-    scratch_.forces[static_cast<std::size_t>(joint)].force -= derivatives_of(force) - cross(f.turn, values_of(force));
-    scratch_.forces[static_cast<std::size_t>(joint)].moment -= derivatives_of(about_origin) - cross(f.turn, values_of(about_origin));
+    const FrameTangent<TangentPack>& f = tangent_of(joint);
+    const Vec3<TangentDual> origin = join(dynamics_.frames[joint].p, f.translation);
+    const Vec3<TangentDual> about_origin = moment + cross(p - origin, force);
+    work_.bias_forces[joint].force -= derivatives_of(force) - cross(f.rotation, values_of(force));
+    work_.bias_forces[joint].moment -=
+        derivatives_of(about_origin) - cross(f.rotation, values_of(about_origin));
   }
 
-  /// What the joints transmit turns with them.
-  RPSUP_INLINE void carry_forces() {
+  /// The force that a joint transmits rotates, or is shifted, with the joint: Eq. (K21).
+  RPSUP_INLINE void rotate_joint_forces() {
     tau_.fill({});
-    Shapes::inwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      const CoordinateVariation<Directions>* varies = coordinates_ + joint.first;
-      bool own = false;
-      for (int k = 0; k < joint.count(); ++k) own = own || varies[k].varies;
-      if (!own) return;
-      const SpatialForce<double>& held = held_[i].force;
-      const JointAxes& axes = solved_.axes[i];
-      if (joint.kind == JointShape::Kind::kTranslation) {
-        if (joint.parent >= 0) scratch_.forces[static_cast<std::size_t>(joint.parent)].moment += varies[0].q * cross(axes.axis[0], held.force);
+    Topology::tip_to_base(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      const CoordinateTangent<TangentPack>* seed = seeds_ + joint.first;
+      bool active = false;
+      for (int k = 0; k < joint.count(); ++k) active = active || seed[k].active;
+      if (!active) return;
+      const SpatialForce<double>& nominal = point_.nominal[i].force;
+      const JointAxes& axes = dynamics_.axes[i];
+      if (joint.kind == JointTraits::Kind::kTranslation) {
+        if (joint.parent >= 0)
+          work_.bias_forces[joint.parent].moment += seed[0].q * cross(axes.axis[0], nominal.force);
         return;
       }
-      scratch_.forces[i].force += cross(own_turns_[i], held.force);
-      scratch_.forces[i].moment += cross(own_turns_[i], held.moment);
-      Directions* tau = &tau_[static_cast<std::size_t>(joint.first)];
-      for (int k = 1; k < joint.count(); ++k)  // but an axis turns with those before it
-        for (int m = 0; m < k; ++m) tau[k] += dot(axes.axis[k], cross(axes.axis[m], held.moment)) * varies[m].q;
-    });
-  }
-
-  RPSUP_INLINE void vary_applied_forces() {
-    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
-      if (!joint.sprung) return;
-      const auto first = static_cast<std::size_t>(joint.first);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k) {
-        const CoordinateVariation<Directions>& coordinate = coordinates_[first + k];
-        if (coordinate.varies) tau_[first + k] -= joint.numbers().stiffness[k] * coordinate.q + joint.numbers().damping[k] * coordinate.qd;
-      }
+      work_.bias_forces[i].force += cross(joint_rotations_[i], nominal.force);
+      work_.bias_forces[i].moment += cross(joint_rotations_[i], nominal.moment);
+      TangentPack* tau = &tau_[joint.first];
+      for (int k = 1; k < joint.count(); ++k)  // each axis rotates with those before it
+        for (int m = 0; m < k; ++m)
+          tau[k] += dot(axes.axis[k], cross(axes.axis[m], nominal.moment)) * seed[m].q;
     });
   }
 
   RPSUP_INLINE void solve() {
-    solved_.bodies.solve_lanes(solved_.axes.data(), tau_.data(), scratch_, qdd.data());
+    dynamics_.bodies.solve_pack(dynamics_.axes.data(), tau_.data(), work_, qdd.data());
   }
 
-  RPSUP_INLINE void vary_multipliers(const Directions& time, const DrivenMotion* drives) {
-    if constexpr (!Shapes::known) {
-      vary_coupling_rows();
-      if (model_.drive_rows) vary_drive_rows(time, drives);
+  RPSUP_INLINE void calc_multiplier_tangents(const TangentPack& time, const DrivenMotion* drives) {
+    if constexpr (!Topology::is_static) {
+      calc_coupling_tangents(model_, seeds_, lambda_.data());
+      calc_drive_row_tangents(model_, seeds_, time, drives, lambda_.data());
     }
-    solved_.loops.find_multipliers(scratch_.accelerations.data(), qdd.data(), lambda_.data(), multiplier_scratch_);
-    for (std::size_t i = 0; i < needed_.size(); ++i) scratch_.forces[i] = needed_[i];
-    solved_.loops.add_reactions(lambda_.data(), scratch_.forces.data(), tau_.data());
+    dynamics_.constraints.solve_for_multipliers(work_.accelerations.data(), qdd.data(), lambda_.data(),
+                                                constraint_work_);
+    for (std::size_t i = 0; i < unconstrained_forces_.size(); ++i)
+      work_.bias_forces[i] = unconstrained_forces_[i];
+    dynamics_.constraints.add_reactions(lambda_.data(), work_.bias_forces.data(), tau_.data());
     solve();
   }
 
-  RPSUP_INLINE void vary_coupling_rows() {
-    for (std::size_t k = 0; k < model_.couplings.size(); ++k) {
-      const Coupling& coupling = model_.couplings[k];
-      const CoordinateVariation<Directions>& a = coordinates_[coupling.coordinate];
-      const CoordinateVariation<Directions>& b = coordinates_[coupling.follows];
-      lambda_[static_cast<std::size_t>(model_.first_coupling_row) + k] = -(a.qdd - coupling.ratio * b.qdd) -
-                                                                         2.0 * model_.alpha * (a.qd - coupling.ratio * b.qd) -
-                                                                         (model_.beta * model_.beta) * (a.q - coupling.ratio * b.q);
-    }
-  }
-
-  /// The drives' motion varies in time, and by nothing else.
-  RPSUP_INLINE void vary_drive_rows(const Directions& time, const DrivenMotion* drives) {
-    for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      const CoordinateVariation<Directions>& varies = coordinates_[model_.drives[k]];
-      lambda_[static_cast<std::size_t>(model_.first_drive_row) + k] = drives[k].qddd * time -
-                                                                      2.0 * model_.alpha * (varies.qd - drives[k].qdd * time) -
-                                                                      (model_.beta * model_.beta) * (varies.q - drives[k].qd * time);
-    }
-  }
-
-  /// See EquationsOfMotion::calc_drive_forces().
-  RPSUP_INLINE void vary_drive_forces() {
+  /// See ForwardDynamics::calc_drive_forces().
+  RPSUP_INLINE void calc_drive_force_tangents() {
     if (model_.drive_rows) {
-      for (std::size_t k = 0; k < drive_force.size(); ++k) drive_force[k] = lambda_[static_cast<std::size_t>(model_.first_drive_row) + k];
+      for (std::size_t k = 0; k < drive_force.size(); ++k)
+        drive_force[k] = lambda_[model_.first_drive_row + k];
       return;
     }
-    Shapes::outwards(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+    Topology::base_to_tip(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.driven) return;
-      const Directions force = solved_.bodies.calc_drive_force(joint, i, solved_.axes[i], scratch_);
-      drive_force[static_cast<std::size_t>(joint.drive)] = force - tau_[static_cast<std::size_t>(joint.first)];
+      const TangentPack force = dynamics_.bodies.calc_drive_force(joint, i, dynamics_.axes[i], work_);
+      drive_force[joint.drive] = force - tau_[joint.first];
     });
   }
 
-  RPSUP_INLINE void vary_losses() {
-    Shapes::outwards(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+  RPSUP_INLINE void calc_loss_tangents() {
+    Topology::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.sprung) return;
-      const auto first = static_cast<std::size_t>(joint.first);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(joint.count()); ++k)
-        if (coordinates_[first + k].varies)
-          losses.structural += (2.0 * joint.numbers().damping[k] * solved_.qd[first + k]) * coordinates_[first + k].qd;
+      const int first = joint.first;
+      for (int k = 0; k < joint.count(); ++k)
+        if (seeds_[first + k].active)
+          losses.structural +=
+              (2.0 * joint.data().damping[k] * dynamics_.qd[first + k]) * seeds_[first + k].qd;
     });
   }
 
   const TreeModel& model_;
-  const std::vector<ClearanceJoint>& joints_;
-  const EquationsOfMotion<Shapes>& solved_;
-  // Of the solution
-  HeldJoint ground_;
-  Buffer<HeldJoint> held_;
-  Buffer<HeldCoordinate> held_coordinates_;
-  std::vector<std::unique_ptr<ContactDerivative>> contacts_;
-  Buffer<ActingBristles> acting_;           ///< of each joint with clearance
-  Buffer<int> own_bristles_;                ///< theirs
-  // Of the directions at hand
-  const CoordinateVariation<Directions>* coordinates_ = nullptr;
-  const LoadDirection* loads_ = nullptr;
+  const ForwardDynamics<Topology>& dynamics_;
+  const OperatingPoint<Topology>& point_;
+  // The seeds of calc_tangents()
+  const CoordinateTangent<TangentPack>* seeds_ = nullptr;
+  const ContactLoadSeed* load_seeds_ = nullptr;
   int load_count_ = 0;
-  const VariedFrame<Directions> at_rest_{};
-  Buffer<VariedFrame<Directions>> frames_;
-  Buffer<Vec3<Directions>> own_turns_;       ///< of each joint against its parent
-  Buffer<bool> still_;                       ///< joints that no direction moves: their frames are not set
-  typename ArticulatedBodies<Shapes>::template Scratch<Directions> scratch_;  ///< its forces: how what each joint's body needs varies
-  Buffer<SpatialForce<Directions>> needed_;  ///< the same, where it is solved for twice
-  Buffer<Directions> tau_;
-  Buffer<Directions> lambda_;                ///< variation of the multipliers; before that, of what their rows lack
-  typename EquationsOfMotion<Shapes>::Loops::template Scratch<Directions> multiplier_scratch_;
+  const FrameTangent<TangentPack> zero_tangent_{};
+  Buffer<FrameTangent<TangentPack>> frames_;
+  Buffer<Vec3<TangentPack>> joint_rotations_;  ///< of each joint's frame against the parent's
+  Buffer<bool> inactive_;  ///< joints that no seed of the pack moves: their frames are not set
+  /// its bias forces: tangents of R, body by body
+  typename ArticulatedBodies<Topology>::template Workspace<TangentPack> work_;
+  /// copy of those bias forces, for the second solution with multipliers
+  Buffer<SpatialForce<TangentPack>> unconstrained_forces_;
+  Buffer<TangentPack> tau_;
+  Buffer<TangentPack> lambda_;  ///< in: tangents of the rows' right-hand sides; out: of the multipliers
+  typename ForwardDynamics<Topology>::Constraints::template Workspace<TangentPack> constraint_work_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "engine/dynamics/kernel/tangent/linearised_dynamics.h"
+#include "engine/dynamics/kernel/tangent/contact_tangent.h"
+#include "engine/dynamics/kernel/tangent/frame_tangent.h"
 #include "engine/dynamics/kernel/tangent/state_jacobian.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/buffer.h"
@@ -14,144 +15,164 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Which directions are taken together, as a group: time and the coordinates and rates of one or a few joints, so that in most groups most of the
-/// mechanism stands still; in the last ones loads on journals. And where what comes of each of them goes.
-class DirectionPlan {
+/// The seeds of forward-mode differentiation, packed into chunks of as many as a TangentPack has lanes (chunk
+/// mode, as in ForwardDiff.jl), and the column of the Jacobian that each fills. A seed is time, a free
+/// coordinate, its rate, or a load on a journal. The coordinates of a joint share a chunk, and so do their
+/// rates: in most chunks most of the mechanism does not move, and is left out.
+class SeedSchedule {
  public:
-  /// @param most_loads  of any start()
-  /// @param stride      of the columns that outputs go to
-  DirectionPlan(const TreeModel& model, std::size_t most_loads, std::size_t stride)
+  /// @param max_loads  upper bound of the loads of start()
+  /// @param stride     length of a column
+  SeedSchedule(const TreeModel& model, std::size_t max_loads, std::size_t stride)
       : model_(model),
-        n_(static_cast<std::size_t>(model.coordinates)),
+        n_(model.coordinates),
         column_of_q_(model.free.size()),
         column_of_v_(model.free.size()),
-        first_load_column_(place_columns(model, column_of_q_, column_of_v_)),
-        moving_groups_(group_of(first_load_column_ - 1) + 1),
-        coordinates_((static_cast<std::size_t>(moving_groups_) + 1) * n_),
-        columns_((static_cast<std::size_t>(moving_groups_) + 1) * Directions::kCount + most_loads),
+        first_load_column_(assign_columns(model, column_of_q_, column_of_v_)),
+        motion_chunks_(chunk_of(first_load_column_ - 1) + 1),
+        coordinate_seeds_((motion_chunks_ + 1) * n_),
+        columns_((motion_chunks_ + 1) * TangentPack::kCount + max_loads),
         outputs_(stride),
-        nowhere_(stride) {
+        discarded_(stride) {
     for (std::size_t free = 0; free < model.free.size(); ++free) {
       const int q = column_of_q_[free], v = column_of_v_[free];
-      variation(q, model.free[free]).q = Directions::unit(q % Directions::kCount);
-      variation(v, model.free[free]).qd = Directions::unit(v % Directions::kCount);
+      seed_of(q, model.free[free]).q = TangentPack::unit(q % TangentPack::kCount);
+      seed_of(v, model.free[free]).qd = TangentPack::unit(v % TangentPack::kCount);
     }
   }
 
-  /// Sets the drives' variation in time and the loads, and where all goes: without matrices nowhere but by_t.
-  /// @param loads  each of its own direction: their lanes are set here, where they stay
-  void start(const DrivenMotion* drives, LoadDirection* loads, int count, StateJacobian& J) {
-    direct(loads, count, J);
+  /// Sets the seeds of the drives' motion in time and of the loads, and the column of each seed. Without
+  /// J.matrices all but by_t is discarded.
+  /// @param loads  their seeds are set; they must stay where they are
+  void start(const DrivenMotion* drives, ContactLoadSeed* loads, int count, StateJacobian& J) {
+    set_destinations(loads, count, J);
     loads_ = loads;
     load_count_ = count;
-    groups_ = group_of(first_load_column_ + count - 1) + 1;
-    for (int i = 0; i < count; ++i) loads[i].lanes = Directions::unit((first_load_column_ + i) % Directions::kCount);
+    chunks_ = chunk_of(first_load_column_ + count - 1) + 1;
+    for (int i = 0; i < count; ++i)
+      loads[i].seed = TangentPack::unit((first_load_column_ + i) % TangentPack::kCount);
     if (model_.drive_rows) return;
     for (std::size_t k = 0; k < model_.drives.size(); ++k) {
-      CoordinateVariation<Directions>& driven = variation(0, model_.drives[k]);
-      driven.q = drives[k].qd * Directions::unit(0);
-      driven.qd = drives[k].qdd * Directions::unit(0);
-      driven.qdd = drives[k].qddd * Directions::unit(0);
+      CoordinateTangent<TangentPack>& drive_seed = seed_of(0, model_.drives[k]);
+      drive_seed.q = drives[k].qd * TangentPack::unit(0);
+      drive_seed.qd = drives[k].qdd * TangentPack::unit(0);
+      drive_seed.qdd = drives[k].qddd * TangentPack::unit(0);
     }
   }
 
-  [[nodiscard]] int groups() const { return groups_; }
-  /// Those of the groups behind the last moving one stand still.
-  [[nodiscard]] const CoordinateVariation<Directions>* coordinates(int group) const {
-    return coordinates_.data() + static_cast<std::size_t>(group < moving_groups_ ? group : moving_groups_) * n_;
+  [[nodiscard]] int chunks() const { return chunks_; }
+  /// The coordinates' seeds in a chunk. Chunks behind the last motion chunk have loads only.
+  [[nodiscard]] const CoordinateTangent<TangentPack>* coordinate_seeds(int chunk) const {
+    return coordinate_seeds_.data() +
+           static_cast<std::size_t>(chunk < motion_chunks_ ? chunk : motion_chunks_) * n_;
   }
-  [[nodiscard]] Directions time(int group) const { return group == 0 ? Directions::unit(0) : Directions{}; }
-  /// Loads of a group.
-  [[nodiscard]] int first_load(int group) const { return clamp(group * Directions::kCount - first_load_column_); }
-  [[nodiscard]] int end_load(int group) const { return clamp((group + 1) * Directions::kCount - first_load_column_); }
-  [[nodiscard]] const LoadDirection* loads() const { return loads_; }
+  [[nodiscard]] TangentPack time(int chunk) const {
+    return chunk == 0 ? TangentPack::unit(0) : TangentPack{};
+  }
+  /// Range of the loads of a chunk.
+  [[nodiscard]] int first_load(int chunk) const {
+    return clamp(chunk * TangentPack::kCount - first_load_column_);
+  }
+  [[nodiscard]] int end_load(int chunk) const {
+    return clamp((chunk + 1) * TangentPack::kCount - first_load_column_);
+  }
+  [[nodiscard]] const ContactLoadSeed* loads() const { return loads_; }
 
-  // Columns: one a direction
+  // Columns: one a seed
   static constexpr int kTime = 0;
-  [[nodiscard]] int column_of_q(int free) const { return column_of_q_[static_cast<std::size_t>(free)]; }
-  [[nodiscard]] int column_of_v(int free) const { return column_of_v_[static_cast<std::size_t>(free)]; }
+  [[nodiscard]] int column_of_q(int free) const { return column_of_q_[free]; }
+  [[nodiscard]] int column_of_v(int free) const { return column_of_v_[free]; }
   [[nodiscard]] int column_of_load(int load) const { return first_load_column_ + load; }
-  [[nodiscard]] int moving_groups() const { return moving_groups_; }
+  [[nodiscard]] int motion_chunks() const { return motion_chunks_; }
 
-  /// An output in a group's directions, for store().
-  [[nodiscard]] RPSUP_INLINE Directions& output(int row) { return outputs_[static_cast<std::size_t>(row)]; }
-  /// Puts the outputs of a group's directions into their columns.
-  RPSUP_INLINE void store(int group) {
-    double* const* columns = columns_.data() + group * Directions::kCount;
+  /// A row of outputs of a chunk, for store().
+  [[nodiscard]] RPSUP_INLINE TangentPack& output(int row) { return outputs_[row]; }
+  /// Writes the outputs of a chunk into the columns of its seeds.
+  RPSUP_INLINE void store(int chunk) {
+    double* const* columns = columns_.data() + chunk * TangentPack::kCount;
     for (std::size_t row = 0; row < outputs_.size(); row += 2) {
-      const Directions even = outputs_[row], odd = outputs_[row + 1];
-      store_columns(even, odd, columns, row, std::make_integer_sequence<int, Directions::kCount>());
+      const TangentPack even = outputs_[row], odd = outputs_[row + 1];
+      store_columns(even, odd, columns, row, std::make_integer_sequence<int, TangentPack::kCount>());
     }
   }
 
  private:
-  /// Sets where each column goes.
-  void direct(const LoadDirection* loads, int count, StateJacobian& J) {
-    columns_.fill(nowhere_.data());
-    const auto set = [&](int column, double* to) { columns_[static_cast<std::size_t>(column)] = to; };
+  /// Sets where the column of each seed is.
+  void set_destinations(const ContactLoadSeed* loads, int count, StateJacobian& J) {
+    columns_.fill(discarded_.data());
+    const auto set = [&](int column, double* to) { columns_[column] = to; };
     set(kTime, J.by_t.data());
     if (!J.matrices) return;
     for (int a = 0; a < J.free; ++a) {
       set(column_of_q(a), J.matrices->by_q.data() + a * J.stride);
       set(column_of_v(a), J.matrices->by_v.data() + a * J.stride);
     }
-    for (int i = 0; i < count; ++i) set(column_of_load(i), loads[i].effect);
+    for (int i = 0; i < count; ++i) set(column_of_load(i), loads[i].column);
   }
 
   template <int... lane>
-  RPSUP_INLINE static void store_columns(const Directions& even, const Directions& odd, double* const* columns, std::size_t row,
+  RPSUP_INLINE static void store_columns(const TangentPack& even, const TangentPack& odd,
+                                         double* const* columns, std::size_t row,
                                          std::integer_sequence<int, lane...>) {
-    constexpr int kWidth = Directions::kWidth;
+    constexpr int kWidth = TangentPack::kWidth;
     const auto put = [&]<int l>(std::integral_constant<int, l>) RPSUP_INLINE_LAMBDA {
       LanePair pair;
-      pair.part[0] = __builtin_shufflevector(even.part[l / kWidth], odd.part[l / kWidth], l % kWidth, kWidth + l % kWidth);
+      pair.part[0] = __builtin_shufflevector(even.part[l / kWidth], odd.part[l / kWidth], l % kWidth,
+                                             kWidth + l % kWidth);
       pair.store(columns[l] + row);
     };
     (put(std::integral_constant<int, lane>()), ...);
   }
 
-  /// A joint's coordinates share a group, and so do its rates: the first one with room for them. Those that no group holds take several.
-  /// @returns the column behind the last
-  [[nodiscard]] static int place_columns(const TreeModel& model, Buffer<int>& column_of_q, Buffer<int>& column_of_v) {
-    constexpr int kCount = Directions::kCount;
-    Buffer<int> taken(2 * model.free.size() + 1);  // columns of each group
+  /// Assigns the coordinates of a joint, then its rates, to the first chunk with as many lanes left; to
+  /// several if they are more than a chunk has.
+  /// @returns the number of columns
+  [[nodiscard]] static int assign_columns(const TreeModel& model, Buffer<int>& column_of_q,
+                                          Buffer<int>& column_of_v) {
+    constexpr int kCount = TangentPack::kCount;
+    Buffer<int> taken(2 * model.free.size() + 1);  // columns of each chunk
     taken[0] = 1;
     std::size_t last = 0, free = 0;
-    const auto place = [&](int count, Buffer<int>& columns, std::size_t first) {
+    const auto add_joint = [&](int count, Buffer<int>& columns, std::size_t first) {
       for (int placed = 0; placed < count; placed += kCount) {
         const int part = std::min(count - placed, kCount);
-        std::size_t group = 0;
-        while (taken[group] + part > kCount) ++group;
-        last = std::max(group, last);
-        for (int k = 0; k < part; ++k) columns[first++] = static_cast<int>(group) * kCount + taken[group]++;
+        std::size_t chunk = 0;
+        while (taken[chunk] + part > kCount) ++chunk;
+        last = std::max(chunk, last);
+        for (int k = 0; k < part; ++k) columns[first++] = static_cast<int>(chunk) * kCount + taken[chunk]++;
       }
     };
     for (const TreeJoint& joint : model.joints) {
       if (joint.driven) continue;
-      place(joint.count(), column_of_q, free);
-      place(joint.count(), column_of_v, free);
-      free += static_cast<std::size_t>(joint.count());
+      add_joint(joint.count(), column_of_q, free);
+      add_joint(joint.count(), column_of_v, free);
+      free += joint.count();
     }
     return static_cast<int>(last) * kCount + taken[last];
   }
-  [[nodiscard]] static int group_of(int column) { return static_cast<int>(static_cast<unsigned>(column) / Directions::kCount); }
+  [[nodiscard]] static int chunk_of(int column) {
+    return static_cast<int>(static_cast<unsigned>(column) / TangentPack::kCount);
+  }
   [[nodiscard]] int clamp(int load) const { return load < 0 ? 0 : load > load_count_ ? load_count_ : load; }
-  CoordinateVariation<Directions>& variation(int column, int coordinate) {
-    CoordinateVariation<Directions>& entry = coordinates_[static_cast<std::size_t>(group_of(column)) * n_ + static_cast<std::size_t>(coordinate)];
-    entry.varies = true;
+  CoordinateTangent<TangentPack>& seed_of(int column, int coordinate) {
+    CoordinateTangent<TangentPack>& entry =
+        coordinate_seeds_[chunk_of(column) * n_ +
+                          static_cast<std::size_t>(coordinate)];
+    entry.active = true;
     return entry;
   }
 
   const TreeModel& model_;
   std::size_t n_;                          ///< coordinates
   Buffer<int> column_of_q_, column_of_v_;  ///< of each free coordinate, and of its rate
-  int first_load_column_, moving_groups_;
-  int load_count_ = 0, groups_ = 0;
-  const LoadDirection* loads_ = nullptr;
-  Buffer<CoordinateVariation<Directions>> coordinates_;  ///< group after group, one a coordinate; those left over stand still
-  Buffer<double*> columns_;                ///< where the outputs of each direction go
-  Buffer<Directions> outputs_;             ///< of one group, as StateJacobian has a column
-  Buffer<double> nowhere_;                 ///< a column that is not wanted
+  int first_load_column_, motion_chunks_;
+  int load_count_ = 0, chunks_ = 0;
+  const ContactLoadSeed* loads_ = nullptr;
+  /// chunk by chunk, one a coordinate; the last chunk: none active
+  Buffer<CoordinateTangent<TangentPack>> coordinate_seeds_;
+  Buffer<double*> columns_;                ///< of each seed
+  Buffer<TangentPack> outputs_;             ///< of one chunk, row by row
+  Buffer<double> discarded_;                 ///< a column for seeds whose outputs are not wanted
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

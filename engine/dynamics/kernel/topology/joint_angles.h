@@ -8,21 +8,23 @@
 
 namespace engine {
 
-/// The angles of known joints: those against springs, which are small, behind the others.
+/// The rotation coordinates of a static topology in the order in which their sines are computed: angles
+/// against springs, which stay small, behind the others.
 template <std::size_t n>
-struct Angles {
-  std::array<std::size_t, 3 * n> coordinate{};
-  std::array<std::size_t, n> place{};         ///< of each joint's first
+struct JointAngles {
+  std::array<std::size_t, 3 * n> coordinate{};  ///< of each angle
+  std::array<std::size_t, n> first{};           ///< of each joint: its first angle
   std::size_t count = 0;
 };
 template <std::size_t n>
-[[nodiscard]] consteval Angles<n> angles_of(const std::array<JointShape, n>& shapes) {
-  Angles<n> angles;
+[[nodiscard]] consteval JointAngles<n> joint_angles(const std::array<JointTraits, n>& joints) {
+  JointAngles<n> angles;
   for (const bool sprung : {false, true})
     for (std::size_t i = 0; i < n; ++i) {
-      if (!shapes[i].rotates() || shapes[i].sprung != sprung) continue;
-      angles.place[i] = angles.count;
-      for (int k = 0; k < shapes[i].count(); ++k) angles.coordinate[angles.count++] = static_cast<std::size_t>(shapes[i].first + k);
+      if (!joints[i].rotates() || joints[i].sprung != sprung) continue;
+      angles.first[i] = angles.count;
+      for (int k = 0; k < joints[i].count(); ++k)
+        angles.coordinate[angles.count++] = static_cast<std::size_t>(joints[i].first + k);
     }
   return angles;
 }

@@ -11,95 +11,90 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A joint whose shape is known when the program is compiled: what it leaves out costs not even a question.
-template <const auto& shapes, std::size_t index>
-struct KnownJoint {
-  static constexpr JointShape shape = shapes[index];
-  static constexpr JointShape::Kind kind = shape.kind;
-  static constexpr int first = shape.first;
-  static constexpr int axis = shape.axis;
-  static constexpr int parent = shape.parent;
-  static constexpr bool driven = shape.driven;
-  static constexpr int drive = shape.drive;
-  static constexpr int first_free = shape.first_free;
-  static constexpr bool turned = shape.turned;
-  static constexpr bool shifted = shape.shifted;
-  static constexpr bool shifted_along_x = shape.shifted_along_x;
-  static constexpr bool sprung = shape.sprung;
-  static constexpr JointShape::Inertia inertia = shape.inertia;
-  static constexpr bool com_at_origin = shape.com_at_origin;
-  static constexpr bool com_along_x = shape.com_along_x;
-  static constexpr bool parent_turns = shape.parent_turns;
-  static constexpr bool turns = shape.turns;
-  static constexpr bool moves = shape.moves;
-  static constexpr bool parent_moves = shape.parent_moves;
-  static constexpr bool parent_answers_turning = shape.parent_answers_turning;
-  static constexpr bool answers_turning = shape.answers_turning;
-  static constexpr bool carries_moving = shape.carries_moving;
-  static constexpr bool last_child = shape.last_child;
-  static constexpr bool is_rod = shape.is_rod;
-  static constexpr bool parent_is_rod = shape.parent_is_rod;
+/// A joint whose traits are compile-time constants, with the members of TreeJoint: branches on them cost
+/// nothing.
+/// @tparam joints  std::array of JointTraits  @tparam index  of this joint
+template <const auto& joints, std::size_t index>
+struct StaticJoint {
+  static constexpr JointTraits traits = joints[index];
+  static constexpr JointTraits::Kind kind = traits.kind;
+  static constexpr JointTraits::Inertia inertia = traits.inertia;
+  static constexpr int first = traits.first, first_free = traits.first_free, axis = traits.axis,
+                       parent = traits.parent, drive = traits.drive;
+  static constexpr bool driven = traits.driven, sprung = traits.sprung;
+  static constexpr bool rotated = traits.rotated, shifted = traits.shifted,
+                        shifted_along_x = traits.shifted_along_x;
+  static constexpr bool com_at_origin = traits.com_at_origin, com_along_x = traits.com_along_x;
+  static constexpr bool frame_rotates = traits.frame_rotates,
+                        parent_frame_rotates = traits.parent_frame_rotates;
+  static constexpr bool moves = traits.moves, parent_moves = traits.parent_moves;
+  static constexpr bool moment_matters = traits.moment_matters,
+                        parent_moment_matters = traits.parent_moment_matters;
+  static constexpr bool has_moving_children = traits.has_moving_children, last_child = traits.last_child;
+  static constexpr bool is_slender = traits.is_slender, parent_is_slender = traits.parent_is_slender;
 
-  [[nodiscard]] static constexpr int count() { return shape.count(); }
-  [[nodiscard]] static constexpr bool rotates() { return shape.rotates(); }
-  [[nodiscard]] RPSUP_INLINE const TreeJoint& numbers() const { return joint; }
+  [[nodiscard]] static constexpr int count() { return traits.count(); }
+  [[nodiscard]] static constexpr bool rotates() { return traits.rotates(); }
+  [[nodiscard]] RPSUP_INLINE const TreeJoint& data() const { return joint; }
 
   const TreeJoint& joint;
 };
 
-/// Joints from the first up to the end.
-struct Series {
+/// A range of joints, the last one excluded.
+struct JointSeries {
   std::size_t first = 0, end = 0;
 };
-/// The first rods alike of which each stands on the one before it; empty where there are no two of them.
+/// The first series of two or more equal slender bodies, each carrying the next. Empty if there is none.
 template <std::size_t n>
-[[nodiscard]] consteval Series find_series(const std::array<JointShape, n>& shapes) {
-  const auto follows = [&](std::size_t i) {
-    JointShape before = shapes[i - 1];
-    before.first = shapes[i].first;
-    before.first_free = shapes[i].first_free;
+[[nodiscard]] consteval JointSeries find_series(const std::array<JointTraits, n>& joints) {
+  const auto continues_series = [&](std::size_t i) {
+    JointTraits before = joints[i - 1];
+    before.first = joints[i].first;
+    before.first_free = joints[i].first_free;
     before.parent = static_cast<int>(i) - 1;
-    before.carries_moving = shapes[i].carries_moving;
-    return shapes[i].is_rod && shapes[i] == before && shapes[i - 1].parent + 2 == static_cast<int>(i);
+    before.has_moving_children = joints[i].has_moving_children;
+    return joints[i].is_slender && joints[i] == before && joints[i - 1].parent + 2 == static_cast<int>(i);
   };
   for (std::size_t i = 1; i < n; ++i) {
-    if (!follows(i)) continue;
+    if (!continues_series(i)) continue;
     std::size_t end = i + 1;
-    while (end < n && follows(end)) ++end;
+    while (end < n && continues_series(end)) ++end;
     return {i - 1, end};
   }
   return {};
 }
 
-/// One of several rods in series, alike but for the coordinates and the parent, and for what the last one lacks. A loop over them is less code than
-/// each for itself, and what does not fit into the processor's cache of instructions is fetched again for each evaluation.
+/// One of the slender bodies of a series, with its traits but for the indices and has_moving_children. A loop
+/// over the series is less code than each joint for itself, and code that overflows the processor's
+/// instruction cache is fetched again in each evaluation.
 /// @tparam index  of the first one
-template <const auto& shapes, std::size_t index>
-struct RodInSeries : KnownJoint<shapes, index> {
-  /// @param behind  how many stand before it
-  RPSUP_INLINE RodInSeries(const TreeJoint& of, std::size_t behind)
-      : KnownJoint<shapes, index>{of},
-        first(shapes[index].first + 3 * static_cast<int>(behind)),
-        first_free(shapes[index].first_free + 3 * static_cast<int>(behind)),
-        parent(shapes[index].parent + static_cast<int>(behind)),
-        carries_moving(index + behind + 1 < end || shapes[end - 1].carries_moving),
-        from_first(3 * behind) {}
+template <const auto& joints, std::size_t index>
+struct SlenderJointInSeries : StaticJoint<joints, index> {
+  /// @param position  of this joint in the series, from 0
+  RPSUP_INLINE SlenderJointInSeries(const TreeJoint& of, std::size_t position)
+      : StaticJoint<joints, index>{of},
+        first(joints[index].first + 3 * static_cast<int>(position)),
+        first_free(joints[index].first_free + 3 * static_cast<int>(position)),
+        parent(joints[index].parent + static_cast<int>(position)),
+        has_moving_children(index + position + 1 < end || joints[end - 1].has_moving_children),
+        from_first(3 * position) {}
 
-  static constexpr std::size_t end = find_series(shapes).end;
+  static constexpr std::size_t end = find_series(joints).end;
   int first, first_free, parent;
-  bool carries_moving;
+  bool has_moving_children;
   std::size_t from_first;  ///< coordinates between its own and those of the first one
 };
 
-/// A joint's coordinates: visit(k). Known ones are no loop, so that what they index may stay in registers.
+/// Visits a joint's coordinates: visit(k). Those of a static joint are no loop, so that what they index may
+/// stay in registers.
 template <typename Visit>
-RPSUP_INLINE void each_coordinate(const TreeJoint& joint, const Visit& visit) {
+RPSUP_INLINE void for_each_coordinate(const TreeJoint& joint, const Visit& visit) {
   for (int k = 0; k < joint.count(); ++k) visit(k);
 }
-template <const auto& shapes, std::size_t index, typename Visit>
-RPSUP_INLINE void each_coordinate(const KnownJoint<shapes, index>&, const Visit& visit) {
+template <const auto& joints, std::size_t index, typename Visit>
+RPSUP_INLINE void for_each_coordinate(const StaticJoint<joints, index>&, const Visit& visit) {
   visit(0);
-  if constexpr (KnownJoint<shapes, index>::count() == 3) {
+  if constexpr (StaticJoint<joints, index>::count() == 3) {
     visit(1);
     visit(2);
   }
