@@ -31,7 +31,7 @@ RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
 
 /// With which power of the step the error estimate of a step falls.
 double order_of_error(Integrator integrator) {
-  return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas4 ? 4.0 : 5.0;
+  return integrator == Integrator::kRadau5 ? 4.0 : 5.0;
 }
 
 /// Steps are below this when error control has failed: a hundred roundings of the time.
@@ -50,7 +50,6 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       tolerance_(options_.relative_tolerance, options_.absolute_tolerance),
       energy_control_(options_),
       dopri5_(tolerance_),
-      rodas4_(tolerance_),
       rodas5_(tolerance_),
       radau5_(tolerance_, has_clearance(mechanism) ? kImpactWeight : 1.0),
       control_(order_of_error(options_.integrator)),
@@ -110,7 +109,6 @@ void Integration::look_for_vibrations() {
   const NewtonSolver solver = system_.choose_newton_solver(options_.integrator == Integrator::kRadau5 ? Shifts::kRealAndComplex : Shifts::kReal);
   if (system_.linearise(start_.t, start_.y, solver) != EvaluationStatus::kOk) return forget_equations();
   const FedVibration found = fed_vibrations_.find(system_);
-  rodas4_.take_jacobian();
   rodas5_.take_jacobian();
   radau5_.take_jacobian();
   if (found.growth == 0.0) return;
@@ -140,7 +138,6 @@ void Integration::evaluate_again(StepEnd& end) {
 }
 
 void Integration::forget_equations() {
-  rodas4_.begin_step();
   rodas5_.begin_step();
   radau5_.forget();
 }
@@ -228,7 +225,6 @@ Trial Integration::try_method(double dt) {
   switch (options_.integrator) {
     case Integrator::kRadau5: return radau5_.try_step(system_, start_, dt, end_);
     case Integrator::kRodas5: return rodas5_.try_step(system_, start_, dt, end_);
-    case Integrator::kRodas4: return rodas4_.try_step(system_, start_, dt, end_);
     case Integrator::kDopri5: return dopri5_.try_step(system_, start_, dt, end_);
     case Integrator::kAuto:
     case Integrator::kRk4: break;
@@ -277,7 +273,6 @@ void Integration::accept() {
     if (evaluate_inside(0.5 * (start_.t + end_.t)) == EvaluationStatus::kOk) observer_.on_middle(sample_.at);
   }
   take_samples();
-  rodas4_.begin_step();
   rodas5_.begin_step();
   radau5_.accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);

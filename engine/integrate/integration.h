@@ -56,7 +56,6 @@ class Integration {
   Tolerance tolerance_;
   EnergyControl energy_control_;
   Dopri5 dopri5_;
-  Rodas4 rodas4_;
   Rodas5 rodas5_;
   Radau5 radau5_;
   StepControl control_;

@@ -20,22 +20,26 @@
 
 namespace engine {
 
-/// An L-stable and stiffly accurate Rosenbrock method with the error estimate of an order less: an Odeint error stepper on Eigen vectors. Each
-/// step takes one Jacobian, one factorisation, as many solutions as it has stages and, with f at its start given, one evaluation of f fewer.
+/// RODAS5(4) by G. A. Di Marzo: an L-stable, stiffly accurate Rosenbrock method of order 5 with an error
+/// estimate of order 4, as an Odeint error stepper on Eigen vectors. A step takes one Jacobian, one
+/// factorisation, a solution for each of its eight stages and, with f at its start given, seven evaluations
+/// of f.
 ///
-/// Its systems are Odeint's with the linear algebra of an implicit method, "linearly implicit systems":
+/// The systems are Odeint's with the linear algebra of a linearly implicit method:
 ///
 ///     system(y, dydt, t)              dydt <- f(t, y)
-///     system.linearise(y, t)          sees to it that what follows is about J = df/dy and df/dt at (t, y)
+///     system.linearise(y, t)          the following three calls are about J = df/dy and df/dt at (t, y)
 ///     system.time_derivative()        df/dt there
-///     system.factor(shift)            factors shift 1 - J; false if it is singular
+///     system.factor(shift)            factors shift 1 - J; false if the matrix is singular
 ///     system.solve_in_place(x)        x <- (shift 1 - J)^-1 x
 ///
-/// linearise() is called at each step's start: a system that knows the step to be a repeated one, from the same (t, y), need do nothing.
-/// Where the matrix is singular, the result and its error are not numbers.
-template <class Coefficients>
-class RodasStepper {
+/// linearise() is called at each step's start. A system that knows the step to be a repeated one, from the
+/// same (t, y), need do nothing. Where the matrix is singular, the result and its error are not numbers.
+///
+/// Source of the form: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.7.
+class Rodas5Stepper {
  public:
+  using K = Rodas5Coefficients;
   using state_type = Eigen::VectorXd;
   using deriv_type = Eigen::VectorXd;
   using value_type = double;
@@ -48,9 +52,9 @@ class RodasStepper {
   using wrapped_deriv_type = boost::numeric::odeint::state_wrapper<deriv_type>;
   using stepper_category = boost::numeric::odeint::error_stepper_tag;
 
-  static constexpr order_type order_value = Coefficients::kOrder;
-  static constexpr order_type stepper_order_value = Coefficients::kOrder;
-  static constexpr order_type error_order_value = Coefficients::kOrder - 1;
+  static constexpr order_type order_value = K::kOrder;
+  static constexpr order_type stepper_order_value = K::kOrder;
+  static constexpr order_type error_order_value = K::kOrder - 1;
 
   [[nodiscard]] order_type order() const { return order_value; }
   [[nodiscard]] order_type stepper_order() const { return stepper_order_value; }
@@ -82,7 +86,8 @@ class RodasStepper {
   }
 
   template <class System>
-  void do_step(System system, const state_type& y, time_type t, state_type& end, time_type dt, state_type& error) {
+  void do_step(System system, const state_type& y, time_type t, state_type& end, time_type dt,
+               state_type& error) {
     typename boost::numeric::odeint::unwrap_reference<System>::type& f = system;
     adjust_size(y);
     f(y, start_f_, t);
@@ -93,8 +98,8 @@ class RodasStepper {
   /// @param end    the state at t + dt; may be y itself
   /// @param error  the result's difference from the embedded one
   template <class System>
-  void do_step(System system, const state_type& y, const deriv_type& dydt, time_type t, state_type& end, time_type dt, state_type& error) {
-    using K = Coefficients;
+  void do_step(System system, const state_type& y, const deriv_type& dydt, time_type t, state_type& end,
+               time_type dt, state_type& error) {
     typename boost::numeric::odeint::unwrap_reference<System>::type& f = system;
     adjust_size(y);
     f.linearise(y, t);
@@ -111,13 +116,13 @@ class RodasStepper {
 
  private:
   template <class System, std::size_t... i>
-  void calc_stages(System& f, const state_type& y, const deriv_type& dydt, time_type t, time_type dt, std::index_sequence<i...>) {
+  void calc_stages(System& f, const state_type& y, const deriv_type& dydt, time_type t, time_type dt,
+                   std::index_sequence<i...>) {
     (calc_stage<i>(f, y, dydt, t, dt), ...);
   }
 
   template <std::size_t i, class System>
   void calc_stage(System& f, const state_type& y, const deriv_type& dydt, time_type t, time_type dt) {
-    using K = Coefficients;
     if constexpr (i == 0) {
       U_[0] = dydt;
     } else {
@@ -128,13 +133,15 @@ class RodasStepper {
       f(stage_, U_[i], t + K::c[i] * dt);
     }
     if constexpr (K::d[i] != 0.0) U_[i] += K::d[i] * dt * f.time_derivative();
-    if constexpr (i > 0) add_stages(K::C[i], 1.0 / dt, U_[i].data(), U_[i].data(), std::make_index_sequence<i>{});
+    if constexpr (i > 0)
+      add_stages(K::C[i], 1.0 / dt, U_[i].data(), U_[i].data(), std::make_index_sequence<i>{});
     f.solve_in_place(U_[i]);
   }
 
   /// sum = from + scale (c_1 U_1 + c_2 U_2 + ...) in one pass. @param from  may be the sum itself
   template <std::size_t... j>
-  void add_stages(const typename Coefficients::Row& c, double scale, const double* from, double* sum, std::index_sequence<j...>) const {
+  void add_stages(const K::Row& c, double scale, const double* from, double* sum,
+                  std::index_sequence<j...>) const {
     const std::array<double, sizeof...(j)> factors{c[j] * scale...};
     const std::array<const double*, sizeof...(j)> stages{U_[j].data()...};
     const Eigen::Index size = stage_.size();
@@ -143,12 +150,9 @@ class RodasStepper {
   }
 
   algebra_type algebra_;         ///< what Odeint measures errors with
-  std::array<state_type, Coefficients::kStages> U_;
+  std::array<state_type, K::kStages> U_;
   state_type stage_;             ///< argument of the stage at hand
   state_type start_f_, error_;   ///< for callers that do without
 };
-
-using Rodas4Stepper = RodasStepper<Rodas4Coefficients>;
-using Rodas5Stepper = RodasStepper<Rodas5Coefficients>;
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0 AND BSD-2-Clause
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -6,53 +6,29 @@
 
 namespace engine {
 
-/// Coefficients of Rosenbrock methods of the RODAS family in the form that needs no product with the Jacobian, stage i = 1 ... s, J and f_t
-/// at (t, y):
+/// Coefficients of RODAS5(4) in the form of a Rosenbrock method that needs no product with the Jacobian,
+/// stage i = 1 ... s, J and f_t at (t, y):
 ///
 ///     (1 / (gamma dt) - J) U_i = f(t + c_i dt, y + sum_j<i a_ij U_j) + sum_j<i (C_ij / dt) U_j + d_i dt f_t
 ///
-/// The last stages and the result end at t + dt, each the one before plus its own U: row i + 1 of a is (row i, 1), and m is (the last row, 1).
-/// So the embedded result, of an order less, is the last stage's argument, and its U the estimate of the error.
-struct Rodas4Coefficients {
-  // Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.7, with the digits of their code RODAS
-  // (Copyright (c) 2004, Ernst Hairer; BSD-2-Clause).
-  static constexpr unsigned short kOrder = 4;
-  static constexpr std::size_t kStages = 6;
-  static constexpr std::size_t kFirstExtended = 5;  ///< stages from this one on, counted from 0, are the one before plus its U
-  using Row = std::array<double, kStages - 1>;
-
-  static constexpr double gamma = 0.25;
-  static constexpr std::array<double, kStages> c{0.0, 0.386, 0.21, 0.63, 1.0, 1.0};
-  static constexpr std::array<double, kStages> d{0.25, -0.1043, 0.1035, -0.3620000000000023e-1, 0.0, 0.0};
-  static constexpr std::array<Row, kStages> a{{
-      {},
-      {1.544},
-      {0.9466785280815826, 0.2557011698983284},
-      {3.314825187068521, 2.896124015972201, 0.9986419139977817},
-      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
-      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0},
-  }};
-  static constexpr std::array<Row, kStages> C{{
-      {},
-      {-5.668800000000000},
-      {-2.430093356833875, -0.2063599157091915},
-      {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
-      {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
-      {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054},
-  }};
-};
-
+/// The last stages and the result end at t + dt, each the stage before plus its own U: row i + 1 of a is (row
+/// i, 1), and m is (the last row, 1). So the embedded result, of an order less, is the last stage's argument,
+/// and the last U is the estimate of the error.
+///
+/// Source: G. A. Di Marzo, RODAS5(4): Methodes de Rosenbrock d'ordre 5(4) adaptees aux problemes
+/// differentiels-algebriques (Geneva, 1993).
 struct Rodas5Coefficients {
-  // Source: G. A. Di Marzo, RODAS5(4): Methodes de Rosenbrock d'ordre 5(4) adaptees aux problemes differentiels-algebriques (Geneva, 1993).
   static constexpr unsigned short kOrder = 5;
   static constexpr std::size_t kStages = 8;
-  static constexpr std::size_t kFirstExtended = 6;
+  static constexpr std::size_t kFirstExtended = 6;  ///< the first stage, from 0, that is the one before plus its U
   using Row = std::array<double, kStages - 1>;
 
   static constexpr double gamma = 0.19;
-  static constexpr std::array<double, kStages> c{0.0, 0.38, 0.3878509998321533, 0.4839718937873840, 0.4570477008819580, 1.0, 1.0, 1.0};
-  static constexpr std::array<double, kStages> d{0.19, -0.1823079225333714636, -0.319231832186874912, 0.3449828624725343, -0.377417564392089818,
-                                                 0.0, 0.0, 0.0};
+  static constexpr std::array<double, kStages> c{
+      0.0, 0.38, 0.3878509998321533, 0.4839718937873840, 0.4570477008819580, 1.0, 1.0, 1.0};
+  static constexpr std::array<double, kStages> d{
+      0.19, -0.1823079225333714636, -0.319231832186874912, 0.3449828624725343, -0.377417564392089818,
+      0.0, 0.0, 0.0};
   static constexpr std::array<Row, kStages> a{{
       {},
       {2.0},
@@ -61,7 +37,8 @@ struct Rodas5Coefficients {
       {2.760842080225597, 1.446624659844071, -0.3036980084553738, 0.2877498600325443},
       {-14.09640773051259, 6.925207756232704, -41.47510893210728, 2.343771018586405, 24.13215229196062},
       {-14.09640773051259, 6.925207756232704, -41.47510893210728, 2.343771018586405, 24.13215229196062, 1.0},
-      {-14.09640773051259, 6.925207756232704, -41.47510893210728, 2.343771018586405, 24.13215229196062, 1.0, 1.0},
+      {-14.09640773051259, 6.925207756232704, -41.47510893210728, 2.343771018586405, 24.13215229196062, 1.0,
+       1.0},
   }};
   static constexpr std::array<Row, kStages> C{{
       {},
@@ -70,8 +47,10 @@ struct Rodas5Coefficients {
       {32.22751541853323, -4.943732386540191, 19.44922031041879},
       {-20.69865579590063, -8.816374604402768, 1.260436877740897, -0.7495647613787146},
       {-46.22004352711257, -17.49534862857472, -289.6389582892057, 93.60855400400906, 318.3822534212147},
-      {34.20013733472935, -14.15535402717690, 57.82335640988400, 25.83362985412365, 1.408950972071624, -6.551835421242162},
-      {42.57076742291101, -13.80770672017997, 93.98938432427124, 18.77919633714503, -31.58359187223370, -6.685968952921985, -5.810979938412932},
+      {34.20013733472935, -14.15535402717690, 57.82335640988400, 25.83362985412365, 1.408950972071624,
+       -6.551835421242162},
+      {42.57076742291101, -13.80770672017997, 93.98938432427124, 18.77919633714503, -31.58359187223370,
+       -6.685968952921985, -5.810979938412932},
   }};
 };
 

@@ -39,7 +39,7 @@ class Dopri5System : public StageSystem {
   Evaluation& at_end_;
 };
 
-/// The stages of a method of the RODAS family with their linear algebra.
+/// The stages of rodas5 with their linear algebra.
 class RodasSystem : public StageSystem {
  public:
   RodasSystem(MotionSystem& system, Trial& trial, bool& linearised) : StageSystem(system, trial), linearised_(linearised) {}
@@ -83,8 +83,7 @@ Trial Dopri5::try_step(MotionSystem& system, const StepEnd& start, double dt, St
   return trial;
 }
 
-template <class Stepper>
-Trial Rodas<Stepper>::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
+Trial Rodas5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
   RodasSystem rhs(system, trial, linearised_);
   end.t = start.t + dt;
@@ -95,8 +94,5 @@ Trial Rodas<Stepper>::try_step(MotionSystem& system, const StepEnd& start, doubl
   if (trial.error <= 1.0) evaluate_end(system, end, trial);
   return trial;
 }
-
-template class Rodas<Rodas4Stepper>;
-template class Rodas<Rodas5Stepper>;
 
 }  // namespace engine

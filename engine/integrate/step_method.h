@@ -60,11 +60,10 @@ class Dopri5 {
   EigenStepper<boost::numeric::odeint::runge_kutta_dopri5> stepper_;
 };
 
-/// A method of the RODAS family: implicit, so that stiff contacts and links do not bound its steps. Tries from one start share its Jacobian.
-template <class Stepper>
-class Rodas {
+/// RODAS5(4): implicit, so that stiff contacts and links do not bound its steps. Tries from one start share its Jacobian.
+class Rodas5 {
  public:
-  explicit Rodas(const Tolerance& tolerance) : tolerance_(tolerance) {}
+  explicit Rodas5(const Tolerance& tolerance) : tolerance_(tolerance) {}
 
   /// The next try is from another start, or by other equations of motion, than the last.
   void begin_step() { linearised_ = false; }
@@ -76,10 +75,7 @@ class Rodas {
   const Tolerance& tolerance_;
   bool linearised_ = false;  ///< the system holds the Jacobian of the step's start
   Eigen::VectorXd local_error_;
-  Stepper stepper_;
+  Rodas5Stepper stepper_;
 };
-
-using Rodas4 = Rodas<Rodas4Stepper>;
-using Rodas5 = Rodas<Rodas5Stepper>;
 
 }  // namespace engine

@@ -6,11 +6,11 @@
 namespace engine {
 
 /// kAuto: choose_integrator() says which.
-enum class Integrator { kAuto, kRadau5, kRodas5, kRodas4, kDopri5, kRk4 };
+enum class Integrator { kAuto, kRadau5, kRodas5, kDopri5, kRk4 };
 
 /// Whether a method solves for what it steps over.
 [[nodiscard]] constexpr bool is_implicit(Integrator integrator) {
-  return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas5 || integrator == Integrator::kRodas4;
+  return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas5;
 }
 
 /// How a run is integrated and what is kept of it.

@@ -94,13 +94,13 @@ void add_run_rows(Rows& rows) {
                         above(0, 100'000), &O::output_rate));
   rows.push_back(choice<engine::Integrator O::*, engine::Integrator>(
       {"integrator", "integrator", "", kChosen,
-       "auto: radau5, at a tolerance that suits the joint. Error-controlled and L-stable: radau5, Radau IIA of order 5, and rodas5 and rodas4, Rosenbrock 5(4) and 4(3); error-controlled: dopri5, "
-       "Dormand-Prince 5(4); with a fixed step: rk4, classical Runge-Kutta (the paper's)"},
+       "auto: radau5, at a tolerance that suits the joint. Error-controlled and L-stable: radau5, Radau IIA of order 5, "
+       "and rodas5, Rosenbrock 5(4); error-controlled: dopri5, Dormand-Prince 5(4); with a fixed step: rk4, classical "
+       "Runge-Kutta (the paper's)"},
       &O::integrator,
       {{"auto", engine::Integrator::kAuto},
        {"radau5", engine::Integrator::kRadau5},
        {"rodas5", engine::Integrator::kRodas5},
-       {"rodas4", engine::Integrator::kRodas4},
        {"dopri5", engine::Integrator::kDopri5},
        {"rk4", engine::Integrator::kRk4}}));
   rows.push_back(number({"step_s", "step", "s", kChosen, "Step of rk4"}, between(1e-8, 1e-3), &O::step));

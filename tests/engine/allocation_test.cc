@@ -126,7 +126,7 @@ struct DecaySystem {
   void solve_in_place(Eigen::VectorXd& x) const { x /= shift + 1.0; }
 };
 
-TEST(RodasStepper, AllocatesNothingAfterItsFirstStep) {
+TEST(Rodas5Stepper, AllocatesNothingAfterItsFirstStep) {
   DecaySystem system;
   Rodas5Stepper stepper;
   Eigen::VectorXd y = Eigen::VectorXd::Ones(40);

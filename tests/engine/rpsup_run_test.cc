@@ -181,7 +181,7 @@ TEST(Integrators, ImplicitOnesFindTheImpactsOfDopri5) {
     ASSERT_EQ(dopri5.status, RunStatus::kSucceeded) << dopri5.detail;
     ASSERT_GT(metric(dopri5, "impact_count"), 20.0);
     options.relative_tolerance = options.absolute_tolerance = 1e-7;
-    for (const Integrator integrator : {Integrator::kRodas4, Integrator::kRodas5, Integrator::kRadau5}) {
+    for (const Integrator integrator : {Integrator::kRodas5, Integrator::kRadau5}) {
       options.integrator = integrator;
       const RunResult implicit = simulate_rpsup(parameters, options, {});
       ASSERT_EQ(implicit.status, RunStatus::kSucceeded) << implicit.detail;

@@ -7,9 +7,9 @@ namespace validation {
 namespace {
 
 constexpr const char* kIntegratorsText =
-    R"(Five integrators: `rk4`, the paper's classical Runge-Kutta method of order 4 in equal steps; `dopri5`, Dormand and Prince's method of order 5
-with error control; and three implicit ones with error control, `radau5` (Radau IIA of order 5), `rodas5` and `rodas4` (Rosenbrock methods of orders 5
-and 4). The default is `radau5`. The steps of all but `rk4` end where a ring of the journal meets or leaves the bore, and where the rod's
+    R"(Four integrators: `rk4`, the paper's classical Runge-Kutta method of order 4 in equal steps; `dopri5`, Dormand and Prince's method of order 5
+with error control; and two implicit ones with error control, `radau5` (Radau IIA of order 5) and `rodas5` (a Rosenbrock method of order 5).
+The default is `radau5`. The steps of all but `rk4` end where a ring of the journal meets or leaves the bore, and where the rod's
 acceleration jumps.
 
 - Where the motion is smooth `rk4` and `dopri5` have the order that their names promise: on a pendulum against elliptic functions, on the ideal linkage
@@ -22,7 +22,7 @@ acceleration jumps.
   `dopri5` and the default.
 
 Cost is counted in evaluations of the equations of motion: the same on every machine. Run time is proportional to it; what `radau5` solves
-beside them costs about half as much again, and the Jacobian that `rodas5` and `rodas4` make at each step about as much again. The default
+beside them costs about half as much again, and the Jacobian that `rodas5` makes at each step about as much again. The default
 tolerance is chosen so that nearly all cases that converge have their peaks within a thousandth: in a joint with clearance the default divides the
 tolerances that are asked for by 2, in worn bores by 7.5; where friction is other than the study's (stiffer bristles, other laws, or none) by 30, of
 contact elements by 7.5. The case without friction, second geometry, 0.1 mm, shows what that is good for. Little damps the journal on its bore there:

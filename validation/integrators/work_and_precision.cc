@@ -43,7 +43,7 @@ class Comparison {
     for (const double tolerance : tolerances) dopri5_.push_back(measure(parameters_, with_tolerance(tolerance)));
   }
   void run_implicit(const std::vector<double>& tolerances) {
-    for (const auto& [integrator, points] : {std::pair{Integrator::kRadau5, &radau5_}, {Integrator::kRodas5, &rodas5_}, {Integrator::kRodas4, &rodas4_}})
+    for (const auto& [integrator, points] : {std::pair{Integrator::kRadau5, &radau5_}, {Integrator::kRodas5, &rodas5_}})
       for (const double tolerance : tolerances)
         points->push_back(measure(parameters_, {.integrator = integrator, .relative_tolerance = tolerance, .absolute_tolerance = tolerance}));
   }
@@ -64,13 +64,12 @@ class Comparison {
     chart.series.push_back(make_series("dopri5", dopri5_, charts::kOrange));
     chart.series.push_back(make_series("radau5", radau5_, charts::kRed));
     chart.series.push_back(make_series("rodas5", rodas5_, charts::kGreen));
-    chart.series.push_back(make_series("rodas4", rodas4_, charts::kPurple));
     chart.series.push_back(make_series("rk4", rk4_, charts::kBlue));
     return chart;
   }
 
   void add_rows(Table& table) const {
-    for (const auto& [method, points] : {std::pair{"radau5, tolerance ", &radau5_}, {"rodas5, tolerance ", &rodas5_}, {"rodas4, tolerance ", &rodas4_},
+    for (const auto& [method, points] : {std::pair{"radau5, tolerance ", &radau5_}, {"rodas5, tolerance ", &rodas5_},
                                          {"dopri5, tolerance ", &dopri5_}, {"rk4, step ", &rk4_}})
       for (const Point& point : *points) {
         const double error = relative_error(point);
@@ -100,7 +99,7 @@ class Comparison {
   std::string name_;
   RpsupParameters parameters_;
   Point reference_;
-  std::vector<Point> dopri5_, radau5_, rodas5_, rodas4_, rk4_;
+  std::vector<Point> dopri5_, radau5_, rodas5_, rk4_;
 };
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(SteppedPeak, LeavesLowerTurnsAlone) {
 TEST(SteppedPeak, LoadsOfLongStepsAreThoseOfFineOnes) {
   RunOptions options{.duration = 0.1, .integrator = Integrator::kDopri5, .relative_tolerance = 1e-9, .absolute_tolerance = 1e-9};
   const RunResult fine = simulate_rpsup(validation::across_rpsup(), options, {});
-  options.integrator = Integrator::kRodas4;
+  options.integrator = Integrator::kRodas5;
   options.relative_tolerance = options.absolute_tolerance = 3e-5;
   const RunResult coarse = simulate_rpsup(validation::across_rpsup(), options, {});
   ASSERT_EQ(fine.status, RunStatus::kSucceeded) << fine.detail;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RODAS methods' coefficients by the order conditions, their order, stability and place among Odeint's steppers.
+// The coefficients of rodas5 by the order conditions, its order, stability and place among Odeint's steppers.
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +21,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-template <typename Coefficients>
-class Methods : public testing::Test {};
-using BothMethods = testing::Types<Rodas4Coefficients, Rodas5Coefficients>;
-TYPED_TEST_SUITE(Methods, BothMethods);
+using RodasK = Rodas5Coefficients;
 
 /// The method in the form of the order conditions, from its own: Gamma = (1 / gamma - C)^-1, alpha = a Gamma, b = m Gamma.
 struct ClassicalForm {
@@ -32,18 +29,17 @@ struct ClassicalForm {
   Eigen::VectorXd b, b_embedded;
 };
 
-template <typename K>
 ClassicalForm make_classical_form() {
-  const auto s = static_cast<Eigen::Index>(K::kStages);
+  const auto s = static_cast<Eigen::Index>(RodasK::kStages);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(s, s);
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(s, s);
-  for (std::size_t i = 0; i < K::kStages; ++i)
+  for (std::size_t i = 0; i < RodasK::kStages; ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::a[i][j];
-      C(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::C[i][j];
+      a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = RodasK::a[i][j];
+      C(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = RodasK::C[i][j];
     }
   ClassicalForm form;
-  form.Gamma = (Eigen::MatrixXd::Identity(s, s) / K::gamma - C).inverse();
+  form.Gamma = (Eigen::MatrixXd::Identity(s, s) / RodasK::gamma - C).inverse();
   form.alpha = a * form.Gamma;
   form.beta = form.alpha + form.Gamma;
   Eigen::VectorXd m = a.row(s - 1).transpose();
@@ -91,27 +87,27 @@ double largest(const std::vector<double>& defects) {
 
 constexpr double kRodasDigits = 1e-12;  // sixteen digits of coefficients up to 300
 
-TYPED_TEST(Methods, MeetTheConditionsOfTheirOrder) {
-  const ClassicalForm m = make_classical_form<TypeParam>();
-  for (int order = 1; order <= TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b, order)), kRodasDigits) << order;
-  for (int order = 1; order < TypeParam::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b_embedded, order)), kRodasDigits) << order;
-  EXPECT_GT(largest(find_defects(m, m.b_embedded, TypeParam::kOrder)), 1e-4);
+TEST(Rodas5Stepper, MeetsTheConditionsOfItsOrder) {
+  const ClassicalForm m = make_classical_form();
+  for (int order = 1; order <= RodasK::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b, order)), kRodasDigits) << order;
+  for (int order = 1; order < RodasK::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b_embedded, order)), kRodasDigits) << order;
+  EXPECT_GT(largest(find_defects(m, m.b_embedded, RodasK::kOrder)), 1e-4);
 }
 
 // c and d are the row sums of alpha and Gamma: they are what a time that is one more entry of y would get.
-TYPED_TEST(Methods, TreatTimeAsAnotherEntryOfTheState) {
-  const ClassicalForm m = make_classical_form<TypeParam>();
-  for (std::size_t i = 0; i < TypeParam::kStages; ++i) {
-    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::c[i], kRodasDigits) << i;
-    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), TypeParam::d[i], kRodasDigits) << i;
+TEST(Rodas5Stepper, TreatsTimeAsAnotherEntryOfTheState) {
+  const ClassicalForm m = make_classical_form();
+  for (std::size_t i = 0; i < RodasK::kStages; ++i) {
+    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), RodasK::c[i], kRodasDigits) << i;
+    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), RodasK::d[i], kRodasDigits) << i;
   }
 }
 
 // The last stages are formed from the one before.
-TYPED_TEST(Methods, ExtendTheStageBefore) {
-  for (std::size_t i = TypeParam::kFirstExtended; i < TypeParam::kStages; ++i)
-    for (std::size_t j = 0; j + 1 < TypeParam::kStages; ++j)
-      EXPECT_EQ(TypeParam::a[i][j], j + 1 == i ? 1.0 : TypeParam::a[i - 1][j]) << i << " " << j;
+TEST(Rodas5Stepper, ExtendsTheStageBefore) {
+  for (std::size_t i = RodasK::kFirstExtended; i < RodasK::kStages; ++i)
+    for (std::size_t j = 0; j + 1 < RodasK::kStages; ++j)
+      EXPECT_EQ(RodasK::a[i][j], j + 1 == i ? 1.0 : RodasK::a[i - 1][j]) << i << " " << j;
 }
 
 /// Dense linear algebra for a system given by f, J and df/dt.
@@ -165,50 +161,48 @@ System make_nonlinear_system() {
 }
 
 /// Error after [0, 1] in so many equal steps.
-template <typename K>
 double calc_global_error(int steps) {
   System system = make_nonlinear_system();
-  RodasStepper<K> stepper;
+  Rodas5Stepper stepper;
   Eigen::VectorXd y = exact(0.0);
   for (int k = 0; k < steps; ++k) stepper.do_step(std::ref(system), y, static_cast<double>(k) / steps, 1.0 / steps);
   return (y - exact(1.0)).norm();
 }
 
-TYPED_TEST(Methods, AreOfTheirOrder) {
+TEST(Rodas5Stepper, IsOfItsOrder) {
   // The next term of the error is a part dt of it.
-  const double order = std::log2(calc_global_error<TypeParam>(32) / calc_global_error<TypeParam>(64));
-  EXPECT_NEAR(order, TypeParam::kOrder, 0.15);
+  const double order = std::log2(calc_global_error(32) / calc_global_error(64));
+  EXPECT_NEAR(order, RodasK::kOrder, 0.15);
 }
 
 /// Error estimate and error of one step from t = 0.3.
 struct Local {
   double estimate, error;
 };
-template <typename K>
 Local calc_local(double dt) {
   System system = make_nonlinear_system();
-  RodasStepper<K> stepper;
+  Rodas5Stepper stepper;
   Eigen::VectorXd end, estimate;
   stepper.do_step(std::ref(system), exact(0.3), 0.3, end, dt, estimate);
   return {estimate.norm(), (end - exact(0.3 + dt)).norm()};
 }
 
-TYPED_TEST(Methods, EstimateTheErrorOfAnEmbeddedMethodOfAnOrderLess) {
-  const Local coarse = calc_local<TypeParam>(0.04);
-  const Local fine = calc_local<TypeParam>(0.02);
-  EXPECT_NEAR(std::log2(coarse.estimate / fine.estimate), TypeParam::kOrder, 0.15);
-  EXPECT_NEAR(std::log2(coarse.error / fine.error), TypeParam::kOrder + 1, 0.25);
+TEST(Rodas5Stepper, EstimatesTheErrorOfAnEmbeddedMethodOfAnOrderLess) {
+  const Local coarse = calc_local(0.04);
+  const Local fine = calc_local(0.02);
+  EXPECT_NEAR(std::log2(coarse.estimate / fine.estimate), RodasK::kOrder, 0.15);
+  EXPECT_NEAR(std::log2(coarse.error / fine.error), RodasK::kOrder + 1, 0.25);
 }
 
-TYPED_TEST(Methods, TakeNoEvaluationThatIsGiven) {
+TEST(Rodas5Stepper, TakesNoEvaluationThatIsGiven) {
   System system = make_nonlinear_system();
-  RodasStepper<TypeParam> stepper;
+  Rodas5Stepper stepper;
   const Eigen::VectorXd y = exact(0.0);
   Eigen::VectorXd dydt, end, error;
   system(y, dydt, 0.0);
   system.evaluations = 0;
   stepper.do_step(std::ref(system), y, dydt, 0.0, end, 0.1, error);
-  EXPECT_EQ(system.evaluations, static_cast<int>(TypeParam::kStages) - 1);
+  EXPECT_EQ(system.evaluations, static_cast<int>(RodasK::kStages) - 1);
   Eigen::VectorXd in_place = y;
   stepper.do_step(std::ref(system), in_place, 0.0, 0.1);
   EXPECT_EQ(in_place, end);
@@ -223,33 +217,32 @@ System make_linear_system(double lambda) {
 }
 
 /// R(z) of a step of 1 of y' = z y, for complex z as a rotation.
-template <typename K>
 double calc_growth(double re, double im) {
   Eigen::Matrix2d A;
   A << re, -im, im, re;
   System s = make_linear_system(0.0);
   s.f = [A](double, const Eigen::VectorXd& y) { return Eigen::VectorXd(A * y); };
   s.calc_J = [A](double, const Eigen::VectorXd&) { return A; };
-  RodasStepper<K> stepper;
+  Rodas5Stepper stepper;
   Eigen::VectorXd y = Eigen::Vector2d(1.0, 0.0);
   stepper.do_step(std::ref(s), y, 0.0, 1.0);
   return y.norm();
 }
 
-TYPED_TEST(Methods, AreLStable) {
-  EXPECT_LT(calc_growth<TypeParam>(-1e10, 0.0), 1e-8);
-  EXPECT_LT(calc_growth<TypeParam>(0.0, 1e8), 1e-6);
+TEST(Rodas5Stepper, IsLStable) {
+  EXPECT_LT(calc_growth(-1e10, 0.0), 1e-8);
+  EXPECT_LT(calc_growth(0.0, 1e8), 1e-6);
   // On the imaginary axis |R| <= 1: that and the poles on the right make the method A-stable.
-  for (double w = 1e-2; w < 1e6; w *= 1.2) EXPECT_LE(calc_growth<TypeParam>(0.0, w), 1.0 + 1e-12) << w;
+  for (double w = 1e-2; w < 1e6; w *= 1.2) EXPECT_LE(calc_growth(0.0, w), 1.0 + 1e-12) << w;
 }
 
-TYPED_TEST(Methods, FollowASlowSolutionOfAStiffSystemInBigSteps) {
+TEST(Rodas5Stepper, FollowsASlowSolutionOfAStiffSystemInBigSteps) {
   static constexpr double kRate = -1e10;
   System s;
   s.f = [](double t, const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, kRate * (y[0] - std::cos(t))); };
   s.calc_J = [](double, const Eigen::VectorXd&) { return Eigen::MatrixXd::Constant(1, 1, kRate); };
   s.calc_f_t = [](double t, const Eigen::VectorXd&) { return Eigen::VectorXd::Constant(1, -kRate * std::sin(t)); };
-  RodasStepper<TypeParam> stepper;
+  Rodas5Stepper stepper;
   Eigen::VectorXd y = Eigen::VectorXd::Constant(1, 2.0);  // far from the solution: one step forgets it
   for (int k = 0; k < 20; ++k) {
     stepper.do_step(std::ref(s), y, 0.1 * k, 0.1);
@@ -257,9 +250,9 @@ TYPED_TEST(Methods, FollowASlowSolutionOfAStiffSystemInBigSteps) {
   }
 }
 
-TYPED_TEST(Methods, ReportASingularMatrixAsNoNumber) {
-  System s = make_linear_system(1.0 / TypeParam::gamma);  // equal to 1 / (gamma dt)
-  RodasStepper<TypeParam> stepper;
+TEST(Rodas5Stepper, ReportsASingularMatrixAsNoNumber) {
+  System s = make_linear_system(1.0 / RodasK::gamma);  // equal to 1 / (gamma dt)
+  Rodas5Stepper stepper;
   Eigen::VectorXd y = Eigen::VectorXd::Ones(1);
   Eigen::VectorXd error;
   stepper.do_step(std::ref(s), y, 0.0, 1.0, error);
@@ -267,15 +260,14 @@ TYPED_TEST(Methods, ReportASingularMatrixAsNoNumber) {
   EXPECT_TRUE(std::isnan(error[0]));
 }
 
-TYPED_TEST(Methods, AreDrivenByOdeintsLoopOfEqualSteps) {
+TEST(Rodas5Stepper, IsDrivenByOdeintsLoopOfEqualSteps) {
   System system = make_nonlinear_system();
   Eigen::VectorXd ours = exact(0.0);
-  using Stepper = RodasStepper<TypeParam>;
-  Stepper stepper;
+  Rodas5Stepper stepper;
   for (int k = 0; k < 16; ++k) stepper.do_step(std::ref(system), ours, 0.0625 * k, 0.0625);
   Eigen::VectorXd y = exact(0.0);
   std::vector<double> times;
-  const std::size_t steps = odeint::integrate_const(Stepper(), std::ref(system), y, 0.0, 1.0, 0.0625,
+  const std::size_t steps = odeint::integrate_const(Rodas5Stepper(), std::ref(system), y, 0.0, 1.0, 0.0625,
                                                     [&](const Eigen::VectorXd&, double t) { times.push_back(t); });
   EXPECT_EQ(steps, 16u);
   EXPECT_EQ(times.size(), 17u);
@@ -283,8 +275,8 @@ TYPED_TEST(Methods, AreDrivenByOdeintsLoopOfEqualSteps) {
 }
 
 // Odeint's controller wants to know that it may give f at the start of the step; it calls that an explicit error stepper.
-TYPED_TEST(Methods, AreDrivenByOdeintsErrorControl) {
-  using Stepper = RodasStepper<TypeParam>;
+TEST(Rodas5Stepper, IsDrivenByOdeintsErrorControl) {
+  using Stepper = Rodas5Stepper;
   using Checker = odeint::default_error_checker<double, typename Stepper::algebra_type, typename Stepper::operations_type>;
   using Controlled = odeint::controlled_runge_kutta<Stepper, Checker, odeint::default_step_adjuster<double, double>,
                                                     typename Stepper::resizer_type, odeint::explicit_error_stepper_tag>;
