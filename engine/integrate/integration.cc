@@ -14,7 +14,6 @@ namespace engine {
 namespace {
 
 constexpr double kFirstStep = 1e-6;     // [s]; the controller finds its own within some steps
-constexpr double kImpactWeight = 50.0;  // of radau5's errors where there are impacts: one sets off what the next ones are
 constexpr double kWidenBelow = 1e-5;    // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;         // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
@@ -27,11 +26,6 @@ RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   options.relative_tolerance = choose_tolerance(mechanism, options.relative_tolerance);
   options.absolute_tolerance = choose_tolerance(mechanism, options.absolute_tolerance);
   return options;
-}
-
-/// With which power of the step the error estimate of a step falls.
-double order_of_error(Integrator integrator) {
-  return integrator == Integrator::kRadau5 ? 4.0 : 5.0;
 }
 
 /// Steps are below this when error control has failed: a hundred roundings of the time.
@@ -49,10 +43,8 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       system_(mechanism),
       tolerance_(options_.relative_tolerance, options_.absolute_tolerance),
       energy_control_(options_),
-      dopri5_(tolerance_),
-      rodas5_(tolerance_),
-      radau5_(tolerance_, has_clearance(mechanism) ? kImpactWeight : 1.0),
-      control_(order_of_error(options_.integrator)),
+      stepper_(make_stepper(mechanism, options_.integrator, tolerance_)),
+      control_(stepper_->error_exponent()),
       samples_(options.output_rate, options.duration),
       sliver_(sliver_of(options_)),
       longest_step_(choose_longest_step(mechanism, options_.integrator)),
@@ -106,11 +98,10 @@ void Integration::look_for_vibrations() {
   longest_fed_ = longest_step_;
   const double grown = std::exchange(grown_, 0.0);
   if (std::ranges::none_of(start_.at.joints, [](const JointState& joint) { return joint.load.friction_sum > 0.0; })) return;
-  const NewtonSolver solver = system_.choose_newton_solver(options_.integrator == Integrator::kRadau5 ? Shifts::kRealAndComplex : Shifts::kReal);
-  if (system_.linearise(start_.t, start_.y, solver) != EvaluationStatus::kOk) return forget_equations();
+  const NewtonSolver solver = system_.choose_newton_solver(stepper_->shifts());
+  if (system_.linearise(start_.t, start_.y, solver) != EvaluationStatus::kOk) return stepper_->invalidate();
   const FedVibration found = fed_vibrations_.find(system_);
-  rodas5_.take_jacobian();
-  radau5_.take_jacobian();
+  stepper_->jacobian_refreshed();
   if (found.growth == 0.0) return;
   grown_ = grown + found.growth * since;
   if (grown_ >= kGrownToErrors) longest_fed_ = std::min(longest_step_, kLargestAngle / found.frequency);
@@ -120,14 +111,14 @@ void Integration::look_for_vibrations() {
 void Integration::jump() {
   piece_.advance();
   system_.follow_drives(piece_);
-  forget_equations();
+  stepper_->invalidate();
   evaluate_again(start_);
 }
 
 /// Bristles follow their contacts; their rates are then those of other elements.
 void Integration::prepare(double dt) {
   if (!system_.prepare_step(start_.at, dt, start_.y)) return;
-  forget_equations();
+  stepper_->invalidate();
   evaluate_again(start_);
 }
 
@@ -137,17 +128,12 @@ void Integration::evaluate_again(StepEnd& end) {
   system_.calc_energies(end.at);
 }
 
-void Integration::forget_equations() {
-  rodas5_.begin_step();
-  radau5_.forget();
-}
-
 void Integration::widen_bristles() {
   system_.widen_bristles(start_.y);
   start_.f.setZero(start_.y.size());
   end_.f.setZero(start_.y.size());
   sample_.f.setZero(start_.y.size());
-  forget_equations();
+  stepper_->invalidate();
   evaluate_again(start_);
 }
 
@@ -181,7 +167,7 @@ bool Integration::try_fixed_step() {
   if (std::exchange(crosses_, false)) system_.follow_drives(piece_);
   cross_jumps(t_end);
   prepare(t_end - start_.t);
-  const Trial trial = rk4_.try_step(system_, start_, t_end - start_.t, end_);
+  const Trial trial = stepper_->try_step(system_, start_, t_end - start_.t, end_);
   run_end_.evaluations += trial.evaluations;
   if (trial.status == EvaluationStatus::kBristleMissing) {
     widen_bristles();
@@ -212,24 +198,13 @@ bool Integration::try_controlled_step() {
 }
 
 Trial Integration::try_step(double dt) {
-  Trial trial = try_method(dt);
+  Trial trial = stepper_->try_step(system_, start_, dt, end_);
   run_end_.evaluations += trial.evaluations;
   if (trial.status != EvaluationStatus::kOk || !(trial.error <= 1.0)) return trial;
   system_.calc_energies(end_.at);
   if (is_implicit(options_.integrator))
     trial.error = std::max(trial.error, energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt));
   return trial;
-}
-
-Trial Integration::try_method(double dt) {
-  switch (options_.integrator) {
-    case Integrator::kRadau5: return radau5_.try_step(system_, start_, dt, end_);
-    case Integrator::kRodas5: return rodas5_.try_step(system_, start_, dt, end_);
-    case Integrator::kDopri5: return dopri5_.try_step(system_, start_, dt, end_);
-    case Integrator::kAuto:
-    case Integrator::kRk4: break;
-  }
-  return rk4_.try_step(system_, start_, dt, end_);
 }
 
 /// Sees to it that the next try does better where this one failed.
@@ -273,16 +248,15 @@ void Integration::accept() {
     if (evaluate_inside(0.5 * (start_.t + end_.t)) == EvaluationStatus::kOk) observer_.on_middle(sample_.at);
   }
   take_samples();
-  rodas5_.begin_step();
-  radau5_.accept();
+  stepper_->accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
   // With an element more or less in a lasting contact, the Jacobian and the course of the state are nearly what they were; Newton's method
   // makes good what is not.
   if (change.abrupt)
-    forget_equations();
+    stepper_->invalidate();
   else if (change.any)
-    radau5_.doubt();
+    stepper_->reset_convergence_rate();
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
   std::swap(rings_start_, rings_end_);

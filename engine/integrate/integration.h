@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/integrate/energy_control.h"
 #include "engine/integrate/fed_vibrations.h"
 #include "engine/integrate/observer.h"
-#include "engine/integrate/radau.h"
 #include "engine/integrate/run_end.h"
 #include "engine/integrate/sample_times.h"
 #include "engine/integrate/step_control.h"
-#include "engine/integrate/step_method.h"
+#include "engine/integrate/stepper.h"
 #include "engine/model/drive_piece.h"
 
 namespace engine {
@@ -31,7 +31,6 @@ class Integration {
   [[nodiscard]] bool try_fixed_step();
   [[nodiscard]] bool try_controlled_step();
   [[nodiscard]] Trial try_step(double dt);
-  [[nodiscard]] Trial try_method(double dt);
   [[nodiscard]] bool is_accepted(const Trial& trial, double dt);
   [[nodiscard]] bool land_on_event(double dt);
   void accept();
@@ -41,7 +40,6 @@ class Integration {
   void cross_jumps(double t_end);
   void look_for_vibrations();
   void prepare(double dt);
-  void forget_equations();
   void evaluate_again(StepEnd& end);
   void widen_bristles();
   void fail(EvaluationStatus status);
@@ -52,12 +50,9 @@ class Integration {
   const RunOptions options_;  ///< with an integrator chosen
   Observer& observer_;
   MotionSystem system_;
-  Rk4 rk4_;
   Tolerance tolerance_;
   EnergyControl energy_control_;
-  Dopri5 dopri5_;
-  Rodas5 rodas5_;
-  Radau5 radau5_;
+  std::unique_ptr<Stepper> stepper_;
   StepControl control_;
   SampleTimes samples_;
   double sliver_;                                 ///< so short a rest of a fixed step is rounding, [s]

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "engine/dynamics/state_layout.h"
-#include "engine/integrate/step_method.h"
+#include "engine/integrate/stepper.h"
 
 namespace engine {
 

@@ -41,7 +41,7 @@ Trial Radau5::try_step(MotionSystem& system, const StepEnd& start, double dt, St
   tried_dt_ = 0.0;
   Newton newton = solve_stages(system, start, dt, trial);
   if (newton == Newton::kTooSlow && !fresh_) {
-    forget();
+    invalidate();
     newton = solve_stages(system, start, dt, trial);
   }
   if (newton == Newton::kTooSlow) {
@@ -67,12 +67,12 @@ void Radau5::accept() {
   linearised_ = linearised_ && contraction_ <= kGoodContraction;
 }
 
-void Radau5::forget() {
+void Radau5::invalidate() {
   last_dt_ = factored_dt_ = 0.0;
   linearised_ = fresh_ = false;
 }
 
-void Radau5::take_jacobian() {
+void Radau5::jacobian_refreshed() {
   factored_dt_ = 0.0;
   linearised_ = fresh_ = true;
 }

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "engine/dynamics/state_layout.h"
-#include "engine/integrate/step_method.h"
+#include "engine/integrate/stepper.h"
 #include "engine/integrate/tolerance.h"
 
 namespace engine {
@@ -15,21 +15,18 @@ namespace engine {
 /// Where little but slow motion is left, in lasting contact above all, its steps are several times those of a Rosenbrock method, whose
 /// stages follow the Jacobian at their start; and the Jacobian is made anew only when Newton's method has become slow with it.
 /// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.8.
-class Radau5 {
+class Radau5 final : public Stepper {
  public:
   /// @param error_weight  by which the error estimate counts more than it says. It is of order 3, and damped where the motion is fast
   explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0);
 
-  /// A step from start. Tries from one start may follow each other; between two starts stands accept() or forget().
-  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end);
-  /// The last try is part of the run: the next one goes on from its end.
-  void accept();
-  /// The equations of motion are others than in the last try: nothing that was learned in it holds.
-  void forget();
-  /// The system has been linearised, by others, at the start of the next step.
-  void take_jacobian();
-  /// The equations of motion are nearly those of the last try: the Jacobian and the polynomial go on to serve, but how well is to be seen anew.
-  void doubt() { contraction_ = kUnknownContraction; }
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) override;
+  void accept() override;
+  void invalidate() override;
+  void jacobian_refreshed() override;
+  void reset_convergence_rate() override { contraction_ = kUnknownContraction; }
+  [[nodiscard]] double error_exponent() const override { return 4.0; }
+  [[nodiscard]] Shifts shifts() const override { return Shifts::kRealAndComplex; }
 
  private:
   using Stages = std::array<Eigen::VectorXd, 3>;

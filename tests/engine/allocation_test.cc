@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/dynamics/loop_closure.h"
+#include "engine/integrate/odeint_steppers.h"
 #include "engine/integrate/radau.h"
-#include "engine/integrate/step_method.h"
 #include "engine/model/rpsup.h"
 
 namespace {
@@ -70,9 +70,9 @@ TEST_P(RightHandSide, AllocatesNothing) {
   const long before = allocations;
   for (int i = 0; i < 100; ++i) {
     ASSERT_EQ(method.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
-    rodas.begin_step();
+    rodas.accept();
     ASSERT_EQ(rodas.try_step(system, start, 1e-9, end).status, EvaluationStatus::kOk);
-    if (i % 2 == 0) radau.forget();
+    if (i % 2 == 0) radau.invalidate();
     ASSERT_EQ(radau.try_step(system, start, 1e-9, end).error <= 1.0, true);
     radau.accept();
     system.calc_energies(end.at);

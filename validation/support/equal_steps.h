@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/integrate/step_method.h"
+#include "engine/integrate/odeint_steppers.h"
 #include "validation/engine_names.h"
 
 namespace validation {

@@ -90,7 +90,7 @@ TEST(Radau5, GivesTheSameFromTheSameStart) {
   EXPECT_GT(method.try_step(at.system, at.start, 0.5, at.again).error, 1.0);
   ASSERT_LE(method.try_step(at.system, at.start, 1e-3, at.again).error, 1.0);
   EXPECT_LT((at.again.y - at.end.y).norm(), 1e-9);  // one more or less of the iterations
-  method.forget();
+  method.invalidate();
   ASSERT_LE(method.try_step(at.system, at.start, 1e-3, at.again).error, 1.0);
   StepEnd of_new = at.end;
   ASSERT_LE(Radau5(at.tolerance).try_step(at.system, at.start, 1e-3, of_new).error, 1.0);
@@ -105,7 +105,7 @@ TEST(Radau5, GoesOnFromTheStepBeforeWithFewerEvaluations) {
   method.accept();
   const Trial next = method.try_step(at.system, at.end, 1e-3, at.again);
   ASSERT_LE(next.error, 1.0);
-  method.forget();
+  method.invalidate();
   StepEnd anew = at.again;
   const Trial without = method.try_step(at.system, at.end, 1e-3, anew);
   ASSERT_LE(without.error, 1.0);

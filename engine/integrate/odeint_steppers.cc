@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/integrate/step_method.h"
+#include "engine/integrate/odeint_steppers.h"
 
 #include <functional>
 
@@ -7,7 +7,8 @@ namespace engine {
 
 namespace {
 
-/// The equations of motion as Odeint calls them, for the stages of one step. After a failed evaluation the others are left out.
+/// The equations of motion as Odeint calls them, for the stages of one step. After a failed evaluation the
+/// others are left out.
 class StageSystem {
  public:
   StageSystem(MotionSystem& system, Trial& trial) : system_(system), trial_(trial) {}
@@ -26,11 +27,13 @@ class StageSystem {
 /// Dopri5's stages; the last of them is at the step's end, and all that is evaluated there is kept.
 class Dopri5System : public StageSystem {
  public:
-  Dopri5System(MotionSystem& system, Trial& trial, Evaluation& at_end) : StageSystem(system, trial), at_end_(at_end) {}
+  Dopri5System(MotionSystem& system, Trial& trial, Evaluation& at_end)
+      : StageSystem(system, trial), at_end_(at_end) {}
 
   void operator()(const Eigen::VectorXd& y, Eigen::VectorXd& dydt, double t) {
     constexpr int kStages = 6;  // and the first, which the step before has evaluated
-    if (trial_.status != EvaluationStatus::kOk || trial_.evaluations + 1 < kStages) return StageSystem::operator()(y, dydt, t);
+    if (trial_.status != EvaluationStatus::kOk || trial_.evaluations + 1 < kStages)
+      return StageSystem::operator()(y, dydt, t);
     ++trial_.evaluations;
     trial_.status = system_.calc_derivative(t, y, dydt, at_end_);
   }
@@ -42,7 +45,8 @@ class Dopri5System : public StageSystem {
 /// The stages of rodas5 with their linear algebra.
 class RodasSystem : public StageSystem {
  public:
-  RodasSystem(MotionSystem& system, Trial& trial, bool& linearised) : StageSystem(system, trial), linearised_(linearised) {}
+  RodasSystem(MotionSystem& system, Trial& trial, bool& linearised)
+      : StageSystem(system, trial), linearised_(linearised) {}
 
   void linearise(const Eigen::VectorXd& y, double t) {
     if (!linearised_) trial_.status = system_.linearise(t, y, system_.choose_newton_solver(Shifts::kReal));
@@ -79,7 +83,8 @@ Trial Dopri5::try_step(MotionSystem& system, const StepEnd& start, double dt, St
   end.t = start.t + dt;
   local_error_.resize(start.y.size());
   stepper_.do_step(std::ref(rhs), start.y, start.f, start.t, end.y, end.f, dt, local_error_);
-  if (trial.status == EvaluationStatus::kOk) trial.error = tolerance_.measure(local_error_, start.y, end.y, system.error_weights());
+  if (trial.status == EvaluationStatus::kOk)
+    trial.error = tolerance_.measure(local_error_, start.y, end.y, system.error_weights());
   return trial;
 }
 
