@@ -64,13 +64,14 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
   return has_elastic_links(mechanism) ? kLongestElastic : kLongest;
 }
 
-double choose_time_between_looks(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates) {
-  // A look costs as the cube of the coordinates, a step as their number to their square: so it takes about as large a part of a run with any number.
-  constexpr double kForEach = 1e-3;  // [s]
-  constexpr double kFew = 28.0;
+double choose_stability_check_interval(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates) {
+  // A check costs O(n^3), a dense step O(n^2), a recursive step O(n); the recursion is cheaper from about n = 28 on.
+  // An interval of max(n, n^2 / 28) ms keeps the checks' share of a run constant.
+  constexpr double kPerCoordinate = 1e-3;  // [s]
+  constexpr double kDenseUpTo = 28.0;
   if (!has_any(mechanism, has_friction) || !is_implicit(integrator) || free_coordinates == 0) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<double>(free_coordinates);
-  return kForEach * n * std::max(1.0, n / kFew);
+  return kPerCoordinate * n * std::max(1.0, n / kDenseUpTo);
 }
 
 double choose_tolerance(const Mechanism& mechanism, double wanted) {

@@ -20,10 +20,10 @@ namespace engine {
 /// @param integrator  not kAuto
 [[nodiscard]] double choose_longest_step(const Mechanism& mechanism, Integrator integrator);
 
-/// Time between two looks for vibrations that grow (FedVibrations), [s]: what grows and ends between two is not seen. Infinite if steps damp none or
-/// there is no friction to feed any.
+/// Time between two checks of local stability (UnstableModeLimiter), [s]: vibrations that grow and end between two checks are not seen.
+/// Infinite if steps damp none or there is no friction to excite any.
 /// @param integrator  not kAuto
-[[nodiscard]] double choose_time_between_looks(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates);
+[[nodiscard]] double choose_stability_check_interval(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates);
 
 /// The tolerance that Integrator::kAuto takes for the one that is wanted, for the steps' errors and the energy account, so that its peaks are
 /// nearly as right in one mechanism as in another. It is smaller with clearance, the more so in worn bores and where friction is other than that of

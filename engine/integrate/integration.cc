@@ -17,8 +17,6 @@ constexpr double kFirstStep = 1e-6;     // [s]; the controller finds its own wit
 constexpr double kWidenBelow = 1e-5;    // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
 constexpr int kMaxLandings = 6;         // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
-constexpr double kGrownToErrors = 5.0;   // times e; with 0 errors would be followed, with 10 many vibrations too late
-constexpr double kLargestAngle = 1.5;    // of a vibration in a step that follows it, [rad]: radau5 takes a thousandth of its amplitude then
 
 RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   if (options.integrator != Integrator::kAuto) return options;
@@ -47,9 +45,8 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       control_(stepper_->error_exponent()),
       samples_(options.output_rate, options.duration),
       sliver_(sliver_of(options_)),
-      longest_step_(choose_longest_step(mechanism, options_.integrator)),
-      look_every_(choose_time_between_looks(mechanism, options_.integrator, system_.free_count())),
-      longest_fed_(longest_step_) {}
+      step_limiter_(choose_stability_check_interval(mechanism, options_.integrator, system_.free_count()),
+                    choose_longest_step(mechanism, options_.integrator)) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
   const bool fixed = options_.integrator == Integrator::kRk4;
@@ -89,22 +86,6 @@ bool Integration::start(const Evaluation& assembled) {
   system_.add_penetrations(start_.at, rings_start_);
   dt_ = kFirstStep;
   return true;
-}
-
-/// Steps that are short enough to follow a growing vibration let their own errors grow, too, and these are larger than what the vibration begins from. So
-/// steps are shortened only once it may have grown to that size. Where nothing touches there is no friction that could feed any.
-void Integration::look_for_vibrations() {
-  const double since = start_.t - std::exchange(last_look_, start_.t);
-  longest_fed_ = longest_step_;
-  const double grown = std::exchange(grown_, 0.0);
-  if (std::ranges::none_of(start_.at.joints, [](const JointState& joint) { return joint.load.friction_sum > 0.0; })) return;
-  const NewtonSolver solver = system_.choose_newton_solver(stepper_->shifts());
-  if (system_.linearise(start_.t, start_.y, solver) != EvaluationStatus::kOk) return stepper_->invalidate();
-  const FedVibration found = fed_vibrations_.find(system_);
-  stepper_->jacobian_refreshed();
-  if (found.growth == 0.0) return;
-  grown_ = grown + found.growth * since;
-  if (grown_ >= kGrownToErrors) longest_fed_ = std::min(longest_step_, kLargestAngle / found.frequency);
 }
 
 /// Enters the next drive piece and evaluates the state again, with the accelerations after the jump.
@@ -186,8 +167,8 @@ bool Integration::try_fixed_step() {
 bool Integration::try_controlled_step() {
   const double stop = std::min(options_.duration, piece_.end());
   const double remaining = stop - start_.t;
-  if (start_.t >= last_look_ + look_every_) look_for_vibrations();
-  const double dt = std::min({dt_, longest_step_, longest_fed_, remaining});
+  if (step_limiter_.is_check_due(start_.t)) step_limiter_.check_local_stability(system_, start_, *stepper_);
+  const double dt = std::min({dt_, step_limiter_.max_step(), remaining});
   prepare(dt);
   const Trial trial = try_step(dt);
   if (!is_accepted(trial, dt)) return false;

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "engine/integrate/energy_control.h"
-#include "engine/integrate/fed_vibrations.h"
 #include "engine/integrate/observer.h"
 #include "engine/integrate/run_end.h"
 #include "engine/integrate/sample_times.h"
 #include "engine/integrate/step_control.h"
 #include "engine/integrate/stepper.h"
+#include "engine/integrate/unstable_mode_limiter.h"
 #include "engine/model/drive_piece.h"
 
 namespace engine {
@@ -38,7 +38,6 @@ class Integration {
   [[nodiscard]] EvaluationStatus evaluate_inside(double t);
   void jump();
   void cross_jumps(double t_end);
-  void look_for_vibrations();
   void prepare(double dt);
   void evaluate_again(StepEnd& end);
   void widen_bristles();
@@ -59,12 +58,7 @@ class Integration {
   StepEnd start_, end_;
   StepEnd sample_;                                ///< the state between steps that was evaluated last
   std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
-  double longest_step_;                           ///< [s]
-  FedVibrations fed_vibrations_;
-  double look_every_;                             ///< time between two looks for vibrations that grow, [s]; infinite: never
-  double last_look_ = 0.0;                        ///< [s]
-  double grown_ = 0.0;                            ///< how many times they may have grown by e since they began to
-  double longest_fed_;                            ///< longest step that follows them, [s]
+  UnstableModeLimiter step_limiter_;
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
   bool crosses_ = false;                          ///< the last fixed step went across a jump

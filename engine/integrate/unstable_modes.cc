@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/integrate/fed_vibrations.h"
+#include "engine/integrate/unstable_modes.h"
 
 #include <algorithm>
 #include <complex>
@@ -10,26 +10,27 @@ namespace engine {
 
 namespace {
 
-constexpr double kShift = 5e4;           // s, [1/s]; journals of the paper's size vibrate at 1e4 to 3e4 rad/s on their bores
-constexpr double kSlowestGrowth = 20.0;  // [1/s]; what grows slower comes to nothing before the contact has changed
+constexpr double kShift =
+    5e4;  // s, [1/s]; journals of the paper's size bounce at 1e4 to 3e4 rad/s on their bores
+constexpr double kSlowestGrowth = 20.0;  // [1/s]; the contact changes before a slower mode has grown
 
 }  // namespace
 
-FedVibration FedVibrations::find(MotionSystem& system) {
-  FedVibration found;
+Instability UnstableModes::find(MotionSystem& system) {
+  Instability found;
   if (!system.factor(kShift)) return found;
-  find_response(system);
+  calc_response(system);
   if (!response_.allFinite() || solver_.compute(response_, false).info() != Eigen::Success) return found;
   for (const std::complex<double>& inverse : solver_.eigenvalues()) {
-    const std::complex<double> rate = kShift - 1.0 / inverse;
-    if (!(rate.real() > kSlowestGrowth && rate.imag() > rate.real())) continue;
-    found.growth = std::max(found.growth, rate.real());
-    found.frequency = std::max(found.frequency, rate.imag());
+    const std::complex<double> eigenvalue = kShift - 1.0 / inverse;
+    if (!(eigenvalue.real() > kSlowestGrowth && eigenvalue.imag() > eigenvalue.real())) continue;
+    found.growth = std::max(found.growth, eigenvalue.real());
+    found.frequency = std::max(found.frequency, eigenvalue.imag());
   }
   return found;
 }
 
-void FedVibrations::find_response(MotionSystem& system) {
+void UnstableModes::calc_response(MotionSystem& system) {
   const StateLayout& layout = system.layout();
   const int states = layout.bristle();  // (q, v)
   response_.resize(states, states);
