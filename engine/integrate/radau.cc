@@ -16,11 +16,12 @@ namespace {
 using K = RadauCoefficients;
 
 constexpr int kMaxNewtonIterations = 10;
-constexpr double kGoodContraction = 0.05;  // with less, the Jacobian is good for another step
+constexpr double kKeepJacobianBelow = 0.05;  // convergence rate with which the Jacobian serves another step
 // In units of the tolerance:
-constexpr double kClose = 1e-5;      // what may be left of the iteration: more of it excites the journal on its bore, where little damps that
-constexpr double kRoundings = 10.0;  // of a number that may be left whatever the tolerance
-constexpr double kNoStep = 40.0;     // error of a step whose iteration does not converge: the next try takes about two fifths of it
+constexpr double kNewtonTolerance = 1e-5;  // more would excite the journal on its bore, where little damps it
+constexpr double kRoundingErrors = 10.0;      // of a number, allowed whatever the tolerance
+constexpr double kNewtonFailureError =
+    40.0;  // of a step whose iterations do not converge: the next try takes two fifths of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
 void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of, Eigen::VectorXd& to) {
@@ -32,21 +33,22 @@ void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages
 Radau5::Radau5(const Tolerance& tolerance, double error_weight)
     : tolerance_(tolerance),
       error_weight_(error_weight),
-      close_(std::max(kClose, kRoundings * std::numeric_limits<double>::epsilon() / tolerance.relative())) {}
+      newton_tolerance_(std::max(kNewtonTolerance, kRoundingErrors * std::numeric_limits<double>::epsilon() /
+                                                       tolerance.relative())) {}
 
 Trial Radau5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
   Trial trial;
-  make_room(system, start.y);
-  tolerance_.calc_weights(start.y, system.error_weights(), weights_);
+  resize_work(system, start.y);
+  tolerance_.calc_weights(start.y, system.error_weights(), norm_weights_);
   tried_dt_ = 0.0;
   Newton newton = solve_stages(system, start, dt, trial);
-  if (newton == Newton::kTooSlow && !fresh_) {
+  if (newton == Newton::kNotConverged && !fresh_) {
     invalidate();
     newton = solve_stages(system, start, dt, trial);
   }
-  if (newton == Newton::kTooSlow) {
+  if (newton == Newton::kNotConverged) {
     last_dt_ = 0.0;
-    trial.error = kNoStep;
+    trial.error = kNewtonFailureError;
   }
   if (newton != Newton::kConverged) return trial;
   trial.error = error_weight_ * estimate_error(system, start, dt);
@@ -64,7 +66,7 @@ void Radau5::accept() {
   std::swap(Z_, last_Z_);
   last_dt_ = tried_dt_;
   fresh_ = false;
-  linearised_ = linearised_ && contraction_ <= kGoodContraction;
+  linearised_ = linearised_ && convergence_rate_ <= kKeepJacobianBelow;
 }
 
 void Radau5::invalidate() {
@@ -77,18 +79,20 @@ void Radau5::jacobian_refreshed() {
   linearised_ = fresh_ = true;
 }
 
-void Radau5::make_room(const MotionSystem& system, const Eigen::VectorXd& y) {
+void Radau5::resize_work(const MotionSystem& system, const Eigen::VectorXd& y) {
   const Eigen::Index size = y.size();
-  weights_.resize(system.controlled_size());
+  norm_weights_.resize(system.controlled_size());
   for (std::size_t i = 0; i < K::kStages; ++i) {
     Z_[i].resize(size);
     f_[i].resize(size);
   }
-  for (Eigen::VectorXd* each : {&W_, &W_real_, &W_imag_, &change_, &change_real_, &change_imag_, &stage_}) each->resize(size);
+  for (Eigen::VectorXd* each : {&W_, &W_real_, &W_imag_, &update_, &update_real_, &update_imag_, &stage_})
+    each->resize(size);
 }
 
-/// From the polynomial of the step before, gone on; from the accelerations at the start if there is none.
-void Radau5::guess_stages(const StepEnd& start, const StateLayout& layout, double dt) {
+/// Predicts the stages by the collocation polynomial of the step before, or by the accelerations at the start
+/// if there is no such step.
+void Radau5::predict_stages(const StepEnd& start, const StateLayout& layout, double dt) {
   if (last_dt_ > 0.0)
     extrapolate(dt / last_dt_);
   else
@@ -102,7 +106,7 @@ void Radau5::guess_stages(const StepEnd& start, const StateLayout& layout, doubl
   combine(K::T_inverse[2], Z_, W_imag_);
 }
 
-/// @param ratio  of the step to the one before
+/// @param ratio  this step over the one before
 void Radau5::extrapolate(double ratio) {
   constexpr std::array<double, 4> nodes{0.0, K::c[0], K::c[1], K::c[2]};
   for (std::size_t i = 0; i < K::kStages; ++i) {
@@ -124,16 +128,17 @@ Radau5::Newton Radau5::solve_stages(MotionSystem& system, const StepEnd& start, 
     linearised_ = fresh_ = true;
     factored_dt_ = 0.0;
   }
-  if (dt != factored_dt_) factored_dt_ = system.factor(K::shift / dt) && system.factor(K::complex_shift / dt) ? dt : 0.0;
-  const Newton newton = factored_dt_ == dt ? iterate(system, start, dt, trial) : Newton::kTooSlow;
-  if (newton != Newton::kConverged) contraction_ = kUnknownContraction;
+  if (dt != factored_dt_)
+    factored_dt_ = system.factor(K::shift / dt) && system.factor(K::complex_shift / dt) ? dt : 0.0;
+  const Newton newton = factored_dt_ == dt ? iterate(system, start, dt, trial) : Newton::kNotConverged;
+  if (newton != Newton::kConverged) convergence_rate_ = kUnknownRate;
   return newton;
 }
 
-/// Newton's method with the Jacobian at hand.
+/// Simplified Newton iterations with the present Jacobian.
 Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial) {
-  guess_stages(start, system.layout(), dt);
-  double last_change = 0.0;
+  predict_stages(start, system.layout(), dt);
+  double last_update = 0.0;
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
     for (std::size_t i = 0; i < K::kStages; ++i) {
       stage_ = start.y + Z_[i];
@@ -141,61 +146,66 @@ Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, doubl
       trial.status = system.calc_derivative(start.t + K::c[i] * dt, stage_, f_[i]);
       if (trial.status != EvaluationStatus::kOk) return Newton::kFailed;
     }
-    const double change = correct_stages(system, dt);
-    if (!std::isfinite(change)) return Newton::kTooSlow;
+    const double update = newton_iteration(system, dt);
+    if (!std::isfinite(update)) return Newton::kNotConverged;
     if (iteration > 0) {
-      contraction_ = std::max(change / last_change, 1e-3);
-      if (contraction_ >= 1.0) return Newton::kTooSlow;
+      convergence_rate_ = std::max(update / last_update, 1e-3);
+      if (convergence_rate_ >= 1.0) return Newton::kNotConverged;
     }
-    if (change * contraction_ <= (1.0 - contraction_) * close_) {
-      // One iteration tells nothing new: what was known becomes slowly doubtful.
-      contraction_ = std::min(iteration > 0 ? contraction_ : std::pow(contraction_, 0.8), kUnknownContraction);
+    if (update * convergence_rate_ <= (1.0 - convergence_rate_) * newton_tolerance_) {
+      // One iteration gives no new rate: the old one drifts towards unknown.
+      convergence_rate_ =
+          std::min(iteration > 0 ? convergence_rate_ : std::pow(convergence_rate_, 0.8), kUnknownRate);
       return Newton::kConverged;
     }
-    last_change = change;
+    last_update = update;
   }
-  return Newton::kTooSlow;
+  return Newton::kNotConverged;
 }
 
-/// One iteration. @returns its change, in units of the tolerance
-double Radau5::correct_stages(MotionSystem& system, double dt) {
-  find_defects(dt);
-  system.solve_in_place(change_);
-  system.solve_in_place(change_real_, change_imag_);
-  add_changes();
-  const Eigen::Index controlled = weights_.size();  // 0: the drives decide the motion, and work and losses are integrals over it
+/// @returns norm of the update of W, in units of the tolerance
+double Radau5::newton_iteration(MotionSystem& system, double dt) {
+  calc_residuals(dt);
+  system.solve_in_place(update_);
+  system.solve_in_place(update_real_, update_imag_);
+  apply_update();
+  const Eigen::Index controlled =
+      norm_weights_.size();  // 0: the drives determine the motion; work and losses are integrals of it
   double squares = 0.0;
-  for (const Eigen::VectorXd* each : {&change_, &change_real_, &change_imag_})
-    squares += each->head(controlled).cwiseProduct(weights_).squaredNorm();
+  for (const Eigen::VectorXd* each : {&update_, &update_real_, &update_imag_})
+    squares += each->head(controlled).cwiseProduct(norm_weights_).squaredNorm();
   return std::sqrt(squares / static_cast<double>(K::kStages));
 }
 
-/// By how much the stages do not follow their derivatives: T^-1 f - shift / dt W, all in one pass.
-void Radau5::find_defects(double dt) {
-  const double shift = K::shift / dt, shift_real = K::complex_shift.real() / dt, shift_imag = K::complex_shift.imag() / dt;
+/// Residuals of the stage equations, T^-1 f - shift / dt W, in one pass.
+void Radau5::calc_residuals(double dt) {
+  const double shift = K::shift / dt, shift_real = K::complex_shift.real() / dt,
+               shift_imag = K::complex_shift.imag() / dt;
   const auto& T = K::T_inverse;
   const double *f0 = f_[0].data(), *f1 = f_[1].data(), *f2 = f_[2].data();
   const double *W = W_.data(), *W_real = W_real_.data(), *W_imag = W_imag_.data();
-  double *own = change_.data(), *real = change_real_.data(), *imag = change_imag_.data();
-  const Eigen::Index size = change_.size();
+  double *single = update_.data(), *real = update_real_.data(), *imag = update_imag_.data();
+  const Eigen::Index size = update_.size();
 #pragma GCC ivdep
   for (Eigen::Index k = 0; k < size; ++k) {
-    own[k] = T[0][0] * f0[k] + T[0][1] * f1[k] + T[0][2] * f2[k] - shift * W[k];
-    real[k] = T[1][0] * f0[k] + T[1][1] * f1[k] + T[1][2] * f2[k] - (shift_real * W_real[k] - shift_imag * W_imag[k]);
-    imag[k] = T[2][0] * f0[k] + T[2][1] * f1[k] + T[2][2] * f2[k] - (shift_real * W_imag[k] + shift_imag * W_real[k]);
+    single[k] = T[0][0] * f0[k] + T[0][1] * f1[k] + T[0][2] * f2[k] - shift * W[k];
+    real[k] = T[1][0] * f0[k] + T[1][1] * f1[k] + T[1][2] * f2[k] -
+              (shift_real * W_real[k] - shift_imag * W_imag[k]);
+    imag[k] = T[2][0] * f0[k] + T[2][1] * f1[k] + T[2][2] * f2[k] -
+              (shift_real * W_imag[k] + shift_imag * W_real[k]);
   }
 }
 
-/// W <- W + change, Z = T W, all in one pass.
-void Radau5::add_changes() {
+/// W <- W + update, Z = T W, in one pass.
+void Radau5::apply_update() {
   const auto& T = K::T;
-  const double *own = change_.data(), *real = change_real_.data(), *imag = change_imag_.data();
+  const double *single = update_.data(), *real = update_real_.data(), *imag = update_imag_.data();
   double *W = W_.data(), *W_real = W_real_.data(), *W_imag = W_imag_.data();
   double *Z0 = Z_[0].data(), *Z1 = Z_[1].data(), *Z2 = Z_[2].data();
-  const Eigen::Index size = change_.size();
+  const Eigen::Index size = update_.size();
 #pragma GCC ivdep
   for (Eigen::Index k = 0; k < size; ++k) {
-    const double a = W[k] + own[k], b = W_real[k] + real[k], c = W_imag[k] + imag[k];
+    const double a = W[k] + single[k], b = W_real[k] + real[k], c = W_imag[k] + imag[k];
     W[k] = a;
     W_real[k] = b;
     W_imag[k] = c;
@@ -206,11 +216,11 @@ void Radau5::add_changes() {
 }
 
 double Radau5::estimate_error(MotionSystem& system, const StepEnd& start, double dt) {
-  combine({K::error[0] / dt, K::error[1] / dt, K::error[2] / dt}, Z_, change_);
-  change_ += start.f;
-  system.solve_in_place(change_);
+  combine({K::error[0] / dt, K::error[1] / dt, K::error[2] / dt}, Z_, update_);
+  update_ += start.f;
+  system.solve_in_place(update_);
   stage_ = start.y + Z_[2];
-  return tolerance_.measure(change_, start.y, stage_, system.error_weights());
+  return tolerance_.measure(update_, start.y, stage_, system.error_weights());
 }
 
 }  // namespace engine

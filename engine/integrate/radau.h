@@ -11,57 +11,62 @@
 
 namespace engine {
 
-/// The Radau IIA method of order 5, L-stable and stiffly accurate: the three stages of a step are solved for at once, by Newton's method.
-/// Where little but slow motion is left, in lasting contact above all, its steps are several times those of a Rosenbrock method, whose
-/// stages follow the Jacobian at their start; and the Jacobian is made anew only when Newton's method has become slow with it.
-/// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.8.
+/// The Radau IIA method of order 5, L-stable and stiffly accurate: simplified Newton iterations solve for the
+/// three stages of a step together. Where only slow motion is left, above all in lasting contact, its steps
+/// are several times those of a Rosenbrock method, whose stages are tied to the Jacobian at their start. The
+/// Jacobian is computed again only when the iterations converge too slowly with it.
+///
+/// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.8. Z, W, T, T_inverse
+/// are theirs; the error estimate is Eq. (8.19), damped by one solution with the real matrix.
 class Radau5 final : public Stepper {
  public:
-  /// @param error_weight  by which the error estimate counts more than it says. It is of order 3, and damped where the motion is fast
+  /// @param error_weight  factor on the error estimate, which is of order 3 and damped where the motion is
+  /// fast
   explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0);
 
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) override;
   void accept() override;
   void invalidate() override;
   void jacobian_refreshed() override;
-  void reset_convergence_rate() override { contraction_ = kUnknownContraction; }
+  void reset_convergence_rate() override { convergence_rate_ = kUnknownRate; }
   [[nodiscard]] double error_exponent() const override { return 4.0; }
   [[nodiscard]] Shifts shifts() const override { return Shifts::kRealAndComplex; }
 
  private:
   using Stages = std::array<Eigen::VectorXd, 3>;
 
-  enum class Newton { kConverged, kTooSlow, kFailed };
+  enum class Newton { kConverged, kNotConverged, kFailed };
 
-  void make_room(const MotionSystem& system, const Eigen::VectorXd& y);
-  void guess_stages(const StepEnd& start, const StateLayout& layout, double dt);
+  void resize_work(const MotionSystem& system, const Eigen::VectorXd& y);
+  void predict_stages(const StepEnd& start, const StateLayout& layout, double dt);
   void extrapolate(double ratio);
   [[nodiscard]] Newton solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
   [[nodiscard]] Newton iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
-  [[nodiscard]] double correct_stages(MotionSystem& system, double dt);
-  void find_defects(double dt);
-  void add_changes();
+  [[nodiscard]] double newton_iteration(MotionSystem& system, double dt);
+  void calc_residuals(double dt);
+  void apply_update();
   [[nodiscard]] double estimate_error(MotionSystem& system, const StepEnd& start, double dt);
+
+  static constexpr double kUnknownRate = 0.5;
 
   const Tolerance& tolerance_;
   double error_weight_;
-  double close_;               ///< what may be left of Newton's method, in units of the tolerance
-  Eigen::VectorXd weights_;    ///< of what error control looks at, at the step's start
-  Stages Z_;                   ///< the stages' differences from the start
-  Stages f_;                   ///< derivatives there
-  Eigen::VectorXd W_;          ///< Z in the variables in which J couples no stages: the real one ...
+  double newton_tolerance_;    ///< bound of the iterations' remaining error, in units of the tolerance
+  Eigen::VectorXd norm_weights_;  ///< of the entries under error control, at the step's start
+  Stages Z_;                   ///< differences of the stages from the start
+  Stages f_;                   ///< derivatives at the stages
+  Eigen::VectorXd W_;          ///< T^-1 Z, the variables in which J couples no stages: the real one ...
   Eigen::VectorXd W_real_, W_imag_;  ///< ... and one of the conjugate two
-  Eigen::VectorXd change_, change_real_, change_imag_;
+  Eigen::VectorXd update_, update_real_, update_imag_;  ///< residuals, then updates of W
   Eigen::VectorXd stage_;
 
   Stages last_Z_;              ///< of the step that ends at the start of this one
-  double last_dt_ = 0.0;       ///< 0: none
-  double tried_dt_ = 0.0;      ///< of the last try, if it was a good one
-  double factored_dt_ = 0.0;   ///< the system's matrices are for this step; 0: none
+  double last_dt_ = 0.0;       ///< [s]; 0: none
+  double tried_dt_ = 0.0;      ///< of the last try, [s]; 0: it was rejected
+  double factored_dt_ = 0.0;   ///< step that the system's factors belong to, [s]; 0: none
   bool linearised_ = false;    ///< the system has a Jacobian ...
-  bool fresh_ = false;         ///< ... and it is of this start
-  static constexpr double kUnknownContraction = 0.5;
-  double contraction_ = kUnknownContraction;  ///< by which an iteration brings Newton's method closer
+  bool fresh_ = false;         ///< ... of this start
+  double convergence_rate_ = kUnknownRate;  ///< factor by which an iteration reduces the error
 };
 
 }  // namespace engine
