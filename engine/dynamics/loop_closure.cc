@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kClosed = 1e-13;  // of Phi, [m] and [1]: rounding of positions near 1 m
 constexpr int kMaxIterations = 100;
-constexpr double kMaxStep = 0.5;   // of one Newton step, [rad] or [m]: from a guess far away a full step may leave the branch
+constexpr double kMaxStep = 0.5;  // of a Newton step, [rad] or [m]; a full one from afar may leave the branch
 
 Mechanism make_ideal(Mechanism mechanism) {
   for (CutJoint& joint : mechanism.cut_joints) joint.clearance.reset();
@@ -28,7 +28,7 @@ Mechanism make_ideal(Mechanism mechanism) {
   return mechanism;
 }
 
-/// Coordinates that are not driven and of which this holds.
+/// Coordinates that are not driven and for which `holds` is true.
 template <typename Holds>
 std::vector<FrameIndex> find_coordinates(const Mechanism& mechanism, const Holds& holds) {
   std::vector<FrameIndex> found;
@@ -44,7 +44,7 @@ bool is_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !
 bool is_rate_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !c.start_rate; }
 bool is_any(const Coordinate&) { return true; }
 
-/// Of a matrix that may be without full rank, as the rows of a flat mechanism make it.
+/// Complete orthogonal decomposition: J need not have full rank, and in a flat mechanism has not.
 Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::MatrixXd& J) {
   constexpr double kDependent = 1e-9;  // of the largest pivot
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
@@ -53,19 +53,23 @@ Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::M
   return decomposition;
 }
 
-/// How far each driven coordinate has come when the first of them has gone a little way; zero if none does so soon.
-Eigen::VectorXd calc_first_way(const Mechanism& mechanism) {
-  constexpr double kLittleWay = 1e-4;          // [rad] or [m]
-  constexpr double kFirst = 1e-9, kSoon = 0.2;  // [s]; what begins later finds the linkage elsewhere
-  Eigen::VectorXd way = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size()));
+/// Displacement of the driven coordinates when the first of them has moved by a small amount; zero if none
+/// moves soon.
+Eigen::VectorXd calc_drive_displacement(const Mechanism& mechanism) {
+  constexpr double kSmallDisplacement = 1e-4;   // [rad] or [m]
+  constexpr double kFirst = 1e-9, kSoon = 0.2;  // [s]; a drive that starts later finds the linkage elsewhere
+  Eigen::VectorXd displacement =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size()));
   for (double t = kFirst; t < kSoon; t *= 1.1) {
-    for (const Drive& drive : mechanism.drives) way[drive.coordinate] = calc_driven_motion(drive.law, t).q - calc_driven_motion(drive.law, 0.0).q;
-    if (way.cwiseAbs().maxCoeff() >= kLittleWay) return way;
+    for (const Drive& drive : mechanism.drives)
+      displacement[drive.coordinate] =
+          calc_driven_motion(drive.law, t).q - calc_driven_motion(drive.law, 0.0).q;
+    if (displacement.cwiseAbs().maxCoeff() >= kSmallDisplacement) return displacement;
   }
-  return Eigen::VectorXd::Zero(way.size());
+  return Eigen::VectorXd::Zero(displacement.size());
 }
 
-/// How many rows of J do not follow from the others.
+/// Numerical rank of J.
 Eigen::Index rank_of(const Eigen::MatrixXd& J) { return J.size() == 0 ? 0 : decompose(J).rank(); }
 
 }  // namespace
@@ -142,9 +146,10 @@ bool LoopClosure::assemble_rates(Evaluation& at) {
   return rates_fit_;
 }
 
-/// Rates that are not given follow from the rows; where those leave them free, the least ones. False if the given ones tear the rows apart.
+/// Minimum-norm solution for the rates that are not given. False if the given rates violate the constraint
+/// rows.
 bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at) {
-  constexpr double kFits = 1e-9;  // of what the given rates do to the rows, [m/s] and [1/s]
+  constexpr double kFits = 1e-9;  // of the residual that the given rates alone leave, [m/s] and [1/s]
   const std::vector<FrameIndex> open = find_coordinates(ideal_, is_rate_found_by_loops);
   for (const FrameIndex i : open) at.qd[i] = 0.0;
   calc_rates(at);
@@ -158,33 +163,36 @@ bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& 
   return constraints_.Phi_d(rows).cwiseAbs().maxCoeff() <= kFits * std::max(1.0, given);
 }
 
-bool LoopClosure::lets_drives_begin(const Evaluation& assembled) {
-  const bool at_rest = assembled.qd.isZero(0.0);  // else the velocities have been seen to fit
+bool LoopClosure::drives_can_start(const Evaluation& assembled) {
+  const bool at_rest = assembled.qd.isZero(0.0);  // if not, assemble() has checked the velocities
   if (rigid_rows_.empty() || ideal_.drives.empty() || !at_rest) return true;
-  const Eigen::VectorXd way = calc_first_way(ideal_);
-  return is_free(way) || closes_beside(assembled.q + way);
+  const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
+  return is_free(displacement) || closes_from_perturbed(assembled.q + displacement);
 }
 
-/// Whether the other coordinates can follow a little way of the drives, to first order.
-bool LoopClosure::is_free(const Eigen::VectorXd& way) const {
-  constexpr double kTorn = 0.5;  // of what each drive does to the rows: drives that are to go together may differ by some
-  constexpr double kFar = 1e3;   // times the drives' way: so near to a dead position it is one
+/// Whether the other coordinates can follow a small displacement of the drives, to first order.
+bool LoopClosure::is_free(const Eigen::VectorXd& displacement) const {
+  constexpr double kTorn = 0.5;  // of the residual of each drive alone: drives may differ a little
+  constexpr double kFar = 1e3;   // of the drives' displacement: nearer to a dead position counts as one
   const Eigen::MatrixXd Phi_q = constraints_.Phi_q(rigid_rows_, Eigen::all);
-  const Eigen::VectorXd change = follow(Phi_q * way);
-  const Eigen::VectorXd left = Phi_q * (way + change);
-  return change.norm() <= kFar * way.norm() && left.norm() <= kTorn * (Phi_q.cwiseAbs() * way.cwiseAbs()).norm();
+  const Eigen::VectorXd change = minimum_norm_correction(Phi_q * displacement);
+  const Eigen::VectorXd left = Phi_q * (displacement + change);
+  return change.norm() <= kFar * displacement.norm() &&
+         left.norm() <= kTorn * (Phi_q.cwiseAbs() * displacement.cwiseAbs()).norm();
 }
 
-/// Whether the loops close with the drives there, from a position a little beside: in a dead position no little way is free.
-bool LoopClosure::closes_beside(const Eigen::VectorXd& q) {
-  constexpr double kBeside = 0.01;  // [rad] or [m]
+/// Whether the loops close, with the drives fixed, from a perturbed position. In a dead position no
+/// displacement is free to first order, but the linkage may still move.
+bool LoopClosure::closes_from_perturbed(const Eigen::VectorXd& q) {
+  constexpr double kPerturbation = 0.01;  // [rad] or [m]
   constexpr double kMeets = 1e-9;   // [m] and [1]
   Evaluation at;
   at.q = q;
   at.qd = at.qdd = Eigen::VectorXd::Zero(q.size());
   at.frames.resize(ideal_.coordinates.size());
-  double beside = kBeside;
-  for (const FrameIndex i : find_coordinates(ideal_, is_any)) at.q[i] += std::exchange(beside, -beside);
+  double perturbation = kPerturbation;
+  for (const FrameIndex i : find_coordinates(ideal_, is_any))
+    at.q[i] += std::exchange(perturbation, -perturbation);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     calc_positions(at);
     const Eigen::VectorXd gaps = constraints_.Phi(rigid_rows_);
@@ -197,8 +205,9 @@ bool LoopClosure::closes_beside(const Eigen::VectorXd& q) {
   return false;
 }
 
-/// The least change of the coordinates that are not driven which closes gaps in the rows of joints without clearance, to first order.
-Eigen::VectorXd LoopClosure::follow(const Eigen::VectorXd& gaps) const {
+/// Minimum-norm change of the coordinates that are not driven, to first order, that closes gaps in the rigid
+/// rows.
+Eigen::VectorXd LoopClosure::minimum_norm_correction(const Eigen::VectorXd& gaps) const {
   const std::vector<FrameIndex> others = find_coordinates(ideal_, is_any);
   Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ideal_.coordinates.size()));
   if (!others.empty()) change(others) = -decompose(calc_columns(others)(rigid_rows_, Eigen::all)).solve(gaps);
@@ -211,13 +220,17 @@ Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordin
   return columns;
 }
 
-void LoopClosure::lead(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) const {
-  constexpr double kFar = 5.0;  // times as far as they are apart: there their rounding counts
-  const double apart = nearby.t - before.t;
-  const double place = (t - before.t) / apart;
-  if (apart > 0.0 && std::abs(place) < kFar) {
-    for (const FrameIndex i : unknown_)
-      at.q[i] = Quintic(apart, before.q[i], before.qd[i], before.qdd[i], nearby.q[i], nearby.qd[i], nearby.qdd[i]).value(place);
+void LoopClosure::extrapolate(double t, const Evaluation& before, const Evaluation& nearby,
+                              Evaluation& at) const {
+  constexpr double kFar = 5.0;  // intervals: beyond, the rounding of the two instants counts
+  const double interval = nearby.t - before.t;
+  const double s = (t - before.t) / interval;
+  if (interval > 0.0 && std::abs(s) < kFar) {
+    for (const FrameIndex i : unknown_) {
+      const Quintic q(interval, before.q[i], before.qd[i], before.qdd[i],
+                      nearby.q[i], nearby.qd[i], nearby.qdd[i]);
+      at.q[i] = q.value(s);
+    }
     at.t = t;
   } else {
     at.q = nearby.q;
@@ -245,7 +258,7 @@ bool LoopClosure::solve_motion(double t, Evaluation& at) {
   return at.qdd.allFinite();
 }
 
-/// Taylor's series of the unknown coordinates; their accelerations are asked for anew.
+/// Taylor series of the unknown coordinates; their accelerations are set to zero, to be solved for.
 void LoopClosure::predict(double t, Evaluation& at) const {
   const double dt = t - at.t;
   for (const FrameIndex i : unknown_) {
@@ -254,14 +267,15 @@ void LoopClosure::predict(double t, Evaluation& at) const {
   }
 }
 
-/// Solves for the step that does to the rows what step_ holds, and takes it back.
-void LoopClosure::take_step(Eigen::VectorXd& coordinates) {
+/// Newton step: solves J step = residual, which step_ holds, and subtracts the step from the unknown
+/// coordinates.
+void LoopClosure::apply_newton_step(Eigen::VectorXd& coordinates) {
   J_.solve_in_place(step_.data());
   for (std::size_t k = 0; k < unknown_.size(); ++k) coordinates[unknown_[k]] -= step_[static_cast<Eigen::Index>(k)];
 }
 
-/// Newton from the predicted position. Only steps that contract from the first one on show that the solution is near. Where an angle has made many
-/// turns, the loops close no better than its rounding lets them.
+/// Newton's method from the predicted position. The solution is near only if the steps contract from the
+/// first one on. After many revolutions of an angle, its rounding bounds how well the loops close.
 bool LoopClosure::close_position(Evaluation& at) {
   constexpr int kMaxNear = 12;
   constexpr double kContraction = 0.25;
@@ -291,14 +305,15 @@ bool LoopClosure::factor() {
   return J_.factor();
 }
 
-/// Phi_q qd = 0, of which the drives' part is known.
+/// Solves Phi_q qd = 0 for the unknown rates; those of the drives are given.
 void LoopClosure::solve_rates(Evaluation& at) {
   for (const FrameIndex i : unknown_) at.qd[i] = 0.0;
   step_.noalias() = constraints_.Phi_q * at.qd;
   take_step(at.qd);
 }
 
-/// With all accelerations known the recursion gives every generalised force; those of the unknown coordinates are the reactions' doing.
+/// With all accelerations known the recursion gives every generalised force. On the unknown coordinates the
+/// reactions alone act: Phi_q^T lambda equals their forces.
 void LoopClosure::solve_forces(Evaluation& at) {
   calc_frame_rates(ideal_, at.qd, at.qdd, at.frames);
   const Eigen::VectorXd& forces = inverse_dynamics_.calc(at.frames);

@@ -14,49 +14,57 @@
 
 namespace engine {
 
-/// The mechanism with every cut joint ideal, every driven coordinate given and every spring at rest: pure geometry.
+/// Position, velocity and acceleration of a mechanism whose cut joints are ideal, whose driven coordinates
+/// are given, and whose springs are at rest: the constraints Phi(q) = 0 alone. The loops are closed by
+/// Newton's method.
 class LoopClosure {
  public:
   explicit LoopClosure(const Mechanism& mechanism);
 
-  /// True if the drives alone decide the motion: as many constraint rows as unknown coordinates, and no spring.
+  /// True if the drives alone determine the motion: as many constraint rows as unknown coordinates, and no
+  /// spring.
   [[nodiscard]] bool is_determined() const;
 
   /// Evaluates the drives inside this piece from now on; before the first call at any t.
   void follow_drives(const DrivePiece& piece) { piece_ = piece; }
 
-  /// The coordinates that the loops decide.
+  /// The coordinates that the constraints determine.
   [[nodiscard]] const std::vector<FrameIndex>& unknown_coordinates() const { return unknown_; }
 
-  /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, or with it held at its start, and solves for the
-  /// velocities that are not given.
-  /// @returns false if they do not close; residual() then says by how much; or if the given velocities tear them apart: see rates_fit()
+  /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, or with the
+  /// coordinate fixed at its start, and solves for the velocities that are not given.
+  /// @returns false if the loops do not close (residual() says by how much), or if the given velocities
+  /// violate the constraints (see rates_fit())
   [[nodiscard]] bool assemble(double t, Evaluation& at);
 
-  /// After assemble(): whether the velocities given for the start go with the loops.
+  /// After assemble(): whether the velocities given for the start satisfy the constraints.
   [[nodiscard]] bool rates_fit() const { return rates_fit_; }
-  /// Just after assemble(): whether the loops let drives begin that soon move from rest. They do not if the drives move against each other, or
-  /// against a joint.
-  [[nodiscard]] bool lets_drives_begin(const Evaluation& assembled);
-  /// After assemble(): how many of the constraint rows (joints with clearance have none) follow from the others.
+  /// Just after assemble(): whether drives that soon move from rest can start. They cannot if they move
+  /// against each other, or against a joint.
+  [[nodiscard]] bool drives_can_start(const Evaluation& assembled);
+  /// After assemble(): number of redundant constraint rows. Joints with clearance have no rows.
   [[nodiscard]] Eigen::Index redundant() const { return redundant_; }
 
-  /// Sets the motion of `at`, but for the driven coordinates, to where that of two instants, the second one nearby, leads at time t: what
-  /// solve() may start from. `at` may be one of them. If the first is not before the second, or t far from both, that is the second's motion.
-  void lead(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) const;
+  /// Predictor for solve(): extrapolates the unknown coordinates of two instants to time t, by the quintic
+  /// through their positions, velocities and accelerations. `at` may be one of the two instants. If `before`
+  /// is not before `nearby`, or t is far from both, the motion is that of `nearby`.
+  void extrapolate(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) const;
 
   /// Position, velocity, acceleration, joint reactions and drive forces at time t of a determined mechanism: solve_motion, then solve_forces.
   [[nodiscard]] bool solve(double t, Evaluation& at);
 
-  /// Position, velocity and acceleration at time t of a determined mechanism. Starts from where the motion that `at` holds leads in the
-  /// time from at.t to t; no more of it than q, qd, qdd and t is read. Allocates nothing.
-  /// @returns false if the loops do not close near there: the mechanism locks, or `at` is too far away. Its q, qd and qdd are then of no use
+  /// Position, velocity and acceleration at time t of a determined mechanism. Newton's method starts from the
+  /// Taylor series of the motion that `at` holds, from at.t to t; only q, qd, qdd and t of `at` are read.
+  /// Allocates nothing.
+  /// @returns false if the loops do not close near there: the mechanism locks, or `at` is too far away. q, qd
+  /// and qdd of `at` are invalid then
   [[nodiscard]] bool solve_motion(double t, Evaluation& at);
 
-  /// Joint reactions and drive forces of the motion that solve_motion found last, and the frames' motions. Allocates nothing.
+  /// Joint reactions, drive forces and motions of the frames for the last result of solve_motion. Allocates
+  /// nothing.
   void solve_forces(Evaluation& at);
 
-  /// Determinant of Phi_q of the unknown coordinates at the position that solve_motion found last, see keeps_branch.
+  /// Determinant of Phi_q of the unknown coordinates at the last position of solve_motion, see keeps_branch.
   [[nodiscard]] double determinant() const { return J_.determinant(); }
 
   /// Largest entry of Phi after the last attempt, [m] or [1].
@@ -65,9 +73,9 @@ class LoopClosure {
  private:
   [[nodiscard]] bool assemble_rates(Evaluation& at);
   [[nodiscard]] bool find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at);
-  [[nodiscard]] bool is_free(const Eigen::VectorXd& way) const;
-  [[nodiscard]] bool closes_beside(const Eigen::VectorXd& q);
-  [[nodiscard]] Eigen::VectorXd follow(const Eigen::VectorXd& gaps) const;
+  [[nodiscard]] bool is_free(const Eigen::VectorXd& displacement) const;
+  [[nodiscard]] bool closes_from_perturbed(const Eigen::VectorXd& q);
+  [[nodiscard]] Eigen::VectorXd minimum_norm_correction(const Eigen::VectorXd& gaps) const;
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;
@@ -83,16 +91,16 @@ class LoopClosure {
   Constraints constraints_;
   InverseDynamics inverse_dynamics_;
   DrivePiece piece_;
-  std::vector<Eigen::Index> rigid_rows_;  ///< those of joints without clearance, and of couplings
+  std::vector<Eigen::Index> rigid_rows_;  ///< constraint rows of joints without clearance, and of couplings
   Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;
   DenseMatrix<double> J_;  ///< of a determined mechanism: Phi_q of the unknown coordinates, factored
-  Eigen::VectorXd step_;  ///< of the unknown coordinates, or what it does to the rows
+  Eigen::VectorXd step_;  ///< residual of the rows, then the Newton step of the unknown coordinates
 };
 
-/// True if a step between positions with these determinants cannot have led from one way of closing the loops to another. The two ways
-/// meet where the determinant vanishes, and where it stays away from zero by more than it changes they do not. Its sign alone does not
-/// tell: that of a flat linkage vanishes as a square.
+/// True if a step between positions with these determinants of Phi_q stays on one assembly branch. Two
+/// branches meet where the determinant vanishes: they do not meet while it changes by less than its distance
+/// from zero. Its sign alone does not tell, since the determinant of a flat linkage vanishes as a square.
 [[nodiscard]] inline bool keeps_branch(double from, double to) {
   const double ratio = to / from;
   return ratio > 1.0 / 3.0 && ratio < 3.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where two solved instants lead. The solved motion itself: the validation's chapter on kinematics.
+// The extrapolation from two solved instants. The solved motion itself: the validation's chapter on kinematics.
 
 #include "engine/dynamics/loop_closure.h"
 
@@ -15,7 +15,7 @@
 namespace engine {
 namespace {
 
-class LoopClosureLead : public testing::Test {
+class LoopClosureExtrapolation : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(closure_.assemble(0.0, first_)); }
 
@@ -37,7 +37,7 @@ class LoopClosureLead : public testing::Test {
   Evaluation first_ = MotionSystem(mechanism_).make_evaluation();
 };
 
-TEST_F(LoopClosureLead, IsOfSixthOrderInTheSpacing) {
+TEST_F(LoopClosureExtrapolation, IsOfSixthOrderInTheSpacing) {
   for (const double place : {0.3, 2.0}) {  // between the two and beyond them
     double errors[2];
     for (int i = 0; i < 2; ++i) {
@@ -55,7 +55,7 @@ TEST_F(LoopClosureLead, IsOfSixthOrderInTheSpacing) {
   }
 }
 
-TEST_F(LoopClosureLead, MayWriteOverEitherInstant) {
+TEST_F(LoopClosureExtrapolation, MayWriteOverEitherInstant) {
   const Evaluation before = solved(0.05);
   const Evaluation nearby = solved(0.055);
   Evaluation apart = first_;
@@ -72,7 +72,7 @@ TEST_F(LoopClosureLead, MayWriteOverEitherInstant) {
   }
 }
 
-TEST_F(LoopClosureLead, KeepsToTheSecondInstantWhereTwoLeadNowhere) {
+TEST_F(LoopClosureExtrapolation, KeepsTheSecondInstantWhereTwoAreOfNoUse) {
   const Evaluation earlier = solved(0.05);
   const Evaluation later = solved(0.055);
   struct {
@@ -93,7 +93,7 @@ TEST_F(LoopClosureLead, KeepsToTheSecondInstantWhereTwoLeadNowhere) {
   }
 }
 
-TEST_F(LoopClosureLead, LeadsToTheSameMotionFromWherever) {
+TEST_F(LoopClosureExtrapolation, LeadsToTheSameMotionFromWherever) {
   const Evaluation before = solved(0.05);
   const Evaluation nearby = solved(0.055);
   const double t = 0.0605;
