@@ -8,14 +8,20 @@
 
 namespace engine {
 
-/// Runs a mechanism whose motion the drives decide alone: positions, velocities, accelerations and forces at each instant, no integration.
+/// Runs a mechanism whose motion the drives determine alone: positions, velocities, accelerations and forces
+/// are solved for at each instant; nothing is integrated.
 ///
-/// The instants come in panels of four equal steps, as long as drives and mechanism allow and no panel across a corner of a drive's law;
-/// samples at other instants are solved besides. Each quantity in a panel is the quartic through its values: the drives' work is the integral
-/// of their power's (Boole's rule at the panel's end). Where the quartic of an unknown coordinate's acceleration, of a drive's force or of a
-/// reaction's magnitude turns, the step is divided, so that the extremes of all of them are ends of steps; an acceleration gets a short step
-/// there, so that the quadratic by which observers read steps finds its extreme and when it was.
-[[nodiscard]] RunEnd run_kinematics(const Mechanism& mechanism, LoopClosure& closure, const RunOptions& options, Observer& observer,
+/// The instants come in blocks of four equal steps, as long as drives and mechanism allow; no block crosses a
+/// corner of a drive's law. Samples at other instants are solved as well. The interpolant of a quantity in a
+/// block is the quartic through its five values. The work of a drive is the integral of its power's
+/// interpolant (Boole's rule at the block's end).
+///
+/// A step is split where an interpolant has an extremum: of the acceleration of an unknown coordinate, of a
+/// drive's force, of a reaction's magnitude. So the extrema of all of them are ends of steps. An acceleration
+/// gets a short step around its extremum, so that the quadratic by which observers read steps finds the
+/// extremum and its instant.
+[[nodiscard]] RunEnd run_kinematics(const Mechanism& mechanism, LoopClosure& closure,
+                                    const RunOptions& options, Observer& observer,
                                     const Evaluation& assembled);
 
 }  // namespace engine
