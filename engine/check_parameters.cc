@@ -165,7 +165,7 @@ bool reaches_always(const RpsupParameters& p) {
   const double most = calc_farthest_rod(p);
   const double y = most + std::abs(p.guide_offset_y);
   const double z = most * std::abs(std::sin(p.guide_angle)) + std::abs(p.guide_offset_z * std::cos(p.guide_angle));
-  return calc_reach_squared(p, Eigen::Vector3d(0.0, y, z)) > 0.0;
+  return calc_coupler_projection_squared(p, Eigen::Vector3d(0.0, y, z)) > 0.0;
 }
 
 /// Time between two looks at the motion, so that neither drive moves far between them; a linkage that would need more than kMostLooks is looked at
@@ -186,11 +186,11 @@ void check_reach(const RpsupParameters& p, double duration) {
   const auto looks = static_cast<long>(std::ceil(duration / calc_time_between_looks(p, duration)));
   for (long k = 0; k <= looks; ++k) {
     const double t = duration * static_cast<double>(k) / static_cast<double>(looks);
-    const double reach = calc_reach_squared(p, t);
-    if (reach > 0.0) continue;
+    const double squared = calc_coupler_projection_squared(p, t);
+    if (squared > 0.0) continue;
     throw InvalidInput("reach", describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", t) + ": the coupler of " +
                                     to_text(p.coupler_length) + " m must be longer than " +
-                                    to_text(std::sqrt(p.coupler_length * p.coupler_length - reach)) +
+                                    to_text(std::sqrt(p.coupler_length * p.coupler_length - squared)) +
                                     " m to reach from the end of the rod to the slider's guide there (guide_offset_y_m, guide_offset_z_m)");
   }
 }

@@ -16,16 +16,22 @@ namespace {
 
 constexpr double kIntervalOfTimeScale = 0.1;      // an interval's part of the drives' time scale
 constexpr double kFirstInterval = 1e-3;           // of the longest interval: the first one of a run
-constexpr double kSmooth = 0.01;                  // part of an interval's accelerations by which the trapezoid may miss their mean
-constexpr double kContender = 0.99;               // a quadratic's extreme above this part of the largest so far may be the true one
+// Part of an interval's accelerations by which the trapezoid may miss their mean.
+constexpr double kSmooth = 0.01;
+// A quadratic's extreme above this part of the largest so far may be the true one.
+constexpr double kContender = 0.99;
 constexpr double kNegligibleAcceleration = 1e-9;  // [m/s^2]: accelerations that gravity's rounding may spoil
 constexpr long kSolvesBetweenQueries = 1024;
 
-/// Goes through the motion in intervals so short that a quadratic tells the acceleration inside; locates its extremes where they contend.
+/// Goes through the motion in intervals so short that a quadratic tells the acceleration inside; locates its
+/// extremes where they contend.
 class IdealPeakSearch {
  public:
   IdealPeakSearch(const RpsupParameters& parameters, const std::function<bool(double)>& stop_requested)
-      : ideal_(build_ideal_rpsup(parameters)), closure_(ideal_.mechanism), piece_(ideal_.mechanism.drives), stop_requested_(stop_requested) {
+      : ideal_(build_ideal_rpsup(parameters)),
+        closure_(ideal_.mechanism),
+        piece_(ideal_.mechanism.drives),
+        stop_requested_(stop_requested) {
     closure_.follow_drives(piece_);
     last_ = next_ = probe_ = MotionSystem(ideal_.mechanism).make_evaluation();
   }
@@ -48,7 +54,8 @@ class IdealPeakSearch {
     while (last_.t < to) {
       piece_start_ = last_.t;
       piece_end_ = to;
-      for (const Drive& drive : ideal_.mechanism.drives) piece_end_ = std::min(piece_end_, find_next_corner(drive.law, last_.t));
+      for (const Drive& drive : ideal_.mechanism.drives)
+        piece_end_ = std::min(piece_end_, find_next_corner(drive.law, last_.t));
       if (to - piece_end_ <= 1e-12 * to) piece_end_ = to;
       scale_ = 0.0;
       while (last_.t < piece_end_)
@@ -67,7 +74,8 @@ class IdealPeakSearch {
     return true;
   }
 
-  /// One more interval of the piece. False if the linkage locks in it, however short, or if the search is to stop.
+  /// One more interval of the piece. False if the linkage locks in it, however short, or if the search is to
+  /// stop.
   [[nodiscard]] bool take_interval() {
     constexpr double kShortest = 1e-9;      // of the longest: what cannot be followed with it is locked
     constexpr double kShortSmooth = 1e-6;   // of what the drives allow: not divided for smoothness' sake
@@ -92,7 +100,8 @@ class IdealPeakSearch {
   /// The longest interval from the last node on that the drives allow.
   [[nodiscard]] double calc_longest() const {
     double longest = std::numeric_limits<double>::infinity();
-    for (const Drive& drive : ideal_.mechanism.drives) longest = std::min(longest, kIntervalOfTimeScale * calc_time_scale(drive.law, last_.t));
+    for (const Drive& drive : ideal_.mechanism.drives)
+      longest = std::min(longest, kIntervalOfTimeScale * calc_time_scale(drive.law, last_.t));
     return longest;
   }
 
@@ -108,8 +117,9 @@ class IdealPeakSearch {
   [[nodiscard]] double acceleration(const Evaluation& at) const { return at.qdd[ideal_.layout.slider]; }
   void take(const Evaluation& at) { peak_.take(acceleration(at), at.t); }
 
-  /// Near lock-up the slider turns about in far less time than the drives take: what happens between two instants shows in the change of
-  /// velocity. Measured by the accelerations near by, not by the peak: the next peak may be as high and as narrow as the last.
+  /// Near lock-up the slider turns about in far less time than the drives take: what happens between two
+  /// instants shows in the change of velocity. Measured by the accelerations near by, not by the peak: the
+  /// next peak may be as high and as narrow as the last.
   [[nodiscard]] bool is_smooth() {
     const double a0 = acceleration(last_);
     const double a1 = acceleration(next_);
@@ -121,17 +131,21 @@ class IdealPeakSearch {
   }
 
   void search_interval() {
-    constexpr double kMargin = 0.1;  // an extreme near an interval's end may show from the other side only, and there just outside
+    // An extreme near an interval's end may show from the other side only, and there just outside.
+    constexpr double kMargin = 0.1;
     const double dt = next_.t - last_.t;
     const StepQuadratic a(acceleration(last_), acceleration(next_), velocity(next_) - velocity(last_), dt);
     take(next_);
-    const double turn = a.find_turn(-kMargin, 1.0 + kMargin);
-    const double t = last_.t + turn * dt;
-    if (turn == -kMargin || std::abs(a.value(turn)) < kContender * peak_.magnitude || std::abs(t - located_) < kMargin * dt) return;
+    const double s = a.find_extremum(-kMargin, 1.0 + kMargin);
+    const double t = last_.t + s * dt;
+    if (s == -kMargin || std::abs(a.value(s)) < kContender * peak_.magnitude ||
+        std::abs(t - located_) < kMargin * dt)
+      return;
     locate(t, dt);
   }
 
-  /// Extreme near t, as that of the parabola through three instants close together, and again from there if it lies beyond them.
+  /// Extreme near t, as that of the parabola through three instants close together, and again from there if
+  /// it lies beyond them.
   void locate(double t, double dt) {
     constexpr int kMaxTries = 8;
     constexpr double kOfInterval = 1.0 / 64.0;
@@ -143,7 +157,8 @@ class IdealPeakSearch {
       const double after = probe(t + apart);
       const double places = 0.5 * (before - after) / (before - 2.0 * middle + after);
       if (!std::isfinite(places)) return;
-      t = std::clamp(t + apart * std::clamp(places, -0.5 / kOfInterval, 0.5 / kOfInterval), piece_start_, piece_end_);
+      t = std::clamp(t + apart * std::clamp(places, -0.5 / kOfInterval, 0.5 / kOfInterval), piece_start_,
+                     piece_end_);
       if (std::abs(places) > 1.0) continue;
       probe(t);
       located_ = t;
@@ -161,7 +176,8 @@ class IdealPeakSearch {
   LoopClosure closure_;
   DrivePiece piece_;
   const std::function<bool(double)>& stop_requested_;
-  Evaluation last_, next_, probe_;  ///< the interval's ends, and until the second is known the one before; an instant near by
+  /// The interval's ends, and until the second is known the one before; an instant near by.
+  Evaluation last_, next_, probe_;
   double piece_start_ = 0.0, piece_end_ = 0.0;  ///< between corners of the drives' laws, [s]
   double wanted_ = 0.0;       ///< the next interval, [s]
   double determinant_ = 0.0;  ///< at the last node

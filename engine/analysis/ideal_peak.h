@@ -9,9 +9,11 @@
 
 namespace engine {
 
-/// Largest slider acceleration that the drives ask of the linkage itself: rigid, ideal, driven exactly; located to rounding.
+/// Largest slider acceleration that the drives ask of the linkage itself: rigid, ideal, driven exactly;
+/// located to rounding.
 /// @param from, to        window, [s]
-/// @param stop_requested  asked now and then with the simulated time, may be empty; true ends the search without a result
+/// @param stop_requested  asked now and then with the simulated time, may be empty; true ends the search
+/// without a result
 /// @returns empty if the window is empty, or the ideal linkage locks in it
 [[nodiscard]] std::optional<Peak> find_ideal_peak(const RpsupParameters& parameters, double from, double to,
                                                   const std::function<bool(double)>& stop_requested);

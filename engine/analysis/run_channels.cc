@@ -50,7 +50,7 @@ void RunChannels::take_step(const Evaluation& start, const Evaluation& end) {
 }
 
 void RunChannels::Extremes::take(double from, double until) {
-  for (const double s : {from, acceleration.find_turn(from, until), until}) {
+  for (const double s : {from, acceleration.find_extremum(from, until), until}) {
     least = std::min(least, acceleration.value(s));
     most = std::max(most, acceleration.value(s));
   }

@@ -21,52 +21,61 @@ ClearanceParameters joint_of(const RpsupParameters& parameters) {
 
 /// In proportion to the elastic force of a ring; that of contact elements on an arc falls like Hertz's.
 double calc_share(const ClearanceParameters& joint, double delta) {
-  return joint.cylinders.law == StiffnessLaw::kHertz ? delta * std::sqrt(delta) : joint.cylinders.calc(delta).force;
+  return joint.cylinders.law == StiffnessLaw::kHertz ? delta * std::sqrt(delta)
+                                                     : joint.cylinders.calc(delta).force;
 }
 
-SlidingWork::Touch calc_touch(const ClearanceParameters& joint, const JournalMotion& journal, int ring) {
+SlidingWork::RingContact calc_ring_contact(const ClearanceParameters& joint, const JournalMotion& journal,
+                                           int ring) {
   const Eigen::Vector3d axial = calc_ring_position(joint, ring) * journal.R_bj.col(2);
   const Eigen::Vector2d offset = (journal.p_bj + axial).head<2>();
   const double distance = offset.norm();
   if (distance <= joint.c_r) return {};
-  const double delta = distance - joint.c_r - (joint.worn ? joint.worn->calc_reach(ring, std::atan2(offset[1], offset[0])).value : 0.0);
+  const double delta =
+      distance - joint.c_r -
+      (joint.worn ? joint.worn->calc_added_clearance(ring, std::atan2(offset[1], offset[0])).value : 0.0);
   if (delta <= 0.0) return {};
   const Eigen::Vector3d normal(offset[0] / distance, offset[1] / distance, 0.0);
   const Eigen::Vector3d velocity = journal.calc_velocity(axial + joint.r_j() * normal);
-  return {delta, calc_share(joint, delta), normal[0], normal[1], (velocity - velocity.dot(normal) * normal).norm()};
+  return {delta, calc_share(joint, delta), normal[0], normal[1],
+          (velocity - velocity.dot(normal) * normal).norm()};
 }
 
 }  // namespace
 
 SlidingWork::SlidingWork(const RpsupParameters& parameters)
-    : joint_(joint_of(parameters)), before_(static_cast<std::size_t>(joint_.n_r)), after_(before_), touches_(before_.size()) {}
+    : joint_(joint_of(parameters)),
+      before_(static_cast<std::size_t>(joint_.n_r)),
+      after_(before_),
+      contacts_(before_.size()) {}
 
-void SlidingWork::find_touches(const JointState& joint) {
+void SlidingWork::calc_ring_contacts(const JointState& joint) {
   const bool touches = joint.load.radial_normal_sum > 0.0;
-  for (std::size_t i = 0; i < touches_.size(); ++i)
-    touches_[i] = touches ? calc_touch(joint_, joint.journal, static_cast<int>(i)) : Touch{};
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    contacts_[i] = touches ? calc_ring_contact(joint_, joint.journal, static_cast<int>(i)) : RingContact{};
 }
 
 void SlidingWork::add(const JointState& joint, double time) {
   double sum = 0.0;
-  for (const Touch& touch : touches_) sum += touch.share;
+  for (const RingContact& contact : contacts_) sum += contact.share;
   if (!(sum > 0.0)) return;  // nothing, or the faces alone
-  for (std::size_t i = 0; i < touches_.size(); ++i) {
-    const Touch& touch = touches_[i];
-    const double work = joint.load.radial_normal_sum * (touch.share / sum) * touch.speed * time;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const RingContact& contact = contacts_[i];
+    const double work = joint.load.radial_normal_sum * (contact.share / sum) * contact.speed * time;
     after_[i].work += work;
-    after_[i].work_x += work * touch.n_x;
-    after_[i].work_y += work * touch.n_y;
-    after_[i].work_delta += work * touch.delta;
+    after_[i].work_x += work * contact.n_x;
+    after_[i].work_y += work * contact.n_y;
+    after_[i].work_delta += work * contact.delta;
   }
 }
 
 void SlidingWork::take_step(const Evaluation& start, const Evaluation& end) {
   before_ = after_;
   const double half = 0.5 * (end.t - start.t);
-  if (start.t != end_) find_touches(start.joints[0]);  // else the journal is where the step before left it
+  // Else the journal is where the step before left it.
+  if (start.t != end_) calc_ring_contacts(start.joints[0]);
   add(start.joints[0], half);
-  find_touches(end.joints[0]);
+  calc_ring_contacts(end.joints[0]);
   add(end.joints[0], half);
   start_ = start.t;
   end_ = end.t;
@@ -75,8 +84,8 @@ void SlidingWork::take_step(const Evaluation& start, const Evaluation& end) {
 SlidingWork::Ring SlidingWork::at(std::size_t ring, double part) const {
   const Ring& a = before_[ring];
   const Ring& b = after_[ring];
-  return {std::lerp(a.work, b.work, part), std::lerp(a.work_x, b.work_x, part), std::lerp(a.work_y, b.work_y, part),
-          std::lerp(a.work_delta, b.work_delta, part)};
+  return {std::lerp(a.work, b.work, part), std::lerp(a.work_x, b.work_x, part),
+          std::lerp(a.work_y, b.work_y, part), std::lerp(a.work_delta, b.work_delta, part)};
 }
 
 double SlidingWork::total() const {

@@ -11,14 +11,14 @@
 
 namespace engine {
 
-/// What Archard's law needs: the normal force of each ring of the journal times its sliding speed, over time, and where on the bore it pressed.
+/// What Archard's law needs: the normal force of each ring of the journal times its sliding speed, over time,
+/// and where on the bore it pressed.
 ///
 ///     W = int f_n |v_t| dt,    W_n = int f_n |v_t| n dt,    worn volume = wear coefficient * W
 ///
-/// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the bore presses then follows from it and
-/// from the penetration.
-/// A ring's share of the sum of normal forces is that of its elastic force. Trapezoids over the steps, which end where a ring meets or
-/// leaves the bore.
+/// n is the direction of the ring's offset in the bore. In a worn bore it is that, too: which part of the
+/// bore presses then follows from it and from the penetration. A ring's share of the sum of normal forces is
+/// that of its elastic force. Trapezoids over the steps, which end where a ring meets or leaves the bore.
 class SlidingWork {
  public:
   /// Of one ring, since the start of the run.
@@ -28,8 +28,8 @@ class SlidingWork {
     double work_delta = 0.0;            ///< the same with the penetration in the place of n, [J m]
   };
 
-  /// Where a ring touches, or would.
-  struct Touch {
+  /// Contact of a ring with the bore; all zero where it does not touch.
+  struct RingContact {
     double delta = 0.0;            ///< [m]
     double share = 0.0;            ///< in proportion to its elastic force
     double n_x = 0.0, n_y = 0.0;
@@ -41,21 +41,24 @@ class SlidingWork {
   void take_step(const Evaluation& start, const Evaluation& end);
 
   /// Where in the last step a time is, in [0, 1].
-  [[nodiscard]] double place_of(double t) const { return end_ > start_ ? std::clamp((t - start_) / (end_ - start_), 0.0, 1.0) : 1.0; }
+  [[nodiscard]] double place_of(double t) const {
+    return end_ > start_ ? std::clamp((t - start_) / (end_ - start_), 0.0, 1.0) : 1.0;
+  }
   /// A ring's at a part of the last step, in [0, 1].
   [[nodiscard]] Ring at(std::size_t ring, double part) const;
   /// Of all rings together, [J].
   [[nodiscard]] double total() const;
 
  private:
-  void find_touches(const JointState& joint);
-  /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring. @param joint  as find_touches() had it
+  void calc_ring_contacts(const JointState& joint);
+  /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring. @param joint  as
+  /// calc_ring_contacts() had it
   void add(const JointState& joint, double time);
 
   const ClearanceParameters joint_;
   std::vector<Ring> before_, after_;  ///< at the ends of the last step
   double start_ = 0.0, end_ = -1.0;   ///< of it, [s]; the other way round if there is none
-  std::vector<Touch> touches_;        ///< of each ring at the end of the last step
+  std::vector<RingContact> contacts_;        ///< of each ring at the end of the last step
 };
 
 }  // namespace engine

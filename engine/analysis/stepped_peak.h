@@ -8,15 +8,15 @@
 
 namespace engine {
 
-/// Largest magnitude of a quantity that is known at the ends of steps, and in a step's middle where that is asked for. Read at the ends alone,
-/// an impact's peak would be up to 1 % low.
+/// Largest magnitude of a quantity that is known at the ends of steps, and in a step's middle where that is
+/// asked for. Read at the ends alone, an impact's peak would be up to 1 % low.
 class SteppedPeak {
  public:
   /// Takes a step's ends. Steps follow each other.
   /// @returns true if the peak so far may be less than what is inside: the middle should be taken
   bool take_step(double start, double end, double t0, double t1) {
     const double slope = (end - start) / (t1 - t0);
-    const bool turns = steps_++ == 0 || may_turn(end, slope, t1 - t0);
+    const bool has_extremum = steps_++ == 0 || may_have_extremum(end, slope, t1 - t0);
     peak_.take(start, t0);
     peak_.take(end, t1);
     start_ = start;
@@ -24,7 +24,7 @@ class SteppedPeak {
     t0_ = t0;
     dt_ = t1 - t0;
     slope_ = slope;
-    return turns && std::max(std::abs(start), std::abs(end)) > kNear * peak_.magnitude;
+    return has_extremum && std::max(std::abs(start), std::abs(end)) > kNear * peak_.magnitude;
   }
 
   /// Takes the value in the middle of the last step: what lies between is on the parabola through the three.
@@ -37,15 +37,17 @@ class SteppedPeak {
 
  private:
   static constexpr double kNear = 0.9;    ///< of the peak: an end this large may be the foot of a larger one
-  static constexpr double kMargin = 0.5;  ///< of the step: how far beyond it a guess may place an extreme that is inside
+  /// Of the step: how far beyond it a guess may place an extreme that is inside.
+  static constexpr double kMargin = 0.5;
 
-  /// Whether the parabola through the end of this step and the ends of the one before has its extreme about here.
-  [[nodiscard]] bool may_turn(double end, double slope, double dt) const {
+  /// Whether the parabola through the end of this step and the ends of the one before has its extreme about
+  /// here.
+  [[nodiscard]] bool may_have_extremum(double end, double slope, double dt) const {
     const double sign = end < 0.0 ? -1.0 : 1.0;
     const double bend = sign * (slope - slope_) / (dt + dt_);  // half the second derivative
     const double rise = sign * slope;                          // the slope in the middle of the step
-    const double reach = -2.0 * bend * (0.5 + kMargin) * dt;
-    return bend < 0.0 && std::abs(rise) < reach;
+    const double limit = -2.0 * bend * (0.5 + kMargin) * dt;
+    return bend < 0.0 && std::abs(rise) < limit;
   }
 
   Peak peak_;

@@ -34,7 +34,9 @@ bool AxialFaces::advance(const JournalMotion& start, const JournalMotion& end, d
   bool changed = false;
   for (const int face : {0, 1}) {
     int& touching = touching_[face];
-    if (touching == 0 && calc_reach(side(face), end.p_bj.z(), axial.x(), axial.y(), axial.z()) <= limit()) continue;
+    if (touching == 0 &&
+        calc_farthest_point(side(face), end.p_bj.z(), axial.x(), axial.y(), axial.z()) <= limit())
+      continue;
     const FaceMotion<double, double> at_start = calc_face_motion(*this, face, to_relative_motion(start));
     const FaceMotion<double, double> at_end = calc_face_motion(*this, face, to_relative_motion(end));
     for (int k = 0; k < face_points_; ++k) {
@@ -42,8 +44,9 @@ bool AxialFaces::advance(const JournalMotion& start, const JournalMotion& end, d
       const double x = this->x()[k], y = this->y()[k];
       const bool touches = at_end.calc_delta(x, y) > 0.0;
       if (touches == latch.in_contact()) continue;
-      changed |= latch.advance({at_start.calc_delta(x, y), at_start.calc_rate(x, y)}, {at_end.calc_delta(x, y), at_end.calc_rate(x, y)}, dt,
-                               joint_.minimum_onset_rate);
+      changed |=
+          latch.advance({at_start.calc_delta(x, y), at_start.calc_rate(x, y)},
+                        {at_end.calc_delta(x, y), at_end.calc_rate(x, y)}, dt, joint_.minimum_onset_rate);
       touching += static_cast<int>(latch.in_contact()) - static_cast<int>(!touches);
     }
   }

@@ -10,30 +10,36 @@
 
 namespace engine {
 
-/// Contact of the journal's two faces, 0 at +z and 1 at -z, with the bearing's shoulders: what each point remembers. The law: faces_law.h.
+/// Contact of the journal's two faces, 0 at +z and 1 at -z, with the bearing's shoulders: what each point
+/// remembers. The law: faces_law.h.
 class AxialFaces {
  public:
   explicit AxialFaces(const ClearanceParameters& joint);
 
   [[nodiscard]] const ClearanceParameters& parameters() const { return joint_; }
   [[nodiscard]] static double side(int face) { return face == 0 ? 1.0 : -1.0; }
-  [[nodiscard]] double z(int face) const { return side(face) * 0.5 * joint_.L_b; }  ///< of its points, in {j}, [m]
+  /// Axial position of a face's points, in {j}, [m].
+  [[nodiscard]] double z(int face) const { return side(face) * 0.5 * joint_.L_b; }
   [[nodiscard]] int face_points() const { return face_points_; }                    ///< of each face
-  /// One a point of a face. They and the following may be read eight at a time, the last ones beyond the points.
+  /// Latches of a face's points. These and the following arrays may be read eight at a time, the last ones
+  /// beyond the points.
   [[nodiscard]] const OnsetLatch* latches(int face) const { return latches_.data() + face * face_points_; }
-  /// The points of either face: places across the journal's axis, in {j}, and what they stand back, 0. Those beyond them stand back so far that
-  /// they never touch. [m]
+  /// The points of either face: places across the journal's axis, in {j}, and what they stand back, 0. Those
+  /// beyond them stand back so far that they never touch. [m]
   [[nodiscard]] const double* x() const { return x_.data(); }
   [[nodiscard]] const double* y() const { return y_.data(); }
   [[nodiscard]] const double* setback() const { return setback_.data(); }
   [[nodiscard]] double point_stiffness() const { return point_stiffness_; }    ///< [N/m]
   [[nodiscard]] double point_damping() const { return point_damping_; }        ///< [N s/m]
-  [[nodiscard]] double limit() const { return 0.5 * joint_.L_b + joint_.c_a; } ///< how far from the bearing's middle a point touches, [m]
+  /// Distance from the bearing's middle at which a point touches, [m].
+  [[nodiscard]] double limit() const { return 0.5 * joint_.L_b + joint_.c_a; }
 
-  /// How far the points of a face may at most be beyond the bearing's middle. p_z is the journal centre's; x_z,
-  /// y_z, z_z are the third row of R_bj.
-  [[nodiscard]] double calc_reach(double side, double p_z, double x_z, double y_z, double z_z) const {
-    return side * p_z + 0.5 * joint_.L_b * z_z + (1.0 + 1e-12) * joint_.r_j() * std::sqrt(x_z * x_z + y_z * y_z);
+  /// Largest distance of a face's points from the bearing's middle, along its axis. p_z is the journal
+  /// centre's; x_z, y_z, z_z are the third row of R_bj.
+  [[nodiscard]] double calc_farthest_point(double side, double p_z, double x_z, double y_z,
+                                           double z_z) const {
+    return side * p_z + 0.5 * joint_.L_b * z_z +
+           (1.0 + 1e-12) * joint_.r_j() * std::sqrt(x_z * x_z + y_z * y_z);
   }
 
   /// Takes note of contacts that began or ended in a step. @returns true if any did

@@ -31,11 +31,11 @@ struct ActingBristles {
   int count = 0;
 };
 
-/// The derivatives of one number by the journal's motion, and by the two bristles of a touch. @tparam Block  eight numbers side by side
+/// The derivatives of one number by the journal's motion, and by the two bristles of a contact point. @tparam Block  eight numbers side by side
 template <typename Block>
 struct ContactRowOf {
   Block by_position;  ///< turn, p
-  Block by_rate;      ///< v, w, and the touch's own two bristles
+  Block by_rate;      ///< v, w, and the contact point's own two bristles
 
   template <typename T>
   [[nodiscard]] RPSUP_INLINE T apply(const JournalTangent_b<T>& journal) const {
@@ -63,8 +63,8 @@ struct ContactRowsOf {
 };
 using ContactRows = ContactRowsOf<Lanes>;
 
-/// The derivatives of all that a joint's contacts do, by the twelve numbers of the journal's motion and by the bristles. Each touch reads its
-/// own two bristles alone: those of all touches share two directions.
+/// The derivatives of all that a joint's contacts do, by the twelve numbers of the journal's motion and by the bristles. Each contact point reads its
+/// own two bristles alone: the bristles of all contact points share two directions.
 class ContactDerivative {
  public:
   explicit ContactDerivative(std::size_t bristles)
@@ -87,7 +87,7 @@ class ContactDerivative {
     return rows_.apply(journal);
   }
 
-  /// Of a bristle's rate, by one of the two that its touch reads.
+  /// Of a bristle's rate, by one of the two of its contact point.
   [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
     return rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2];
   }
@@ -112,9 +112,9 @@ class ContactDerivative {
     double output[kOutputs];
   };
 
-  /// A load that takes note of what each touch's own bristles do.
-  struct TouchedLoad : JointLoad<Dual> {
-    RPSUP_INLINE void close_touch(int bristle) {
+  /// A load that records the derivatives by the two bristles of each contact point.
+  struct LoadPerContactPoint : JointLoad<Dual> {
+    RPSUP_INLINE void end_contact_point(int bristle) {
       const Lanes now[kOutputs] = {force.x.d, force.y.d, force.z.d, moment.x.d, moment.y.d, moment.z.d, impact_power.d, friction_power.d};
       for (int i = 0; i < kOutputs; ++i)
         for (int k = 0; k < 2; ++k) {
@@ -158,7 +158,7 @@ class ContactDerivative {
                                           const ActingBristles& acting) {
     const RelativeMotion<double, Dual> varied{journal.R, journal.p, join(journal.v, Vec3<Lanes>{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
                                               join(journal.w, Vec3<Lanes>{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
-    TouchedLoad load;
+    LoadPerContactPoint load;
     load.by_bristle = by_bristle_.data();
     (void)add_contacts(joint, varied, bristles_.data(), rates_.data(), load);
     store(load, acting, &ContactRow::by_rate);

@@ -31,23 +31,29 @@ struct RoundPlace {
   P delta;
 
   template <typename V>
-  [[nodiscard]] RPSUP_INLINE V calc_rate(const RelativeMotion<P, V>& journal) const { return calc_ring_rate(journal, ring); }
+  [[nodiscard]] RPSUP_INLINE V calc_rate(const RelativeMotion<P, V>& journal) const {
+    return calc_ring_rate(journal, ring);
+  }
   template <typename V>
   [[nodiscard]] RPSUP_INLINE const NormalLaw<V>& press(const NormalLaw<V>& normal) const { return normal; }
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE RoundPlace<P> place_on_round_bore(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int ring) {
+[[nodiscard]] RPSUP_INLINE RoundPlace<P> place_on_round_bore(const RadialContinuum& contact,
+                                                             const RelativeMotion<P, V>& journal, int ring) {
   const RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
   return {offset, calc_penetration(contact, offset)};
 }
 
-/// Where a ring presses on a worn bore, or would. The direction of its offset, theta, decides how far it gets, R(theta): worn_bore.h.
+/// Contact of a ring with a worn bore, or the gap between them. The free radius R(theta) depends on the
+/// direction theta of the ring's offset: worn_bore.h.
 ///
-///     delta = |e| - R,  grad delta = u - R' / |e| t,  u = e / |e|,  t = e_b x u,  n = grad delta / |grad delta|
+///     delta = |e| - R,  grad delta = u - R' / |e| t,  u = e / |e|,  t = e_b x u,
+///     n = grad delta / |grad delta|
 ///
-/// The elastic force is the gradient of what it stores, so that nothing is lost or won along a groove: f_e(delta) |grad delta| along n, which is the
-/// bore's normal where the journal touches first. On a steep wall that is stiffer than the round bore, by |grad delta|^2.5.
+/// The elastic force is the gradient of what it stores, so that nothing is lost or won along a groove:
+/// f_e(delta) |grad delta| along n, which is the bore's normal where the journal touches first. On a steep
+/// wall that is stiffer than the round bore, by |grad delta|^2.5.
 template <typename P>
 struct WornPlace {
   RingOffset<P> ring;  ///< its normal is n
@@ -55,21 +61,27 @@ struct WornPlace {
   P gradient;          ///< |grad delta|, 1 where R does not vary, [1]
 
   template <typename V>
-  [[nodiscard]] RPSUP_INLINE V calc_rate(const RelativeMotion<P, V>& journal) const { return gradient * calc_ring_rate(journal, ring); }
+  [[nodiscard]] RPSUP_INLINE V calc_rate(const RelativeMotion<P, V>& journal) const {
+    return gradient * calc_ring_rate(journal, ring);
+  }
   template <typename V>
-  [[nodiscard]] RPSUP_INLINE NormalLaw<V> press(const NormalLaw<V>& normal) const { return {gradient * normal.total, normal.loss_power}; }
+  [[nodiscard]] RPSUP_INLINE NormalLaw<V> press(const NormalLaw<V>& normal) const {
+    return {gradient * normal.total, normal.loss_power};
+  }
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE WornPlace<P> place_on_worn_bore(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int ring) {
+[[nodiscard]] RPSUP_INLINE WornPlace<P> place_on_worn_bore(const RadialContinuum& contact,
+                                                           const RelativeMotion<P, V>& journal, int ring) {
   const ClearanceParameters& joint = contact.parameters();
   RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
   const double distance = value_of(offset.distance);
-  if (!is_number(distance) || !(distance > 1e-12)) return {offset, offset.distance - joint.c_r, P(1.0)};  // no direction
+  if (!is_number(distance) || !(distance > 1e-12))  // no direction
+    return {offset, offset.distance - joint.c_r, P(1.0)};
   const P theta = atan2(offset.n_y, offset.n_x);
-  const PeriodicSpline::Point reach = joint.worn->calc_reach(ring, value_of(theta));
-  const P delta = offset.distance - joint.c_r - chain(theta, reach.value, reach.slope);
-  const P slope = chain(theta, reach.slope, reach.bend) / offset.distance;
+  const PeriodicSpline::Point added = joint.worn->calc_added_clearance(ring, value_of(theta));
+  const P delta = offset.distance - joint.c_r - chain(theta, added.value, added.slope);
+  const P slope = chain(theta, added.slope, added.bend) / offset.distance;
   const P gradient = sqrt(1.0 + slope * slope);
   const P n_x = (offset.n_x + slope * offset.n_y) / gradient;
   const P n_y = (offset.n_y - slope * offset.n_x) / gradient;
@@ -80,8 +92,8 @@ template <typename P, typename V>
 
 /// What one ring does at its place.
 template <typename P, typename V, typename Load, typename Place>
-RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int i, const Place& place, const V* bristles,
-                           V* bristle_rates, Load& load) {
+RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int i,
+                           const Place& place, const V* bristles, V* bristle_rates, Load& load) {
   const ClearanceParameters& joint = contact.parameters();
   bristle_rates[2 * i] = bristle_rates[2 * i + 1] = V(0.0);
   const P& delta = place.delta;
@@ -94,18 +106,21 @@ RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<
   const V rate = place.calc_rate(journal);
   const RingForce<P> force = calc_ring_force(contact, delta);
   const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
-  const NormalLaw<V> normal = place.press(calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping()));
+  const NormalLaw<V> normal =
+      place.press(calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping()));
   const double r_j = joint.r_j();
   const Vec3<P> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
-  add_touch(joint, journal, Touch<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i, bristle_rates + 2 * i, load);
+  add_contact_point(joint, journal, ContactPoint<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i,
+                    bristle_rates + 2 * i, load);
   load.elastic_energy += force.energy;
   load.max_penetration = std::max(load.max_penetration, value_of(delta));
-  load.close_touch(2 * i);
+  load.end_contact_point(2 * i);
 }
 
 /// Kept out of the code of round bores, which most are. (static: see add_elements.)
 template <typename P, typename V, typename Load>
-[[gnu::noinline]] static void add_worn_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles,
+[[gnu::noinline]] static void add_worn_continuum(const RadialContinuum& contact,
+                                                 const RelativeMotion<P, V>& journal, const V* bristles,
                                                  V* bristle_rates, Load& load) {
   for (int i = 0; i < contact.parameters().n_r; ++i)
     add_ring(contact, journal, i, place_on_worn_bore(contact, journal, i), bristles, bristle_rates, load);
@@ -113,14 +128,16 @@ template <typename P, typename V, typename Load>
 
 /// Radial contact in closed form: each ring of the journal against the bore, one force a ring.
 ///
-///     e offset of the ring's centre from the bearing axis,  f_e = K / n_r delta^1.5 by Hertz, delta and its direction as the place has them
+///     e offset of the ring's centre from the bearing axis,  f_e = K / n_r delta^1.5 by Hertz,
+///     delta and its direction as the place has them
 /// @tparam Load  a JointLoad<V>
 template <typename P, typename V, typename Load>
-RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
-                                Load& load) {
+RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal,
+                                const V* bristles, V* bristle_rates, Load& load) {
   const ClearanceParameters& joint = contact.parameters();
   if (joint.worn) {
-    const RelativeMotion<P, V> own_journal = journal;  // of which addresses are known: the others may stay in registers
+    // Copies, since their addresses are passed on: the originals may stay in registers.
+    const RelativeMotion<P, V> own_journal = journal;
     Load own_load = load;
     add_worn_continuum(contact, own_journal, bristles, bristle_rates, own_load);
     load = own_load;
@@ -130,7 +147,8 @@ RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMo
   if constexpr (std::is_same_v<Load, JointLoad<double>>)
     if (joint.cylinders.law == StiffnessLaw::kHertz)
       for (; i + 1 < joint.n_r; i += 2) add_two_rings(contact, journal, i, bristles, bristle_rates, load);
-  for (; i < joint.n_r; ++i) add_ring(contact, journal, i, place_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
+  for (; i < joint.n_r; ++i)
+    add_ring(contact, journal, i, place_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

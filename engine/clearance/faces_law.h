@@ -7,21 +7,28 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// How far the points (x, y) of a face are beyond the shoulder, and how fast: delta = delta_0 + x delta_x + y delta_y, the rate likewise.
+/// How far the points (x, y) of a face are beyond the shoulder, and how fast: delta = delta_0 + x delta_x + y
+/// delta_y, the rate likewise.
 template <typename P, typename V>
 struct FaceMotion {
   P delta_0, delta_x, delta_y;  ///< [m], [1]
   V rate_0, rate_x, rate_y;     ///< [m/s], [1/s]
 
-  [[nodiscard]] RPSUP_INLINE P calc_delta(double x, double y) const { return delta_0 + (x * delta_x + y * delta_y); }
-  [[nodiscard]] RPSUP_INLINE V calc_rate(double x, double y) const { return rate_0 + (x * rate_x + y * rate_y); }
+  [[nodiscard]] RPSUP_INLINE P calc_delta(double x, double y) const {
+    return delta_0 + (x * delta_x + y * delta_y);
+  }
+  [[nodiscard]] RPSUP_INLINE V calc_rate(double x, double y) const {
+    return rate_0 + (x * rate_x + y * rate_y);
+  }
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE FaceMotion<P, V> calc_face_motion(const AxialFaces& faces, int face, const RelativeMotion<P, V>& journal) {
+[[nodiscard]] RPSUP_INLINE FaceMotion<P, V> calc_face_motion(const AxialFaces& faces, int face,
+                                                             const RelativeMotion<P, V>& journal) {
   const double side = AxialFaces::side(face), z = faces.z(face);
   const Mat3<P>& R = journal.R;
-  const auto turning = [&](const Vec3<P>& axis) RPSUP_INLINE_LAMBDA { return journal.w.x * axis.y - journal.w.y * axis.x; };
+  const auto turning = [&](const Vec3<P>& axis)
+                           RPSUP_INLINE_LAMBDA { return journal.w.x * axis.y - journal.w.y * axis.x; };
   return {side * (journal.p.z + z * R.z.z) - faces.limit(), side * R.x.z, side * R.y.z,
           side * (journal.v.z + z * turning(R.z)), side * turning(R.x), side * turning(R.y)};
 }
@@ -36,7 +43,8 @@ struct FaceLoad {
 
 /// The points one by one.
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE FaceLoad<V> press_face(const AxialFaces& faces, int face, const FaceMotion<P, V>& motion) {
+[[nodiscard]] RPSUP_INLINE FaceLoad<V> press_face(const AxialFaces& faces, int face,
+                                                  const FaceMotion<P, V>& motion) {
   const ClearanceParameters& joint = faces.parameters();
   FaceLoad<V> load;
   for (int k = 0; k < faces.face_points(); ++k) {
@@ -57,16 +65,19 @@ template <typename P, typename V>
 }
 
 /// The points side by side.
-[[nodiscard]] RPSUP_INLINE FaceLoad<double> press_face(const AxialFaces& faces, int face, const FaceMotion<double, double>& motion) {
+[[nodiscard]] RPSUP_INLINE FaceLoad<double> press_face(const AxialFaces& faces, int face,
+                                                       const FaceMotion<double, double>& motion) {
   const ClearanceParameters& joint = faces.parameters();
   FaceLoad<double> load;
   for (int k = 0; k < faces.face_points(); k += Lanes::kCount) {
     const Lanes x = Lanes::load(faces.x() + k), y = Lanes::load(faces.y() + k);
-    const Lanes beyond = Lanes::all(motion.delta_0) + (motion.delta_x * x + motion.delta_y * y) - Lanes::load(faces.setback() + k);
+    const Lanes beyond = Lanes::all(motion.delta_0) + (motion.delta_x * x + motion.delta_y * y) -
+                         Lanes::load(faces.setback() + k);
     const Lanes delta = choose_greater(beyond, Lanes{}, beyond, Lanes{});
     const Lanes rate = Lanes::all(motion.rate_0) + (motion.rate_x * x + motion.rate_y * y);
     const Lanes elastic = faces.point_stiffness() * delta;
-    const Lanes onset = choose_onset_rate(Lanes::load(faces.latches(face) + k), rate, joint.minimum_onset_rate);
+    const Lanes onset =
+        choose_onset_rate(Lanes::load(faces.latches(face) + k), rate, joint.minimum_onset_rate);
     const NormalLaw<Lanes> normal = calc_normal_law(elastic, rate, onset, joint.chi, faces.point_damping());
     const Lanes force = choose_greater(beyond, Lanes{}, normal.total, Lanes{});
     load.force += sum(force);
@@ -80,14 +91,17 @@ template <typename P, typename V>
 
 /// Contact of the journal's two faces with the bearing's shoulders: points on circles, no friction.
 ///
-///     delta = +-z_b - (L_b / 2 + c_a),  f = K_a / (points of a face) delta (1 + chi rate / rate_onset), or as the normal law says
+///     delta = +-z_b - (L_b / 2 + c_a),  f = K_a / (points of a face) delta (1 + chi rate / rate_onset),
+///     or as the normal law says
 template <typename P, typename V>
-RPSUP_INLINE void add_faces(const AxialFaces& faces, const RelativeMotion<P, V>& journal, JointLoad<V>& load) {
+RPSUP_INLINE void add_faces(const AxialFaces& faces, const RelativeMotion<P, V>& journal,
+                            JointLoad<V>& load) {
   const Mat3<P>& R = journal.R;
   for (const int face : {0, 1}) {
     const double z = faces.z(face), side = AxialFaces::side(face);
-    const double reach = faces.calc_reach(side, value_of(journal.p.z), value_of(R.x.z), value_of(R.y.z), value_of(R.z.z));
-    if (!(reach > faces.limit())) continue;
+    const double farthest = faces.calc_farthest_point(side, value_of(journal.p.z), value_of(R.x.z),
+                                                      value_of(R.y.z), value_of(R.z.z));
+    if (!(farthest > faces.limit())) continue;
     const FaceLoad<V> pressed = press_face(faces, face, calc_face_motion(faces, face, journal));
     // The moment of the points' forces -side f along z, each at x R_x + y R_y + z R_z.
     load.force.z -= side * pressed.force;

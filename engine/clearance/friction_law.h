@@ -10,7 +10,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Stribeck's curve g(|v|) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2). Beyond (v / v_s)^2 = 40 the exponential is below rounding.
+/// Stribeck's curve g(|v|) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2). Beyond (v / v_s)^2 = 40 the exponential
+/// is below rounding.
 /// @param squared  (v / v_s)^2
 template <typename V>
 [[nodiscard]] RPSUP_INLINE V calc_stribeck_at(const FrictionParameters& p, const V& squared) {
@@ -23,7 +24,8 @@ template <typename V>
 [[nodiscard]] RPSUP_INLINE Lanes calc_stribeck_at(const FrictionParameters& p, const Lanes& squared) {
   const Lanes most = Lanes::all(40.0), slid = Lanes::all(p.mu_k);
   if (all_below(choose_greater(squared, most, Lanes{}, Lanes::all(1.0)), 0.5)) return slid;
-  const Lanes curve = p.mu_k + (p.mu_s - p.mu_k) * calc_exponentials(-choose_greater(squared, most, most, squared));
+  const Lanes curve =
+      p.mu_k + (p.mu_s - p.mu_k) * calc_exponentials(-choose_greater(squared, most, most, squared));
   return choose_greater(squared, most, slid, curve);
 }
 
@@ -42,12 +44,14 @@ template <typename V>
 /// What a law gives for one component of the sliding velocity.
 template <typename V>
 struct BristleLaw {
-  V force_ratio;                     ///< of the normal force, sigma_0 z + sigma_1 zd + sigma_2 v with bristles, [1]; it acts against v
+  /// Of the normal force, sigma_0 z + sigma_1 zd + sigma_2 v with bristles, [1]; it acts against v.
+  V force_ratio;
   V rate;                            ///< zd = v - sigma_0 |v| z / g(|v|), [m/s]
 };
 
 template <typename V>
-[[nodiscard]] RPSUP_INLINE BristleLaw<V> calc_bristle_law(const FrictionParameters& p, const V& decay, const V& v, const V& z) {
+[[nodiscard]] RPSUP_INLINE BristleLaw<V> calc_bristle_law(const FrictionParameters& p, const V& decay,
+                                                          const V& v, const V& z) {
   const V rate = v - decay * z;
   return {p.sigma_0 * z + p.sigma_1 * rate + p.sigma_2 * v, rate};
 }
@@ -58,8 +62,9 @@ struct FrictionForce {
   BristleLaw<V> along_t, along_z;
 };
 
-/// Which part of its decay an elasto-plastic bristle has: none below its break-away and on its way back, all of it at its steady deflection,
-/// half a sine between. Source: Dupont, Hayward, Armstrong, Altpeter, Single state elastoplastic friction models (2002), Eq. (10).
+/// Which part of its decay an elasto-plastic bristle has: none below its break-away and on its way back, all
+/// of it at its steady deflection, half a sine between. Source: Dupont, Hayward, Armstrong, Altpeter, Single
+/// state elastoplastic friction models (2002), Eq. (10).
 /// @param ratio  deflection over the steady one
 template <typename V>
 [[nodiscard]] RPSUP_INLINE V calc_plastic_part(const FrictionParameters& p, const V& ratio) {
@@ -70,7 +75,8 @@ template <typename V>
 }
 
 template <typename V>
-[[nodiscard]] RPSUP_INLINE V calc_plastic_decay(const FrictionParameters& p, const V& speed, const V& v_t, const V& v_z, const V& z_t, const V& z_z) {
+[[nodiscard]] RPSUP_INLINE V calc_plastic_decay(const FrictionParameters& p, const V& speed, const V& v_t,
+                                                const V& v_z, const V& z_t, const V& z_z) {
   if (value_of(v_t) * value_of(z_t) + value_of(v_z) * value_of(z_z) <= 0.0) return V(0.0);
   const V curve = calc_stribeck_curve(p, speed);
   return p.sigma_0 * speed / curve * calc_plastic_part(p, p.sigma_0 * sqrt(z_t * z_t + z_z * z_z) / curve);
@@ -87,13 +93,15 @@ template <typename V>
 
 /// @param v_t, v_z  sliding velocity  @param z_t, z_z  bristle
 template <typename V>
-[[nodiscard]] RPSUP_INLINE FrictionForce<V> calc_friction(const FrictionParameters& p, const V& v_t, const V& v_z, const V& z_t, const V& z_z) {
+[[nodiscard]] RPSUP_INLINE FrictionForce<V> calc_friction(const FrictionParameters& p, const V& v_t,
+                                                          const V& v_z, const V& z_t, const V& z_z) {
   const V speed = sqrt(v_t * v_t + v_z * v_z);
   if (!has_bristles(p.law)) {
     const V factor = calc_slip_factor(p, speed);
     return {{factor * v_t, V(0.0)}, {factor * v_z, V(0.0)}};
   }
-  const V decay = p.law == FrictionLaw::kElastoPlastic ? calc_plastic_decay(p, speed, v_t, v_z, z_t, z_z) : calc_bristle_decay(p, speed);
+  const V decay = p.law == FrictionLaw::kElastoPlastic ? calc_plastic_decay(p, speed, v_t, v_z, z_t, z_z)
+                                                       : calc_bristle_decay(p, speed);
   return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
 }
 

@@ -3,7 +3,8 @@
 
 namespace engine {
 
-/// Laws of the damping in a contact, f_n = f_e (1 + chi rate / rate at the onset), by their chi(k_r); and Kelvin and Voigt's.
+/// Laws of the damping in a contact, f_n = f_e (1 + chi rate / rate at the onset), by their chi(k_r); and
+/// Kelvin and Voigt's.
 enum class NormalForceLaw {
   kLankaraniNikravesh,  ///< (1990) 3/4 (1 - k_r^2), the paper's
   kHuntCrossley,        ///< (1975) 3/2 (1 - k_r)

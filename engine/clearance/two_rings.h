@@ -12,17 +12,20 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-[[nodiscard]] RPSUP_INLINE BristleLaw<LanePair> join(const BristleLaw<double>& a, const BristleLaw<double>& b) {
+[[nodiscard]] RPSUP_INLINE BristleLaw<LanePair> join(const BristleLaw<double>& a,
+                                                     const BristleLaw<double>& b) {
   return {join(a.force_ratio, b.force_ratio), join(a.rate, b.rate)};
 }
 /// At two places side by side; by laws that ask what a place does, one after the other.
-[[nodiscard]] RPSUP_INLINE FrictionForce<LanePair> calc_friction(const FrictionParameters& p, const LanePair& v_t, const LanePair& v_z,
+[[nodiscard]] RPSUP_INLINE FrictionForce<LanePair> calc_friction(const FrictionParameters& p,
+                                                                 const LanePair& v_t, const LanePair& v_z,
                                                                  const LanePair& z_t, const LanePair& z_z) {
   if (p.law == FrictionLaw::kLuGre || p.law == FrictionLaw::kDahl) {
     const LanePair decay = calc_bristle_decay(p, sqrt(v_t * v_t + v_z * v_z));
     return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
   }
-  const FrictionForce<double> a = calc_friction(p, v_t[0], v_z[0], z_t[0], z_z[0]), b = calc_friction(p, v_t[1], v_z[1], z_t[1], z_z[1]);
+  const FrictionForce<double> a = calc_friction(p, v_t[0], v_z[0], z_t[0], z_z[0]),
+                              b = calc_friction(p, v_t[1], v_z[1], z_t[1], z_z[1]);
   return {join(a.along_t, b.along_t), join(a.along_z, b.along_z)};
 }
 
@@ -38,13 +41,16 @@ RPSUP_INLINE void add_lane(const JointLoad<LanePair>& two, int lane, JointLoad<d
   load.elastic_energy += two.elastic_energy[lane];
 }
 
-/// What two rings side by side do on a round bore, by Hertz's law: to the bit what add_ring() does with one after the other, but their roots and
-/// quotients take no longer than those of one. A ring that does not press adds zeros. Hertz's law holds for every penetration.
-RPSUP_INLINE void add_two_rings(const RadialContinuum& contact, const RelativeMotion<double, double>& journal, int i, const double* bristles,
-                                double* bristle_rates, JointLoad<double>& load) {
+/// What two rings side by side do on a round bore, by Hertz's law: to the bit what add_ring() does with one
+/// after the other, but their roots and quotients take no longer than those of one. A ring that does not
+/// press adds zeros. Hertz's law holds for every penetration.
+RPSUP_INLINE void add_two_rings(const RadialContinuum& contact, const RelativeMotion<double, double>& journal,
+                                int i, const double* bristles, double* bristle_rates,
+                                JointLoad<double>& load) {
   const ClearanceParameters& joint = contact.parameters();
   const LanePair none{};
-  const RingOffset<LanePair> ring = calc_ring_offset(journal, join(contact.ring_position(i), contact.ring_position(i + 1)));
+  const RingOffset<LanePair> ring =
+      calc_ring_offset(journal, join(contact.ring_position(i), contact.ring_position(i + 1)));
   const LanePair beyond = calc_penetration(contact, ring);
   double* rates = bristle_rates + 2 * i;
   rates[0] = rates[1] = rates[2] = rates[3] = 0.0;
@@ -52,15 +58,19 @@ RPSUP_INLINE void add_two_rings(const RadialContinuum& contact, const RelativeMo
   const LanePair delta = cut_at_zero(beyond);
   const LanePair rate = calc_ring_rate(journal, ring);
   const RingForce<LanePair> force = calc_hertz_force(contact, delta);
-  const LanePair onset = choose_onset_rate(LanePair::load(contact.latches() + i), rate, joint.minimum_onset_rate);
+  const LanePair onset =
+      choose_onset_rate(LanePair::load(contact.latches() + i), rate, joint.minimum_onset_rate);
   NormalLaw<LanePair> normal = calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping());
-  normal = {choose_greater(beyond, none, normal.total, none), choose_greater(beyond, none, normal.loss_power, none)};
+  normal = {choose_greater(beyond, none, normal.total, none),
+            choose_greater(beyond, none, normal.loss_power, none)};
   const double r_j = joint.r_j();
   const Vec3<LanePair> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
-  const LanePair own[2] = {join(bristles[2 * i], bristles[2 * i + 2]), join(bristles[2 * i + 1], bristles[2 * i + 3])};
+  const LanePair own[2] = {join(bristles[2 * i], bristles[2 * i + 2]),
+                           join(bristles[2 * i + 1], bristles[2 * i + 3])};
   LanePair own_rates[2] = {none, none};
   JointLoad<LanePair> two;
-  add_touch(joint, journal, Touch<LanePair, LanePair>{r, ring.n_x, ring.n_y, normal}, own, own_rates, two);
+  add_contact_point(joint, journal, ContactPoint<LanePair, LanePair>{r, ring.n_x, ring.n_y, normal}, own,
+                    own_rates, two);
   two.elastic_energy = force.energy;
   two.max_penetration = delta;
   for (const int lane : {0, 1}) {

@@ -35,7 +35,7 @@ AssemblyGuess calc_guess_about_guide(const RpsupParameters& p) {
   const Eigen::Vector3d e = Eigen::Vector3d(0.0, S.y(), S.z()).normalized();
   const double along = std::min(1.0, p.cross_length / std::hypot(S.y(), S.z()));
   const Eigen::Vector3d z_22 = along * e + std::sqrt(1.0 - along * along) * Eigen::Vector3d::UnitX().cross(e);
-  const double slider = S.x() + std::sqrt(std::max(0.0, calc_reach_squared(p, S)));
+  const double slider = S.x() + std::sqrt(std::max(0.0, calc_coupler_projection_squared(p, S)));
   const Eigen::Vector3d J(slider, p.cross_length * z_22.y(), p.cross_length * z_22.z());
 
   Eigen::Matrix3d R_g13;
@@ -92,14 +92,14 @@ Eigen::Vector3d calc_s_joint_W(const RpsupParameters& p, double t) {
   return {r * std::cos(psi), r * std::sin(psi), 0.0};
 }
 
-double calc_reach_squared(const RpsupParameters& p, const Eigen::Vector3d& p_gS) {
+double calc_coupler_projection_squared(const RpsupParameters& p, const Eigen::Vector3d& p_gS) {
   const double y = p_gS.y(), z = p_gS.z(), a = p.cross_length, l = p.coupler_length;
   if (p.yoke_axis == YokeAxis::kGuide) return l * l - (y * y + z * z) + a * a;
   return l * l - y * y - std::max(0.0, z * z - a * a);
 }
 
-double calc_reach_squared(const RpsupParameters& p, double t) {
-  return calc_reach_squared(p, to_guide(p, calc_s_joint_W(p, t)));
+double calc_coupler_projection_squared(const RpsupParameters& p, double t) {
+  return calc_coupler_projection_squared(p, to_guide(p, calc_s_joint_W(p, t)));
 }
 
 double calc_yoke_arm(const RpsupParameters& p, double t) {

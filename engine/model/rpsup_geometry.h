@@ -23,18 +23,19 @@ namespace engine {
 /// Centre of the S joint at time t, the end of the rod, in the global frame, [m]
 [[nodiscard]] Eigen::Vector3d calc_s_joint_W(const RpsupParameters& parameters, double t);
 
-/// How much of the coupler's length l is left along the guide, squared, with the S joint at p_gS in {g}: with
-/// the cross link's length a
+/// Projection of the coupler, of length l, on the guide, squared, with the S joint at p_gS in {g} and the
+/// cross link's length a:
 ///
 ///     yoke about the guide:  l^2 - rho^2 + a^2,  rho^2 = y^2 + z^2
 ///     yoke across it:        l^2 - y^2 - max(0, z^2 - a^2)
 ///
 /// Negative or zero: the linkage cannot be assembled there, or locks. [m^2]
-[[nodiscard]] double calc_reach_squared(const RpsupParameters& parameters, const Eigen::Vector3d& p_gS);
-[[nodiscard]] double calc_reach_squared(const RpsupParameters& parameters, double t);
+[[nodiscard]] double calc_coupler_projection_squared(const RpsupParameters& parameters,
+                                                     const Eigen::Vector3d& p_gS);
+[[nodiscard]] double calc_coupler_projection_squared(const RpsupParameters& parameters, double t);
 
-/// Distance rho of the S joint from the guide, less the cross link's length a, [m]. With the yoke about the guide
-/// the linkage cannot be assembled below 0; at 0 its two ways of assembly meet.
+/// Distance rho of the S joint from the guide, less the cross link's length a, [m]. With the yoke about the
+/// guide the linkage cannot be assembled below 0; at 0 its two ways of assembly meet.
 [[nodiscard]] double calc_yoke_arm(const RpsupParameters& parameters, double t);
 
 /// Where Newton's method begins to close the loop at t = 0.

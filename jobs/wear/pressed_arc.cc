@@ -25,7 +25,7 @@ PressedArc::PressedArc(const engine::WornBore& bore, int ring, double c_r, std::
 }
 
 void PressedArc::add(double work, double theta, double penetration, std::vector<double>& by_sector) {
-  const double distance = c_r_ + bore_.calc_reach(ring_, theta).value + penetration;
+  const double distance = c_r_ + bore_.calc_added_clearance(ring_, theta).value + penetration;
   const double x = distance * std::cos(theta);
   const double y = distance * std::sin(theta);
   double sum = 0.0;

@@ -110,7 +110,7 @@ double lock_time(const RpsupParameters& parameters) {
   double locked = 2.0;
   while (locked - free > 1e-12) {
     const double middle = 0.5 * (free + locked);
-    (calc_reach_squared(parameters, middle) > 0.0 ? free : locked) = middle;
+    (calc_coupler_projection_squared(parameters, middle) > 0.0 ? free : locked) = middle;
   }
   return free;
 }

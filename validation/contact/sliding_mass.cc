@@ -30,7 +30,7 @@ class ImpactObserver : public QuietObserver {
       impact.contact_time = crossing - impact.onset_time;
     }
     impact.force = std::max(impact.force, end.joints[0].load.radial_normal_sum);
-    impact.depth = std::max(impact.depth, start.qd[0] > 0.0 && end.qd[0] <= 0.0 ? find_turn(start, end) : after);
+    impact.depth = std::max(impact.depth, start.qd[0] > 0.0 && end.qd[0] <= 0.0 ? find_reversal(start, end) : after);
     impact.speed = -end.qd[0];
     impact.loss = end.energy.impact_loss;
   }
@@ -40,7 +40,7 @@ class ImpactObserver : public QuietObserver {
 
  private:
   /// Depth where the velocity, linear in the short step in which it changes its sign, is zero.
-  [[nodiscard]] double find_turn(const Evaluation& start, const Evaluation& end) const {
+  [[nodiscard]] double find_reversal(const Evaluation& start, const Evaluation& end) const {
     const double s = start.qd[0] / (start.qd[0] - end.qd[0]);
     return start.q[0] - c_r_ + 0.5 * s * (end.t - start.t) * start.qd[0];
   }

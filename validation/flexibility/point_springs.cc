@@ -103,7 +103,7 @@ Findings compute_block_on_a_spring() {
     findings.checks.push_back(limit("block of 2 kg on a spring of 8e4 N/m and a damper of 4 N s/m, over 1 s" + by,
                                     "x = L_0 + a exp(-b t) (cos(w t) + b / w sin(w t))", 1e6 * largest, 1e-3, "um",
                                     "the steps' tolerance of 1e-10, over 32 periods"));
-    const Oscillation swing = measure(find_turns(t, x, 0.0));
+    const Oscillation swing = measure(find_extrema(t, x, 0.0));
     const double frequency = 0.5 * w / std::numbers::pi, ratio = b / std::sqrt(kStiffness / kSpringMass);
     findings.checks.push_back(compare("frequency of the block on the spring" + by, "sqrt(k / m - (d / (2 m))^2) / (2 pi)", swing.frequency, frequency,
                                       1e-8 * frequency, "Hz", why));

@@ -43,7 +43,7 @@ TEST(WornBore, LetsAJournalGoAsMuchFartherAsItIsWornAllAround) {
   for (const double depth : {0.0, 1e-6, 30e-6}) {
     const WornBore bore(kWornClearance, make_depth(36, [&](double) { return depth; }));
     for (double theta = -4.0; theta < 4.0; theta += 0.1) {
-      const auto reach = bore.calc_reach(1, theta);
+      const auto reach = bore.calc_added_clearance(1, theta);
       EXPECT_NEAR(reach.value, depth, 1e-19);
       EXPECT_EQ(reach.slope, 0.0);
       EXPECT_EQ(reach.bend, 0.0);
@@ -58,7 +58,7 @@ double calc_error_of_offset_circle(std::size_t sectors) {
   double worst = 0.0;
   for (double theta = 0.0; theta < 2.0 * pi; theta += 0.037) {
     const double exact = a * std::cos(theta) + std::sqrt(c * c - a * a * std::sin(theta) * std::sin(theta));
-    worst = std::max(worst, std::abs(bore.calc_reach(0, theta).value + kWornClearance - exact));
+    worst = std::max(worst, std::abs(bore.calc_added_clearance(0, theta).value + kWornClearance - exact));
   }
   return worst;
 }
@@ -77,9 +77,9 @@ TEST(WornBore, DoesNotLetAJournalIntoANarrowGroove) {
   const auto lies_on = [](double degrees) { return kWornClearance / std::cos(degrees * pi / 180.0) - kWornClearance; };  // about a micrometre
   EXPECT_GT(bore.calc_depth(0, 1.0), 99e-6);
   // The edges lie in sectors of a degree, and the spline rounds them.
-  EXPECT_GT(bore.calc_reach(0, 1.0).value, lies_on(5.0));
-  EXPECT_LT(bore.calc_reach(0, 1.0).value, lies_on(7.0));
-  EXPECT_NEAR(bore.calc_reach(0, 1.5).value, 0.0, 1e-12);
+  EXPECT_GT(bore.calc_added_clearance(0, 1.0).value, lies_on(5.0));
+  EXPECT_LT(bore.calc_added_clearance(0, 1.0).value, lies_on(7.0));
+  EXPECT_NEAR(bore.calc_added_clearance(0, 1.5).value, 0.0, 1e-12);
 }
 
 ClearanceParameters make_joint(double r_b, double c_r) {

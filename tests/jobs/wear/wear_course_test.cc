@@ -105,7 +105,7 @@ TEST(WearCourse, WearsTheBoreToTheShapeOfTheJournal) {
   engine::WearDepth bore_depth{depth};
   for (double& d : bore_depth[0]) d *= 1e-6;
   const engine::WornBore bore(kClearance, bore_depth);
-  const double distance = kClearance + bore.calc_reach(0, kLoadedAt).value;
+  const double distance = kClearance + bore.calc_added_clearance(0, kLoadedAt).value;
   ASSERT_GT(distance - kClearance, 15e-6);
   int worn = 0;
   for (std::size_t s = 0; s < kSectors; ++s) {
