@@ -16,13 +16,17 @@ namespace engine {
 
 namespace {
 
-/// About the centre of mass no principal moment is below 0 or above the sum of the other two; those of a thin rod are 0 and equal.
+/// About the centre of mass no principal moment is below 0 or above the sum of the other two; those of a thin
+/// rod are 0 and equal.
 bool is_inertia_of_a_body(const LinkageBody& body) {
   const Eigen::Vector3d& c = body.com;
-  const Eigen::Matrix3d central = body.inertia - body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
-  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(central, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Matrix3d central =
+      body.inertia - body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(central, Eigen::EigenvaluesOnly).eigenvalues();
   const double rounding = 1e-9 * body.inertia.trace();
-  return moments.allFinite() && moments.minCoeff() >= -rounding && moments.sum() - 2.0 * moments.maxCoeff() >= -rounding;
+  return moments.allFinite() && moments.minCoeff() >= -rounding &&
+         moments.sum() - 2.0 * moments.maxCoeff() >= -rounding;
 }
 
 void check_body(const LinkageBody& body) {
@@ -32,12 +36,15 @@ void check_body(const LinkageBody& body) {
     return;
   }
   require(body.mass >= 0.0 && std::isfinite(body.mass), name + ".mass", "a finite number of at least 0");
-  require(body.mass > 0.0 || body.inertia.isZero(0.0), name + ".inertia", "left out, as the body has no mass");
+  require(body.mass > 0.0 || body.inertia.isZero(0.0), name + ".inertia",
+          "left out, as the body has no mass");
   require(is_inertia_of_a_body(body), name + ".inertia",
-          "that of a body: about the centre of mass no principal moment is below 0 or larger than the sum of the other two");
+          "that of a body: about the centre of mass no principal moment is below 0 or larger than the sum of "
+          "the other two");
 }
 
-/// Gives the springs of no given free length the one with which they are unloaded. What pulls along the line between its ends must have one.
+/// Gives the springs of no given free length the one with which they are unloaded. What pulls along the line
+/// between its ends must have one.
 void settle_springs(const Linkage& linkage, BuiltLinkage& built, const Evaluation& assembled) {
   constexpr double kMeeting = 1e-9;  // [m]
   for (std::size_t k = 0; k < linkage.springs.size(); ++k) {
@@ -46,7 +53,8 @@ void settle_springs(const Linkage& linkage, BuiltLinkage& built, const Evaluatio
     if (!linkage.springs[k].free_length) spring.free_length = length < kMeeting ? 0.0 : length;
     if (length < kMeeting && (spring.free_length > 0.0 || spring.damping > 0.0))
       throw InvalidInput("springs." + linkage.springs[k].name,
-                         "has its ends in one place at t = 0, where neither a free length nor a damper has a direction to push in: "
+                         "has its ends in one place at t = 0, where neither a free length nor a damper has a "
+                         "direction to push in: "
                          "move one of them, or leave it a spring of free length 0 without damping");
   }
 }
@@ -54,19 +62,25 @@ void settle_springs(const Linkage& linkage, BuiltLinkage& built, const Evaluatio
 /// The joint that a coordinate is part of, or the body inside which it is.
 std::string owner_of(const Linkage& linkage, const BuiltLinkage& built, FrameIndex coordinate) {
   for (std::size_t k = 0; k < built.joints.size(); ++k)
-    if (coordinate >= built.joints[k].first && coordinate < built.joints[k].first + built.joints[k].count) return "joints." + linkage.joints[k].name;
+    if (coordinate >= built.joints[k].first && coordinate < built.joints[k].first + built.joints[k].count)
+      return "joints." + linkage.joints[k].name;
   return "";
 }
 
-/// The mass matrix of some coordinates, from the kinetic energies of unit speeds, alone and by twos.
-Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled, const std::vector<FrameIndex>& coordinates, bool diagonal_alone) {
+/// Motions that must move mass: of each coordinate alone, or of their combinations as well.
+enum class MassCheck { kEachAlone, kCombinations };
+
+/// Mass matrix of some coordinates, from the kinetic energies of unit speeds, alone and by twos; for
+/// kEachAlone its diagonal.
+Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled,
+                                 const std::vector<FrameIndex>& coordinates, MassCheck check) {
   Eigen::VectorXd qd = Eigen::VectorXd::Zero(assembled.q.size());
   const Eigen::VectorXd qdd = qd;
   std::vector<FrameMotion> frames(m.coordinates.size());
   const auto n = static_cast<Eigen::Index>(coordinates.size());
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index k = diagonal_alone ? i : 0; k <= i; ++k) {
+    for (Eigen::Index k = check == MassCheck::kEachAlone ? i : 0; k <= i; ++k) {
       qd.setZero();
       qd[coordinates[static_cast<std::size_t>(i)]] = 1.0;
       qd[coordinates[static_cast<std::size_t>(k)]] = 1.0;
@@ -81,25 +95,33 @@ Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled
 }
 
 /// No free coordinate may move nothing that has mass, nor may several together.
-void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled, const std::vector<FrameIndex>& free, bool together) {
+void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled,
+                  const std::vector<FrameIndex>& free, MassCheck check) {
   constexpr double kNothing = 1e-15;     // [kg m^2] or [kg], of what the heaviest freedom moves
-  constexpr double kNoneOfThem = 1e-13;  // least eigenvalue of the matrix with its diagonal scaled to 1: rounding
+  // Least eigenvalue of the matrix with its diagonal scaled to 1: rounding.
+  constexpr double kNoneOfThem = 1e-13;
   constexpr std::size_t kMany = 60;      // whose matrix would take long
   if (free.empty()) return;
-  together = together && free.size() <= kMany;
-  const Eigen::MatrixXd M = calc_mass_matrix(built.mechanism, assembled, free, !together);
+  if (free.size() > kMany) check = MassCheck::kEachAlone;
+  const Eigen::MatrixXd M = calc_mass_matrix(built.mechanism, assembled, free, check);
   const Eigen::VectorXd moved = M.diagonal();
   for (std::size_t k = 0; k < free.size(); ++k)
     if (!(moved[static_cast<Eigen::Index>(k)] > kNothing * moved.maxCoeff()))
-      throw InvalidInput(owner_of(linkage, built, free[k]), "is free to move by its coordinate " +
-                         built.mechanism.coordinates[static_cast<std::size_t>(free[k])].name +
-                         ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
-  if (!together) return;
+      throw InvalidInput(
+          owner_of(linkage, built, free[k]),
+          "is free to move by its coordinate " +
+              built.mechanism.coordinates[static_cast<std::size_t>(free[k])].name +
+              ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
+  if (check == MassCheck::kEachAlone) return;
   const Eigen::VectorXd scale = moved.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
-  if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() > kNoneOfThem))
-    throw InvalidInput("joints", "are free to move together in a way in which nothing that they move has mass (one behind the other about the same "
-                                 "axis, say): give the bodies that they carry some, or drive them");
+  if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+            .eigenvalues()
+            .minCoeff() > kNoneOfThem))
+    throw InvalidInput("joints",
+                       "are free to move together in a way in which nothing that they move has mass (one "
+                       "behind the other about the same "
+                       "axis, say): give the bodies that they carry some, or drive them");
 }
 
 /// The cut joint whose parts stand furthest apart.
@@ -114,7 +136,8 @@ std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const 
   for (std::size_t k = 0; k < built.joints.size(); ++k) {
     if (built.joints[k].cut < 0) continue;
     const CutJoint& joint = built.mechanism.cut_joints[static_cast<std::size_t>(built.joints[k].cut)];
-    const double gap = (place_of(joint.journal_frame, joint.journal) - place_of(joint.bearing_frame, joint.bearing)).norm();
+    const double gap =
+        (place_of(joint.journal_frame, joint.journal) - place_of(joint.bearing_frame, joint.bearing)).norm();
     if (gap > most) {
       most = gap;
       widest = linkage.joints[k].name;
@@ -133,16 +156,24 @@ BuiltLinkage check_linkage(const Linkage& linkage) {
   Evaluation assembled = system.make_evaluation();
   if (!closure.assemble(0.0, assembled)) {
     const std::string joint = widest_gap(linkage, built, assembled);
-    if (!closure.rates_fit()) throw InvalidInput(joint, "would be torn apart by the start rates given: they and the drives contradict each other");
-    throw InvalidInput(joint, "does not close at t = 0: the nearest position found leaves a gap of " + std::to_string(closure.residual()) +
-                                  " m (or between right angles); other lengths, or a guess or start of a coordinate nearer to the closed "
+    if (!closure.rates_fit())
+      throw InvalidInput(
+          joint, "would be torn apart by the start rates given: they and the drives contradict each other");
+    throw InvalidInput(joint, "does not close at t = 0: the nearest position found leaves a gap of " +
+                                  std::to_string(closure.residual()) +
+                                  " m (or between right angles); other lengths, or a guess or start of a "
+                                  "coordinate nearer to the closed "
                                   "position, may help");
   }
-  if (!closure.lets_drives_begin(assembled))
-    throw InvalidInput("joints", "cannot follow their drives: these move against each other, or against joints that close loops; let one of the "
-                                 "drives go, or a joint that closes a loop allow the motion");
-  const bool solved = closure.is_determined() && closure.redundant() == 0;  // the drives decide the motion, whatever has mass
-  check_masses(linkage, built, assembled, system.free_coordinates(), !solved);
+  if (!closure.drives_can_start(assembled))
+    throw InvalidInput("joints",
+                       "cannot follow their drives: these move against each other, or against joints that "
+                       "close loops; let one of the "
+                       "drives go, or a joint that closes a loop allow the motion");
+  // The drives decide the motion, whatever has mass.
+  const bool solved = closure.is_determined() && closure.redundant() == 0;
+  check_masses(linkage, built, assembled, system.free_coordinates(),
+               solved ? MassCheck::kEachAlone : MassCheck::kCombinations);
   settle_springs(linkage, built, assembled);
   return built;
 }

@@ -10,14 +10,14 @@
 namespace engine {
 
 /// The stretch of time between two jumps of the drives' accelerations. A step does not cross a jump: it ends
-/// there, with the accelerations before the jump, and the next one begins with those behind it. Steps may end a
-/// rounding beside the jump; is_over() decides, not a comparison of instants.
+/// there, with the accelerations before the jump, and the next one begins with those behind it. Steps may end
+/// a rounding beside the jump; is_over() decides, not a comparison of instants.
 class DrivePiece {
  public:
   /// All of time.
   DrivePiece() = default;
   /// The first piece, from t = 0 on. @param drives  outlive this
-  explicit DrivePiece(const std::vector<Drive>& drives) : drives_(&drives) { find_end(0.0); }
+  explicit DrivePiece(const std::vector<Drive>& drives) : drives_(&drives) { calc_end(0.0); }
 
   /// The instant of the next jump, infinite if there is none, [s]
   [[nodiscard]] double end() const { return end_; }
@@ -28,7 +28,7 @@ class DrivePiece {
   /// Goes on to the piece behind this one's end.
   void advance() {
     earliest_ = end_ * (1.0 + kBeside);
-    find_end(end_);
+    calc_end(end_);
   }
 
   /// The instant at which the laws are to be evaluated for t: t itself; at and beyond an end of the piece the
@@ -37,9 +37,10 @@ class DrivePiece {
 
  private:
   static constexpr double kBeside = 1e-14;       ///< of the time: more than the rounding of a jump's instant
-  static constexpr double kSameInstant = 2e-12;  ///< of the time: grids and corners count such instants as one
+  /// Of the time: grids and corners count such instants as one.
+  static constexpr double kSameInstant = 2e-12;
 
-  void find_end(double t) {
+  void calc_end(double t) {
     end_ = std::numeric_limits<double>::infinity();
     for (const Drive& drive : *drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
     latest_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
