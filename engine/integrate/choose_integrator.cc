@@ -9,39 +9,46 @@ namespace engine {
 
 namespace {
 
-// What tolerances are divided by, each as small as leaves a few in a hundred of the converging peaks more than 0.1 % off: of some hundred sets of
-// parameters at random, against dopri5 at 1e-9.
+// Divisors of the tolerances: the smallest that leave only a few in a hundred of the converging peaks more
+// than 0.1 % off, of some hundred sets of parameters at random, against dopri5 at 1e-9.
 constexpr double kForSlowBristles = 2.0;
-constexpr double kForOtherFriction = 30.0;  // quick, or none, which damps nothing
+constexpr double kForOtherFriction = 30.0;  // quick friction, or none, which damps nothing
 constexpr double kForWornBores = 7.5;
-constexpr double kForElements = 7.5;        // with other friction; one that begins to touch changes little
+constexpr double kForElements = 7.5;        // contact elements with other friction
 
 constexpr double kSlowBristles = 300.0;  // stiffness, [1/m]
 
 constexpr auto is_elastic = [](const auto& spring) { return spring.stiffness > 0.0; };
 
-bool has_friction(const ClearanceParameters& joint) { return joint.friction && joint.friction->law != FrictionLaw::kNone; }
-
-bool has_slow_friction(const ClearanceParameters& joint) {
-  return joint.friction && joint.friction->law == FrictionLaw::kLuGre && joint.friction->sigma_0 <= kSlowBristles;
+bool has_friction(const ClearanceParameters& joint) {
+  return joint.friction && joint.friction->law != FrictionLaw::kNone;
 }
 
-/// Bristles that follow what vibrates on the bore, or friction that jumps with the velocity.
-bool has_quick_friction(const ClearanceParameters& joint) { return has_friction(joint) && !has_slow_friction(joint); }
+bool has_slow_friction(const ClearanceParameters& joint) {
+  return joint.friction && joint.friction->law == FrictionLaw::kLuGre &&
+         joint.friction->sigma_0 <= kSlowBristles;
+}
+
+/// Bristles so stiff that they follow the journal's vibrations, or friction that jumps with the velocity.
+bool has_quick_friction(const ClearanceParameters& joint) {
+  return has_friction(joint) && !has_slow_friction(joint);
+}
 
 double choose_refinement(const ClearanceParameters& joint) {
   if (has_slow_friction(joint)) return joint.worn ? kForWornBores : kForSlowBristles;
   return joint.form == RadialForm::kElements ? kForElements : kForOtherFriction;
 }
 
-/// Whether any of the joints with clearance has it.
+/// Whether any joint with clearance has the property.
 template <typename Has>
 bool has_any(const Mechanism& mechanism, const Has& has) {
-  return std::ranges::any_of(mechanism.cut_joints, [&](const CutJoint& joint) { return joint.clearance && has(*joint.clearance); });
+  return std::ranges::any_of(mechanism.cut_joints,
+                             [&](const CutJoint& joint) { return joint.clearance && has(*joint.clearance); });
 }
 
 bool has_elastic_links(const Mechanism& mechanism) {
-  return std::ranges::any_of(mechanism.coordinates, is_elastic) || std::ranges::any_of(mechanism.springs, is_elastic);
+  return std::ranges::any_of(mechanism.coordinates, is_elastic) ||
+         std::ranges::any_of(mechanism.springs, is_elastic);
 }
 
 }  // namespace
@@ -51,12 +58,15 @@ bool has_clearance(const Mechanism& mechanism) {
 }
 
 double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
-  constexpr double kLongest = 1e-3;          // [s]; short enough for the cubic that finds a ring's contact inside a step
-  constexpr double kLongestImplicit = 5e-3;  // [s]; of an implicit method without such a joint: short enough for what is read from inside
-  // Friction feeds vibrations of elastic links, measured up to 1.3 kHz, that grow a hundredfold in 5 ms. Longer steps of radau5 damp them as fast.
+  // The cubic that finds a ring's contact in a step needs no shorter one.
+  constexpr double kLongest = 1e-3;  // [s]
+  // Without clearance: values inside a step are interpolated well enough.
+  constexpr double kLongestImplicit = 5e-3;  // [s]
+  // Friction excites vibrations of elastic links, measured up to 1.3 kHz, that grow a hundredfold in 5 ms.
+  // Longer steps of radau5 damp them as fast.
   constexpr double kLongestElastic = 4e-4;  // [s]
-  // Quick friction sets off those of the journal on its bore, of some kHz, and they count even where they decay: at the tolerances chosen here, longer
-  // steps left peaks up to 15 % off.
+  // Quick friction excites vibrations of the journal on its bore, of several kHz, which count even where they
+  // decay: at the tolerances chosen here, longer steps left peaks up to 15 % off.
   constexpr double kLongestQuick = 1e-4;  // [s]
   if (!has_clearance(mechanism)) return is_implicit(integrator) ? kLongestImplicit : kLongest;
   if (integrator != Integrator::kRadau5) return kLongest;
@@ -64,12 +74,14 @@ double choose_longest_step(const Mechanism& mechanism, Integrator integrator) {
   return has_elastic_links(mechanism) ? kLongestElastic : kLongest;
 }
 
-double choose_stability_check_interval(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates) {
-  // A check costs O(n^3), a dense step O(n^2), a recursive step O(n); the recursion is cheaper from about n = 28 on.
-  // An interval of max(n, n^2 / 28) ms keeps the checks' share of a run constant.
+double choose_stability_check_interval(const Mechanism& mechanism, Integrator integrator,
+                                       Eigen::Index free_coordinates) {
+  // A check costs O(n^3), a dense step O(n^2), a recursive step O(n); the recursion is cheaper from about n =
+  // 28 on. An interval of max(n, n^2 / 28) ms keeps the checks' share of a run constant.
   constexpr double kPerCoordinate = 1e-3;  // [s]
   constexpr double kDenseUpTo = 28.0;
-  if (!has_any(mechanism, has_friction) || !is_implicit(integrator) || free_coordinates == 0) return std::numeric_limits<double>::infinity();
+  if (!has_any(mechanism, has_friction) || !is_implicit(integrator) || free_coordinates == 0)
+    return std::numeric_limits<double>::infinity();
   const auto n = static_cast<double>(free_coordinates);
   return kPerCoordinate * n * std::max(1.0, n / kDenseUpTo);
 }
@@ -78,7 +90,8 @@ double choose_tolerance(const Mechanism& mechanism, double wanted) {
   double refinement = 1.0;
   for (const CutJoint& joint : mechanism.cut_joints)
     if (joint.clearance) refinement = std::max(refinement, choose_refinement(*joint.clearance));
-  // Less and less of it towards tolerances that resolve all that changes: a smaller tolerance is a smaller one everywhere.
+  // Tolerances below 1e-7 resolve more and more by themselves: the divisor shrinks to 1 at 1e-10, and the
+  // result stays monotonic.
   constexpr double kNoneFrom = 1e-10, kAllFrom = 1e-7;
   const double part = std::clamp(std::log(wanted / kNoneFrom) / std::log(kAllFrom / kNoneFrom), 0.0, 1.0);
   return wanted / std::pow(refinement, part);

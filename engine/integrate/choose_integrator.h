@@ -11,23 +11,29 @@ namespace engine {
 /// Whether any joint of the mechanism has clearance.
 [[nodiscard]] bool has_clearance(const Mechanism& mechanism);
 
-/// What Integrator::kAuto stands for; any other stays what it is. At the tolerance of choose_tolerance() nearly all converging peaks are right to 0.1 % with
-/// radau5, whatever joints and links the mechanism has, and no other method was as right for clearly less work.
-[[nodiscard]] constexpr Integrator choose_integrator(Integrator wanted) { return wanted == Integrator::kAuto ? Integrator::kRadau5 : wanted; }
+/// The integrator that is used: radau5 for kAuto, else the wanted one. With radau5 at the tolerance of
+/// choose_tolerance() nearly all converging peaks are right to 0.1 %, whatever joints and links the mechanism
+/// has; no other method was as right for clearly less work.
+[[nodiscard]] constexpr Integrator choose_integrator(Integrator wanted) {
+  return wanted == Integrator::kAuto ? Integrator::kRadau5 : wanted;
+}
 
-/// What a step of an error-controlled integrator is at most, [s]. It is shorter with radau5 and clearance where friction is quick, and with elastic links:
-/// there friction sets off or feeds vibrations that longer steps would damp.
+/// Longest step of an error-controlled integrator, [s]. With radau5 and clearance it is shorter where
+/// friction is quick, and where links are elastic: there friction excites vibrations that longer steps would
+/// damp.
 /// @param integrator  not kAuto
 [[nodiscard]] double choose_longest_step(const Mechanism& mechanism, Integrator integrator);
 
-/// Time between two checks of local stability (UnstableModeLimiter), [s]: vibrations that grow and end between two checks are not seen.
-/// Infinite if steps damp none or there is no friction to excite any.
+/// Time between two checks of local stability (UnstableModeLimiter), [s]: vibrations that grow and end
+/// between two checks are not seen. Infinite if steps damp none or there is no friction to excite any.
 /// @param integrator  not kAuto
-[[nodiscard]] double choose_stability_check_interval(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_coordinates);
+[[nodiscard]] double choose_stability_check_interval(const Mechanism& mechanism, Integrator integrator,
+                                                     Eigen::Index free_coordinates);
 
-/// The tolerance that Integrator::kAuto takes for the one that is wanted, for the steps' errors and the energy account, so that its peaks are
-/// nearly as right in one mechanism as in another. It is smaller with clearance, the more so in worn bores and where friction is other than that of
-/// slow bristles; of contact elements, one that begins to touch changes little.
+/// Tolerance of kAuto for the wanted one, of the steps' errors and of the energy account: the wanted one over
+/// a divisor, so that peaks are about equally right in all mechanisms. The divisor is larger in worn bores,
+/// and where friction is not that of slow bristles; smaller with contact elements, where one that begins to
+/// touch changes little. Table: README.md.
 [[nodiscard]] double choose_tolerance(const Mechanism& mechanism, double wanted);
 
 }  // namespace engine

@@ -10,10 +10,13 @@ namespace engine {
 namespace {
 
 /// First crossing of one ring as a fraction of the step, if it crosses at all.
-std::optional<double> find_crossing(const Penetration& start, const Penetration& end, const PenetrationCubic& cubic) {
+std::optional<double> find_crossing(const Penetration& start, const Penetration& end,
+                                    const PenetrationCubic& cubic) {
   const bool was_in = start.delta > 0.0;
   const bool is_in = end.delta > 0.0;
-  if (was_in != is_in) return std::abs(end.delta) <= ContactEvents::kBand ? std::nullopt : std::optional(cubic.find_root(0.0, 1.0));
+  if (was_in != is_in)
+    return std::abs(end.delta) <= ContactEvents::kBand ? std::nullopt
+                                                       : std::optional(cubic.find_root(0.0, 1.0));
   // In and out again, or out and in: only if the penetration turns around in between.
   const bool turns = was_in ? start.rate < 0.0 && end.rate > 0.0 : start.rate > 0.0 && end.rate < 0.0;
   if (!turns) return std::nullopt;
@@ -25,7 +28,8 @@ std::optional<double> find_crossing(const Penetration& start, const Penetration&
 
 }  // namespace
 
-std::optional<double> ContactEvents::find_first(const std::vector<Penetration>& start, const std::vector<Penetration>& end, double dt) {
+std::optional<double> ContactEvents::find_first(const std::vector<Penetration>& start,
+                                                const std::vector<Penetration>& end, double dt) {
   std::optional<double> first;
   for (std::size_t i = 0; i < start.size(); ++i) {
     const PenetrationCubic cubic(start[i], end[i], dt);

@@ -6,12 +6,16 @@
 
 namespace engine {
 
-double EnergyControl::measure(const EnergyAccount& start, const EnergyAccount& end, double t0, double dt) const {
+double EnergyControl::measure(const EnergyAccount& start, const EnergyAccount& end, double t0,
+                              double dt) const {
   constexpr double kRounding = 1e-14;
-  constexpr double kShort = 1e-5;  // [s]; where a contact law jumps inside a step, imbalance falls no faster than the step becomes shorter
+  // Where a contact law jumps, imbalance falls only in proportion to the step.
+  constexpr double kShort = 1e-5;  // [s]
   const double power = t0 > 0.0 ? exchanged_ / t0 : 0.0;
-  const double rounding = kRounding * (std::abs(end.kinetic) + std::abs(end.potential) + end.drive_work.cwiseAbs().sum());
-  return std::abs(end.calc_balance() - start.calc_balance()) / (std::max(dt, kShort) * (absolute_ + relative_ * power) + rounding);
+  const double rounding =
+      kRounding * (std::abs(end.kinetic) + std::abs(end.potential) + end.drive_work.cwiseAbs().sum());
+  return std::abs(end.calc_balance() - start.calc_balance()) /
+         (std::max(dt, kShort) * (absolute_ + relative_ * power) + rounding);
 }
 
 }  // namespace engine

@@ -9,16 +9,19 @@
 
 namespace engine {
 
-/// Holds each step of an implicit method to the energy account. Such a method steps over the fastest motions, and in lasting contact its
-/// errors of the friction work all have one sign: steps that each look accurate add up to an account that does not close. So a step may be
-/// out of balance by a part of the mean power with which drives, losses and motion have exchanged energy so far, times its length.
+/// Error control by the energy account of each step of an implicit method. Such a method steps over the
+/// fastest motions. In lasting contact its errors of the friction work all have one sign: steps that are
+/// accurate one by one add up to an account that does not close. The imbalance of a step may be a part of the
+/// mean power with which drives, losses and motion have exchanged energy so far, times its length.
 class EnergyControl {
  public:
   explicit EnergyControl(const RunOptions& options)
-      : relative_(kPart * std::max(options.relative_tolerance, kFinest)), absolute_(kPart * std::max(options.absolute_tolerance, kFinest)) {}
+      : relative_(kPart * std::max(options.relative_tolerance, kFinest)),
+        absolute_(kPart * std::max(options.absolute_tolerance, kFinest)) {}
 
-  /// Imbalance of a step that starts at t0, in units of what is allowed.
-  [[nodiscard]] double measure(const EnergyAccount& start, const EnergyAccount& end, double t0, double dt) const;
+  /// Imbalance of a step that starts at t0, in units of the allowed one.
+  [[nodiscard]] double measure(const EnergyAccount& start, const EnergyAccount& end, double t0,
+                               double dt) const;
 
   /// The step from start to end is part of the run.
   void accept(const EnergyAccount& start, const EnergyAccount& end) {
@@ -26,8 +29,10 @@ class EnergyControl {
   }
 
  private:
-  static constexpr double kPart = 0.25;    // of the tolerance: with it peaks and account of runs at one tolerance are about equally good
-  static constexpr double kFinest = 1e-7;  // tolerances below have the steps resolve all that moves, and the account is one of roundings
+  // Part of the tolerance: makes peaks and account of a run about equally good.
+  static constexpr double kPart = 0.25;
+  // Below this tolerance steps resolve all motion, and the imbalance is rounding.
+  static constexpr double kFinest = 1e-7;
 
   double relative_;           ///< of the mean power
   double absolute_;           ///< [W]

@@ -13,8 +13,9 @@ namespace engine {
 
 namespace {
 
-constexpr double kFirstStep = 1e-6;     // [s]; the controller finds its own within some steps
-constexpr double kWidenBelow = 1e-5;    // [s]; a longer step that needs more bristles has overshot, and is tried shorter first
+constexpr double kFirstStep = 1e-6;     // [s]; the step control finds its own within some steps
+// A longer step that lacks bristles may have overshot: a shorter one is tried first.
+constexpr double kWidenBelow = 1e-5;  // [s]
 constexpr int kMaxLandings = 6;         // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
 
@@ -26,11 +27,13 @@ RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   return options;
 }
 
-/// Steps are below this when error control has failed: a hundred roundings of the time.
+/// Shortest step, a hundred roundings of the time: below, error control has failed.
 double shortest_step(double t) { return 1e-14 * std::max(1.0, t); }
 
 /// Shortest remainder that counts as a fixed step, [s]. A shorter one is rounding.
-double sliver_of(const RunOptions& options) { return options.integrator == Integrator::kRk4 ? 1e-9 * options.step : 0.0; }
+double sliver_of(const RunOptions& options) {
+  return options.integrator == Integrator::kRk4 ? 1e-9 * options.step : 0.0;
+}
 
 }  // namespace
 
@@ -57,12 +60,14 @@ RunEnd Integration::run(const Evaluation& assembled) {
   take_samples();
   while (!failed_ && start_.t < options_.duration) {
     if (run_end_.steps >= options_.step_limit) {
-      fail(RunStatus::kStepLimit, "the run needs more than " + std::to_string(options_.step_limit) + " steps");
+      fail(RunStatus::kStepLimit,
+           "the run needs more than " + std::to_string(options_.step_limit) + " steps");
     } else if (run_end_.steps % kStepsBetweenQueries == 0 && observer_.stop_requested(start_.t)) {
       fail(RunStatus::kStopped, "stopped on request");
     } else if (fixed ? try_fixed_step() : try_controlled_step()) {
       accept();
-      if ((piece_.is_over(start_.t) || start_.t >= piece_.end() - sliver_) && start_.t < options_.duration) jump();
+      if ((piece_.is_over(start_.t) || start_.t >= piece_.end() - sliver_) && start_.t < options_.duration)
+        jump();
     }
   }
   run_end_.t = start_.t;
@@ -81,7 +86,8 @@ bool Integration::start(const Evaluation& assembled) {
     return false;
   }
   // Dopri5's steps are as short as its stability asks: it would take no longer ones.
-  if (is_implicit(options_.integrator)) tolerance_.set_radii(mechanism_, system_.free_coordinates(), start_.at.frames);
+  if (is_implicit(options_.integrator))
+    tolerance_.set_radii(mechanism_, system_.free_coordinates(), start_.at.frames);
   system_.calc_energies(start_.at);
   system_.add_penetrations(start_.at, rings_start_);
   dt_ = kFirstStep;
@@ -96,7 +102,7 @@ void Integration::jump() {
   evaluate_again(start_);
 }
 
-/// Bristles follow their contacts; their rates are then those of other elements.
+/// Moves bristles along with their contacts to other elements, whose rates differ.
 void Integration::prepare(double dt) {
   if (!system_.prepare_step(start_.at, dt, start_.y)) return;
   stepper_->invalidate();
@@ -105,7 +111,8 @@ void Integration::prepare(double dt) {
 
 void Integration::evaluate_again(StepEnd& end) {
   ++run_end_.evaluations;
-  (void)system_.calc_derivative(end.t, end.y, end.f, end.at);  // where it could be evaluated before, it can be now
+  // The state could be evaluated before, so it can be now.
+  (void)system_.calc_derivative(end.t, end.y, end.f, end.at);
   system_.calc_energies(end.at);
 }
 
@@ -122,7 +129,9 @@ void Integration::fail(EvaluationStatus status) {
   if (status == EvaluationStatus::kLocked)
     fail(RunStatus::kLockUp, "the linkage cannot follow its drives any further");
   else if (status == EvaluationStatus::kOutOfRange)
-    fail(RunStatus::kContactRange, "the journal goes deeper into the bore than the stiffness law holds; hertz and liu have no such limit");
+    fail(RunStatus::kContactRange,
+         "the journal goes deeper into the bore than the stiffness law holds; "
+         "hertz and liu have no such limit");
   else
     fail(RunStatus::kNonFinite, "the state is no longer a number; a smaller step or tolerance may help");
 }
@@ -133,7 +142,7 @@ void Integration::fail(RunStatus status, std::string detail) {
   run_end_.detail = std::move(detail);
 }
 
-/// A fixed step goes across the jumps inside it: its stages take the accelerations of their own instants.
+/// A fixed step crosses the jumps inside it: its stages take the accelerations at their own instants.
 void Integration::cross_jumps(double t_end) {
   if (piece_.end() >= t_end - sliver_) return;
   while (piece_.end() < t_end - sliver_) piece_.advance();
@@ -141,7 +150,7 @@ void Integration::cross_jumps(double t_end) {
   crosses_ = true;
 }
 
-/// Step k ends at (k + 1) step, whatever rounding; the last one at the end of the run.
+/// Step k ends at (k + 1) step without accumulated rounding, the last step at the end of the run.
 bool Integration::try_fixed_step() {
   double t_end = static_cast<double>(fixed_steps_ + 1) * options_.step;
   if (options_.duration - t_end < sliver_) t_end = options_.duration;
@@ -184,11 +193,12 @@ Trial Integration::try_step(double dt) {
   if (trial.status != EvaluationStatus::kOk || !(trial.error <= 1.0)) return trial;
   system_.calc_energies(end_.at);
   if (is_implicit(options_.integrator))
-    trial.error = std::max(trial.error, energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt));
+    trial.error =
+        std::max(trial.error, energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt));
   return trial;
 }
 
-/// Sees to it that the next try does better where this one failed.
+/// Whether a trial is accepted. If not, sets the next step, or fails.
 bool Integration::is_accepted(const Trial& trial, double dt) {
   if (trial.status == EvaluationStatus::kBristleMissing && dt <= kWidenBelow) {
     widen_bristles();
@@ -206,8 +216,9 @@ bool Integration::is_accepted(const Trial& trial, double dt) {
   return false;
 }
 
-/// Where a ring meets or leaves the bore inside the step just tried, takes a shorter one that ends there instead.
-/// @returns false if that one failed; the next try is shorter still
+/// Event location: where a ring meets or leaves the bore inside the step just tried, tries a shorter step
+/// that ends there.
+/// @returns false if the shorter step failed; the next try is shorter still
 bool Integration::land_on_event(double dt) {
   for (int landing = 0; landing < kMaxLandings; ++landing) {
     rings_end_.clear();
@@ -232,8 +243,8 @@ void Integration::accept() {
   stepper_->accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
-  // With an element more or less in a lasting contact, the Jacobian and the course of the state are nearly what they were; Newton's method
-  // makes good what is not.
+  // One element more or less in a lasting contact changes the Jacobian and the state's polynomial little;
+  // Newton's iterations correct the difference.
   if (change.abrupt)
     stepper_->invalidate();
   else if (change.any)
@@ -243,7 +254,7 @@ void Integration::accept() {
   std::swap(rings_start_, rings_end_);
 }
 
-/// Samples up to the end of the step, with the contacts as they were in it.
+/// Takes the samples up to the end of the step, with the contacts of the step.
 void Integration::take_samples() {
   while (!samples_.all_taken() && samples_.next() <= end_.t) {
     const EvaluationStatus status = evaluate_inside(samples_.next());
@@ -254,7 +265,8 @@ void Integration::take_samples() {
   }
 }
 
-/// Evaluates the last step at one time into sample_. What lies between two states that could be evaluated nearly always can be, too.
+/// Evaluates the last step at time t into sample_. A state between two that could be evaluated nearly always
+/// can be, too.
 EvaluationStatus Integration::evaluate_inside(double t) {
   if (t < end_.t)
     interpolate_state(start_, end_, system_.layout(), (t - start_.t) / (end_.t - start_.t), sample_.y);
@@ -262,7 +274,7 @@ EvaluationStatus Integration::evaluate_inside(double t) {
     sample_.y = end_.y;
   const EvaluationStatus status = system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
   if (status != EvaluationStatus::kBristleMissing) return status;
-  sample_.y = end_.y;  // an element touches there that touches at neither end: what is at the end is near by
+  sample_.y = end_.y;  // an element touches there that touches at neither end: the end's state is close
   return system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
 }
 

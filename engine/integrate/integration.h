@@ -16,7 +16,8 @@
 
 namespace engine {
 
-/// One run by steps: fixed ones, or error-controlled ones that end where a ring meets or leaves the bore and where a drive's acceleration jumps.
+/// One run by fixed or error-controlled steps. Error-controlled steps end where a ring meets or leaves the
+/// bore and where a drive's acceleration jumps.
 class Integration {
  public:
   Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer);
@@ -54,10 +55,11 @@ class Integration {
   std::unique_ptr<Stepper> stepper_;
   StepControl control_;
   SampleTimes samples_;
-  double sliver_;                                 ///< so short a rest of a fixed step is rounding, [s]
+  /// Shortest fixed step; a shorter remainder is rounding, [s].
+  double sliver_;
   StepEnd start_, end_;
   StepEnd sample_;                                ///< the state between steps that was evaluated last
-  std::vector<Penetration> rings_start_, rings_end_;  ///< of controlled steps: their ends are the next ones' starts
+  std::vector<Penetration> rings_start_, rings_end_;  ///< at both ends of a controlled step
   UnstableModeLimiter step_limiter_;
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;

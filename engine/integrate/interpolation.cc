@@ -5,7 +5,8 @@
 
 namespace engine {
 
-void interpolate_state(const StepEnd& start, const StepEnd& end, const StateLayout& layout, double s, Eigen::VectorXd& y) {
+void interpolate_state(const StepEnd& start, const StepEnd& end, const StateLayout& layout, double s,
+                       Eigen::VectorXd& y) {
   const double dt = end.t - start.t;
   y.resize(start.y.size());
   for (int k = 0; k < layout.free; ++k) {
@@ -17,7 +18,8 @@ void interpolate_state(const StepEnd& start, const StepEnd& end, const StateLayo
   const double s2 = s * s;
   const double s3 = s2 * s;
   for (Eigen::Index i = layout.bristle(); i < y.size(); ++i)
-    y[i] = (2.0 * s3 - 3.0 * s2 + 1.0) * start.y[i] + (3.0 * s2 - 2.0 * s3) * end.y[i] + dt * ((s3 - 2.0 * s2 + s) * start.f[i] + (s3 - s2) * end.f[i]);
+    y[i] = (2.0 * s3 - 3.0 * s2 + 1.0) * start.y[i] + (3.0 * s2 - 2.0 * s3) * end.y[i] +
+           dt * ((s3 - 2.0 * s2 + s) * start.f[i] + (s3 - s2) * end.f[i]);
 }
 
 }  // namespace engine

@@ -3,7 +3,7 @@
 
 namespace engine {
 
-/// The quartic through five values at the places 0, 1, 2, 3, 4.
+/// The quartic through five values at s = 0, 1, 2, 3, 4.
 class Quartic {
  public:
   Quartic() = default;
@@ -19,12 +19,14 @@ class Quartic {
     c4_ = d4 / 24.0;
   }
 
-  [[nodiscard]] double slope(double s) const { return c1_ + s * (2.0 * c2_ + s * (3.0 * c3_ + s * 4.0 * c4_)); }
+  [[nodiscard]] double slope(double s) const {
+    return c1_ + s * (2.0 * c2_ + s * (3.0 * c3_ + s * 4.0 * c4_));
+  }
   /// Integral from 0 to s.
   [[nodiscard]] double integral(double s) const {
     return s * (c0_ + s * (c1_ / 2.0 + s * (c2_ / 3.0 + s * (c3_ / 4.0 + s * c4_ / 5.0))));
   }
-  /// Its fourth difference: how far the fifth value is from where the cubic through the other four leads.
+  /// Its fourth difference: the fifth value less that of the cubic through the other four.
   [[nodiscard]] double fourth_difference() const { return 24.0 * c4_; }
 
  private:

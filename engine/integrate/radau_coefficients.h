@@ -7,9 +7,10 @@
 
 namespace engine {
 
-/// The Radau IIA method of order 5: collocation at three points, the last of them the step's end. With A its matrix and T as here,
-/// T^-1 A^-1 T = diag(shift; the block of re -im, im re of complex_shift): what couples the three stages becomes one real and one complex
-/// system of the state's size. Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, sections IV.5 and IV.8.
+/// The Radau IIA method of order 5: collocation at three points, the last of them the step's end. With A its
+/// matrix and T as here, T^-1 A^-1 T = diag(shift; the block of re -im, im re of complex_shift): what couples
+/// the three stages becomes one real and one complex system of the state's size. Source: E. Hairer, G.
+/// Wanner, Solving Ordinary Differential Equations II, sections IV.5 and IV.8.
 struct RadauCoefficients {
   static constexpr std::size_t kStages = 3;
   using Row = std::array<double, kStages>;
@@ -27,7 +28,8 @@ struct RadauCoefficients {
       {-4.1787185915519047273, -0.32768282076106238708, 0.47662355450055045196},
       {-0.50287263494578687595, 2.5719269498556054292, -0.59603920482822492497},
   }};
-  /// The difference from an embedded method of order 3 is (shift / dt - J)^-1 (f at the start + (error . stages) / dt).
+  /// The difference from an embedded method of order 3 is (shift / dt - J)^-1 (f at the start + (error .
+  /// stages) / dt).
   static constexpr Row error{-10.048809399827415562, 1.3821427331607488958, -0.33333333333333333333};
 };
 

@@ -20,7 +20,8 @@ namespace engine {
 struct Rodas5Coefficients {
   static constexpr unsigned short kOrder = 5;
   static constexpr std::size_t kStages = 8;
-  static constexpr std::size_t kFirstExtended = 6;  ///< the first stage, from 0, that is the one before plus its U
+  /// The first stage, from 0, that is the one before plus its U.
+  static constexpr std::size_t kFirstExtended = 6;
   using Row = std::array<double, kStages - 1>;
 
   static constexpr double gamma = 0.19;

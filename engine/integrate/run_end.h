@@ -12,7 +12,7 @@ struct RunEnd {
   RunStatus status = RunStatus::kSucceeded;
   double t = 0.0;        ///< reached, [s]
   std::string detail;    ///< of a failure, for the user
-  int redundant_constraints = 0;  ///< rows that follow from others: of the multipliers that do, the least were taken
+  int redundant_constraints = 0;  ///< their multipliers are those of minimum norm
   long steps = 0;        ///< accepted
   long evaluations = 0;  ///< of the equations of motion, rejected steps' included
 };

@@ -11,7 +11,9 @@ class SampleTimes {
   SampleTimes(double rate, double duration) : rate_(rate), duration_(duration) {}
 
   [[nodiscard]] double next() const { return std::min(static_cast<double>(index_) / rate_, duration_); }
-  [[nodiscard]] bool all_taken() const { return index_ > 0 && static_cast<double>(index_ - 1) / rate_ >= duration_; }
+  [[nodiscard]] bool all_taken() const {
+    return index_ > 0 && static_cast<double>(index_ - 1) / rate_ >= duration_;
+  }
   void take() { ++index_; }
 
  private:

@@ -18,7 +18,7 @@ bool carries(const Mechanism& mechanism, FrameIndex carrier, FrameIndex frame) {
   return frame == carrier;
 }
 
-/// Radius of gyration of all that a rotation carries about its axis; 1 if that weighs nothing.
+/// Radius of gyration, about a rotation's axis, of the bodies that it carries; 1 if they have no mass.
 double calc_radius(const Mechanism& mechanism, FrameIndex rotation, const std::vector<FrameMotion>& frames) {
   const FrameMotion& joint = frames[static_cast<std::size_t>(rotation)];
   double mass = 0.0;
@@ -29,16 +29,19 @@ double calc_radius(const Mechanism& mechanism, FrameIndex rotation, const std::v
     const FrameMotion& f = frames[i];
     const Eigen::Vector3d s_F = f.R.transpose() * joint.axis;
     const Eigen::Vector3d arm = f.R.transpose() * (f.p - joint.p);
-    const Eigen::Vector3d origin_rate = s_F.cross(arm);  // of the body's origin where the joint turns at 1 rad/s
+    // Velocity of the body's origin at a joint rate of 1 rad/s.
+    const Eigen::Vector3d origin_rate = s_F.cross(arm);
     mass += body.mass;
-    moment += body.mass * (origin_rate.squaredNorm() + 2.0 * origin_rate.dot(s_F.cross(body.com))) + s_F.dot(body.inertia * s_F);
+    moment += body.mass * (origin_rate.squaredNorm() + 2.0 * origin_rate.dot(s_F.cross(body.com))) +
+              s_F.dot(body.inertia * s_F);
   }
   return mass > 0.0 ? std::sqrt(moment / mass) : 1.0;
 }
 
 }  // namespace
 
-void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free, const std::vector<FrameMotion>& frames) {
+void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free,
+                          const std::vector<FrameMotion>& frames) {
   radii_.setOnes(static_cast<Eigen::Index>(free.size()));
   for (std::size_t k = 0; k < free.size(); ++k)
     if (mechanism.coordinates[static_cast<std::size_t>(free[k])].motion == Motion::kRotation)
@@ -49,7 +52,8 @@ double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y
                           const Eigen::VectorXd& error_weights) const {
   double sum = 0.0;
   const auto add = [&](Eigen::Index i, double radius) {
-    const double part = error_weights[i] * radius * error[i] / (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
+    const double part = error_weights[i] * radius * error[i] /
+                        (absolute_ + relative_ * radius * std::max(std::abs(y0[i]), std::abs(y1[i])));
     sum += part * part;
   };
   const StateLayout layout{.free = static_cast<int>(radii_.size())};
@@ -61,13 +65,15 @@ double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y
   return std::sqrt(sum);
 }
 
-void Tolerance::calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& error_weights, Eigen::VectorXd& weights) const {
+void Tolerance::calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& error_weights,
+                             Eigen::VectorXd& weights) const {
   const Eigen::Index n = radii_.size();
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const double radius = radii_[i % n];
     weights[i] = error_weights[i] * radius / (absolute_ + relative_ * radius * std::abs(y[i]));
   }
-  for (Eigen::Index i = 2 * n; i < error_weights.size(); ++i) weights[i] = error_weights[i] / (absolute_ + relative_ * std::abs(y[i]));
+  for (Eigen::Index i = 2 * n; i < error_weights.size(); ++i)
+    weights[i] = error_weights[i] / (absolute_ + relative_ * std::abs(y[i]));
 }
 
 }  // namespace engine

@@ -10,9 +10,10 @@
 
 namespace engine {
 
-/// How large a local error may be. With radii set, errors of coordinates and rates are measured where they do harm, in metres and metres per
-/// second: a rotation's by the radius of gyration, about its axis, of all that it carries. The spin of a thin rod about itself would else
-/// ask for the shortest steps, and change nothing.
+/// Weighted root-mean-square norm of local errors (SUNDIALS: WRMS). With radii set, errors of coordinates and
+/// rates are measured in metres and metres per second: a rotation's by the radius of gyration, about its
+/// axis, of the bodies that it carries. Without radii the spin of a thin rod about itself, which moves
+/// nothing else, would ask for the shortest steps.
 class Tolerance {
  public:
   Tolerance(double relative, double absolute) : relative_(relative), absolute_(absolute) {}
@@ -20,15 +21,18 @@ class Tolerance {
   [[nodiscard]] double relative() const { return relative_; }
 
   /// Sets the radii of gyration, from the mechanism in one position. Until then each is 1.
-  void set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free, const std::vector<FrameMotion>& frames);
+  void set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free,
+                 const std::vector<FrameMotion>& frames);
 
-  /// Root mean square over the first entries of an error of the state, each in units of its tolerance; of none 0.
-  /// @param error_weights  of these entries, whose squares sum to 1: see MotionSystem::error_weights()
-  [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1,
-                               const Eigen::VectorXd& error_weights) const;
+  /// Norm of an error of the state, over the entries under error control, each in units of its tolerance; 0
+  /// without entries.
+  /// @param error_weights  of these entries; their squares sum to 1: see MotionSystem::error_weights()
+  [[nodiscard]] double measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0,
+                               const Eigen::VectorXd& y1, const Eigen::VectorXd& error_weights) const;
 
-  /// What each of these entries is to be multiplied by, so that the root of the sum of squares is what measure() would give at y.
-  void calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& error_weights, Eigen::VectorXd& weights) const;
+  /// Factors of these entries: the root of the sum of squares of their products is measure() at y.
+  void calc_weights(const Eigen::VectorXd& y, const Eigen::VectorXd& error_weights,
+                    Eigen::VectorXd& weights) const;
 
  private:
   double relative_, absolute_;
