@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "jobs/base/errors.h"
 #include "jobs/parameters/units.h"
 
 namespace jobs {
@@ -70,8 +71,11 @@ ParameterInfo choice(const About& about, Member member, std::vector<std::pair<st
   info.read = [=](const JobSpec& spec) -> nlohmann::json {
     return std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.second == field(spec, member); })->first;
   };
-  info.write = [=](JobSpec& spec, const nlohmann::json& value) {
-    field(spec, member) = std::find_if(words.begin(), words.end(), [&](const auto& w) { return value == w.first; })->second;
+  info.write = [=, key = about.key](JobSpec& spec, const nlohmann::json& value) {
+    const auto found = std::find_if(words.begin(), words.end(), [&](const auto& w) { return value == w.first; });
+    // A store of an older program may hold a word that is no longer allowed.
+    if (found == words.end()) throw InvalidRequest({{"/" + std::string(key), "this version does not know " + value.dump()}});
+    field(spec, member) = found->second;
   };
   return info;
 }

@@ -225,6 +225,26 @@ TEST(ToJobSpec, ConvertsMillimetresAndWords) {
   EXPECT_EQ(spec.options.duration, 4.0);
 }
 
+TEST(ToJobSpec, RefusesAWordThatAnOlderProgramHasStored) {
+  json stored = jobs::complete_parameters(json::object(), "");
+  stored["integrator"] = "rodas4";
+  try {
+    (void)jobs::to_job_spec(stored);
+    FAIL() << "nothing was thrown";
+  } catch (const jobs::InvalidRequest& refused) {
+    EXPECT_STREQ(refused.what(), R"(/integrator: this version does not know "rodas4")");
+  }
+}
+
+TEST(CompleteParameters, NamesTheIntegratorsThatThereAre) {
+  try {
+    (void)jobs::complete_parameters({{"integrator", "rodas4"}}, "");
+    FAIL() << "nothing was thrown";
+  } catch (const jobs::InvalidRequest& refused) {
+    EXPECT_STREQ(refused.what(), R"(/integrator: must be "auto", "radau5", "rodas5", "dopri5" or "rk4")");
+  }
+}
+
 TEST(ContentId, IsSha256OfTextAndVersion) {
   // printf 'abc\n0.1' | sha256sum
   EXPECT_EQ(jobs::content_id("abc", "0.1"), "5fb98a8be7c2ac87cc286d0b06e5efc852a687ace2ba983e3e824e538038992b");
