@@ -23,8 +23,10 @@ constexpr double kContender = 0.99;
 constexpr double kNegligibleAcceleration = 1e-9;  // [m/s^2]: accelerations that gravity's rounding may spoil
 constexpr long kSolvesBetweenQueries = 1024;
 
-/// Goes through the motion in intervals so short that a quadratic tells the acceleration inside; locates its
-/// extremes where they contend.
+/// Search in intervals so short that a quadratic describes the acceleration inside; locates the extrema that
+/// may be the largest. Not an observer of run_kinematics(), which solves for forces as well and resolves
+/// every quantity: that takes 10 to 27 ms instead of 0.7 ms for 5 s of the default motion, and differs in the
+/// 11th digit.
 class IdealPeakSearch {
  public:
   IdealPeakSearch(const RpsupParameters& parameters, const std::function<bool(double)>& stop_requested)
