@@ -25,7 +25,7 @@
 #include "jobs/runs/run_record.h"
 #include "jobs/search/limit_study.h"
 #include "jobs/store/store.h"
-#include "jobs/studies/study_desk.h"
+#include "jobs/studies/study_runner.h"
 #include "jobs/trajectories/trajectory_codec.h"
 #include "jobs/trajectories/trajectory_query.h"
 #include "jobs/wear/wear_study.h"
@@ -73,7 +73,7 @@ class Service::Impl {
       executors_.push_back(std::make_unique<cluster::SlurmExecutor>(
           options_.site, store_, lane_of(kSlurmExecutor), options_.job_limits, [this] { tell_change(); }, options_.log));
     }
-    searcher_ = std::jthread([this] { keep_searching(); });
+    study_thread_ = std::jthread([this] { run_studies(); });
   }
 
   json submit_sweep(const nlohmann::ordered_json& request, const std::string& key) {
@@ -193,7 +193,7 @@ class Service::Impl {
     check_open();
     const char* const route = study == Study::kLimit ? "POST /v1/searches " : "POST /v1/wear-studies ";
     return once(key, route + sha256_hex(request.dump()), [&](const std::string& name, std::string& answer) {
-      json begun = desk(study).submit(request, {.key = key, .request = name, .answer = &answer});
+      json begun = runner(study).submit(request, {.key = key, .request = name, .answer = &answer});
       wake();
       tell_change();  // its first results may be known already
       return begun;
@@ -201,43 +201,43 @@ class Service::Impl {
   }
 
   [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id, std::int64_t after) const {
-    const auto row = desk(study).find_row(id);
+    const auto row = runner(study).find_row(id);
     if (!row) return std::nullopt;
     auto news = find_news(row->sweep_id, after);
     if (!news) return std::nullopt;
     const bool runs = row->state == "running";
     news->progress = {{"id", id}, {"sweep_id", row->sweep_id}, {"state", row->state}, {"counts", news->progress.at("counts")},
-                      {"progress", runs ? desk(study).find_progress(id) : 1.0}};
+                      {"progress", runs ? runner(study).find_progress(id) : 1.0}};
     news->ended = news->ended && !runs;
     return news;
   }
 
   bool wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const {
     return wait_for_end(at_most, [&]() -> std::optional<bool> {
-      const auto row = desk(study).find_row(id);
+      const auto row = runner(study).find_row(id);
       return row ? std::optional(row->state != "running") : std::nullopt;
     });
   }
 
-  [[nodiscard]] const StudyDesk& desk(Study study) const { return study == Study::kLimit ? searches_ : wear_studies_; }
-  [[nodiscard]] StudyDesk& desk(Study study) { return study == Study::kLimit ? searches_ : wear_studies_; }
+  [[nodiscard]] const StudyRunner& runner(Study study) const { return study == Study::kLimit ? search_runner_ : wear_runner_; }
+  [[nodiscard]] StudyRunner& runner(Study study) { return study == Study::kLimit ? search_runner_ : wear_runner_; }
 
   std::optional<json> cancel_study(Study study, const std::string& id) {
-    const bool found = desk(study).cancel(id, [this](const std::string& sweep) { finish_cancelling(store_.cancel_sweep(sweep), nullptr); });
-    return found ? desk(study).find(id) : std::nullopt;
+    const bool found = runner(study).cancel(id, [this](const std::string& sweep) { finish_cancelling(store_.cancel_sweep(sweep), nullptr); });
+    return found ? runner(study).find(id) : std::nullopt;
   }
 
   std::optional<json> retry_study(Study study, const std::string& id) {
     check_open();
     const auto retry_sweep = [this](const std::string& sweep) { store_.retry_sweep(sweep, options_.max_queued_jobs); };
-    if (!desk(study).retry(id, retry_sweep)) return std::nullopt;
+    if (!runner(study).retry(id, retry_sweep)) return std::nullopt;
     wake();
     tell_change();
-    return desk(study).find(id);
+    return runner(study).find(id);
   }
 
   bool delete_study(Study study, const std::string& id) {
-    const auto sweep = desk(study).find_ended_sweep(id);
+    const auto sweep = runner(study).find_ended_sweep(id);
     return sweep && delete_sweep(*sweep);
   }
 
@@ -289,7 +289,7 @@ class Service::Impl {
     for (const auto& executor : executors_) executor->stop();
     tell_change();
     const std::lock_guard lock(stop_mutex_);
-    if (searcher_.joinable()) searcher_.join();
+    if (study_thread_.joinable()) study_thread_.join();
   }
 
  private:
@@ -331,7 +331,7 @@ class Service::Impl {
 
   /// Changes the jobs of a sweep, which studies must not look at meanwhile.
   void change_sweep(const std::string& id, const std::function<void()>& change) {
-    searches_.change_sweep(id, [&] { wear_studies_.change_sweep(id, change); });
+    search_runner_.change_sweep(id, [&] { wear_runner_.change_sweep(id, change); });
   }
 
   void claim(const Taken& taken) {
@@ -347,7 +347,7 @@ class Service::Impl {
   }
 
   [[nodiscard]] bool has_cluster() const { return !options_.site.folder.empty(); }
-  [[nodiscard]] StudyRoom study_room() const {
+  [[nodiscard]] StudyLimits study_limits() const {
     return {.max_sweep_jobs = options_.max_sweep_jobs, .max_queued_jobs = options_.max_queued_jobs, .threads = options_.threads};
   }
   [[nodiscard]] Lane lane_of(std::string_view executor) const { return {.executor = std::string(executor), .default_executor = options_.executor}; }
@@ -413,7 +413,7 @@ class Service::Impl {
   }
 
   /// Lets studies go on whenever something has changed, until the service is stopped.
-  void keep_searching() {
+  void run_studies() {
     constexpr std::chrono::seconds kPause{5};  // after a failure of the store
     for (std::uint64_t seen = 0; !stopped_;) {
       bool failed = false;
@@ -422,8 +422,8 @@ class Service::Impl {
         seen = changes_;
       }
       try {
-        const StudyMoves limits = searches_.advance();
-        const StudyMoves wear = wear_studies_.advance();
+        const StudyChanges limits = search_runner_.advance();
+        const StudyChanges wear = wear_runner_.advance();
         if (limits.added || wear.added) wake();
         if (limits.any || wear.any) tell_change();
       } catch (const std::exception& error) {  // the store's errors, or no memory
@@ -445,11 +445,11 @@ class Service::Impl {
   std::atomic<std::uint64_t> activity_ = 0;
   KeysInUse keys_;
   Store store_;
-  StudyDesk searches_{store_, study_room(), make_limit_study()};
-  StudyDesk wear_studies_{store_, study_room(), make_wear_study(store_)};
+  StudyRunner search_runner_{store_, study_limits(), make_limit_study()};
+  StudyRunner wear_runner_{store_, study_limits(), make_wear_study(store_)};
   std::vector<std::unique_ptr<Executor>> executors_;  // end before the store they work for; none before start()
-  std::mutex stop_mutex_;          // guards the joining of searcher_
-  std::jthread searcher_;          // of keep_searching()
+  std::mutex stop_mutex_;          // guards the joining of study_thread_
+  std::jthread study_thread_;          // of run_studies()
 };
 
 Service::Service(ServiceOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
@@ -485,10 +485,10 @@ std::optional<SweepNews> Service::find_study_news(Study study, const std::string
 bool Service::wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const {
   return impl_->wait_for_study(study, id, at_most);
 }
-std::optional<json> Service::find_study(Study study, const std::string& id) const { return impl_->desk(study).find(id); }
-json Service::list_studies(Study study, const PageQuery& query) const { return impl_->desk(study).list(query); }
+std::optional<json> Service::find_study(Study study, const std::string& id) const { return impl_->runner(study).find(id); }
+json Service::list_studies(Study study, const PageQuery& query) const { return impl_->runner(study).list(query); }
 std::optional<ResultTable> Service::find_study_table(Study study, const std::string& id, const ResultQuery& query) const {
-  auto table = impl_->desk(study).find_table(id);
+  auto table = impl_->runner(study).find_table(id);
   if (table) jobs::apply(query, *table, kStudyColumns);
   return table;
 }

@@ -58,7 +58,8 @@ struct SweepNews {
   std::vector<EndedJob> jobs;            ///< by change
 };
 
-/// A sweep to which evaluations are added as its results ask for them: a search for a limit, a bearing that is worn over the hours.
+/// Types of study: a sweep to which cases are added as its results ask for them. kLimit searches the limit of a
+/// parameter, kWear follows a bearing that is worn over the hours.
 enum class Study { kLimit, kWear };
 
 /// The study queue: validates, stores, computes and hands out sweeps and jobs. One per store.

@@ -12,6 +12,6 @@ inline constexpr std::array<std::string_view, 5> kJobStates{"queued", "running",
 [[nodiscard]] inline std::string_view state_name(JobState state) { return kJobStates[static_cast<std::size_t>(state)]; }
 
 /// Of searches and wear studies.
-inline constexpr std::array<std::string_view, 4> kSearchStates{"running", "succeeded", "failed", "cancelled"};
+inline constexpr std::array<std::string_view, 4> kStudyStates{"running", "succeeded", "failed", "cancelled"};
 
 }  // namespace jobs

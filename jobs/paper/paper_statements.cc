@@ -35,7 +35,7 @@ constexpr double kGrowthWithin = 0.2, kSameWithin = 0.05;
 constexpr double kPeaksRightTo =
     1e-3;  // what default tolerances aim at: ratios nearer to 1 show no difference
 
-/// One case of the study.
+/// One case of the paper's sweeps.
 struct PaperCase {
   double clearance = 0.0, velocity = 0.0;
   std::string coupler;

@@ -62,12 +62,6 @@ json time_left_json(const SweepRow& row, int threads) {
   return {{"eta_s", left->expected_s}, {"eta_low_s", left->low_s}, {"eta_high_s", left->high_s}};
 }
 
-std::vector<std::string> keys_of(const json& object) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.push_back(key);
-  return keys;
-}
-
 /// Where the metrics stand in a row of a table, by their keys.
 using MetricColumns = std::map<std::string, std::size_t, std::less<>>;
 
@@ -215,7 +209,23 @@ json progress_json(const SweepRow& row, int threads) {
   return progress_now;
 }
 
+json study_json(const StudyRow& row, const std::string& route) {
+  const std::string self = route + row.id;
+  return {{"id", row.id}, {"name", row.name}, {"state", row.state}, {"error", value_or_null(row.error)},
+          {"sweep_id", row.sweep_id}, {"created_at", time_text(row.created_ms)},
+          {"ended_at", time_or_null(row.ended_ms)},
+          {"links", {{"self", self}, {"results", self + "/results"}, {"cancel", self + "/cancel"},
+                     {"retry", self + "/retry"}, {"events", self + "/events"},
+                     {"sweep", "/v1/sweeps/" + row.sweep_id}}}};
+}
+
 std::vector<std::string> swept_of(const SweepRow& sweep) { return stored_json(sweep.swept).get<std::vector<std::string>>(); }
+
+std::vector<std::string> keys_of(const json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
 
 const std::vector<std::string>& sweep_listing_keys() {
   static const std::vector<std::string> keys = [] {

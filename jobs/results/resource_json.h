@@ -25,8 +25,14 @@ enum class Detail { kFull, kListing };
 /// A job that was computed without a store: no id, no links.
 [[nodiscard]] nlohmann::json unstored_job_json(const nlohmann::json& parameters, const RunRecord& record, std::int64_t started_ms, std::int64_t ended_ms);
 
+/// Fields that the resources of all studies have. @param route  "/v1/searches/", say; the id follows it
+[[nodiscard]] nlohmann::json study_json(const StudyRow& row, const std::string& route);
+
 /// How far a sweep is: a part of its resource.
 [[nodiscard]] nlohmann::json progress_json(const SweepRow& row, int threads);
+
+/// Keys of an object.
+[[nodiscard]] std::vector<std::string> keys_of(const nlohmann::json& object);
 
 /// The keys that items of a listing may have.
 [[nodiscard]] const std::vector<std::string>& sweep_listing_keys();

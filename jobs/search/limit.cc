@@ -10,21 +10,24 @@
 namespace jobs {
 namespace {
 
-/// Whether a comes before b on the way.
-bool comes_before(const SearchPath& path, double a, double b) { return path.from <= path.to ? a < b : a > b; }
-
-double value_between(const SearchPath& path, double a, double b, double part) {
-  const double x = path.logarithmic ? geometric_between(a, b, part) : std::lerp(a, b, part);
-  return path.integer ? std::round(x) : x;
+/// Whether a comes before b from one end of the interval to the other.
+bool comes_before(const SearchInterval& interval, double a, double b) {
+  return interval.from <= interval.to ? a < b : a > b;
 }
 
-bool is_narrow(const SearchPath& path, double a, double b) {
-  if (std::abs(b - a) <= path.tolerance) return true;
-  const double middle = value_between(path, a, b, 0.5);
-  return !(comes_before(path, a, middle) && comes_before(path, middle, b));  // nothing lies between, of integers or of doubles
+double value_between(const SearchInterval& interval, double a, double b, double part) {
+  const double x = interval.logarithmic ? geometric_between(a, b, part) : std::lerp(a, b, part);
+  return interval.integer ? std::round(x) : x;
 }
 
-/// An evaluation that has ended, as the rule sees it.
+bool is_narrow(const SearchInterval& interval, double a, double b) {
+  if (std::abs(b - a) <= interval.tolerance) return true;
+  const double middle = value_between(interval, a, b, 0.5);
+  return !(comes_before(interval, a, middle) &&
+           comes_before(interval, middle, b));  // no integer, or no double, lies between
+}
+
+/// Verdict of the rule on an evaluation that has ended.
 struct Judged {
   double x = 0.0;
   bool within = false;
@@ -33,10 +36,14 @@ struct Judged {
 
 Judged judge(const Evaluation& evaluation, const LimitRule& rule) {
   const auto [least, most] = std::ranges::minmax(evaluation.values);
-  return {.x = evaluation.x, .within = calc_quantile(evaluation.values, rule.quantile) <= rule.bound, .least = least, .most = most};
+  return {.x = evaluation.x,
+          .within = calc_quantile(evaluation.values, rule.quantile) <= rule.bound,
+          .least = least,
+          .most = most};
 }
 
-/// What is missing and could change what is refined: it lies before the first value that is beyond the bound, or is needed to know that one.
+/// Lost evaluation that decides the bracket: the first one up to the first value beyond the bound. Null:
+/// none.
 const Evaluation* find_lost(const std::vector<Evaluation>& evaluations, const LimitRule& rule) {
   for (const Evaluation& evaluation : evaluations) {
     if (evaluation.lost > 0) return &evaluation;
@@ -45,7 +52,7 @@ const Evaluation* find_lost(const std::vector<Evaluation>& evaluations, const Li
   return nullptr;
 }
 
-void take_bands(const std::vector<Judged>& judged, const LimitRule& rule, Limit& limit) {
+void set_bands(const std::vector<Judged>& judged, const LimitRule& rule, Limit& limit) {
   for (const Judged& at : judged) {
     if (at.most > rule.bound) break;
     limit.band_from = at.x;
@@ -53,17 +60,20 @@ void take_bands(const std::vector<Judged>& judged, const LimitRule& rule, Limit&
   for (auto at = judged.rbegin(); at != judged.rend() && at->least > rule.bound; ++at) limit.band_to = at->x;
 }
 
-void take_falls(const std::vector<Judged>& judged, Limit& limit) {
+void collect_falls(const std::vector<Judged>& judged, Limit& limit) {
   for (std::size_t i = 1; i < judged.size(); ++i) {
     const bool again = judged[i].within && !judged[i - 1].within;
-    if (again || judged[i].most < judged[i - 1].least) limit.falls.push_back({judged[i - 1].x, judged[i].x, again});
+    if (again || judged[i].most < judged[i - 1].least) {
+      limit.falls.push_back({judged[i - 1].x, judged[i].x, again});
+    }
   }
 }
 
 }  // namespace
 
 std::string_view verdict_name(Verdict verdict) {
-  constexpr std::array<std::string_view, 5> kNames{"open", "found", "never_exceeded", "always_exceeded", "lost"};
+  constexpr std::array<std::string_view, 5> kNames{"open", "found", "never_exceeded", "always_exceeded",
+                                                   "lost"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
@@ -74,26 +84,28 @@ double calc_quantile(std::vector<double> values, double quantile) {
   return values[static_cast<std::size_t>(std::max(wanted, 1.0)) - 1];
 }
 
-std::vector<double> first_values(const SearchPath& path) {
+std::vector<double> first_values(const SearchInterval& interval) {
   std::vector<double> values;
-  for (std::uint64_t k = 0; k < path.first; ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(path.first - 1);
-    const double x = k == 0 ? path.from : k + 1 == path.first ? path.to : value_between(path, path.from, path.to, part);
+  for (std::uint64_t k = 0; k < interval.first; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(interval.first - 1);
+    const double x = k == 0                    ? interval.from
+                     : k + 1 == interval.first ? interval.to
+                                               : value_between(interval, interval.from, interval.to, part);
     if (values.empty() || values.back() != x) values.push_back(x);
   }
   return values;
 }
 
-std::size_t most_evaluations(const SearchPath& path) {
-  const auto values = first_values(path);
+std::size_t most_evaluations(const SearchInterval& interval) {
+  const auto values = first_values(interval);
   std::size_t most_halvings = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
-    // The upper half is the wider one on a logarithmic way up, the first one on the way down.
+    // In a logarithmic interval the halves differ in width: the bound takes the wider one.
     double a = values[i - 1];
     double b = values[i];
     std::size_t halvings = 0;
-    for (; !is_narrow(path, a, b); ++halvings) {
-      const double middle = value_between(path, a, b, 0.5);
+    for (; !is_narrow(interval, a, b); ++halvings) {
+      const double middle = value_between(interval, a, b, 0.5);
       (std::abs(b - middle) >= std::abs(middle - a) ? a : b) = middle;
     }
     most_halvings = std::max(most_halvings, halvings);
@@ -101,18 +113,22 @@ std::size_t most_evaluations(const SearchPath& path) {
   return values.size() + most_halvings;
 }
 
-Limit find_limit(const SearchPath& path, const LimitRule& rule, std::vector<Evaluation> evaluations) {
-  std::erase_if(evaluations, [&](const Evaluation& at) { return comes_before(path, at.x, path.from) || comes_before(path, path.to, at.x); });
-  std::ranges::sort(evaluations, [&](const Evaluation& a, const Evaluation& b) { return comes_before(path, a.x, b.x); });
+Limit find_limit(const SearchInterval& interval, const LimitRule& rule, std::vector<Evaluation> evaluations) {
+  std::erase_if(evaluations, [&](const Evaluation& at) {
+    return comes_before(interval, at.x, interval.from) || comes_before(interval, interval.to, at.x);
+  });
+  std::ranges::sort(evaluations, [&](const Evaluation& a, const Evaluation& b) {
+    return comes_before(interval, a.x, b.x);
+  });
   Limit limit;
   std::vector<Judged> judged;
   for (const Evaluation& at : evaluations) {
     if (at.pending == 0 && at.lost == 0 && !at.values.empty()) judged.push_back(judge(at, rule));
   }
-  take_bands(judged, rule, limit);
-  take_falls(judged, limit);
+  set_bands(judged, rule, limit);
+  collect_falls(judged, limit);
   if (std::ranges::any_of(evaluations, [](const Evaluation& at) { return at.pending > 0; })) return limit;
-  for (const double x : first_values(path)) {
+  for (const double x : first_values(interval)) {
     if (std::ranges::find(evaluations, x, &Evaluation::x) == evaluations.end()) limit.next.push_back(x);
   }
   if (!limit.next.empty()) return limit;
@@ -126,10 +142,10 @@ Limit find_limit(const SearchPath& path, const LimitRule& rule, std::vector<Eval
   if (beyond != judged.begin()) limit.within = std::prev(beyond)->x;
   if (!limit.beyond || !limit.within) {
     limit.verdict = limit.within ? Verdict::kNeverExceeded : Verdict::kAlwaysExceeded;
-  } else if (is_narrow(path, *limit.within, *limit.beyond)) {
+  } else if (is_narrow(interval, *limit.within, *limit.beyond)) {
     limit.verdict = Verdict::kFound;
   } else {
-    limit.next = {value_between(path, *limit.within, *limit.beyond, 0.5)};
+    limit.next = {value_between(interval, *limit.within, *limit.beyond, 0.5)};
   }
   return limit;
 }

@@ -10,17 +10,18 @@
 
 namespace jobs {
 
-/// The way along which a limit is looked for: from one value of a parameter to another, which may be the smaller one.
-struct SearchPath {
+/// Interval of a parameter in which a limit is searched, from one end to the other; `to` may be the smaller
+/// one.
+struct SearchInterval {
   double from = 0.0;
   double to = 0.0;
-  bool logarithmic = false;   ///< halves ratios instead of differences; then both ends are above 0
+  bool logarithmic = false;   ///< bisects ratios instead of differences; both ends are above 0 then
   bool integer = false;
-  double tolerance = 0.0;     ///< how far the ends of the bracket may be apart, > 0
+  double tolerance = 0.0;     ///< largest width of the final bracket, > 0
   std::uint64_t first = 2;    ///< values that are tried at first, both ends among them, >= 2
 };
 
-/// What the replicates at one value of the parameter have shown.
+/// Results of the replicates at one value of the parameter.
 struct Evaluation {
   double x = 0.0;
   std::size_t pending = 0;     ///< jobs that wait or run
@@ -29,7 +30,7 @@ struct Evaluation {
   std::vector<double> values;  ///< of the others, in any order
 };
 
-/// When a metric stays below a bound: a part of the replicates that is at least `quantile` must not be above it.
+/// Criterion of a limit: the given quantile of the replicates' metric is not above the bound.
 struct LimitRule {
   double bound = 0.0;
   double quantile = 0.9;  ///< in (0, 1]; 1: all of them
@@ -44,7 +45,7 @@ enum class Verdict {
 };
 [[nodiscard]] std::string_view verdict_name(Verdict verdict);
 
-/// A stretch along which the metric falls although the parameter goes on.
+/// Part of the interval along which the metric falls.
 struct Fall {
   double from = 0.0, to = 0.0;
   bool within_again = false;  ///< the bound, which was exceeded before
@@ -61,20 +62,22 @@ struct Limit {
   std::vector<double> next;       ///< values to evaluate now; empty while jobs are pending
 };
 
-/// The smallest of the values such that at least that part of them is not above it (the inverse of their distribution function).
+/// Empirical quantile: the smallest of the values such that at least that part of them is not above it.
 /// @param values  one or more
 [[nodiscard]] double calc_quantile(std::vector<double> values, double quantile);
 
-/// The values that are tried first: in equal steps or ratios, both ends exact, each once.
-[[nodiscard]] std::vector<double> first_values(const SearchPath& path);
+/// Values that are evaluated first: in equal steps or ratios, both ends exact, each once.
+[[nodiscard]] std::vector<double> first_values(const SearchInterval& interval);
 
-/// How many evaluations a search along the path takes at most, those of first_values() among them.
-[[nodiscard]] std::size_t most_evaluations(const SearchPath& path);
+/// Largest number of evaluations of a search, those of first_values() among them.
+[[nodiscard]] std::size_t most_evaluations(const SearchInterval& interval);
 
-/// Where the metric first exceeds its bound along the path, as far as the evaluations tell: the first stretch between a value within it and
-/// one beyond it is halved until it is no longer than the tolerance. Where a metric rises and falls, what comes after the first crossing is
-/// told as a fall but not refined. A fall counts if all replicates at its end lie below all at its beginning, or if the bound holds again.
-/// @param evaluations  in any order, each value once; those beyond the path's ends do not count
-[[nodiscard]] Limit find_limit(const SearchPath& path, const LimitRule& rule, std::vector<Evaluation> evaluations);
+/// First crossing of the bound along the interval, by bisection: the first bracket between a value within the
+/// bound and one beyond it is halved until it is not wider than the tolerance. Later crossings are reported
+/// as falls but not refined. A fall counts if all replicates at its end lie below all at its beginning, or if
+/// the bound holds again.
+/// @param evaluations  in any order, each value once; those outside the interval do not count
+[[nodiscard]] Limit find_limit(const SearchInterval& interval, const LimitRule& rule,
+                               std::vector<Evaluation> evaluations);
 
 }  // namespace jobs

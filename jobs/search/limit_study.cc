@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "jobs/base/ids.h"
-#include "jobs/search/search_picture.h"
+#include "jobs/search/search_json.h"
 #include "jobs/search/search_request.h"
+#include "jobs/search/search_results.h"
 
 namespace jobs {
 namespace {
@@ -16,52 +17,52 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-SearchRequest search_of(const SearchRow& row) {
+SearchRequest search_of(const StudyRow& row) {
   return parse_search_request(ordered_json::parse(row.request), std::numeric_limits<std::size_t>::max());
 }
 
-/// What a search's jobs have shown. Looks only at combinations that wait for nothing.
-class LimitCourse final : public StudyCourse {
+/// State of a search: computes limits only of combinations without pending jobs.
+class LimitState final : public StudyState {
  public:
-  LimitCourse(SearchRequest search, const SweepResults& results)
-      : search_(std::move(search)), tally_(search_, results.sweep), open_(tally_.picture.combinations.size()) {
-    for (const ResultRow& job : results.rows) tally_.add(job);
-    for (std::size_t k = 0; k < tally_.picture.combinations.size(); ++k) note(k);
+  LimitState(SearchRequest search, const SweepResults& results)
+      : search_(std::move(search)), results_(search_, results.sweep), open_(results_.combinations.size()) {
+    for (const ResultRow& job : results.rows) results_.add(job);
+    for (std::size_t k = 0; k < open_; ++k) add_if_ready(k);
   }
 
-  void take(const ResultRow& ended) override {
-    if (const auto combination = tally_.end(ended)) note(*combination);
+  void tell(const ResultRow& ended) override {
+    if (const auto combination = results_.end(ended)) add_if_ready(*combination);
   }
 
-  [[nodiscard]] StudyStep find_step() override {
-    StudyStep step;
+  [[nodiscard]] NextCases ask() override {
+    NextCases next;
     for (const std::size_t k : std::exchange(ready_, {})) {
-      CombinationPicture& combination = tally_.picture.combinations[k];
-      combination.limit = find_limit(search_.path, search_.rule, combination.evaluations);
+      CombinationResults& combination = results_.combinations[k];
+      combination.limit = find_limit(search_.interval, search_.rule, combination.evaluations);
       if (combination.limit.verdict != Verdict::kOpen) --open_;
       for (const double x : combination.limit.next) {
-        step.cases.push_back(case_at(search_, combination.values, x));
-        tally_.expect(k, x);
+        next.cases.push_back(case_at(search_, combination.values, x));
+        results_.expect(k, x);
       }
     }
-    if (open_ == 0) step.end_state = tally_.picture.end_state();
-    return step;
+    if (open_ == 0) next.end_state = results_.end_state();
+    return next;
   }
 
-  [[nodiscard]] double progress() const override { return calc_progress(tally_.picture, search_); }
+  [[nodiscard]] double progress() const override { return results_.calc_progress(); }
 
  private:
-  void note(std::size_t combination) {
-    if (tally_.picture.combinations[combination].pending == 0) ready_.push_back(combination);
+  void add_if_ready(std::size_t combination) {
+    if (results_.combinations[combination].pending == 0) ready_.push_back(combination);
   }
 
   const SearchRequest search_;
-  SearchTally tally_;
+  SearchResults results_;
   std::size_t open_;                 ///< combinations without a verdict
-  std::vector<std::size_t> ready_;   ///< combinations whose jobs have all ended since they were looked at
+  std::vector<std::size_t> ready_;   ///< combinations whose jobs have all ended since ask() evaluated them
 };
 
-class LimitStudy final : public StudyKind {
+class LimitStudy final : public StudyType {
  public:
   [[nodiscard]] std::string_view id_prefix() const override { return kSearchPrefix; }
 
@@ -72,22 +73,26 @@ class LimitStudy final : public StudyKind {
     return {std::move(sweep), std::move(plan)};
   }
 
-  [[nodiscard]] std::unique_ptr<StudyCourse> make_course(const SearchRow& row, const SweepResults& results) const override {
-    return std::make_unique<LimitCourse>(search_of(row), results);
+  [[nodiscard]] std::unique_ptr<StudyState> make_state(const StudyRow& row,
+                                                       const SweepResults& results) const override {
+    return std::make_unique<LimitState>(search_of(row), results);
   }
 
-  [[nodiscard]] json make_resource(const SearchRow& row, const SweepResults& results, int threads) const override {
+  [[nodiscard]] json make_resource(const StudyRow& row, const SweepResults& results,
+                                   int threads) const override {
     return search_json(row, search_of(row), results, threads);
   }
-  [[nodiscard]] json make_summary(const SearchRow& row) const override { return search_summary_json(row); }
-  [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return search_listing_keys(); }
-  [[nodiscard]] ResultTable make_table(const SearchRow& row, const SweepResults& results) const override {
+  [[nodiscard]] json make_summary(const StudyRow& row) const override { return search_summary_json(row); }
+  [[nodiscard]] const std::vector<std::string>& listing_keys() const override {
+    return search_listing_keys();
+  }
+  [[nodiscard]] ResultTable make_table(const StudyRow& row, const SweepResults& results) const override {
     return limit_table(row, search_of(row), results);
   }
 };
 
 }  // namespace
 
-std::unique_ptr<StudyKind> make_limit_study() { return std::make_unique<LimitStudy>(); }
+std::unique_ptr<StudyType> make_limit_study() { return std::make_unique<LimitStudy>(); }
 
 }  // namespace jobs

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "jobs/studies/study_desk.h"
+#include "jobs/studies/study_runner.h"
 
 namespace jobs {
 
 /// Searches: how far a parameter may go until a metric exceeds its bound. See parse_search_request().
-[[nodiscard]] std::unique_ptr<StudyKind> make_limit_study();
+[[nodiscard]] std::unique_ptr<StudyType> make_limit_study();
 
 }  // namespace jobs

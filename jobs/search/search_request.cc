@@ -18,7 +18,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 6> kKeysOfItsSweeps{"name", "parameters", "sweep", "replicates", "reuse", "priority"};
+constexpr std::array<std::string_view, 6> kKeysOfItsSweeps{"name",       "parameters", "sweep",
+                                                           "replicates", "reuse",      "priority"};
 
 std::vector<std::string_view> metric_keys() {
   std::vector<std::string_view> keys;
@@ -44,7 +45,9 @@ class SearchParser {
   }
 
  private:
-  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+  void fault(std::string pointer, std::string detail) {
+    faults_.push_back({std::move(pointer), std::move(detail)});
+  }
 
   void check_keys() {
     for (const auto& [key, value] : request_.items()) {
@@ -55,40 +58,54 @@ class SearchParser {
 
   void read_over() {
     if (!request_.contains("over") || !request_.at("over").is_object() || request_.at("over").size() != 1) {
-      return fault("/over", "must be an object of one parameter, {\"clearance_mm\": {\"from\": 0.05, \"to\": 0.5}}, say");
+      return fault(
+          "/over",
+          "must be an object of one parameter, {\"clearance_mm\": {\"from\": 0.05, \"to\": 0.5}}, say");
     }
     const std::string& path = request_.at("over").begin().key();
     const std::string pointer = "/over" + pointer_token(path);
     if (!is_known_path(path, pointer, faults_)) return;
     if (!is_numeric(path)) return fault(pointer, "must be a parameter whose values are numbers");
-    if (is_linkage_path(path)) return fault(pointer, "must be a parameter of the job: the metrics are those of the linkage \"rpsup\"");
+    if (is_linkage_path(path)) {
+      return fault(pointer, "must be a parameter of the job: the metrics are those of the linkage \"rpsup\"");
+    }
     search_.parameter = path;
     const json given = request_.at("over").begin().value();
-    if (!given.is_object()) return fault(pointer, "must be an object of from, to, scale, tolerance and first");
-    read_path(given, pointer);
+    if (!given.is_object()) {
+      return fault(pointer, "must be an object of from, to, scale, tolerance and first");
+    }
+    read_interval(given, pointer);
   }
 
-  void read_path(const json& given, const std::string& pointer) {
+  void read_interval(const json& given, const std::string& pointer) {
     const std::size_t before = faults_.size();
     constexpr std::array<std::string_view, 2> kOthers{"tolerance", "first"};
     const auto span = read_span(given, kOthers, pointer, faults_);
-    check_if_given(given, "tolerance", pointer, [](const json& value) { return describe_number_fault(kToleranceRange, "", value); });
-    check_if_given(given, "first", pointer, [](const json& value) { return describe_integer_fault(kFirstRange, value); });
+    check_if_given(given, "tolerance", pointer,
+                   [](const json& value) { return describe_number_fault(kToleranceRange, "", value); });
+    check_if_given(given, "first", pointer,
+                   [](const json& value) { return describe_integer_fault(kFirstRange, value); });
     if (!span || faults_.size() > before) return;
     for (const char* const end : {"from", "to"}) check_end(given.at(end), pointer + "/" + end);
     if (span->from == span->to) fault(pointer + "/to", "must differ from from");
     if (faults_.size() > before) return;
     const ParameterInfo* const info = find_parameter(search_.parameter);
-    search_.path = {.from = span->from, .to = span->to, .logarithmic = span->logarithmic, .integer = info != nullptr &&
-        info->kind == ParameterKind::kInteger,
-                    .tolerance = given.value("tolerance", 0.01 * std::abs(span->to - span->from)), .first = given.value("first", kDefaultFirst)};
-    path_is_good_ = true;
+    search_.interval = {.from = span->from,
+                        .to = span->to,
+                        .logarithmic = span->logarithmic,
+                        .integer = info != nullptr && info->kind == ParameterKind::kInteger,
+                        .tolerance = given.value("tolerance", 0.01 * std::abs(span->to - span->from)),
+                        .first = given.value("first", kDefaultFirst)};
+    interval_is_valid_ = true;
   }
 
   template <typename Describe>
-  void check_if_given(const json& given, const char* key, const std::string& pointer, const Describe& describe) {
+  void check_if_given(const json& given, const char* key, const std::string& pointer,
+                      const Describe& describe) {
     if (!given.contains(key)) return;
-    if (std::string detail = describe(given.at(key)); !detail.empty()) fault(pointer + "/" + key, std::move(detail));
+    if (std::string detail = describe(given.at(key)); !detail.empty()) {
+      fault(pointer + "/" + key, std::move(detail));
+    }
   }
 
   void check_end(const json& end, const std::string& pointer) {
@@ -102,8 +119,9 @@ class SearchParser {
     if (!request_.contains("metric") || !request_.at("metric").is_string()) return fault("/metric",
         "must be the name of a metric, peak_slider_acceleration_m_s2, say");
     search_.metric = request_.at("metric").get<std::string>();
-    if (std::ranges::find(known, search_.metric) == known.end()) fault("/metric", "\"" + search_.metric + "\": " +
-        describe_unknown_key(search_.metric, known));
+    if (std::ranges::find(known, search_.metric) == known.end()) {
+      fault("/metric", "\"" + search_.metric + "\": " + describe_unknown_key(search_.metric, known));
+    }
   }
 
   void read_rule() {
@@ -114,8 +132,10 @@ class SearchParser {
       search_.rule.bound = bound.get<double>();
     }
     if (!request_.contains("quantile")) return;
-    if (const std::string detail = describe_number_fault(kQuantileRange, "", request_.at("quantile")); !detail.empty()) return fault("/quantile",
-        detail);
+    if (const std::string detail = describe_number_fault(kQuantileRange, "", request_.at("quantile"));
+        !detail.empty()) {
+      return fault("/quantile", detail);
+    }
     search_.rule.quantile = request_.at("quantile").get<double>();
   }
 
@@ -132,24 +152,29 @@ class SearchParser {
       return;
     }
     const auto& swept = search_.common.swept;
-    if (std::ranges::find(swept, search_.parameter) != swept.end()) fault("/over" + pointer_token(search_.parameter), "is an axis of sweep, too");
+    if (std::ranges::find(swept, search_.parameter) != swept.end()) {
+      fault("/over" + pointer_token(search_.parameter), "is an axis of sweep, too");
+    }
   }
 
   void check_size() {
-    if (!faults_.empty() || !path_is_good_) return;
-    std::uint64_t jobs = most_evaluations(search_.path) * search_.common.replicates.count;
+    if (!faults_.empty() || !interval_is_valid_) return;
+    std::uint64_t jobs = most_evaluations(search_.interval) * search_.common.replicates.count;
     bool overflow = false;
-    for (const Axis& axis : search_.common.axes) overflow |= __builtin_mul_overflow(jobs, axis.values.size(), &jobs);
+    for (const Axis& axis : search_.common.axes) {
+      overflow |= __builtin_mul_overflow(jobs, axis.values.size(), &jobs);
+    }
     if (overflow || jobs > max_jobs_) {
-      fault("/over" + pointer_token(search_.parameter), "the search may need " + std::to_string(jobs) + " jobs; at most " +
-          std::to_string(max_jobs_) + " are allowed");
+      fault("/over" + pointer_token(search_.parameter), "the search may need " + std::to_string(jobs) +
+                                                            " jobs; at most " + std::to_string(max_jobs_) +
+                                                            " are allowed");
     }
   }
 
   const ordered_json& request_;
   std::size_t max_jobs_;
   SearchRequest search_;
-  bool path_is_good_ = false;
+  bool interval_is_valid_ = false;
   std::vector<Fault> faults_;
 };
 
@@ -164,7 +189,9 @@ std::string pointer_in_search(const std::string& pointer, const SearchRequest& s
 
 }  // namespace
 
-SearchRequest parse_search_request(const ordered_json& request, std::size_t max_jobs) { return SearchParser(request, max_jobs).parse(); }
+SearchRequest parse_search_request(const ordered_json& request, std::size_t max_jobs) {
+  return SearchParser(request, max_jobs).parse();
+}
 
 std::vector<std::vector<json>> combinations_of(const SearchRequest& search) {
   std::vector<std::vector<json>> combinations{{}};
@@ -189,7 +216,7 @@ ordered_json case_at(const SearchRequest& search, const std::vector<json>& combi
     made.merge_patch(ordered_json(alone));
   };
   for (std::size_t i = 0; i < combination.size(); ++i) add(search.common.axes[i].path, combination[i]);
-  add(search.parameter, search.path.integer ? json(std::llround(x)) : json(x));
+  add(search.parameter, search.interval.integer ? json(std::llround(x)) : json(x));
   return made;
 }
 
@@ -200,7 +227,9 @@ ordered_json first_sweep_of(const ordered_json& request, const SearchRequest& se
   }
   sweep["cases"] = ordered_json::array();
   for (const auto& combination : combinations_of(search)) {
-    for (const double x : first_values(search.path)) sweep["cases"].push_back(case_at(search, combination, x));
+    for (const double x : first_values(search.interval)) {
+      sweep["cases"].push_back(case_at(search, combination, x));
+    }
   }
   return sweep;
 }

@@ -73,8 +73,8 @@ struct JobRow {
   std::optional<RunRow> run;
 };
 
-/// A search or another study whose evaluations are the jobs of a sweep.
-struct SearchRow {
+/// Study: a search or a wear study, whose evaluations are the jobs of a sweep.
+struct StudyRow {
   std::string id, sweep_id, name, request, state;
   std::optional<std::string> error;  ///< why it could not go on
   std::int64_t created_ms = 0;
@@ -91,15 +91,15 @@ struct ResultRow {
   std::optional<std::string> error_reason{}, error_detail{};  ///< of what failed
 };
 
-/// All jobs of a sweep as one picture of the store has them.
+/// All jobs of a sweep in one snapshot of the store.
 struct SweepResults {
   SweepRow sweep;
   std::vector<ResultRow> rows;  ///< in the order in which the sweep was expanded, what was added to it later last
 };
 
-/// A study with its jobs, as one picture of the store has them.
-struct StudyRow {
-  SearchRow search;
+/// Study with its jobs, in one snapshot of the store.
+struct StudySnapshot {
+  StudyRow study;
   SweepResults results;
 };
 
@@ -193,7 +193,7 @@ class Store {
                     std::size_t max_queued);
   /// Adds cases to the request of a sweep that has some, and their jobs. False, and nothing is stored, if there is no such sweep.
   bool add_cases(const std::string& id, const nlohmann::ordered_json& cases, const std::vector<PlannedJob>& jobs);
-  /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at once. Its search, if it has one,
+  /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at once. Its study, if it has one,
   /// goes on. False if there is no such sweep.
   bool retry_sweep(const std::string& id, std::size_t max_queued);
 
@@ -250,15 +250,15 @@ class Store {
   [[nodiscard]] std::vector<ResultRow> find_ended(const std::string& sweep_id, std::int64_t after) const;
   /// What has ended after that change; 0: everything.
   [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
-  /// Stores a search with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep does
-  /// @param prefix  of its id: what kind of study it is
-  std::string add_search(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
-                         std::size_t max_queued, const KeptAnswer<StudyRow>& kept = {});
-  [[nodiscard]] std::optional<SearchRow> find_search(const std::string& id) const;
-  /// Those of one kind, newest first. @param state empty: all  @param before  an id; empty: the newest
-  [[nodiscard]] std::vector<SearchRow> list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const;
-  /// Gives a search another state. False, and nothing is stored, if it is not in the former one.
-  bool set_search_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error = {});
+  /// Stores a study with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep does
+  /// @param prefix  of its id: the type of the study
+  std::string add_study(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
+                         std::size_t max_queued, const KeptAnswer<StudySnapshot>& kept = {});
+  [[nodiscard]] std::optional<StudyRow> find_study(const std::string& id) const;
+  /// Studies of one type, newest first. @param state empty: all  @param before  an id; empty: the newest
+  [[nodiscard]] std::vector<StudyRow> list_studies(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const;
+  /// Gives a study another state. False, and nothing is stored, if it is not in the former one.
+  bool set_study_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error = {});
 
   [[nodiscard]] Load find_load() const;
   /// The packed trajectory of a job that has one.

@@ -165,7 +165,7 @@ class ReaderPool {
  public:
   explicit ReaderPool(std::filesystem::path store) : store_(std::move(store)) {}
 
-  /// Runs work(database) on one consistent picture of the store.
+  /// Runs work(database) on one consistent snapshot of the store.
   template <typename Work>
   auto read(Work&& work) {
     return with_storage_errors([&] {

@@ -28,7 +28,7 @@ bool copy_store(const std::filesystem::path& store, const std::filesystem::path&
   make_empty_file(file);
   try {
     return with_storage_errors([&] {
-      // A connection of its own, that reads only: it holds one picture of the store, while the others go on.
+      // A read-only connection of its own: it holds one snapshot of the store, while the others go on.
       SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms);
       auto question = stop;
       sqlite3_progress_handler(database.getHandle(), kStepsBetweenQuestions, ask_whether_to_stop, &question);

@@ -8,10 +8,11 @@
 
 namespace jobs {
 
-/// Which arc of a worn bore a ring of the journal presses on, and how the wear divides over it: as the pressure of an elastic layer does, which grows
-/// with how deep the bore is pressed,
+/// Which arc of a worn bore a ring of the journal presses on, and how the wear divides over it: as the
+/// pressure of an elastic layer does, which grows with how deep the bore is pressed,
 ///
-///     p(phi) ~ |e| cos(phi - theta) - c_r - g(phi) where that is above 0,    |e| = R(theta) + penetration    (engine::WornBore)
+///     p(phi) ~ |e| cos(phi - theta) - c_r - g(phi) where that is above 0,    |e| = R(theta) + penetration
+///     (engine::WornBore)
 class PressedArc {
  public:
   /// @param c_r  of the bore as it was new, [m]

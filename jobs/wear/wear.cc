@@ -20,7 +20,8 @@ using nlohmann::json;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// The channels of a ring: its sliding work, the same times the normal and, in a worn bore, times the penetration.
+/// The channels of a ring: its sliding work, the same times the normal and, in a worn bore, times the
+/// penetration.
 struct RingChannels {
   const std::vector<double>& work;
   const std::vector<double>& work_x;
@@ -32,13 +33,17 @@ RingChannels ring_channels(const engine::Trajectory& run, int ring, bool worn) {
   const std::string key = "ring_" + std::to_string(ring) + "_sliding_work";
   const auto find = [&](const std::string& channel) -> const std::vector<double>& {
     const auto found = std::ranges::find(run.channels, channel, &engine::QuantityInfo::key);
-    if (found == run.channels.end()) throw WrongState("the job was computed by a program that did not keep " + channel);
+    if (found == run.channels.end()) {
+      throw WrongState("the job was computed by a program that did not keep " + channel);
+    }
     return run.columns.at(static_cast<std::size_t>(found - run.channels.begin()));
   };
-  return {find(key + "_j"), find(key + "_x_j"), find(key + "_y_j"), worn ? &find(key + "_penetration_j_m") : nullptr};
+  return {find(key + "_j"), find(key + "_x_j"), find(key + "_y_j"),
+          worn ? &find(key + "_penetration_j_m") : nullptr};
 }
 
-/// Sliding work in each sector. @param arc  where a worn bore is pressed; null: in the direction of the contact
+/// Sliding work in each sector. @param arc  where a worn bore is pressed; null: in the direction of the
+/// contact
 std::vector<double> gather(const RingChannels& ring, std::size_t sectors, PressedArc* arc) {
   std::vector<double> work(sectors, 0.0);
   for (std::size_t k = 1; k < ring.work.size(); ++k) {
@@ -72,30 +77,42 @@ ResultTable make_wear_map(const json& parameters, const engine::Trajectory& run,
   const double clearance_mm = parameters.at("clearance_mm");
   if (!(clearance_mm > 0.0)) throw WrongState("the joint of this job has no clearance, and does not slide");
   if (query.worn_clearance && !(*query.worn_clearance > clearance_mm)) {
-    throw InvalidRequest(std::vector<Fault>{{"/worn_clearance_mm", "must be more than the clearance of the job, " + number_text(clearance_mm) +
-        " mm"}});
+    throw InvalidRequest(
+        std::vector<Fault>{{"/worn_clearance_mm", "must be more than the clearance of the job, " +
+                                                      number_text(clearance_mm) + " mm"}});
   }
   if (run.columns.at(0).size() < 2) throw WrongState("a wear map needs two samples or more");
   const int rings = parameters.at("radial_levels");
   const double length_mm = parameters.at("bearing_length_mm");
   const double sector = kTurn / static_cast<double>(query.sectors);
-  const double area = 1e-6 * parameters.at("bearing_radius_mm").get<double>() * sector * length_mm / rings;  // [m^2]
+  const double area =
+      1e-6 * parameters.at("bearing_radius_mm").get<double>() * sector * length_mm / rings;  // [m^2]
   std::optional<engine::WornBore> bore;
-  if (parameters.contains(kWearKey)) bore.emplace(1e-3 * clearance_mm, to_wear_depth(parameters.at(kWearKey)));
+  if (parameters.contains(kWearKey)) {
+    bore.emplace(1e-3 * clearance_mm, to_wear_depth(parameters.at(kWearKey)));
+  }
   const double hours = (run.columns[0].back() - run.columns[0].front()) / 3600.0;
-  ResultTable table{.columns = {"ring", "position_mm", "angle_rad", "sliding_work_j", "depth_um", "rate_um_h", "life_h"}, .rows = {}, .ended = true};
+  ResultTable table{
+      .columns = {"ring", "position_mm", "angle_rad", "sliding_work_j", "depth_um", "rate_um_h", "life_h"},
+      .rows = {},
+      .ended = true};
   for (int ring = 1; ring <= rings; ++ring) {
-    const double position_mm = rings == 1 ? 0.0 : length_mm * (static_cast<double>(ring - 1) / (rings - 1) - 0.5);
+    const double position_mm =
+        rings == 1 ? 0.0 : length_mm * (static_cast<double>(ring - 1) / (rings - 1) - 0.5);
     std::optional<PressedArc> arc;
     if (bore) arc.emplace(*bore, ring - 1, 1e-3 * clearance_mm, query.sectors);
-    const auto work = gather(ring_channels(run, ring, bore.has_value()), query.sectors, arc ? &*arc : nullptr);
+    const auto work =
+        gather(ring_channels(run, ring, bore.has_value()), query.sectors, arc ? &*arc : nullptr);
     for (std::size_t s = 0; s < work.size(); ++s) {
       const double depth_um = 1e6 * query.wear_coefficient * work[s] / area;
       const double rate = depth_um / hours;
       const double angle = (static_cast<double>(s) + 0.5) * sector;
       const double worn_um = bore ? 1e6 * bore->calc_depth(ring - 1, angle) : 0.0;
-      const double life = query.worn_clearance ? std::max(1e3 * (*query.worn_clearance - clearance_mm) - worn_um, 0.0) / rate : kNever;
-      table.rows.push_back({ring, position_mm, angle, work[s], depth_um, rate, std::isfinite(life) ? json(life) : json()});
+      const double life = query.worn_clearance
+                              ? std::max(1e3 * (*query.worn_clearance - clearance_mm) - worn_um, 0.0) / rate
+                              : kNever;
+      table.rows.push_back(
+          {ring, position_mm, angle, work[s], depth_um, rate, std::isfinite(life) ? json(life) : json()});
     }
   }
   return table;

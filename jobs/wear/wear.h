@@ -15,7 +15,8 @@
 namespace jobs {
 
 inline constexpr Range kSectorsRange{.minimum = 4, .maximum = 720};
-inline constexpr Range kWearCoefficientRange{.minimum = 0.0, .maximum = 1e-6, .lower = Bound::kExclusive};  ///< [m^2/N]
+inline constexpr Range kWearCoefficientRange{
+    .minimum = 0.0, .maximum = 1e-6, .lower = Bound::kExclusive};  ///< [m^2/N]
 
 /// What is wanted of a wear map.
 struct WearQuery {
@@ -27,14 +28,18 @@ struct WearQuery {
 /// The channels that a map is made of. @param parameters  of the job, completed
 [[nodiscard]] std::vector<std::string> wear_channels(const nlohmann::json& parameters);
 
-/// The depth that Archard's law wears off the bore along a run, k W / A in each cell of the bearing: a sector of the circumference, and of the
-/// length the part that belongs to one ring of the journal. What was worn between two samples is put where the contact was on the mean; in a job
-/// with a worn bore, on the arc that was pressed there (PressedArc). The depth is what this run adds.
+/// The depth that Archard's law wears off the bore along a run, k W / A in each cell of the bearing: a sector
+/// of the circumference, and of the length the part that belongs to one ring of the journal. What was worn
+/// between two samples is put where the contact was on the mean; in a job with a worn bore, on the arc that
+/// was pressed there (PressedArc). The depth is what this run adds.
 ///
-/// Rows: ring, position_mm (of the ring along the journal), angle_rad (the sector's middle in the bearing frame), sliding_work_j, depth_um,
-/// rate_um_h (if the run went on as it was), life_h (until the clearance there is worn_clearance; null without it, or where it lasts for ever).
+/// Rows: ring, position_mm (of the ring along the journal), angle_rad (the sector's middle in the bearing
+/// frame), sliding_work_j, depth_um, rate_um_h (if the run went on as it was), life_h (until the clearance
+/// there is worn_clearance; null without it, or where it lasts for ever).
 /// @param run  t_s and wear_channels(), two samples or more
-/// @throws WrongState if the job has no clearance, InvalidRequest ("/worn_clearance_mm") if that is not above the job's
-[[nodiscard]] ResultTable make_wear_map(const nlohmann::json& parameters, const engine::Trajectory& run, const WearQuery& query);
+/// @throws WrongState if the job has no clearance, InvalidRequest ("/worn_clearance_mm") if that is not above
+/// the job's
+[[nodiscard]] ResultTable make_wear_map(const nlohmann::json& parameters, const engine::Trajectory& run,
+                                        const WearQuery& query);
 
 }  // namespace jobs

@@ -25,7 +25,9 @@ class WearParser {
   WearStudyRequest parse() {
     if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
     for (const auto& [key, value] : request_.items()) {
-      if (std::ranges::find(kWearStudyKeys, key) == kWearStudyKeys.end()) fault(pointer_token(key), describe_unknown_key(key, kWearStudyKeys));
+      if (std::ranges::find(kWearStudyKeys, key) == kWearStudyKeys.end()) {
+        fault(pointer_token(key), describe_unknown_key(key, kWearStudyKeys));
+      }
     }
     read_rule();
     read_common();
@@ -34,20 +36,26 @@ class WearParser {
   }
 
  private:
-  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+  void fault(std::string pointer, std::string detail) {
+    faults_.push_back({std::move(pointer), std::move(detail)});
+  }
 
   template <typename T>
   void take_number(const char* key, const Range& range, std::string_view unit, T& value) {
     if (!request_.contains(key)) return;
     const json given = request_.at(key);
-    if (std::string detail = describe_number_fault(range, unit, given); !detail.empty()) return fault(pointer_token(key), std::move(detail));
+    if (std::string detail = describe_number_fault(range, unit, given); !detail.empty()) {
+      return fault(pointer_token(key), std::move(detail));
+    }
     value = given.get<double>();
   }
 
   void take_count(const char* key, const Range& range, std::size_t& value) {
     if (!request_.contains(key)) return;
     const json given = request_.at(key);
-    if (std::string detail = describe_integer_fault(range, given); !detail.empty()) return fault(pointer_token(key), std::move(detail));
+    if (std::string detail = describe_integer_fault(range, given); !detail.empty()) {
+      return fault(pointer_token(key), std::move(detail));
+    }
     value = given.get<std::size_t>();
   }
 
@@ -76,8 +84,13 @@ class WearParser {
       return;
     }
     const json& given = study_.common.parameters;
-    if (describes_linkage(given)) return fault("/parameters/linkage", "must be \"rpsup\": the bearing that is worn is that linkage's");
-    if (given.contains(kWearKey)) return fault("/parameters" + pointer_token(kWearKey), "must be left out: a study begins with a round bore");
+    if (describes_linkage(given)) {
+      return fault("/parameters/linkage", "must be \"rpsup\": the bearing that is worn is that linkage's");
+    }
+    if (given.contains(kWearKey)) {
+      return fault("/parameters" + pointer_token(kWearKey),
+                   "must be left out: a study begins with a round bore");
+    }
     try {
       study_.completed = complete_parameters(study_.common.parameters, "/parameters");
     } catch (const InvalidRequest& invalid) {
@@ -90,23 +103,30 @@ class WearParser {
 
   void check_joint() {
     const double clearance = study_.clearance_mm();
-    if (!(clearance > 0.0)) fault("/parameters/clearance_mm", "must be above 0 mm: the ideal joint does not slide");
+    if (!(clearance > 0.0)) {
+      fault("/parameters/clearance_mm", "must be above 0 mm: the ideal joint does not slide");
+    }
     if (study_.completed.at("contact") != "continuum") {
       fault("/parameters/contact", "must be \"continuum\": a worn bore is for that form of the contact");
     }
     if (!study_.query.worn_clearance) return;
     const double most = clearance + 0.1 * study_.completed.at("bearing_radius_mm").get<double>();
-    if (const Range range{clearance, most, Bound::kExclusive, Bound::kExclusive}; !range.contains(*study_.query.worn_clearance)) {
-      fault("/worn_clearance_mm", "must be " + range.text() + " mm: more than the clearance, by less than a tenth of the bearing's radius");
+    if (const Range range{clearance, most, Bound::kExclusive, Bound::kExclusive};
+        !range.contains(*study_.query.worn_clearance)) {
+      fault("/worn_clearance_mm",
+            "must be " + range.text() +
+                " mm: more than the clearance, by less than a tenth of the bearing's radius");
     }
     study_.rule.deepest_um = 1e3 * (*study_.query.worn_clearance - clearance);
   }
 
   /// The rate of wear is taken from the steady motion.
   void check_window() {
-    const double steady = study_.completed.at("duration_s").get<double>() - study_.completed.at("run_up_s").get<double>();
+    const double steady =
+        study_.completed.at("duration_s").get<double>() - study_.completed.at("run_up_s").get<double>();
     if (!(steady * study_.completed.at("output_rate_hz").get<double>() >= 2.0)) {
-      fault("/parameters/duration_s", "must be above run_up_s, by two samples or more: the rate of wear is that of the steady motion");
+      fault("/parameters/duration_s",
+            "must be above run_up_s, by two samples or more: the rate of wear is that of the steady motion");
     }
   }
 
@@ -118,7 +138,9 @@ class WearParser {
 
 }  // namespace
 
-WearStudyRequest parse_wear_request(const ordered_json& request, std::size_t max_jobs) { return WearParser(request, max_jobs).parse(); }
+WearStudyRequest parse_wear_request(const ordered_json& request, std::size_t max_jobs) {
+  return WearParser(request, max_jobs).parse();
+}
 
 ordered_json case_of(const WearGrid& depth_um) { return {{std::string(kWearKey), depth_um}}; }
 

@@ -16,7 +16,7 @@
 #include "jobs/requests/expand.h"
 #include "jobs/trajectories/trajectory_codec.h"
 #include "jobs/trajectories/trajectory_query.h"
-#include "jobs/wear/wear_picture.h"
+#include "jobs/wear/wear_json.h"
 #include "jobs/wear/wear_request.h"
 
 namespace jobs {
@@ -25,17 +25,18 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-WearStudyRequest study_of(const SearchRow& row) {
+WearStudyRequest study_of(const StudyRow& row) {
   return parse_wear_request(ordered_json::parse(row.request), std::numeric_limits<std::size_t>::max());
 }
 
-/// The rates of wear that jobs have shown; what was read once is kept.
+/// Cache of the wear rates of jobs.
 class WearRates {
  public:
   explicit WearRates(const Store& store) : store_(store) {}
 
-  /// Empty if the job has no trajectory that tells them.
-  std::optional<WearGrid> find(const std::string& job_id, const WearGrid& depth_um, const WearStudyRequest& study) {
+  /// Empty if the job has no trajectory with the channels of wear.
+  std::optional<WearGrid> find(const std::string& job_id, const WearGrid& depth_um,
+                               const WearStudyRequest& study) {
     {
       const std::lock_guard lock(mutex_);
       if (const auto known = rates_.find(job_id); known != rates_.end()) return known->second;
@@ -50,26 +51,31 @@ class WearRates {
  private:
   static constexpr std::size_t kMostKept = 5000;
 
-  [[nodiscard]] std::optional<WearGrid> read(const std::string& job_id, const WearGrid& depth_um, const WearStudyRequest& study) const {
+  [[nodiscard]] std::optional<WearGrid> read(const std::string& job_id, const WearGrid& depth_um,
+                                             const WearStudyRequest& study) const {
     const auto blob = store_.find_trajectory(job_id);
     if (!blob) return std::nullopt;
     try {
       return make_rates(std::as_bytes(std::span(*blob)), depth_um, study);
-    } catch (const WrongState&) {  // it does not have what tells the wear
+    } catch (const WrongState&) {  // it lacks the channels of wear
     } catch (const DamagedTrajectory&) {
     }
     return std::nullopt;
   }
 
-  static WearGrid make_rates(std::span<const std::byte> trajectory, const WearGrid& depth_um, const WearStudyRequest& study) {
+  static WearGrid make_rates(std::span<const std::byte> trajectory, const WearGrid& depth_um,
+                             const WearStudyRequest& study) {
     json parameters = study.completed;
     parameters[kWearKey] = depth_um;
-    const TrajectoryQuery steady{.channels = wear_channels(parameters), .from = parameters.at("run_up_s").get<double>(), .to = {}};
+    const TrajectoryQuery steady{
+        .channels = wear_channels(parameters), .from = parameters.at("run_up_s").get<double>(), .to = {}};
     WearQuery query = study.query;
     query.worn_clearance.reset();
     const ResultTable map = make_wear_map(parameters, read_trajectory(trajectory, steady), query);
     WearGrid rates = study.round_bore();
-    for (std::size_t k = 0; k < map.rows.size(); ++k) rates[k / query.sectors][k % query.sectors] = map.rows[k][kRateColumn].get<double>();
+    for (std::size_t k = 0; k < map.rows.size(); ++k) {
+      rates[k / query.sectors][k % query.sectors] = map.rows[k][kRateColumn].get<double>();
+    }
     return rates;
   }
 
@@ -80,52 +86,55 @@ class WearRates {
   std::map<std::string, WearGrid> rates_;  ///< by job
 };
 
-/// What a wear study's jobs have shown. The k-th job is that of the k-th case of its sweep.
-class WearStudyCourse final : public StudyCourse {
+/// State of a wear study. The k-th job is that of the k-th case of its sweep.
+class WearState final : public StudyState {
  public:
-  WearStudyCourse(WearStudyRequest study, const SweepResults& results, WearRates& rates)
-      : study_(std::move(study)), rates_(rates), follower_(study_.rule, study_.round_bore()) {
+  WearState(WearStudyRequest study, const SweepResults& results, WearRates& rates)
+      : study_(std::move(study)), rates_(rates), integrator_(study_.rule, study_.round_bore()) {
     const json request = json::parse(results.sweep.request);
-    for (const json& bore : request.at("cases")) bores_.emplace(bore.at(kWearKey).get<WearGrid>(), bores_.size());
+    for (const json& bore : request.at("cases")) {
+      bores_.emplace(bore.at(kWearKey).get<WearGrid>(), bores_.size());
+    }
     for (const ResultRow& job : results.rows) jobs_.push_back({.id = job.job_id, .state = job.state});
-    go_on();
+    advance();
   }
 
-  void take(const ResultRow& ended) override {
-    // A job without an id is that of the bore that was asked for last: there is one at a time.
-    const auto job = std::find_if(jobs_.rbegin(), jobs_.rend(), [&](const Job& one) { return one.id.empty() || one.id == ended.job_id; });
+  void tell(const ResultRow& ended) override {
+    // The job without an id is that of the bore that ask() gave last: there is one at a time.
+    const auto job = std::find_if(jobs_.rbegin(), jobs_.rend(),
+                                  [&](const Job& one) { return one.id.empty() || one.id == ended.job_id; });
     *job = {.id = ended.job_id, .state = ended.state};
   }
 
-  [[nodiscard]] StudyStep find_step() override {
-    go_on();
-    StudyStep step;
-    if (course().next && bores_.emplace(*course().next, jobs_.size()).second) {
-      step.cases.push_back(case_of(*course().next));
+  [[nodiscard]] NextCases ask() override {
+    advance();
+    NextCases next;
+    if (history().next && bores_.emplace(*history().next, jobs_.size()).second) {
+      next.cases.push_back(case_of(*history().next));
       jobs_.push_back({.id = "", .state = "queued"});
     }
-    if (course().verdict == WearVerdict::kLost) {
+    if (history().verdict == WearVerdict::kLost) {
       const bool cancelled = std::ranges::find(jobs_, "cancelled", &Job::state) != jobs_.end();
-      step.end_state = cancelled ? "cancelled" : "failed";
-      if (!cancelled) step.error = "a job has no result that tells its wear";
-    } else if (course().verdict != WearVerdict::kOpen) {
-      step.end_state = "succeeded";
+      next.end_state = cancelled ? "cancelled" : "failed";
+      if (!cancelled) next.error = "a job has no result that tells its wear";
+    } else if (history().verdict != WearVerdict::kOpen) {
+      next.end_state = "succeeded";
     }
-    return step;
+    return next;
   }
 
-  [[nodiscard]] double progress() const override { return calc_progress(study_, course()); }
+  [[nodiscard]] double progress() const override { return calc_progress(study_, history()); }
 
   [[nodiscard]] const WearStudyRequest& study() const { return study_; }
-  [[nodiscard]] const WearCourse& course() const { return follower_.course(); }
+  [[nodiscard]] const WearHistory& history() const { return integrator_.history(); }
 
  private:
   struct Job {
     std::string id, state;
   };
 
-  void go_on() {
-    follower_.go_on([this](const WearGrid& depth_um) -> std::optional<WearEvaluation> {
+  void advance() {
+    integrator_.advance([this](const WearGrid& depth_um) -> std::optional<WearEvaluation> {
       const auto found = bores_.find(depth_um);
       return found == bores_.end() ? std::nullopt : std::optional(evaluate(found->second, depth_um));
     });
@@ -143,12 +152,12 @@ class WearStudyCourse final : public StudyCourse {
 
   WearStudyRequest study_;
   WearRates& rates_;
-  std::map<WearGrid, std::size_t> bores_;  ///< the job of each
+  std::map<WearGrid, std::size_t> bores_;  ///< index of each bore's job
   std::vector<Job> jobs_;
-  WearFollower follower_;
+  WearIntegrator integrator_;
 };
 
-class WearStudy final : public StudyKind {
+class WearStudy final : public StudyType {
  public:
   explicit WearStudy(const Store& store) : rates_(store) {}
 
@@ -160,27 +169,29 @@ class WearStudy final : public StudyKind {
     return {std::move(sweep), std::move(plan)};
   }
 
-  [[nodiscard]] std::unique_ptr<StudyCourse> make_course(const SearchRow& row, const SweepResults& results) const override {
-    return std::make_unique<WearStudyCourse>(study_of(row), results, rates_);
+  [[nodiscard]] std::unique_ptr<StudyState> make_state(const StudyRow& row,
+                                                       const SweepResults& results) const override {
+    return std::make_unique<WearState>(study_of(row), results, rates_);
   }
 
-  [[nodiscard]] json make_resource(const SearchRow& row, const SweepResults& results, int threads) const override {
-    const WearStudyCourse so_far(study_of(row), results, rates_);
-    return wear_study_json(row, so_far.study(), results, so_far.course(), threads);
+  [[nodiscard]] json make_resource(const StudyRow& row, const SweepResults& results,
+                                   int threads) const override {
+    const WearState state(study_of(row), results, rates_);
+    return wear_study_json(row, state.study(), results, state.history(), threads);
   }
-  [[nodiscard]] json make_summary(const SearchRow& row) const override { return wear_summary_json(row); }
+  [[nodiscard]] json make_summary(const StudyRow& row) const override { return wear_summary_json(row); }
   [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return wear_listing_keys(); }
-  [[nodiscard]] ResultTable make_table(const SearchRow& row, const SweepResults& results) const override {
-    const WearStudyCourse so_far(study_of(row), results, rates_);
-    return wear_table(row, so_far.study(), results, so_far.course());
+  [[nodiscard]] ResultTable make_table(const StudyRow& row, const SweepResults& results) const override {
+    const WearState state(study_of(row), results, rates_);
+    return wear_table(row, state.study(), results, state.history());
   }
 
  private:
-  mutable WearRates rates_;  // has a lock of its own
+  mutable WearRates rates_;  // guards itself
 };
 
 }  // namespace
 
-std::unique_ptr<StudyKind> make_wear_study(const Store& store) { return std::make_unique<WearStudy>(store); }
+std::unique_ptr<StudyType> make_wear_study(const Store& store) { return std::make_unique<WearStudy>(store); }
 
 }  // namespace jobs

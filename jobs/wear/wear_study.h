@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "jobs/store/store.h"
-#include "jobs/studies/study_desk.h"
+#include "jobs/studies/study_runner.h"
 
 namespace jobs {
 
-/// Studies of a bearing that is worn over the hours: the bore after each step is a job, whose wear makes the next step. See parse_wear_request() and
-/// WearFollower.
-/// @param store  where the trajectories are that tell the wear; outlives what is made
-[[nodiscard]] std::unique_ptr<StudyKind> make_wear_study(const Store& store);
+/// Wear studies: a bearing is worn over the hours. The bore after each step is a job, whose wear gives the
+/// next step. See parse_wear_request() and WearIntegrator.
+/// @param store  of the trajectories that give the wear; outlives the result
+[[nodiscard]] std::unique_ptr<StudyType> make_wear_study(const Store& store);
 
 }  // namespace jobs

@@ -83,7 +83,7 @@ Json make_search() {
 }  // namespace
 
 Json make_search_schemas() {
-  return {{"SearchState", {{"type", "string"}, {"enum", jobs::kSearchStates}}},
+  return {{"SearchState", {{"type", "string"}, {"enum", jobs::kStudyStates}}},
           {"Search", make_search()},
           {"SearchSummary", options_of(make_search_summary())},
           {"SearchPage", object_of({{"items", list_of(ref("SearchSummary"))}, {"next_cursor", kText}})},

@@ -142,18 +142,18 @@ TEST(Retry, OpensTheStudyOfASweepInOneStep) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   const auto plan = jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5, 6]}})"), 10);
-  const std::string search = store.add_search("sch_", plan, "{}", "{}", 10);
-  const std::string sweep = store.find_search(search)->sweep_id;
+  const std::string search = store.add_study("sch_", plan, "{}", "{}", 10);
+  const std::string sweep = store.find_study(search)->sweep_id;
   static_cast<void>(store.cancel_sweep(sweep));
-  EXPECT_TRUE(store.set_search_state(search, "running", "failed", "why"));
+  EXPECT_TRUE(store.set_study_state(search, "running", "failed", "why"));
   EXPECT_THROW((void)store.retry_sweep(sweep, 1), jobs::QueueFull);
-  EXPECT_EQ(store.find_search(search)->state, "failed");
+  EXPECT_EQ(store.find_study(search)->state, "failed");
   EXPECT_TRUE(store.retry_sweep(sweep, 10));
-  EXPECT_EQ(store.find_search(search)->state, "running");
-  EXPECT_FALSE(store.find_search(search)->error.has_value());
-  EXPECT_TRUE(store.set_search_state(search, "running", "failed", "why"));
+  EXPECT_EQ(store.find_study(search)->state, "running");
+  EXPECT_FALSE(store.find_study(search)->error.has_value());
+  EXPECT_TRUE(store.set_study_state(search, "running", "failed", "why"));
   EXPECT_TRUE(store.retry_sweep(sweep, 10));
-  EXPECT_EQ(store.find_search(search)->state, "running") << "though no job is tried again";
+  EXPECT_EQ(store.find_study(search)->state, "running") << "though no job is tried again";
 }
 
 TEST(Retry, StopsTheAttemptThatRunsWhenAnEarlierOneHasNotEnded) {

@@ -14,7 +14,7 @@ namespace {
 using jobs::Evaluation;
 using jobs::Limit;
 using jobs::LimitRule;
-using jobs::SearchPath;
+using jobs::SearchInterval;
 using jobs::Verdict;
 
 struct Found {
@@ -23,7 +23,7 @@ struct Found {
 };
 
 /// Evaluates what the search asks for until it has ended.
-Found search(const SearchPath& path, const LimitRule& rule, const std::function<std::vector<double>(double)>& metric) {
+Found search(const SearchInterval& path, const LimitRule& rule, const std::function<std::vector<double>(double)>& metric) {
   std::vector<Evaluation> known;
   for (int round = 0; round < 1000; ++round) {
     const Limit limit = find_limit(path, rule, known);
@@ -39,7 +39,7 @@ std::vector<double> itself(double x) { return {x}; }
 
 // Five values in steps of 2.5, of which one step is halved until it is no longer than 0.01: 2.5 / 2^8 = 0.0098.
 TEST(FindLimit, FindsTheLimitOfAMonotoneMetricWithTheExpectedNumberOfEvaluations) {
-  const SearchPath path{.from = 0.0, .to = 10.0, .tolerance = 0.01, .first = 5};
+  const SearchInterval path{.from = 0.0, .to = 10.0, .tolerance = 0.01, .first = 5};
   for (const double bound : {0.001, 1.234, 3.7, 6.18, 9.99}) {
     const Found found = search(path, {.bound = bound}, itself);
     EXPECT_EQ(found.limit.verdict, Verdict::kFound);
@@ -66,7 +66,7 @@ TEST(FindLimit, GoesTheOtherWayIfThePathDoes) {
 }
 
 TEST(FindLimit, HalvesRatiosOfALogarithmicPath) {
-  const SearchPath path{.from = 1e-3, .to = 1e3, .logarithmic = true, .tolerance = 1e-3, .first = 3};
+  const SearchInterval path{.from = 1e-3, .to = 1e3, .logarithmic = true, .tolerance = 1e-3, .first = 3};
   EXPECT_EQ(first_values(path), (std::vector{1e-3, 1e-3 * std::pow(1e6, 0.5), 1e3}));
   const Found found = search(path, {.bound = 0.05}, itself);
   EXPECT_LE(found.limit.within.value(), 0.05);
@@ -82,7 +82,7 @@ TEST(FindLimit, EndsBetweenNeighbouringIntegers) {
 }
 
 TEST(FindLimit, SaysWhenThereIsNoLimit) {
-  const SearchPath path{.from = 0.0, .to = 1.0, .tolerance = 0.1, .first = 4};
+  const SearchInterval path{.from = 0.0, .to = 1.0, .tolerance = 0.1, .first = 4};
   const Found never = search(path, {.bound = 2.0}, itself);
   EXPECT_EQ(never.limit.verdict, Verdict::kNeverExceeded);
   EXPECT_EQ(never.limit.within, 1.0);
@@ -112,7 +112,7 @@ TEST(FindLimit, JudgesByAQuantileAndGivesTheBandOfTheReplicates) {
     for (int k = 9; k >= 0; --k) values.push_back(x + 0.1 * k);
     return values;
   };
-  const SearchPath path{.from = 0.0, .to = 8.0, .tolerance = 0.001, .first = 9};
+  const SearchInterval path{.from = 0.0, .to = 8.0, .tolerance = 0.001, .first = 9};
   const Found found = search(path, {.bound = 5.0, .quantile = 0.9}, scattered);
   EXPECT_NEAR(found.limit.within.value(), 4.2, 0.001);
   EXPECT_LE(found.limit.band_from.value(), 4.1);
@@ -124,7 +124,7 @@ TEST(FindLimit, JudgesByAQuantileAndGivesTheBandOfTheReplicates) {
 }
 
 TEST(FindLimit, WaitsForWhatIsPendingAndStopsAtWhatIsLost) {
-  const SearchPath path{.from = 0.0, .to = 2.0, .tolerance = 0.1, .first = 3};
+  const SearchInterval path{.from = 0.0, .to = 2.0, .tolerance = 0.1, .first = 3};
   const LimitRule rule{.bound = 0.5};
   const std::vector<Evaluation> pending{{.x = 0.0, .values = {0.0}}, {.x = 1.0, .pending = 1, .values = {}}, {.x = 2.0, .values = {2.0}}};
   EXPECT_TRUE(find_limit(path, rule, pending).next.empty());

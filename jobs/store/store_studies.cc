@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Searches as they are stored: each belongs to the sweep that its evaluations are the jobs of, and goes with it.
+// Studies: each belongs to the sweep of its evaluations, and is deleted with it. Their table is named "searches" for the searches, which were first.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -11,11 +11,11 @@
 namespace jobs {
 namespace {
 
-constexpr const char* kSearchColumns =
+constexpr const char* kStudyQuery =
     "SELECT c.id, s.id, s.name, c.request, c.state, c.error, s.created_ms, c.ended_ms FROM searches c JOIN sweeps s ON s.seq = c.sweep";
 
-SearchRow search_row(SQLite::Statement& found) {
-  SearchRow row;
+StudyRow study_row(SQLite::Statement& found) {
+  StudyRow row;
   row.id = found.getColumn(0).getString();
   row.sweep_id = found.getColumn(1).getString();
   row.name = found.getColumn(2).getString();
@@ -29,8 +29,8 @@ SearchRow search_row(SQLite::Statement& found) {
 
 }  // namespace
 
-std::string Store::add_search(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
-                              std::size_t max_queued, const KeptAnswer<StudyRow>& kept) {
+std::string Store::add_study(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
+                              std::size_t max_queued, const KeptAnswer<StudySnapshot>& kept) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     const std::string sweep_id = ids_.make(kSweepPrefix, now_ms);
@@ -46,39 +46,39 @@ std::string Store::add_search(std::string_view prefix, const SweepPlan& plan, co
     add.exec();
     if (!kept.key.empty()) {
       keep_answer(database, kept.key, kept.request,
-                  kept.make_text({.search = read_search(database, id).value(), .results = read_results(database, sweep_id, false).value()}));
+                  kept.make_text({.study = read_study(database, id).value(), .results = read_results(database, sweep_id, false).value()}));
     }
     check_quota_of(database);
     return id;
   });
 }
 
-std::optional<SearchRow> read_search(const SQLite::Database& database, const std::string& id) {
-  SQLite::Statement find(database, std::string(kSearchColumns) + " WHERE c.id = ?");
+std::optional<StudyRow> read_study(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, std::string(kStudyQuery) + " WHERE c.id = ?");
   find.bind(1, id);
-  return find.executeStep() ? std::optional(search_row(find)) : std::nullopt;
+  return find.executeStep() ? std::optional(study_row(find)) : std::nullopt;
 }
 
-std::optional<SearchRow> Store::find_search(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) { return read_search(database, id); });
+std::optional<StudyRow> Store::find_study(const std::string& id) const {
+  return readers_.read([&](const SQLite::Database& database) { return read_study(database, id); });
 }
 
-std::vector<SearchRow> Store::list_searches(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {
+std::vector<StudyRow> Store::list_studies(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {
   return readers_.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
-        std::string(kSearchColumns) +
+        std::string(kStudyQuery) +
             " WHERE (?1 = '' OR c.id < ?1) AND (?2 = '' OR c.state = ?2) AND substr(c.id, 1, length(?4)) = ?4 ORDER BY c.id DESC LIMIT ?3");
     list.bind(1, before);
     list.bind(2, state);
     list.bind(3, static_cast<std::int64_t>(limit));
     list.bind(4, std::string(prefix));
-    std::vector<SearchRow> rows;
-    while (list.executeStep()) rows.push_back(search_row(list));
+    std::vector<StudyRow> rows;
+    while (list.executeStep()) rows.push_back(study_row(list));
     return rows;
   });
 }
 
-bool Store::set_search_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error) {
+bool Store::set_study_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     SQLite::Statement set(database,
         "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE ?3 END WHERE id = ?4 AND state = ?5");

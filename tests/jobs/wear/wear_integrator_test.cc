@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A bore that wears step by step, against closed forms.
 
-#include "jobs/wear/wear_course.h"
+#include "jobs/wear/wear_integrator.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -45,6 +46,12 @@ WearEvaluation press(const WearGrid& depth_um) {
   return done(rate);
 }
 
+jobs::WearHistory follow_wear(const jobs::WearRule& rule, WearGrid depth_um, const jobs::FindWear& find) {
+  jobs::WearIntegrator integrator(rule, std::move(depth_um));
+  integrator.advance(find);
+  return integrator.history();
+}
+
 double volume_of(const WearGrid& depth_um) {
   double sum = 0.0;
   for (const double d : depth_um[0]) sum += 1e-6 * d * kCell;
@@ -52,43 +59,43 @@ double volume_of(const WearGrid& depth_um) {
 }
 
 // The same rate everywhere: depth = rate * hours, in as many steps as that takes.
-TEST(WearCourse, WornEvenlyItIsAsDeepAsTheRateTimesTheHours) {
+TEST(WearIntegrator, WornEvenlyItIsAsDeepAsTheRateTimesTheHours) {
   const jobs::WearRule rule{.depth_step_um = 0.8, .hours = 100.0, .deepest_um = {}};
-  const auto course = jobs::follow_wear(rule, even(0.0), [](const WearGrid&) { return done(even(0.05)); });
-  EXPECT_EQ(course.verdict, WearVerdict::kHoursReached);
-  ASSERT_EQ(course.cycles.size(), 1U + 7U);  // 5 um in steps of 0.8
-  EXPECT_NEAR(course.cycles[1].hours, 16.0, 1e-12);
-  EXPECT_DOUBLE_EQ(course.cycles.back().hours, 100.0);
-  for (const double d : course.cycles.back().depth_um[0]) EXPECT_NEAR(d, 5.0, 1e-12);
-  EXPECT_EQ(course.cycles.back().step_hours, 0.0);
+  const auto history = follow_wear(rule, even(0.0), [](const WearGrid&) { return done(even(0.05)); });
+  EXPECT_EQ(history.verdict, WearVerdict::kHoursReached);
+  ASSERT_EQ(history.cycles.size(), 1U + 7U);  // 5 um in steps of 0.8
+  EXPECT_NEAR(history.cycles[1].hours, 16.0, 1e-12);
+  EXPECT_DOUBLE_EQ(history.cycles.back().hours, 100.0);
+  for (const double d : history.cycles.back().depth_um[0]) EXPECT_NEAR(d, 5.0, 1e-12);
+  EXPECT_EQ(history.cycles.back().step_hours, 0.0);
 }
 
-TEST(WearCourse, EndsAtTheClearanceThatWasAskedFor) {
-  const auto course = jobs::follow_wear({.hours = 1e6, .deepest_um = 2.5}, even(0.0), [](const WearGrid&) { return done(even(0.05)); });
-  EXPECT_EQ(course.verdict, WearVerdict::kClearanceReached);
-  EXPECT_NEAR(course.cycles.back().hours, 50.0, 1e-9);
-  EXPECT_NEAR(jobs::largest_of(course.cycles.back().depth_um), 2.5, 1e-12);
+TEST(WearIntegrator, EndsAtTheClearanceThatWasAskedFor) {
+  const auto history = follow_wear({.hours = 1e6, .deepest_um = 2.5}, even(0.0), [](const WearGrid&) { return done(even(0.05)); });
+  EXPECT_EQ(history.verdict, WearVerdict::kClearanceReached);
+  EXPECT_NEAR(history.cycles.back().hours, 50.0, 1e-9);
+  EXPECT_NEAR(jobs::largest_of(history.cycles.back().depth_um), 2.5, 1e-12);
 }
 
 // Archard: the volume is k N s, whatever the steps and however the bore gives way.
-TEST(WearCourse, WearsTheVolumeOfASteadyLoadWhateverTheSteps) {
+TEST(WearIntegrator, WearsTheVolumeOfASteadyLoadWhateverTheSteps) {
   for (const double step : {2.0, 1.0, 0.3}) {
-    const auto course = jobs::follow_wear({.depth_step_um = step, .rate_change = 10.0, .hours = 10.0, .deepest_um = {}}, even(0.0), press);
-    EXPECT_EQ(course.verdict, WearVerdict::kHoursReached);
+    const auto history = follow_wear({.depth_step_um = step, .rate_change = 10.0, .hours = 10.0, .deepest_um = {}}, even(0.0), press);
+    EXPECT_EQ(history.verdict, WearVerdict::kHoursReached);
     const double expected = kCoefficient * kWorkPerHour * 10.0;
-    EXPECT_NEAR(volume_of(course.cycles.back().depth_um), expected, 1e-9 * expected) << step;
+    EXPECT_NEAR(volume_of(history.cycles.back().depth_um), expected, 1e-9 * expected) << step;
   }
 }
 
 double depth_with_steps_of(double step_um) {
   const jobs::WearRule rule{.depth_step_um = step_um, .rate_change = 10.0, .hours = 5.0, .deepest_um = {}, .cycles = 1000};
-  const auto course = jobs::follow_wear(rule, even(0.0), press);
-  EXPECT_EQ(course.verdict, WearVerdict::kHoursReached);
-  return jobs::largest_of(course.cycles.back().depth_um);
+  const auto history = follow_wear(rule, even(0.0), press);
+  EXPECT_EQ(history.verdict, WearVerdict::kHoursReached);
+  return jobs::largest_of(history.cycles.back().depth_um);
 }
 
 // Euler's method: half the step, half the error.
-TEST(WearCourse, ConvergesWithTheFirstPowerOfTheStep) {
+TEST(WearIntegrator, ConvergesWithTheFirstPowerOfTheStep) {
   const double fine = depth_with_steps_of(0.025);
   const double coarse = depth_with_steps_of(0.4) - fine;
   const double half = depth_with_steps_of(0.2) - fine;
@@ -98,10 +105,10 @@ TEST(WearCourse, ConvergesWithTheFirstPowerOfTheStep) {
 
 // A bore that has long been worn is round where the journal lies, with the journal's own radius: c_r + g = |e| cos(phi - theta), but for what it
 // is pressed in.
-TEST(WearCourse, WearsTheBoreToTheShapeOfTheJournal) {
+TEST(WearIntegrator, WearsTheBoreToTheShapeOfTheJournal) {
   const jobs::WearRule rule{.depth_step_um = 0.4, .rate_change = 10.0, .hours = 30.0, .deepest_um = {}, .cycles = 1000};
-  const auto course = jobs::follow_wear(rule, even(0.0), press);
-  const auto& depth = course.cycles.back().depth_um[0];
+  const auto history = follow_wear(rule, even(0.0), press);
+  const auto& depth = history.cycles.back().depth_um[0];
   engine::WearDepth bore_depth{depth};
   for (double& d : bore_depth[0]) d *= 1e-6;
   const engine::WornBore bore(kClearance, bore_depth);
@@ -118,55 +125,55 @@ TEST(WearCourse, WearsTheBoreToTheShapeOfTheJournal) {
 }
 
 // The rate of a bore deeper than 1 um is four times that of a round one: steps of 2 um across it are halved as long as they may be.
-TEST(WearCourse, HalvesStepsAcrossWhichTheRateChanges) {
+TEST(WearIntegrator, HalvesStepsAcrossWhichTheRateChanges) {
   const auto find = [](const WearGrid& depth) { return done(even(depth[0][0] < 1.0 ? 0.1 : 0.4)); };
-  const auto course = jobs::follow_wear({.depth_step_um = 2.0, .rate_change = 0.5, .hours = 20.0, .deepest_um = {}}, even(0.0), find);
-  EXPECT_EQ(course.verdict, WearVerdict::kHoursReached);
+  const auto history = follow_wear({.depth_step_um = 2.0, .rate_change = 0.5, .hours = 20.0, .deepest_um = {}}, even(0.0), find);
+  EXPECT_EQ(history.verdict, WearVerdict::kHoursReached);
   // 2 and 1 um are too long; half a one is none; then a whole one, twice as long again, is, and its half is, and so on to the least.
-  EXPECT_NEAR(course.cycles.at(1).depth_um[0][0], 0.5, 1e-12);
-  EXPECT_GE(course.rejected, 3U);
-  EXPECT_EQ(course.cycles.at(0).rate_change, std::nullopt);
-  EXPECT_DOUBLE_EQ(course.cycles.at(1).rate_change.value(), 0.0);
+  EXPECT_NEAR(history.cycles.at(1).depth_um[0][0], 0.5, 1e-12);
+  EXPECT_GE(history.rejected, 3U);
+  EXPECT_EQ(history.cycles.at(0).rate_change, std::nullopt);
+  EXPECT_DOUBLE_EQ(history.cycles.at(1).rate_change.value(), 0.0);
   // No jump of the rate is passed with more than the least part of a step.
-  for (std::size_t k = 1; k < course.cycles.size(); ++k) {
-    if (course.cycles[k].rate_change.value() < 0.5) continue;
-    EXPECT_LE(course.cycles[k].depth_um[0][0] - course.cycles[k - 1].depth_um[0][0], 0.25 + 1e-12);
+  for (std::size_t k = 1; k < history.cycles.size(); ++k) {
+    if (history.cycles[k].rate_change.value() < 0.5) continue;
+    EXPECT_LE(history.cycles[k].depth_um[0][0] - history.cycles[k - 1].depth_um[0][0], 0.25 + 1e-12);
   }
 }
 
-TEST(WearCourse, WaitsForWhatIsUnderWayAndEndsWhereItCannotGoOn) {
+TEST(WearIntegrator, WaitsForWhatIsUnderWayAndEndsWhereItCannotGoOn) {
   const jobs::WearRule rule{.hours = 100.0, .deepest_um = {}, .cycles = 3};
-  const auto unknown = jobs::follow_wear(rule, even(0.0), [](const WearGrid&) { return std::nullopt; });
+  const auto unknown = follow_wear(rule, even(0.0), [](const WearGrid&) { return std::nullopt; });
   EXPECT_EQ(unknown.verdict, WearVerdict::kOpen);
   EXPECT_EQ(unknown.next, even(0.0));
-  const auto pending = jobs::follow_wear(rule, even(0.0), [](const WearGrid&) { return WearEvaluation{}; });
+  const auto pending = follow_wear(rule, even(0.0), [](const WearGrid&) { return WearEvaluation{}; });
   EXPECT_EQ(pending.verdict, WearVerdict::kOpen);
   EXPECT_FALSE(pending.next);
-  const auto lost = jobs::follow_wear(rule, even(0.0), [](const WearGrid&) { return WearEvaluation{.state = WearEvaluation::State::kLost}; });
+  const auto lost = follow_wear(rule, even(0.0), [](const WearGrid&) { return WearEvaluation{.state = WearEvaluation::State::kLost}; });
   EXPECT_EQ(lost.verdict, WearVerdict::kLost);
-  const auto still = jobs::follow_wear(rule, even(0.0), [](const WearGrid&) { return done(even(0.0)); });
+  const auto still = follow_wear(rule, even(0.0), [](const WearGrid&) { return done(even(0.0)); });
   EXPECT_EQ(still.verdict, WearVerdict::kNoWear);
-  const auto slow = jobs::follow_wear(rule, even(0.0), [](const WearGrid&) { return done(even(0.1)); });
+  const auto slow = follow_wear(rule, even(0.0), [](const WearGrid&) { return done(even(0.1)); });
   EXPECT_EQ(slow.verdict, WearVerdict::kCycleLimit);
   EXPECT_EQ(slow.cycles.size(), 3U);
 }
 
 // As a study does: each time one more bore has been computed. Each is asked for when it is new and when it has been computed, and no more.
-TEST(WearCourse, GoesOnWhereItWas) {
+TEST(WearIntegrator, GoesOnWhereItWas) {
   const jobs::WearRule rule{.depth_step_um = 0.8, .hours = {}, .deepest_um = 10.0};
   std::vector<WearGrid> computed;
   int asked = 0;
-  jobs::WearFollower follower(rule, even(0.0));
+  jobs::WearIntegrator integrator(rule, even(0.0));
   const auto find = [&](const WearGrid& depth) -> std::optional<WearEvaluation> {
     ++asked;
     return std::ranges::find(computed, depth) == computed.end() ? std::nullopt : std::optional(press(depth));
   };
-  for (follower.go_on(find); follower.course().next; follower.go_on(find)) computed.push_back(*follower.course().next);
-  const auto at_once = jobs::follow_wear(rule, even(0.0), press);
-  EXPECT_EQ(follower.course().verdict, WearVerdict::kClearanceReached);
-  ASSERT_EQ(follower.course().cycles.size(), at_once.cycles.size());
-  EXPECT_EQ(follower.course().cycles.back().depth_um, at_once.cycles.back().depth_um);
-  EXPECT_EQ(follower.course().cycles.back().hours, at_once.cycles.back().hours);
+  for (integrator.advance(find); integrator.history().next; integrator.advance(find)) computed.push_back(*integrator.history().next);
+  const auto at_once = follow_wear(rule, even(0.0), press);
+  EXPECT_EQ(integrator.history().verdict, WearVerdict::kClearanceReached);
+  ASSERT_EQ(integrator.history().cycles.size(), at_once.cycles.size());
+  EXPECT_EQ(integrator.history().cycles.back().depth_um, at_once.cycles.back().depth_um);
+  EXPECT_EQ(integrator.history().cycles.back().hours, at_once.cycles.back().hours);
   EXPECT_GT(computed.size(), 10U);
   EXPECT_EQ(static_cast<std::size_t>(asked), 2 * computed.size());
 }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/search/limit.h"
+#include "jobs/search/search_request.h"
+#include "jobs/store/store.h"
+
+namespace jobs {
+
+/// Results of a search for one combination of its axes.
+struct CombinationResults {
+  std::vector<nlohmann::json> values;  ///< one an axis
+  std::vector<Evaluation> evaluations;
+  std::vector<std::vector<std::string>>
+      job_ids;                         ///< of each evaluation; without those of jobs that were only expected
+  std::size_t pending = 0;             ///< jobs that have not ended
+  bool cancelled = false;              ///< whether any of its jobs was
+  Limit limit;                         ///< set by the caller of SearchResults
+};
+
+/// Value of lost_reason for an evaluation whose job succeeded without a value of the metric. Otherwise
+/// lost_reason is the job's error_reason, or "cancelled".
+inline constexpr std::string_view kNoValue = "no_value";
+
+/// Results of a search by combination and evaluation. Each job is taken twice at most: when it is added, and
+/// when it ends.
+class SearchResults {
+ public:
+  /// @param search  must outlive the results
+  /// @param sweep   of the jobs
+  SearchResults(const SearchRequest& search, const SweepRow& sweep);
+
+  /// Takes a job. @returns its combination; empty if the search has none such, as of a job added to the sweep
+  /// by hand
+  std::optional<std::size_t> add(const ResultRow& job);
+  /// Takes the end of a job that was pending. Returns as add() does.
+  std::optional<std::size_t> end(const ResultRow& job);
+  /// Counts the jobs of an evaluation as pending before they are added.
+  void expect(std::size_t combination, double x);
+
+  [[nodiscard]] std::string end_state() const;  ///< once no combination is open
+  /// Evaluations that have ended over those that may be needed, 0 .. 1.
+  [[nodiscard]] double calc_progress() const;
+
+  std::vector<CombinationResults> combinations;
+
+ private:
+  /// Indices of a job's combination and evaluation.
+  struct Position {
+    std::size_t combination = 0;
+    std::size_t evaluation = 0;
+  };
+
+  [[nodiscard]] std::optional<Position> find_position(const ResultRow& job);
+  void add_result(const ResultRow& job, const Position& position);
+
+  const SearchRequest& search_;
+  std::size_t parameter_ = 0;        ///< index of the searched parameter in ResultRow::swept
+  std::vector<std::size_t> axes_;    ///< the same of each axis
+  std::map<std::string, std::size_t> combination_indices_;  ///< by the identity of their values
+};
+
+}  // namespace jobs

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/studies/study_runner.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "jobs/base/ids.h"
+#include "jobs/results/page.h"
+#include "jobs/results/resource_json.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::size_t kNoLimit =
+    std::numeric_limits<std::size_t>::max();  // for requests that have been accepted
+
+}  // namespace
+
+std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
+  return is_id(id, type_->id_prefix()) ? store_.find_study(id) : std::nullopt;
+}
+
+json StudyRunner::submit(const ordered_json& request, const KeptText& kept) {
+  const FirstSweep first = type_->plan_first(request, limits_.max_sweep_jobs);
+  const KeptAnswer<StudySnapshot> answer{
+      .key = kept.key, .request = kept.request, .make_text = [&](StudySnapshot begun) {
+        // As the study begins: results that are known already have not been told.
+        for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
+        return *kept.answer = text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
+      }};
+  const std::string id = store_.add_study(type_->id_prefix(), first.plan, first.request.dump(),
+                                          request.dump(), limits_.max_queued_jobs, answer);
+  ++generation_;
+  return find(id).value();
+}
+
+std::optional<json> StudyRunner::find(const std::string& id) const {
+  const auto row = find_row(id);
+  if (!row) return std::nullopt;
+  const auto results = store_.find_results(row->sweep_id, false);
+  return results ? std::optional(type_->make_resource(*row, *results, limits_.threads)) : std::nullopt;
+}
+
+json StudyRunner::list(const PageQuery& query) const {
+  const PageChecker checker(query, type_->id_prefix(), type_->listing_keys(), kStudyStates);
+  return make_page(store_.list_studies(type_->id_prefix(), query.state, query.cursor, query.limit + 1),
+                   query.limit, checker, [this](const StudyRow& row) { return type_->make_summary(row); });
+}
+
+std::optional<ResultTable> StudyRunner::find_table(const std::string& id) const {
+  const auto row = find_row(id);
+  if (!row) return std::nullopt;
+  const auto results = store_.find_results(row->sweep_id, false);
+  return results ? std::optional(type_->make_table(*row, *results)) : std::nullopt;
+}
+
+bool StudyRunner::cancel(const std::string& id, const std::function<void(const std::string&)>& cancel_sweep) {
+  const std::lock_guard lock(mutex_);
+  const auto row = find_row(id);
+  if (!row) return false;
+  if (row->state != "running" && row->state != "cancelled") throw WrongState("the study has ended");
+  store_.set_study_state(id, "running", "cancelled");
+  active_.erase(id);
+  cancel_sweep(row->sweep_id);
+  return true;
+}
+
+bool StudyRunner::retry(const std::string& id, const std::function<void(const std::string&)>& retry_sweep) {
+  const std::lock_guard lock(mutex_);
+  const auto row = find_row(id);
+  if (!row) return false;
+  if (row->state == "running") return true;
+  active_.erase(id);
+  retry_sweep(row->sweep_id);
+  ++generation_;
+  return true;
+}
+
+std::optional<std::string> StudyRunner::find_ended_sweep(const std::string& id) const {
+  const auto row = find_row(id);
+  if (!row) return std::nullopt;
+  if (row->state == "running") throw WrongState("the study has not ended; cancel it first");
+  return row->sweep_id;
+}
+
+void StudyRunner::change_sweep(const std::string& sweep_id, const std::function<void()>& change) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(active_, [&](const auto& study) { return study.second.sweep_id == sweep_id; });
+  change();
+  ++generation_;
+}
+
+StudyChanges StudyRunner::advance() {
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t generation = generation_;
+  if (idle_generation_ == generation) return {};  // without a study, no query after each job
+  const auto running = store_.list_studies(type_->id_prefix(), "running", "", kNoLimit >> 1U);
+  forget_ended(running);
+  if (running.empty()) idle_generation_ = generation;
+  StudyChanges changes;
+  for (const StudyRow& study : running) {
+    for (bool goes_on = true; goes_on;) {  // the results of added jobs may be known already
+      const StudyChanges one = advance(study);
+      changes.any |= one.any;
+      changes.added |= one.added;
+      goes_on = one.added;
+    }
+  }
+  return changes;
+}
+
+void StudyRunner::forget_ended(const std::vector<StudyRow>& running) {
+  const auto has_ended = [&](const auto& study) {
+    return std::ranges::find(running, study.first, &StudyRow::id) == running.end();
+  };
+  std::erase_if(active_, has_ended);
+  const std::lock_guard lock(progress_mutex_);
+  std::erase_if(progress_, has_ended);
+}
+
+StudyChanges StudyRunner::advance(const StudyRow& study) {
+  try {
+    return tell_results(study) ? add_next_cases(study) : StudyChanges{};
+  } catch (const InvalidRequest& invalid) {  // two values may be valid and one between them not
+    store_.set_study_state(study.id, "running", "failed", invalid.what());
+    active_.erase(study.id);
+    return {.any = true};
+  } catch (...) {  // the next call reads all its jobs again
+    active_.erase(study.id);
+    throw;
+  }
+}
+
+bool StudyRunner::tell_results(const StudyRow& study) {
+  const auto known = active_.find(study.id);
+  const auto ended = known == active_.end() ? std::vector<ResultRow>{}
+                                            : store_.find_ended(study.sweep_id, known->second.change);
+  if (known == active_.end()) {
+    const auto results = store_.find_results(study.sweep_id, false);
+    if (!results) return false;  // it has been deleted
+    ActiveStudy active{.sweep_id = study.sweep_id,
+                       .common = ordered_json::parse(results->sweep.request),
+                       .state = type_->make_state(study, *results)};
+    active.common.erase("cases");
+    for (const ResultRow& job : results->rows) active.change = std::max(active.change, job.change);
+    active_.emplace(study.id, std::move(active));
+    return true;
+  }
+  for (const ResultRow& job : ended) known->second.state->tell(job);
+  if (!ended.empty()) known->second.change = ended.back().change;
+  return !ended.empty();
+}
+
+StudyChanges StudyRunner::add_next_cases(const StudyRow& study) {
+  ActiveStudy& known = active_.at(study.id);
+  const NextCases next = known.state->ask();
+  {
+    const std::lock_guard lock(progress_mutex_);
+    progress_[study.id] = known.state->progress();
+  }
+  if (next.end_state) {
+    store_.set_study_state(study.id, "running", *next.end_state, next.error);
+    return {.any = true};
+  }
+  if (next.cases.empty()) return {.any = true};
+  ordered_json request = known.common;
+  request["cases"] = next.cases;
+  const bool added = store_.add_cases(study.sweep_id, next.cases, plan_sweep(request, kNoLimit).jobs);
+  return {.any = true, .added = added};
+}
+
+double StudyRunner::find_progress(const std::string& id) const {
+  const std::lock_guard lock(progress_mutex_);
+  const auto known = progress_.find(id);
+  return known == progress_.end() ? 0.0 : known->second;
+}
+
+}  // namespace jobs
