@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "jobs/base/content_id.h"
-#include "jobs/base/keys_in_use.h"
+#include "jobs/base/in_flight_keys.h"
 #include "jobs/base/provenance.h"
 #include "jobs/base/time_text.h"
 #include "jobs/cluster/slurm_executor.h"
@@ -52,7 +52,7 @@ class Service::Impl {
  public:
   explicit Impl(ServiceOptions options)
       : options_(with_defaults(std::move(options))),
-        store_(options_.store, options_.store_room) {
+        store_(options_.store, options_.store_quota) {
     if (store_.engine_before() != engine_version()) {
       options_.log("the store's results are of the engine " + store_.engine_before() + ", this program's is " + engine_version() +
                    ": jobs that are asked for again are computed again");
@@ -63,15 +63,15 @@ class Service::Impl {
 
   void start() {
     if (!executors_.empty()) return;
-    executors_.push_back(std::make_unique<LocalPool>(JobSource{.claim = [this](const Taken& taken) { claim(taken); },
+    executors_.push_back(std::make_unique<LocalPool>(JobSource{.claim = [this](const OnClaim& on_claim) { claim(on_claim); },
                                                                .record = [this](const ClaimedJob& job, const RunRecord& run,
-                                                                                const Taken& next) { record(job, run, next); },
-                                                               .give_back = [this](const ClaimedJob& job) { store_.give_back(job); },
+                                                                                const OnClaim& next) { record(job, run, next); },
+                                                               .requeue = [this](const ClaimedJob& job) { store_.requeue(job); },
                                                                .ran = options_.ran},
                                                      options_.runner, options_.threads, options_.log, options_.job_limits));
     if (has_cluster()) {
       executors_.push_back(std::make_unique<cluster::SlurmExecutor>(
-          options_.site, store_, lane_of(kSlurmExecutor), options_.job_limits, [this] { tell_change(); }, options_.log));
+          options_.site, store_, filter_of(kSlurmExecutor), options_.job_limits, [this] { tell_change(); }, options_.log));
     }
     study_thread_ = std::jthread([this] { run_studies(); });
   }
@@ -82,7 +82,7 @@ class Service::Impl {
     return once(key, "POST /v1/sweeps " + sha256_hex(text), [&](const std::string& name, std::string& answer) {
       const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
       if (!plan.executor.empty()) check_executor(plan.executor);
-      const KeptAnswer<SweepRow> kept{.key = key, .request = name, .make_text = [&](const SweepRow& row) {
+      const IdempotencyRecord<SweepRow> kept{.key = key, .fingerprint = name, .make_response = [&](const SweepRow& row) {
                                         return answer = text_of(sweep_resource(row, Detail::kFull));
                                       }};
       const std::string id = store_.add_sweep(plan, text, options_.max_queued_jobs, kept);
@@ -94,8 +94,8 @@ class Service::Impl {
   json submit_job(const json& parameters, const std::string& key) {
     check_open();
     return once(key, "POST /v1/jobs " + sha256_hex(parameters.dump()), [&](const std::string& name, std::string& answer) {
-      const KeptAnswer<JobRow> kept{
-          .key = key, .request = name, .make_text = [&](const JobRow& row) { return answer = text_of(job_json(row, Detail::kFull)); }};
+      const IdempotencyRecord<JobRow> kept{
+          .key = key, .fingerprint = name, .make_response = [&](const JobRow& row) { return answer = text_of(job_json(row, Detail::kFull)); }};
       const std::string id = store_.add_job(plan_job(parameters), options_.max_queued_jobs, kept);
       wake();
       return find_job(id).value();
@@ -164,7 +164,7 @@ class Service::Impl {
     const auto sweep = store_.find_sweep(sweep_id);
     if (!sweep) return std::nullopt;
     const auto others = find_other_columns(query, swept_of(*sweep));
-    const auto results = store_.find_results(sweep_id, need_parameters(others));
+    const auto results = store_.find_results(sweep_id, needed_parameters(others));
     if (!results) return std::nullopt;
     ResultTable table = result_table(*results, others);
     jobs::apply(query, table, kSweepColumns);
@@ -177,7 +177,7 @@ class Service::Impl {
     try {
       return read_trajectory(std::as_bytes(std::span(*blob)), query);
     } catch (const DamagedTrajectory& damage) {
-      throw StorageError("the trajectory of " + job_id + " cannot be read: " + damage.what(), 0, false);
+      throw StorageError("the trajectory of " + job_id + " cannot be read: " + damage.what());
     }
   }
 
@@ -193,7 +193,7 @@ class Service::Impl {
     check_open();
     const char* const route = study == Study::kLimit ? "POST /v1/searches " : "POST /v1/wear-studies ";
     return once(key, route + sha256_hex(request.dump()), [&](const std::string& name, std::string& answer) {
-      json begun = runner(study).submit(request, {.key = key, .request = name, .answer = &answer});
+      json begun = runner(study).submit(request, {.key = key, .fingerprint = name, .response = &answer});
       wake();
       tell_change();  // its first results may be known already
       return begun;
@@ -241,7 +241,7 @@ class Service::Impl {
     return sweep && delete_sweep(*sweep);
   }
 
-  [[nodiscard]] Load find_load() const { return store_.find_load(); }
+  [[nodiscard]] QueueStats read_queue_stats() const { return store_.read_queue_stats(); }
 
   [[nodiscard]] json list_executors() const {
     json items = json::array();
@@ -298,9 +298,9 @@ class Service::Impl {
   json once(const std::string& key, const std::string& name, const Submit& submit) {
     std::string answer;
     if (key.empty()) return submit(name, answer);
-    const KeysInUse::Use use(keys_, key);
-    if (const auto found = store_.find_answer(key)) {
-      if (found->request == name) return json::parse(found->text);
+    const InFlightKeys::Use use(keys_, key);
+    if (const auto found = store_.find_response(key)) {
+      if (found->fingerprint == name) return json::parse(found->text);
       throw InvalidRequest(std::vector<Fault>{{"", "this Idempotency-Key belongs to another request; a new request needs a new key"}});
     }
     submit(name, answer);
@@ -334,8 +334,8 @@ class Service::Impl {
     search_runner_.change_sweep(id, [&] { wear_runner_.change_sweep(id, change); });
   }
 
-  void claim(const Taken& taken) {
-    if (store_.claim(lane_of(kLocalExecutor), taken)) ++activity_;
+  void claim(const OnClaim& on_claim) {
+    if (store_.claim(filter_of(kLocalExecutor), on_claim)) ++activity_;
   }
 
   void check_open() const {
@@ -350,7 +350,7 @@ class Service::Impl {
   [[nodiscard]] StudyLimits study_limits() const {
     return {.max_sweep_jobs = options_.max_sweep_jobs, .max_queued_jobs = options_.max_queued_jobs, .threads = options_.threads};
   }
-  [[nodiscard]] Lane lane_of(std::string_view executor) const { return {.executor = std::string(executor), .default_executor = options_.executor}; }
+  [[nodiscard]] ExecutorFilter filter_of(std::string_view executor) const { return {.executor = std::string(executor), .default_executor = options_.executor}; }
 
   void check_executor(const std::string& name) const {
     if (name == kLocalExecutor || has_cluster()) return;
@@ -382,9 +382,9 @@ class Service::Impl {
   }
 
   /// @param next  takes the next job; empty: nobody does
-  void record(const ClaimedJob& job, const RunRecord& run, const Taken& next) {
+  void record(const ClaimedJob& job, const RunRecord& run, const OnClaim& next) {
     if (next) {
-      static_cast<void>(store_.record_and_claim(job, run, lane_of(kLocalExecutor), next));
+      static_cast<void>(store_.record_and_claim(job, run, filter_of(kLocalExecutor), next));
     } else {
       store_.record(job, run);
     }
@@ -443,7 +443,7 @@ class Service::Impl {
   mutable std::condition_variable changed_;
   std::uint64_t changes_ = 0;  ///< how often a sweep may have ended
   std::atomic<std::uint64_t> activity_ = 0;
-  KeysInUse keys_;
+  InFlightKeys keys_;
   Store store_;
   StudyRunner search_runner_{store_, study_limits(), make_limit_study()};
   StudyRunner wear_runner_{store_, study_limits(), make_wear_study(store_)};
@@ -495,7 +495,7 @@ std::optional<ResultTable> Service::find_study_table(Study study, const std::str
 std::optional<json> Service::cancel_study(Study study, const std::string& id) { return impl_->cancel_study(study, id); }
 std::optional<json> Service::retry_study(Study study, const std::string& id) { return impl_->retry_study(study, id); }
 bool Service::delete_study(Study study, const std::string& id) { return impl_->delete_study(study, id); }
-Load Service::find_load() const { return impl_->find_load(); }
+QueueStats Service::read_queue_stats() const { return impl_->read_queue_stats(); }
 std::optional<json> Service::cancel_sweep(const std::string& id) { return impl_->cancel_sweep(id); }
 std::optional<json> Service::cancel_job(const std::string& id) { return impl_->cancel_job(id); }
 bool Service::delete_sweep(const std::string& id) { return impl_->delete_sweep(id); }

@@ -20,8 +20,8 @@
 #include "jobs/results/result_table.h"
 #include "jobs/runs/job_limits.h"
 #include "jobs/runs/run_record.h"
-#include "jobs/store/load.h"
-#include "jobs/store/store_room.h"
+#include "jobs/store/queue_stats.h"
+#include "jobs/store/store_quota.h"
 #include "jobs/trajectories/trajectory_query.h"
 
 namespace jobs {
@@ -35,7 +35,7 @@ struct ServiceOptions {
   std::size_t max_sweep_jobs = 10'000;
   std::size_t max_queued_jobs = 100'000;
   JobLimits job_limits{};             ///< of each job
-  StoreRoom store_room{};
+  StoreQuota store_quota{};
   Start start = Start::kAtOnce;
   cluster::Site site{};         ///< the cluster; without a folder there is none
   std::string executor = "local";  ///< of sweeps that name none: "local", or "slurm" if there is a cluster
@@ -118,7 +118,7 @@ class Service {
   /// Deletes a study that has ended, with the sweep of its evaluations. False if there is none.
   bool delete_study(Study study, const std::string& id);
 
-  [[nodiscard]] Load find_load() const;
+  [[nodiscard]] QueueStats read_queue_stats() const;
   /// Who computes jobs here: {"items": [status, ...]}, the one first that takes sweeps which name none. See Executor::status().
   [[nodiscard]] nlohmann::json list_executors() const;
 

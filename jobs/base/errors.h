@@ -47,11 +47,13 @@ class QueueFull : public WrongState {
   using WrongState::WrongState;
 };
 
+enum class Disk { kHasRoom, kFull };
+
 /// The store could not be opened, read or written. `full` says that the disk has no room left.
 class StorageError : public std::runtime_error {
  public:
-  StorageError(const std::string& what, int sqlite_extended_code, bool disk_full)
-      : std::runtime_error(what), code(sqlite_extended_code), full(disk_full) {}
+  explicit StorageError(const std::string& what, int sqlite_extended_code = 0, Disk disk = Disk::kHasRoom)
+      : std::runtime_error(what), code(sqlite_extended_code), full(disk == Disk::kFull) {}
 
   int code;
   bool full;
@@ -60,7 +62,7 @@ class StorageError : public std::runtime_error {
 /// The store holds as much as it may, although the disk may have room. The text is for the user.
 class StoreLimitReached : public StorageError {
  public:
-  explicit StoreLimitReached(const std::string& what) : StorageError(what, 0, true) {}
+  explicit StoreLimitReached(const std::string& what) : StorageError(what, 0, Disk::kFull) {}
 };
 
 }  // namespace jobs

@@ -12,11 +12,11 @@ std::vector<std::string> Batch::array_names() const {
   return names;
 }
 
-void Batch::prepare(const BatchHeader& header, const std::vector<PlacedJob>& jobs) const {
+void Batch::prepare(const BatchHeader& header, const std::vector<BatchJob>& jobs) const {
   std::filesystem::create_directories(folder_.out());
   std::filesystem::create_directories(folder_.path / "log");
   BatchJobs texts;
-  for (const PlacedJob& job : jobs) texts.emplace(job.place, job.parameters);
+  for (const BatchJob& job : jobs) texts.emplace(job.batch_index, job.parameters);
   write_durably(folder_.jobs(), encode_jobs(header, texts));
 }
 
@@ -42,39 +42,41 @@ void Batch::put(int generation, const std::vector<TaskPlan>& tasks) {
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const TaskName name{.generation = generation, .index = static_cast<int>(i)};
     tasks_[name] = {.plan = tasks[i], .wanted = {}, .refused = false};
-    for (const Place place : tasks[i].places) owner_[place] = name;
+    for (const BatchIndex batch_index : tasks[i].indices) owner_[batch_index] = name;
   }
 }
 
-void Batch::set_refused(int generation, bool refused) {
+void Batch::set_refused(int generation) {
   for (auto& [name, task] : tasks_) {
-    if (name.generation == generation) task.refused = refused;
+    if (name.generation == generation) task.refused = true;
   }
 }
 
 void Batch::clear_refused(const std::map<TaskName, TaskReport>& reports) {
   std::set<int> known;
   for (const auto& [name, report] : reports) known.insert(name.generation);
-  for (const int generation : known) set_refused(generation, false);
+  for (auto& [name, task] : tasks_) {
+    if (known.contains(name.generation)) task.refused = false;
+  }
   if (known.contains(generations_ - 1)) refusals = 0;
 }
 
-void Batch::set_wanted(const std::vector<Place>& wanted) {
+void Batch::set_wanted(const std::vector<BatchIndex>& wanted) {
   wanted_ = {wanted.begin(), wanted.end()};
   share_out();
 }
 
 void Batch::share_out() {
   for (auto& [name, task] : tasks_) task.wanted.clear();
-  for (const Place place : wanted_) {
-    if (const auto owner = owner_.find(place); owner != owner_.end()) tasks_.at(owner->second).wanted.push_back(place);
+  for (const BatchIndex batch_index : wanted_) {
+    if (const auto owner = owner_.find(batch_index); owner != owner_.end()) tasks_.at(owner->second).wanted.push_back(batch_index);
   }
 }
 
-std::vector<Place> Batch::unassigned() const {
-  std::vector<Place> places;
-  std::ranges::copy_if(wanted_, std::back_inserter(places), [&](Place place) { return !owner_.contains(place); });
-  return places;
+std::vector<BatchIndex> Batch::unassigned() const {
+  std::vector<BatchIndex> indices;
+  std::ranges::copy_if(wanted_, std::back_inserter(indices), [&](BatchIndex batch_index) { return !owner_.contains(batch_index); });
+  return indices;
 }
 
 std::vector<std::filesystem::path> Batch::find_new_results() const {
@@ -99,7 +101,7 @@ std::map<TaskName, TaskReport> Batch::reports_of(const Reports& all) const {
   return reports;
 }
 
-void Batch::take_running(const std::set<Place>& running, std::vector<Place>& begun, std::vector<Place>& waiting) {
+void Batch::take_running(const std::set<BatchIndex>& running, std::vector<BatchIndex>& begun, std::vector<BatchIndex>& waiting) {
   std::ranges::set_difference(running, running_, std::back_inserter(begun));
   std::ranges::set_difference(running_, running, std::back_inserter(waiting));
   running_ = running;

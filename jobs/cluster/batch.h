@@ -30,21 +30,21 @@ class Batch {
 
   /// Whether the folder has what its tasks read.
   [[nodiscard]] bool is_prepared() const { return std::filesystem::exists(folder_.jobs()); }
-  void prepare(const BatchHeader& header, const std::vector<PlacedJob>& jobs) const;
+  void prepare(const BatchHeader& header, const std::vector<BatchJob>& jobs) const;
   /// Reads the lists that were written so far.
   void read_lists();
   /// Writes the list of a new generation and its script. Returns its number.
   int add_generation(const std::vector<TaskPlan>& tasks, const std::string& script);
-  /// What sbatch said of a generation.
-  void set_refused(int generation, bool refused);
-  /// What Slurm knows it has taken, whatever sbatch said.
+  /// Marks the tasks of a generation as refused by sbatch.
+  void set_refused(int generation);
+  /// Clears the mark of generations that Slurm knows, whatever sbatch said.
   void clear_refused(const std::map<TaskName, TaskReport>& reports);
 
-  /// Takes over which places have no result yet.
-  void set_wanted(const std::vector<Place>& wanted);
-  [[nodiscard]] const std::set<Place>& wanted() const { return wanted_; }
-  /// Wanted places that no list has.
-  [[nodiscard]] std::vector<Place> unassigned() const;
+  /// Takes over the indices that have no result yet.
+  void set_wanted(const std::vector<BatchIndex>& wanted);
+  [[nodiscard]] const std::set<BatchIndex>& wanted() const { return wanted_; }
+  /// Wanted indices that no list has.
+  [[nodiscard]] std::vector<BatchIndex> unassigned() const;
 
   /// Names of files in out/ that have not been looked at.
   [[nodiscard]] std::vector<std::filesystem::path> find_new_results() const;
@@ -55,10 +55,10 @@ class Batch {
   [[nodiscard]] Decision decide(const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
     return reconciler_.decide(tasks_, reports, now);
   }
-  /// Which places have begun to run since the last time, and which wait again.
-  void take_running(const std::set<Place>& running, std::vector<Place>& begun, std::vector<Place>& waiting);
+  /// Which indices have begun to run since the last time, and which wait again.
+  void take_running(const std::set<BatchIndex>& running, std::vector<BatchIndex>& begun, std::vector<BatchIndex>& waiting);
 
-  /// Tasks that have places left.
+  /// Tasks that have indices left.
   [[nodiscard]] int open_tasks() const;
 
   Clock::time_point not_before{};  ///< when what Slurm has refused may be tried again
@@ -73,9 +73,9 @@ class Batch {
   Reconciler reconciler_;
   TaskStates tasks_;
   int generations_ = 0;
-  std::set<Place> wanted_;
-  std::map<Place, TaskName> owner_;  ///< the last task that has a place
-  std::set<Place> running_;
+  std::set<BatchIndex> wanted_;
+  std::map<BatchIndex, TaskName> owner_;  ///< the last task that has the job
+  std::set<BatchIndex> running_;
   std::set<std::string> seen_;
 };
 

@@ -20,7 +20,7 @@ constexpr std::uint32_t kLargestHeader = 64U << 20U;
 
 /// Where a job's parameters lie behind the table.
 struct JobEntry {
-  Place place = 0;
+  BatchIndex batch_index = 0;
   std::uint64_t offset = 0;
   std::uint32_t size = 0;
 };
@@ -41,7 +41,7 @@ std::vector<JobEntry> read_header(std::string_view bytes, BatchHeader& header) {
   header.deliver_every_s = reader.number<double>();
   std::vector<JobEntry> entries(reader.number<std::uint32_t>());
   for (JobEntry& entry : entries) {
-    entry.place = reader.number<Place>();
+    entry.batch_index = reader.number<BatchIndex>();
     entry.offset = reader.number<std::uint64_t>();
     entry.size = reader.number<std::uint32_t>();
   }
@@ -109,8 +109,8 @@ ResultFile decode_payload(std::string_view bytes) {
   file.provenance = read_provenance(reader);
   const auto count = reader.number<std::uint32_t>();
   for (std::uint32_t i = 0; i < count; ++i) {
-    PlacedResult result;
-    result.place = reader.number<Place>();
+    BatchResult result;
+    result.batch_index = reader.number<BatchIndex>();
     result.record = decode_record(read_block(reader));
     result.record.metrics = nlohmann::json::parse(read_block(reader));
     result.packed_trajectory = read_block(reader);
@@ -131,8 +131,8 @@ std::string encode_jobs(const BatchHeader& header, const BatchJobs& jobs) {
   writer.number(header.deliver_every_s);
   writer.number(static_cast<std::uint32_t>(jobs.size()));
   std::string texts;
-  for (const auto& [place, parameters] : jobs) {
-    writer.number(place);
+  for (const auto& [batch_index, parameters] : jobs) {
+    writer.number(batch_index);
     writer.number(static_cast<std::uint64_t>(texts.size()));
     writer.number(static_cast<std::uint32_t>(parameters.size()));
     texts += parameters + sha256_hex(parameters);
@@ -143,7 +143,7 @@ std::string encode_jobs(const BatchHeader& header, const BatchJobs& jobs) {
   return size.bytes() + head + texts;
 }
 
-BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<Place>& wanted, BatchHeader& header) {
+BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIndex>& wanted, BatchHeader& header) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read " + file.string());
   std::uint32_t size = 0;
@@ -151,22 +151,22 @@ BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<Place>&
     throw FileError(file.string() + " is cut off or no file of jobs");
   }
   const std::string head = read_bytes(in, size, file);
-  std::map<Place, JobEntry> entries;
+  std::map<BatchIndex, JobEntry> entries;
   try {
-    for (const JobEntry& entry : read_header(unseal(kJobsMagic, head), header)) entries.emplace(entry.place, entry);
+    for (const JobEntry& entry : read_header(unseal(kJobsMagic, head), header)) entries.emplace(entry.batch_index, entry);
   } catch (const DamagedTrajectory& error) {
     throw FileError(file.string() + " is damaged: " + error.what());
   }
   BatchJobs jobs;
-  for (const Place place : wanted) {
-    const auto found = entries.find(place);
-    if (found == entries.end()) throw FileError(file.string() + " has no job " + std::to_string(place));
+  for (const BatchIndex batch_index : wanted) {
+    const auto found = entries.find(batch_index);
+    if (found == entries.end()) throw FileError(file.string() + " has no job " + std::to_string(batch_index));
     in.seekg(static_cast<std::streamoff>(sizeof size + size + found->second.offset));
     std::string text = read_bytes(in, found->second.size + kSha256Digits, file);
     const std::string digest = text.substr(found->second.size);
     text.resize(found->second.size);
-    if (sha256_hex(text) != digest) throw FileError(file.string() + " is damaged at job " + std::to_string(place));
-    jobs.emplace(place, std::move(text));
+    if (sha256_hex(text) != digest) throw FileError(file.string() + " is damaged at job " + std::to_string(batch_index));
+    jobs.emplace(batch_index, std::move(text));
   }
   return jobs;
 }
@@ -177,10 +177,10 @@ std::string encode_results(const ResultFile& file) {
   write_provenance(head, file.provenance);
   head.number(static_cast<std::uint32_t>(file.results.size()));
   std::string payload = head.bytes();
-  for (const PlacedResult& result : file.results) {
-    ByteWriter place;
-    place.number(result.place);
-    payload += place.bytes();
+  for (const BatchResult& result : file.results) {
+    ByteWriter batch_index;
+    batch_index.number(result.batch_index);
+    payload += batch_index.bytes();
     write_block(payload, encode_record(result.record));
     write_block(payload, result.record.metrics.dump());
     write_block(payload, result.packed_trajectory);

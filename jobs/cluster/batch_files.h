@@ -43,17 +43,17 @@ struct BatchHeader {
   double deliver_every_s = 60.0;  ///< how often a task leaves what it has done so far
 };
 
-/// The parameters of jobs, by place.
-using BatchJobs = std::map<Place, std::string>;
+/// The parameters of jobs, by index.
+using BatchJobs = std::map<BatchIndex, std::string>;
 
 [[nodiscard]] std::string encode_jobs(const BatchHeader& header, const BatchJobs& jobs);
 /// Reads the header and those jobs that are wanted, not the others.
 /// @throws FileError if a wanted one is not there or damaged
-[[nodiscard]] BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<Place>& wanted, BatchHeader& header);
+[[nodiscard]] BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIndex>& wanted, BatchHeader& header);
 
 /// A job's result as a task leaves it.
-struct PlacedResult {
-  Place place = 0;
+struct BatchResult {
+  BatchIndex batch_index = 0;
   RunRecord record;              ///< without its trajectory
   std::string packed_trajectory; ///< by encode_trajectory; empty: none
 };
@@ -61,7 +61,7 @@ struct PlacedResult {
 struct ResultFile {
   std::string batch;
   Provenance provenance;
-  std::vector<PlacedResult> results;
+  std::vector<BatchResult> results;
 };
 
 [[nodiscard]] std::string encode_results(const ResultFile& file);

@@ -76,8 +76,8 @@ class Check {
       const auto job = nlohmann::json::parse(kJob);
       const std::string parameters = complete_parameters(job, "").dump();
       batch_.prepare({.batch = batch_.row().id, .engine = engine_version(), .limits = {}, .deliver_every_s = 60.0},
-                     {{.place = 0, .parameters = parameters, .kind = {}, .duration_s = 0.3}});
-      batch_.add_generation({{.places = {0}}}, make_script(site_, program_, "run-task " + shell_quoted(batch_.folder().path.string()) + " 0"));
+                     {{.batch_index = 0, .parameters = parameters, .kind = {}, .duration_s = 0.3}});
+      batch_.add_generation({{.indices = {0}}}, make_script(site_, program_, "run-task " + shell_quoted(batch_.folder().path.string()) + " 0"));
     } catch (const std::exception& error) {
       return fault(error.what(), "--slurm-folder must be a folder in which this user may write, with some 50 MB of room.");
     }
@@ -161,7 +161,7 @@ class Check {
     const JobSpec job = to_job_spec(complete_parameters(nlohmann::json::parse(kJob), ""));
     const RunRecord own = run_and_record(job, engine_runner(), [](double) { return false; });
     const std::string here = provenance_text(own_provenance()), there = provenance_text(file.provenance);
-    const PlacedResult& result = file.results.at(0);
+    const BatchResult& result = file.results.at(0);
     if (result.record.metrics == own.metrics && result.packed_trajectory == encode_trajectory(own.trajectory)) {
       good("it is the result of this machine to the bit (" + there + ")");
     } else {

@@ -19,8 +19,8 @@ struct TaskBounds {
 
 /// Puts jobs into tasks, each a run of jobs that follow one another: about three tasks a slot, so that the last ones end together, but none
 /// shorter than is worth its start or longer than task_s, if that many tasks are allowed.
-/// @param costs_s  of the jobs by place, on one thread
-[[nodiscard]] std::vector<TaskPlan> plan_tasks(const std::vector<Place>& places, const std::vector<double>& costs_s, const TaskBounds& bounds);
+/// @param costs_s  of the jobs by index, on one thread
+[[nodiscard]] std::vector<TaskPlan> plan_tasks(const std::vector<BatchIndex>& indices, const std::vector<double>& costs_s, const TaskBounds& bounds);
 
 /// How many jobs to take at once when nothing is known of what they cost: some for every slot, but not more than are needed to know.
 [[nodiscard]] inline int probe_size(const TaskBounds& bounds) { return std::min(2 * bounds.slots * bounds.threads, 100); }

@@ -27,16 +27,16 @@ std::string how_it_ended(const TaskReport* report) {
 }
 
 void fail_all(const TaskPlan& plan, const TaskName& name, const char* reason, const std::string& detail, Decision& decision) {
-  for (const Place place : plan.places) decision.fail.push_back({.place = place, .reason = reason, .detail = detail, .task = name});
+  for (const BatchIndex batch_index : plan.indices) decision.fail.push_back({.batch_index = batch_index, .reason = reason, .detail = detail, .task = name});
 }
 
 /// The jobs of a task in so many parts of nearly equal size, each as a task of its own.
 void submit_in_parts(const TaskPlan& plan, std::size_t parts, Decision& decision) {
-  const std::size_t n = plan.places.size();
+  const std::size_t n = plan.indices.size();
   for (std::size_t k = 0; k < parts; ++k) {
     TaskPlan part = plan;
-    const auto at = [&](std::size_t part_index) { return plan.places.begin() + static_cast<std::ptrdiff_t>(n * part_index / parts); };
-    part.places.assign(at(k), at(k + 1));
+    const auto at = [&](std::size_t part_index) { return plan.indices.begin() + static_cast<std::ptrdiff_t>(n * part_index / parts); };
+    part.indices.assign(at(k), at(k + 1));
     decision.submit.push_back(std::move(part));
   }
 }
@@ -44,12 +44,12 @@ void submit_in_parts(const TaskPlan& plan, std::size_t parts, Decision& decision
 void replace_failed(TaskPlan plan, const TaskName& name, const TaskReport* report, Decision& decision) {
   ++plan.strikes;
   if (plan.strikes < 2) return decision.submit.push_back(std::move(plan));
-  if (plan.places.size() > 1) return submit_in_parts(plan, std::min(plan.places.size(), kMostParts), decision);
+  if (plan.indices.size() > 1) return submit_in_parts(plan, std::min(plan.indices.size(), kMostParts), decision);
   fail_all(plan, name, "task_failed", "no task could compute this job: " + how_it_ended(report), decision);
 }
 
 void replace_slow(TaskPlan plan, Decision& decision) {
-  if (plan.places.size() > 1) return submit_in_parts(plan, 2, decision);
+  if (plan.indices.size() > 1) return submit_in_parts(plan, 2, decision);
   plan.time_factor *= 2;
   decision.submit.push_back(std::move(plan));
 }
@@ -63,13 +63,13 @@ void replace_large(TaskPlan plan, const TaskName& name, const TaskReport* report
 /// Gives the jobs of a lost task to new ones.
 void replace(const TaskName& name, const TaskState& task, const TaskReport* report, Decision& decision) {
   TaskPlan plan = task.plan;
-  plan.places = task.wanted;
+  plan.indices = task.wanted;
   const Loss loss = loss_of(task, report);
   if (loss == Loss::kRefused) {
     decision.refused = true;
     return decision.submit.push_back(std::move(plan));
   }
-  const bool got_on = task.wanted.size() < task.plan.places.size();
+  const bool got_on = task.wanted.size() < task.plan.indices.size();
   plan.tries = got_on ? 1 : plan.tries + 1;
   if (plan.tries >= kMostTries && loss != Loss::kOwnFault) {
     return fail_all(plan, name, "task_lost", "its tasks were lost " + std::to_string(plan.tries) + " times; " + how_it_ended(report), decision);

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 /// A task of a batch as the lists say it, and what is known of its generation.
 struct TaskState {
   TaskPlan plan;                ///< as it was written
-  std::vector<Place> wanted;    ///< of its places those that have no result yet, and that no later task has taken over
+  std::vector<BatchIndex> wanted;    ///< of its indices those that have no result yet, and that no later task has taken over
   bool refused = false;         ///< sbatch said that it did not take this generation
 };
 
@@ -25,7 +25,7 @@ using TaskStates = std::map<TaskName, TaskState>;
 
 /// A job that no task could compute.
 struct LostJob {
-  Place place = 0;
+  BatchIndex batch_index = 0;
   std::string reason;  ///< "task_failed": its own task failed again and again; "task_lost": Slurm lost its tasks again and again
   std::string detail;
   TaskName task;       ///< the last one, whose log may say more
@@ -36,7 +36,7 @@ struct Decision {
   std::vector<TaskPlan> submit;   ///< as the next generation
   std::vector<TaskName> cancel;   ///< what Slurm has of them is not wanted
   std::vector<LostJob> fail;
-  std::set<Place> running;        ///< jobs whose tasks run; others wait
+  std::set<BatchIndex> running;        ///< jobs whose tasks run; others wait
   bool refused = false;           ///< what is to be submitted has been refused before: not at once
 };
 

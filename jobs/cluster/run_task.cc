@@ -24,12 +24,12 @@ using std::chrono::milliseconds;
 std::string file_prefix(const TaskOrder& order) { return "g" + std::to_string(order.generation) + "-" + std::to_string(order.index) + "-"; }
 
 /// What an earlier run of the same task has left: Slurm starts a task again whose node has failed.
-std::set<Place> find_done(const TaskOrder& order, const std::filesystem::path& out, const std::function<void(const std::string&)>& log) {
-  std::set<Place> done;
+std::set<BatchIndex> find_done(const TaskOrder& order, const std::filesystem::path& out, const std::function<void(const std::string&)>& log) {
+  std::set<BatchIndex> done;
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     if (!entry.path().filename().string().starts_with(file_prefix(order))) continue;
     try {
-      for (const PlacedResult& result : decode_results(read_whole(entry.path())).results) done.insert(result.place);
+      for (const BatchResult& result : decode_results(read_whole(entry.path())).results) done.insert(result.batch_index);
     } catch (const FileError& error) {
       log(entry.path().string() + ": " + error.what());
     }
@@ -50,8 +50,8 @@ class Delivery {
  public:
   Delivery(const TaskOrder& order, BatchFolder folder, std::string batch) : order_(order), folder_(std::move(folder)), batch_(std::move(batch)) {}
 
-  void add(Place place, RunRecord record) {
-    PlacedResult result{.place = place, .record = std::move(record), .packed_trajectory = {}};
+  void add(BatchIndex batch_index, RunRecord record) {
+    BatchResult result{.batch_index = batch_index, .record = std::move(record), .packed_trajectory = {}};
     if (!result.record.trajectory.columns.empty()) result.packed_trajectory = encode_trajectory(result.record.trajectory);
     result.record.trajectory = {};
     const std::lock_guard lock(mutex_);
@@ -102,7 +102,7 @@ class Delivery {
 
   std::mutex mutex_;  // guards the rest
   std::condition_variable changed_;
-  std::vector<PlacedResult> ready_;
+  std::vector<BatchResult> ready_;
   std::size_t ready_bytes_ = 0;
   std::size_t total_ = 0;
 };
@@ -112,11 +112,11 @@ class Remaining {
  public:
   explicit Remaining(BatchJobs jobs) : jobs_(std::move(jobs)) {}
 
-  void claim(const Taken& taken) {
+  void claim(const OnClaim& on_claim) {
     const std::lock_guard lock(mutex_);
     if (jobs_.empty()) return;
-    const auto& [place, parameters] = *jobs_.begin();
-    taken(ClaimedJob{.seq = place, .id = std::to_string(place), .attempt = 1, .parameters = parameters});
+    const auto& [batch_index, parameters] = *jobs_.begin();
+    on_claim(ClaimedJob{.seq = batch_index, .id = std::to_string(batch_index), .attempt = 1, .parameters = parameters});
     jobs_.erase(jobs_.begin());
   }
 
@@ -145,16 +145,16 @@ void deliver_at_the_end(Delivery& delivery, const std::function<void(const std::
 bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requested, const std::function<void(const std::string&)>& log) {
   const BatchFolder folder{order.folder};
   TaskPlan plan = read_plan(order, folder);
-  const std::set<Place> done = find_done(order, folder.out(), log);
-  std::erase_if(plan.places, [&](Place place) { return done.contains(place); });
-  if (plan.places.empty()) return true;
+  const std::set<BatchIndex> done = find_done(order, folder.out(), log);
+  std::erase_if(plan.indices, [&](BatchIndex batch_index) { return done.contains(batch_index); });
+  if (plan.indices.empty()) return true;
   BatchHeader header;
-  Remaining remaining(read_jobs(folder.jobs(), plan.places, header));
+  Remaining remaining(read_jobs(folder.jobs(), plan.indices, header));
   if (header.engine != engine_version()) throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
   Delivery delivery(order, folder, header.batch);
-  LocalPool pool({.claim = [&](const Taken& taken) { remaining.claim(taken); },
-                  .record = [&](const ClaimedJob& job, const RunRecord& record, const Taken&) { delivery.add(static_cast<Place>(job.seq), record); },
-                  .give_back = [](const ClaimedJob&) {}},
+  LocalPool pool({.claim = [&](const OnClaim& on_claim) { remaining.claim(on_claim); },
+                  .record = [&](const ClaimedJob& job, const RunRecord& record, const OnClaim&) { delivery.add(static_cast<BatchIndex>(job.seq), record); },
+                  .requeue = [](const ClaimedJob&) {}},
                  order.runner, order.threads, log, header.limits);
   const auto interval = std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(header.deliver_every_s));
   auto next = SteadyClock::now() + interval;
@@ -162,7 +162,7 @@ bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requeste
   bool complete = false;
   bool stopped = false;
   while (!complete && !stopped) {
-    complete = delivery.await(plan.places.size(), milliseconds(100));
+    complete = delivery.await(plan.indices.size(), milliseconds(100));
     stopped = stop_requested();
     const auto now = SteadyClock::now();
     if (now >= next_look) {
@@ -179,7 +179,7 @@ bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requeste
   }
   pool.stop();
   deliver_at_the_end(delivery, log);
-  return delivery.await(plan.places.size(), milliseconds(0));
+  return delivery.await(plan.indices.size(), milliseconds(0));
 }
 
 }  // namespace jobs::cluster

@@ -23,7 +23,7 @@ constexpr milliseconds kLongestPause{60'000};
 constexpr std::chrono::seconds kFirstRefusalPause{30};
 constexpr int kMostDoublings = 5;
 
-double cost_of(const PlacedJob& job, const std::map<std::string, double>& rates, double unknown_s) {
+double cost_of(const BatchJob& job, const std::map<std::string, double>& rates, double unknown_s) {
   const auto rate = rates.find(job.kind);
   return rate == rates.end() ? unknown_s : rate->second * job.duration_s;
 }
@@ -38,9 +38,9 @@ double delivery_interval_s(int running) { return std::max(30.0, running / 20.0);
 
 }  // namespace
 
-SlurmExecutor::SlurmExecutor(Site site, Store& store, Lane lane, const JobLimits& limits, std::function<void()> changed,
+SlurmExecutor::SlurmExecutor(Site site, Store& store, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
                              std::function<void(const std::string&)> log)
-    : site_(std::move(site)), store_(store), lane_(std::move(lane)), limits_(limits), changed_(std::move(changed)), log_(std::move(log)),
+    : site_(std::move(site)), store_(store), filter_(std::move(filter)), limits_(limits), changed_(std::move(changed)), log_(std::move(log)),
       slurm_(site_, stop_.get_token()) {
   thread_ = std::jthread([this] { work(); });
 }
@@ -124,11 +124,11 @@ SlurmExecutor::Live& SlurmExecutor::add_batch(const BatchRow& row) {
   Live& live = *live_.back();
   live.batch.read_lists();
   const auto rates = store_.find_cost_rates();
-  std::vector<Place> wanted;
-  for (const PlacedJob& job : store_.find_placed(row.seq)) {
-    wanted.push_back(job.place);
+  std::vector<BatchIndex> wanted;
+  for (const BatchJob& job : store_.find_open_jobs(row.seq)) {
+    wanted.push_back(job.batch_index);
     // Of a kind that is not known: as long as a task should be at least, so that each job is one.
-    live.costs_s[job.place] = cost_of(job, rates, site_.least_task_s * site_.threads);
+    live.costs_s[job.batch_index] = cost_of(job, rates, site_.least_task_s * site_.threads);
   }
   live.batch.set_wanted(wanted);
   return live;
@@ -138,7 +138,7 @@ void SlurmExecutor::prepare(const Live& live) const {
   if (live.batch.is_prepared()) return;
   const BatchRow& row = live.batch.row();
   const double interval_s = delivery_interval_s(site_.slots);
-  live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_, .deliver_every_s = interval_s}, store_.find_placed(row.seq));
+  live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_, .deliver_every_s = interval_s}, store_.find_open_jobs(row.seq));
 }
 
 void SlurmExecutor::take_results() {
@@ -153,7 +153,7 @@ bool SlurmExecutor::take_results_of(Live& live) {
     any = take_file(live, file) || any;
     live.batch.set_seen(file);
   }
-  if (any) live.batch.set_wanted(store_.find_wanted(live.batch.row().seq));
+  if (any) live.batch.set_wanted(store_.find_open_indices(live.batch.row().seq));
   return any;
 }
 
@@ -161,11 +161,11 @@ bool SlurmExecutor::take_file(Live& live, const std::filesystem::path& file) {
   try {
     const ResultFile results = decode_results(read_whole(file));
     if (results.batch != live.batch.row().id) throw FileError("it is of another batch, " + results.batch);
-    std::vector<PlacedRecord> records;
-    for (const PlacedResult& result : results.results) {
-      records.push_back({.place = result.place, .record = &result.record, .packed_trajectory = &result.packed_trajectory});
+    std::vector<BatchRecord> records;
+    for (const BatchResult& result : results.results) {
+      records.push_back({.batch_index = result.batch_index, .record = &result.record, .packed_trajectory = &result.packed_trajectory});
     }
-    return store_.record_placed(live.batch.row().seq, results.provenance, records) > 0;
+    return store_.record_batch(live.batch.row().seq, results.provenance, records) > 0;
   } catch (const FileError& error) {
     log_("results are left out, and are computed again: " + file.string() + ": " + error.what());
     return false;
@@ -181,7 +181,7 @@ void SlurmExecutor::refresh_wanted() {
   }
   for (const auto& live : live_) {
     const bool had_some = !live->batch.wanted().empty();
-    live->batch.set_wanted(store_.find_wanted(live->batch.row().seq));
+    live->batch.set_wanted(store_.find_open_indices(live->batch.row().seq));
     if (had_some && live->batch.wanted().empty()) next_look_ = {};
   }
 }
@@ -204,9 +204,9 @@ void SlurmExecutor::look(Clock::time_point now) {
 }
 
 void SlurmExecutor::act(Live& live, const Decision& decision, const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
-  std::vector<Place> begun, waiting;
+  std::vector<BatchIndex> begun, waiting;
   live.batch.take_running(decision.running, begun, waiting);
-  if (!begun.empty() || !waiting.empty()) store_.mark_placed(live.batch.row().seq, begun, waiting);
+  if (!begun.empty() || !waiting.empty()) store_.set_running(live.batch.row().seq, begun, waiting);
   if (live.batch.wanted().empty()) std::ofstream(live.batch.folder().cancel()).flush();
   cancel(live, decision.cancel, reports);
   fail(live, decision.fail);
@@ -218,11 +218,11 @@ void SlurmExecutor::act(Live& live, const Decision& decision, const std::map<Tas
 }
 
 std::vector<TaskPlan> SlurmExecutor::plan_unassigned(const Live& live, const TaskBounds& bound) {
-  const auto places = live.batch.unassigned();
-  if (places.empty()) return {};
+  const auto indices = live.batch.unassigned();
+  if (indices.empty()) return {};
   std::vector<double> costs_s;
-  for (const Place place : places) costs_s.push_back(live.costs_s.at(place));
-  return plan_tasks(places, costs_s, bound);
+  for (const BatchIndex batch_index : indices) costs_s.push_back(live.costs_s.at(batch_index));
+  return plan_tasks(indices, costs_s, bound);
 }
 
 void SlurmExecutor::cancel(Live& live, const std::vector<TaskName>& tasks, const std::map<TaskName, TaskReport>& reports) {
@@ -238,17 +238,17 @@ void SlurmExecutor::cancel(Live& live, const std::vector<TaskName>& tasks, const
 void SlurmExecutor::fail(Live& live, const std::vector<LostJob>& jobs) {
   if (jobs.empty()) return;
   std::vector<RunRecord> records(jobs.size());
-  std::vector<PlacedRecord> placed;
+  std::vector<BatchRecord> placed;
   const std::string no_trajectory;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const std::string tail = tail_of(live.batch.folder().log(jobs[i].task.generation, jobs[i].task.index), kLogTail);
     records[i].end = RunRecord::End::kFailed;
     records[i].error_reason = jobs[i].reason;
     records[i].error_detail = as_utf8(jobs[i].detail + (tail.empty() ? "; its log is empty" : "; the end of its log: " + tail));
-    placed.push_back({.place = jobs[i].place, .record = &records[i], .packed_trajectory = &no_trajectory});
+    placed.push_back({.batch_index = jobs[i].batch_index, .record = &records[i], .packed_trajectory = &no_trajectory});
   }
-  store_.record_placed(live.batch.row().seq, own_provenance(), placed);
-  live.batch.set_wanted(store_.find_wanted(live.batch.row().seq));
+  store_.record_batch(live.batch.row().seq, own_provenance(), placed);
+  live.batch.set_wanted(store_.find_open_indices(live.batch.row().seq));
   changed_();
 }
 
@@ -274,11 +274,11 @@ void SlurmExecutor::submit_generation(Live& live, const std::vector<TaskPlan>& t
                                            .script = folder.script(generation),
                                            .log = (folder.path / "log" / ("g" + std::to_string(generation) + "-%a.log")).string()});
   tell_problem("sbatch", answer.problem);
-  live.batch.set_refused(generation, !answer.array_job);
   if (answer.array_job) {
     live.batch.refusals = 0;
     return;
   }
+  live.batch.set_refused(generation);
   const int doublings = std::min(live.batch.refusals++, kMostDoublings);
   live.batch.not_before = now + kFirstRefusalPause * (1 << doublings);
 }
@@ -287,7 +287,7 @@ double SlurmExecutor::time_limit_s(const Live& live, const std::vector<TaskPlan>
   double longest_s = 0.0;
   for (const TaskPlan& task : tasks) {
     double cost_s = 0.0;
-    for (const Place place : task.places) cost_s += live.costs_s.at(place);
+    for (const BatchIndex batch_index : task.indices) cost_s += live.costs_s.at(batch_index);
     longest_s = std::max(longest_s, task.time_factor * (2.0 * cost_s / site_.threads + kSpareTime_s));
   }
   return longest_s;
@@ -314,11 +314,11 @@ bool SlurmExecutor::take_batch(int room, Clock::time_point now) {
     const double wished = room * std::max(site_.task_s, site_.least_task_s) * site_.threads / *job_cost_s_;
     most_jobs = static_cast<std::size_t>(std::clamp(wished, 1.0, kMostJobs));
   }
-  const auto batch = store_.claim_batch(lane_, most_jobs);
+  const auto batch = store_.claim_batch(filter_, most_jobs);
   if (!batch) return false;
   Live& live = add_batch(*batch);
   double total_s = 0.0;
-  for (const auto& [place, cost_s] : live.costs_s) total_s += cost_s;
+  for (const auto& [batch_index, cost_s] : live.costs_s) total_s += cost_s;
   job_cost_s_ = std::max(1e-6, total_s / static_cast<double>(live.costs_s.size()));
   submit(live, plan_unassigned(live, bound), now);
   return true;

@@ -30,7 +30,7 @@ class SlurmExecutor : public Executor {
  public:
   /// @param changed  told when jobs have ended
   /// @param log      told what needs a human's eye; both must not throw
-  SlurmExecutor(Site site, Store& store, Lane lane, const JobLimits& limits, std::function<void()> changed,
+  SlurmExecutor(Site site, Store& store, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
                 std::function<void(const std::string&)> log);
   ~SlurmExecutor() override;  ///< stop()
 
@@ -43,7 +43,7 @@ class SlurmExecutor : public Executor {
   /// A batch, and what its jobs are expected to cost on one thread, [s].
   struct Live {
     Batch batch;
-    std::map<Place, double> costs_s;
+    std::map<BatchIndex, double> costs_s;
   };
 
   void work();
@@ -73,7 +73,7 @@ class SlurmExecutor : public Executor {
 
   const Site site_;
   Store& store_;
-  const Lane lane_;
+  const ExecutorFilter filter_;
   const JobLimits limits_;
   const std::function<void()> changed_;
   const std::function<void(const std::string&)> log_;

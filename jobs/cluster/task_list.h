@@ -9,11 +9,11 @@
 namespace jobs::cluster {
 
 /// Where a job stands in its batch, from 0.
-using Place = std::uint32_t;
+using BatchIndex = std::uint32_t;
 
 /// What one task is to compute, and what has become of the tasks that were to do it before.
 struct TaskPlan {
-  std::vector<Place> places;  ///< ascending
+  std::vector<BatchIndex> indices;  ///< ascending
   int tries = 0;              ///< how often these jobs were lost
   int strikes = 0;            ///< how often it was the task itself that failed
   int memory_factor = 1;      ///< of what the site gives a task

@@ -166,10 +166,10 @@ std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job, const s
     with_next = with_next && !stop.stop_requested();
     try {
       if (!record || (record->end == RunRecord::End::kStopped && stop.stop_requested())) {
-        source_.give_back(job);
+        source_.requeue(job);
         return std::nullopt;
       }
-      return take([&](const Taken& taken) { source_.record(job, *record, with_next ? taken : Taken{}); });
+      return take([&](const OnClaim& on_claim) { source_.record(job, *record, with_next ? on_claim : OnClaim{}); });
     } catch (const std::exception& error) {  // the store's errors, or no memory
       tell("the result could not be stored yet", job.id, error);
     }

@@ -23,10 +23,10 @@ namespace jobs {
 /// Where an executor gets its jobs and leaves what became of them. Members may be called from any thread and throw StorageError.
 struct JobSource {
   /// Hands over a job, if there is one, before anybody else can know that it is running. If taking it throws, or this does afterwards, it is not.
-  std::function<void(const Taken&)> claim;
+  std::function<void(const OnClaim&)> claim;
   /// May claim the next job at once, if there is somebody to take it, or do nothing at all; if it hands over none, claim() is asked.
-  std::function<void(const ClaimedJob&, const RunRecord&, const Taken&)> record;
-  std::function<void(const ClaimedJob&)> give_back;
+  std::function<void(const ClaimedJob&, const RunRecord&, const OnClaim&)> record;
+  std::function<void(const ClaimedJob&)> requeue;
   RunListener ran{};  ///< before the record is left; empty: nobody is told
 };
 
@@ -59,7 +59,7 @@ class LocalPool : public Executor {
   [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const;
   /// @param record  empty: the job goes back to the queue
   [[nodiscard]] std::optional<Task> deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop);
-  /// Calls hand_over(taken) and makes a task of the job that is handed over: one that can be stopped as soon as others know that it runs.
+  /// Calls hand_over(on_claim) and makes a task of the job that is handed over: one that can be stopped as soon as others know that it runs.
   template <typename HandOver>
   [[nodiscard]] std::optional<Task> take(const HandOver& hand_over);
   void forget(const ClaimedJob& job) noexcept;

@@ -49,7 +49,7 @@ std::string link_pointer(std::string_view link, std::string_view part) {
   return std::string(kLinksPointer) + pointer_token(link) + (part.empty() ? "" : pointer_token(part));
 }
 
-void find_moment_faults(const json& moments, const std::string& pointer, std::vector<Fault>& faults) {
+void collect_moment_faults(const json& moments, const std::string& pointer, std::vector<Fault>& faults) {
   if (!moments.is_array() || moments.size() != 3) {
     faults.push_back({pointer, "must be a list of three moments [I_x, I_y, I_z] about the link's frame origin, each " + kInertiaRange.text() + " kg m^2"});
     return;
@@ -60,7 +60,7 @@ void find_moment_faults(const json& moments, const std::string& pointer, std::ve
   }
 }
 
-void find_part_faults(std::string_view link, const json& parts, std::vector<Fault>& faults) {
+void collect_part_faults(std::string_view link, const json& parts, std::vector<Fault>& faults) {
   constexpr std::array<std::string_view, 2> kParts{kMassKey, kInertiaKey};
   if (!parts.is_object()) {
     faults.push_back({link_pointer(link, ""), "must be an object of mass_kg and inertia_kg_m2"});
@@ -72,7 +72,7 @@ void find_part_faults(std::string_view link, const json& parts, std::vector<Faul
       std::string detail = describe_number_fault(kMassRange, "kg", value);
       if (!detail.empty()) faults.push_back({pointer, std::move(detail)});
     } else if (part == kInertiaKey) {
-      find_moment_faults(value, pointer, faults);
+      collect_moment_faults(value, pointer, faults);
     } else {
       faults.push_back({pointer, describe_unknown_key(part, kParts)});
     }
@@ -133,7 +133,7 @@ std::vector<Fault> find_link_faults(const json& given) {
     if (std::find(kLinkNames.begin(), kLinkNames.end(), link) == kLinkNames.end()) {
       faults.push_back({link_pointer(link, ""), "unknown link; the links are \"1,1\", \"1,2\", \"1,3\", \"2,1\", \"2,2\""});
     } else {
-      find_part_faults(link, parts, faults);
+      collect_part_faults(link, parts, faults);
     }
   }
   return faults;

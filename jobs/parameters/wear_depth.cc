@@ -18,7 +18,7 @@ std::string shape_text() {
   return "must be a list for each ring of the journal, each of the same number of depths, " + kWearSectorsRange.text();
 }
 
-void find_ring_faults(const json& ring, const std::string& pointer, std::vector<Fault>& faults) {
+void collect_ring_faults(const json& ring, const std::string& pointer, std::vector<Fault>& faults) {
   for (std::size_t s = 0; s < ring.size(); ++s) {
     if (std::string detail = describe_number_fault(kWearDepthRange, "um", ring[s]); !detail.empty()) {
       faults.push_back({pointer + "/" + std::to_string(s), std::move(detail)});
@@ -35,7 +35,7 @@ std::vector<Fault> find_wear_faults(const json& value) {
   };
   if (!value.is_array() || value.empty() || value.size() > kMostRings || !std::ranges::all_of(value, is_ring)) return {{pointer, shape_text()}};
   std::vector<Fault> faults;
-  for (std::size_t r = 0; r < value.size(); ++r) find_ring_faults(value[r], pointer + "/" + std::to_string(r), faults);
+  for (std::size_t r = 0; r < value.size(); ++r) collect_ring_faults(value[r], pointer + "/" + std::to_string(r), faults);
   return faults;
 }
 

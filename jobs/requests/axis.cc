@@ -82,7 +82,7 @@ void add_list_values(const json& list, const std::string& pointer, Axis& axis) {
   }
 }
 
-void find_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, std::vector<Fault>& faults) {
+void collect_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, std::vector<Fault>& faults) {
   std::set<std::string> seen;
   for (std::size_t k = 0; k < axis.values.size(); ++k) {
     const auto value_faults = find_path_faults(axis.path, axis.values[k]);
@@ -151,7 +151,7 @@ Axis make_axis(const std::string& path, const json& axis, const std::string& poi
   } else {
     add_span_values(SpanValues(axis), pointer, made);
   }
-  find_axis_value_faults(made, axis.is_object(), repeats, faults);
+  collect_axis_value_faults(made, axis.is_object(), repeats, faults);
   return made;
 }
 

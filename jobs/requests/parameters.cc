@@ -33,7 +33,7 @@ std::vector<std::string_view> known_keys() {
 }
 
 /// The faults of what is given beside a described linkage, and of the description: by itself, with the values given and else the defaults.
-void find_linkage_faults(const json& given, std::vector<Fault>& faults) {
+void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
   const json& linkage = given.at(kLinkageKey);
   if (!linkage.is_object()) {
     if (linkage != kRpsupName) faults.push_back({"/linkage", "must be \"rpsup\", or an object that describes a linkage"});
@@ -183,7 +183,7 @@ std::vector<Fault> find_value_faults(const json& given) {
       faults.push_back({pointer_token(key), misplaced.empty() ? describe_unknown_key(key, known, "GET /v1/parameters") : misplaced});
     }
   }
-  if (faults.empty() && given.contains(kLinkageKey)) find_linkage_faults(given, faults);
+  if (faults.empty() && given.contains(kLinkageKey)) collect_linkage_faults(given, faults);
   return faults;
 }
 

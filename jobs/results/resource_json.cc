@@ -147,7 +147,7 @@ std::string text_of(const json& value) { return value.dump(-1, ' ', false, json:
 
 json stored_json(const std::string& text) {
   json value = json::parse(text, nullptr, false);
-  if (value.is_discarded()) throw StorageError("the store holds a text that is no JSON; it is damaged", 0, false);
+  if (value.is_discarded()) throw StorageError("the store holds a text that is no JSON; it is damaged");
   return value;
 }
 

@@ -47,7 +47,7 @@ enum class Detail { kFull, kListing };
 /// The parameters that a sweep varies.
 [[nodiscard]] std::vector<std::string> swept_of(const SweepRow& sweep);
 
-/// @param others  columns at the end: parameters that the sweep does not vary, and kErrorColumns; rows carry their parameters if need_parameters(others)
+/// @param others  columns at the end: parameters that the sweep does not vary, and kErrorColumns; rows carry their parameters if needed_parameters(others)
 [[nodiscard]] ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others);
 
 }  // namespace jobs

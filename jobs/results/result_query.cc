@@ -218,7 +218,9 @@ std::vector<std::string> find_other_columns(const ResultQuery& query, const std:
   return others;
 }
 
-bool need_parameters(const std::vector<std::string>& others) { return !std::ranges::all_of(others, is_error_column); }
+RowParameters needed_parameters(const std::vector<std::string>& others) {
+  return std::ranges::all_of(others, is_error_column) ? RowParameters::kNone : RowParameters::kAll;
+}
 
 void apply(const ResultQuery& query, ResultTable& table, std::string_view listed) {
   Reader reader(table.columns, listed);

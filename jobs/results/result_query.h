@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "jobs/results/result_table.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 
@@ -37,7 +38,7 @@ inline constexpr std::array<std::string_view, 2> kErrorColumns{"error_reason", "
 [[nodiscard]] std::vector<std::string> find_other_columns(const ResultQuery& query, const std::vector<std::string>& swept);
 
 /// Whether the table needs the parameters of its jobs for these columns.
-[[nodiscard]] bool need_parameters(const std::vector<std::string>& others);
+[[nodiscard]] RowParameters needed_parameters(const std::vector<std::string>& others);
 
 inline constexpr std::string_view kSweepColumns = "GET /v1/parameters and GET /v1/sweeps/{id}/results; error_reason and error_detail are two more";
 inline constexpr std::string_view kStudyColumns = "its results without fields";

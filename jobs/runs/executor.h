@@ -28,8 +28,8 @@ class Executor {
   [[nodiscard]] virtual nlohmann::json status() const = 0;
 };
 
-/// Whose jobs an executor takes.
-struct Lane {
+/// Jobs that an executor takes: those of sweeps that name it, or that name none if it is the default.
+struct ExecutorFilter {
   std::string executor{kLocalExecutor};
   std::string default_executor{kLocalExecutor};  ///< of sweeps that name none, and of single jobs
 };

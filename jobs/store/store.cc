@@ -7,13 +7,13 @@
 #include "jobs/base/time_text.h"
 #include "jobs/store/store_batches.h"
 #include "jobs/store/store_insert.h"
-#include "jobs/store/store_quota.h"
+#include "jobs/store/check_quota.h"
 #include "jobs/store/store_rows.h"
 
 namespace jobs {
 namespace {
 
-constexpr std::int64_t kAnswersAreKept_ms = 7LL * 24 * 3600 * 1000;
+constexpr std::int64_t kResponsesAreKept_ms = 7LL * 24 * 3600 * 1000;
 
 /// Adds cases to the request of a sweep. The database appends to the text, so that the cases that it has already are not read here, and
 /// numbers stay as they were written.
@@ -24,34 +24,34 @@ void append_cases(SQLite::Database& database, const std::string& id, const nlohm
     std::string request = "request";
     for (std::size_t k = first; k < end; ++k) request = "json_insert(" + request + ", '$.cases[#]', json(?))";
     SQLite::Statement append(database, "UPDATE sweeps SET request = " + request + " WHERE id = ?");
-    int place = 1;
-    for (std::size_t k = first; k < end; ++k) append.bind(place++, cases[k].dump());
-    append.bind(place, id);
+    int parameter = 1;
+    for (std::size_t k = first; k < end; ++k) append.bind(parameter++, cases[k].dump());
+    append.bind(parameter, id);
     append.exec();
   }
 }
 
 }  // namespace
 
-void keep_answer(SQLite::Database& database, const std::string& key, const std::string& request, const std::string& answer) {
+void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint, const std::string& response) {
   const std::int64_t now_ms = now_unix_ms();
   SQLite::Statement forget(database, "DELETE FROM answers WHERE created_ms < ?");
-  forget.bind(1, now_ms - kAnswersAreKept_ms);
+  forget.bind(1, now_ms - kResponsesAreKept_ms);
   forget.exec();
   SQLite::Statement add(database, "INSERT INTO answers (key, request, answer, created_ms) VALUES (?, ?, ?, ?)");
   add.bind(1, key);
-  add.bind(2, request);
-  add.bind(3, answer);
+  add.bind(2, fingerprint);
+  add.bind(3, response);
   add.bind(4, now_ms);
   add.exec();
 }
 
-Store::Store(const std::filesystem::path& file, const StoreRoom& room) : file_(file), room_(room), lock_(file), writer_(file), readers_(file) {
+Store::Store(const std::filesystem::path& file, const StoreQuota& room) : file_(file), room_(room), lock_(file), writer_(file), readers_(file) {
   try {
     begin();
   } catch (const StorageError& error) {
     if (!is_damage(error.code)) throw;
-    throw StorageError("the store " + file.string() + " is damaged (" + error.what() + "); it has been left as it is", error.code, false);
+    throw StorageError("the store " + file.string() + " is damaged (" + error.what() + "); it has been left as it is", error.code);
   }
   writer_.accept();
 }
@@ -62,30 +62,30 @@ void Store::begin() {
     if (newest.executeStep()) engine_before_ = newest.getColumn(0).getString();
     database.exec("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
     release_batches_of_other_engines(database);
-    rename_queued_contents(database);
+    rekey_queued_jobs(database);
     changes_ = database.execAndGet("SELECT coalesce(max(abs(change)), 0) FROM jobs WHERE change IS NOT NULL").getInt64();
   });
 }
 
-std::string Store::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued, const KeptAnswer<SweepRow>& kept) {
+std::string Store::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued, const IdempotencyRecord<SweepRow>& idempotency) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     std::string id = ids_.make(kSweepPrefix, now_ms);
     const std::int64_t sweep = insert_sweep(database, id, plan, request, now_ms);
     JobInserter inserter(database, ids_, now_ms, ++changes_);
-    for (const PlannedJob& job : plan.jobs) inserter.insert(job, sweep, plan.reuse);
-    check_room(database, max_queued);
-    if (!kept.key.empty()) keep_answer(database, kept.key, kept.request, kept.make_text(read_sweep(database, id).value()));
+    for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
+    check_queue_limit(database, max_queued);
+    if (!idempotency.key.empty()) store_response(database, idempotency.key, idempotency.fingerprint, idempotency.make_response(read_sweep(database, id).value()));
     check_quota_of(database);
     return id;
   });
 }
 
-std::string Store::add_job(const PlannedJob& job, std::size_t max_queued, const KeptAnswer<JobRow>& kept) {
+std::string Store::add_job(const PlannedJob& job, std::size_t max_queued, const IdempotencyRecord<JobRow>& idempotency) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    std::string id = JobInserter(database, ids_, now_unix_ms(), ++changes_).insert(job, std::nullopt, true);
-    check_room(database, max_queued);
-    if (!kept.key.empty()) keep_answer(database, kept.key, kept.request, kept.make_text(read_job(database, id).value()));
+    std::string id = JobInserter(database, ids_, now_unix_ms(), ++changes_).insert(job, {});
+    check_queue_limit(database, max_queued);
+    if (!idempotency.key.empty()) store_response(database, idempotency.key, idempotency.fingerprint, idempotency.make_response(read_job(database, id).value()));
     check_quota_of(database);
     return id;
   });
@@ -115,8 +115,9 @@ bool Store::add_jobs(SQLite::Database& database, const std::string& id, const st
   if (!find.executeStep()) return false;
   const std::int64_t now_ms = std::max(now_unix_ms(), find.getColumn(1).getInt64());
   JobInserter inserter(database, ids_, now_ms, ++changes_);
-  for (const PlannedJob& job : jobs) inserter.insert(job, find.getColumn(0).getInt64(), find.getColumn(2).getInt() != 0);
-  check_room(database, max_queued);
+  const JobOwner owner{.sweep = find.getColumn(0).getInt64(), .reuse = find.getColumn(2).getInt() != 0};
+  for (const PlannedJob& job : jobs) inserter.insert(job, owner);
+  check_queue_limit(database, max_queued);
   check_quota_of(database);
   return true;
 }
@@ -126,28 +127,14 @@ void Store::check_quota_of(SQLite::Database& database) const {
   check_quota(used, room_, file_);
 }
 
-std::optional<FoundAnswer> Store::find_answer(const std::string& key) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<FoundAnswer> {
+std::optional<StoredResponse> Store::find_response(const std::string& key) const {
+  return readers_.read([&](const SQLite::Database& database) -> std::optional<StoredResponse> {
     SQLite::Statement find(database, "SELECT request, answer FROM answers WHERE key = ? AND created_ms >= ?");
     find.bind(1, key);
-    find.bind(2, now_unix_ms() - kAnswersAreKept_ms);
+    find.bind(2, now_unix_ms() - kResponsesAreKept_ms);
     if (!find.executeStep()) return std::nullopt;
-    return FoundAnswer{.request = find.getColumn(0).getString(), .text = find.getColumn(1).getString()};
+    return StoredResponse{.fingerprint = find.getColumn(0).getString(), .text = find.getColumn(1).getString()};
   });
-}
-
-std::string_view sweep_state(const StateCounts& counts) {
-  const auto count = [&](JobState state) { return counts[static_cast<std::size_t>(state)]; };
-  if (!has_ended(counts)) {
-    const bool untouched = count(JobState::kRunning) + count(JobState::kSucceeded) + count(JobState::kFailed) + count(JobState::kCancelled) == 0;
-    return state_name(untouched ? JobState::kQueued : JobState::kRunning);
-  }
-  if (count(JobState::kCancelled) > 0) return state_name(JobState::kCancelled);
-  return state_name(count(JobState::kFailed) > 0 ? JobState::kFailed : JobState::kSucceeded);
-}
-
-bool has_ended(const StateCounts& counts) {
-  return counts[static_cast<std::size_t>(JobState::kQueued)] + counts[static_cast<std::size_t>(JobState::kRunning)] == 0;
 }
 
 }  // namespace jobs

@@ -9,9 +9,9 @@
 #include "jobs/base/time_text.h"
 #include "jobs/store/store.h"
 #include "jobs/store/store_insert.h"
-#include "jobs/store/store_quota.h"
+#include "jobs/store/check_quota.h"
 #include "jobs/store/store_results.h"
-#include "jobs/store/store_turns.h"
+#include "jobs/store/sweep_order.h"
 
 namespace jobs {
 namespace {
@@ -59,10 +59,10 @@ BatchRow insert_batch(Statements& statements, std::string id, std::string sweep_
   return {.seq = seq, .id = std::move(id), .sweep_id = std::move(sweep_id)};
 }
 
-void give_place(Statements& statements, std::int64_t job, std::int64_t batch, std::size_t place) {
+void set_batch_index(Statements& statements, std::int64_t job, std::int64_t batch, std::size_t batch_index) {
   const auto take = statements.use("UPDATE jobs SET batch = ?, place = ? WHERE seq = ?");
   take->bind(1, batch);
-  take->bind(2, static_cast<std::int64_t>(place));
+  take->bind(2, static_cast<std::int64_t>(batch_index));
   take->bind(3, job);
   take->exec();
 }
@@ -72,16 +72,16 @@ struct Found {
   std::int64_t seq = 0, content = 0;
 };
 
-std::optional<Found> find_at(Statements& statements, std::int64_t batch, std::uint32_t place, const std::string& engine) {
+std::optional<Found> find_batch_job(Statements& statements, std::int64_t batch, std::uint32_t batch_index, const std::string& engine) {
   const auto find = statements.use(
       "SELECT j.seq, j.content, c.engine_version FROM jobs j JOIN contents c ON c.seq = j.content WHERE j.batch = ? AND j.place = ?");
   find->bind(1, batch);
-  find->bind(2, static_cast<std::int64_t>(place));
+  find->bind(2, static_cast<std::int64_t>(batch_index));
   if (!find->executeStep() || find->getColumn(2).getString() != engine) return std::nullopt;
   return Found{.seq = find->getColumn(0).getInt64(), .content = find->getColumn(1).getInt64()};
 }
 
-void end_placed(Statements& statements, std::int64_t job, JobState state, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
+void end_batch_job(Statements& statements, std::int64_t job, JobState state, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
   const auto end = statements.use(
       "UPDATE jobs SET state = ?1, result = ?2, attempt = max(attempt, 1), started_ms = coalesce(started_ms, max(?3, created_ms)), "
       "ended_ms = max(?3, coalesce(started_ms, created_ms)), change = ?4, batch = NULL, place = NULL WHERE seq = ?5");
@@ -103,14 +103,14 @@ void release_batches_of_other_engines(SQLite::Database& database) {
   release.exec();
 }
 
-std::optional<BatchRow> Store::claim_batch(const Lane& lane, std::size_t most_jobs) {
+std::optional<BatchRow> Store::claim_batch(const ExecutorFilter& filter, std::size_t most_jobs) {
   return writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
-    for (const std::int64_t sweep : find_turns(statements, lane, served_)) {
+    for (const std::int64_t sweep : order_of_sweeps(statements, filter, served_)) {
       const auto candidates = find_candidates(statements, sweep, most_jobs);
       if (candidates.empty()) continue;
       const std::int64_t now_ms = now_unix_ms();
       const BatchRow batch = insert_batch(statements, ids_.make(kBatchPrefix, now_ms), find_sweep_id(statements, sweep), now_ms);
-      for (std::size_t place = 0; place < candidates.size(); ++place) give_place(statements, candidates[place].seq, batch.seq, place);
+      for (std::size_t k = 0; k < candidates.size(); ++k) set_batch_index(statements, candidates[k].seq, batch.seq, k);
       served_[sweep] = ++claims_;
       return batch;
     }
@@ -129,45 +129,45 @@ std::vector<BatchRow> Store::find_batches() const {
   });
 }
 
-std::vector<std::uint32_t> Store::find_wanted(std::int64_t batch) const {
+std::vector<std::uint32_t> Store::find_open_indices(std::int64_t batch) const {
   return readers_.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database, "SELECT place FROM jobs WHERE batch = ? ORDER BY place");
     list.bind(1, batch);
-    std::vector<std::uint32_t> places;
-    while (list.executeStep()) places.push_back(list.getColumn(0).getUInt());
-    return places;
+    std::vector<std::uint32_t> indices;
+    while (list.executeStep()) indices.push_back(list.getColumn(0).getUInt());
+    return indices;
   });
 }
 
-std::vector<PlacedJob> Store::find_placed(std::int64_t batch) const {
+std::vector<BatchJob> Store::find_open_jobs(std::int64_t batch) const {
   return readers_.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
                            "SELECT j.place, c.parameters, j.kind, json_extract(c.parameters, '$.duration_s') FROM jobs j "
                            "JOIN contents c ON c.seq = j.content WHERE j.batch = ? ORDER BY j.place");
     list.bind(1, batch);
-    std::vector<PlacedJob> placed;
+    std::vector<BatchJob> jobs;
     while (list.executeStep()) {
-      placed.push_back({.place = list.getColumn(0).getUInt(), .parameters = list.getColumn(1).getString(), .kind = list.getColumn(2).getString(),
+      jobs.push_back({.batch_index = list.getColumn(0).getUInt(), .parameters = list.getColumn(1).getString(), .kind = list.getColumn(2).getString(),
                         .duration_s = list.getColumn(3).getDouble()});
     }
-    return placed;
+    return jobs;
   });
 }
 
-std::size_t Store::record_placed(std::int64_t batch, const Provenance& provenance, const std::vector<PlacedRecord>& records) {
+std::size_t Store::record_batch(std::int64_t batch, const Provenance& provenance, const std::vector<BatchRecord>& records) {
   return writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
     const std::int64_t now_ms = now_unix_ms();
     std::size_t stored = 0;
     ++changes_;
-    for (const PlacedRecord& each : records) {
-      const auto found = find_at(statements, batch, each.place, provenance.engine);
+    for (const BatchRecord& each : records) {
+      const auto found = find_batch_job(statements, batch, each.batch_index, provenance.engine);
       if (!found) continue;
       const bool succeeded = each.record->end == RunRecord::End::kSucceeded;
       const std::string metrics = succeeded ? each.record->metrics.dump() : "";
       const std::int64_t result = insert_result(statements, found->content, *each.record, metrics, provenance);
       if (!each.packed_trajectory->empty()) insert_trajectory(statements, result, *each.packed_trajectory);
-      end_placed(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, changes_);
-      if (succeeded) settle_waiting(statements, found->content, result, now_ms, changes_);
+      end_batch_job(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, changes_);
+      if (succeeded) complete_duplicates(statements, found->content, result, now_ms, changes_);
       ++stored;
     }
     check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
@@ -175,21 +175,21 @@ std::size_t Store::record_placed(std::int64_t batch, const Provenance& provenanc
   });
 }
 
-void Store::mark_placed(std::int64_t batch, const std::vector<std::uint32_t>& running, const std::vector<std::uint32_t>& waiting) {
+void Store::set_running(std::int64_t batch, const std::vector<std::uint32_t>& running, const std::vector<std::uint32_t>& waiting) {
   writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
-    for (const std::uint32_t place : running) {
+    for (const std::uint32_t batch_index : running) {
       const auto begin = statements.use(
           "UPDATE jobs SET state = 'running', attempt = attempt + 1, started_ms = max(?, created_ms) "
           "WHERE batch = ? AND place = ? AND state = 'queued'");
       begin->bind(1, now_unix_ms());
       begin->bind(2, batch);
-      begin->bind(3, static_cast<std::int64_t>(place));
+      begin->bind(3, static_cast<std::int64_t>(batch_index));
       begin->exec();
     }
-    for (const std::uint32_t place : waiting) {
+    for (const std::uint32_t batch_index : waiting) {
       const auto wait = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE batch = ? AND place = ? AND state = 'running'");
       wait->bind(1, batch);
-      wait->bind(2, static_cast<std::int64_t>(place));
+      wait->bind(2, static_cast<std::int64_t>(batch_index));
       wait->exec();
     }
   });

@@ -19,9 +19,11 @@ namespace {
 constexpr int kBusyTimeout_ms = 5000;
 constexpr mode_t kOwnerOnly = 0600;
 
-StorageError system_error(const std::string& what) { return {what + ": " + std::strerror(errno), 0, is_no_room(errno)}; }
+StorageError system_error(const std::string& what) {
+  return StorageError(what + ": " + std::strerror(errno), 0, disk_state(errno));
+}
 
-/// What both kinds of connection need before they see a row: nothing in the file may run code of its own.
+/// Settings of both kinds of connection: nothing in the file may run code of its own.
 void harden(SQLite::Database& database) {
   for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
                                       {SQLITE_DBCONFIG_DQS_DML, 0}, {SQLITE_DBCONFIG_DQS_DDL, 0}}) {
@@ -30,7 +32,7 @@ void harden(SQLite::Database& database) {
   database.exec("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA temp_store = MEMORY");
 }
 
-/// What the system last said to a write to a store's log. Of the connection as a whole SQLite tells only what came after that.
+/// System error of the last write to a store's log. For the whole connection SQLite tells only later ones.
 int last_error_of_log(const SQLite::Database& database) {
   sqlite3_file* log = nullptr;
   int system_error = 0;
@@ -51,7 +53,7 @@ void check_log_has_store(const std::filesystem::path& store) {
   if (has_content(store) || !has_content(log)) return;
   throw StorageError("the store " + store.string() + " is missing or empty, but its log " + log +
                          " is there and may hold results: put the store back beside it, or move the log away; it has been left as it is",
-                     SQLITE_CORRUPT, false);
+                     SQLITE_CORRUPT);
 }
 
 /// A store that was copied or restored may be open to all who use the machine.
@@ -77,16 +79,19 @@ SQLite::Database open_for_writing(const std::filesystem::path& store) {
 
 }  // namespace
 
-bool is_no_room(int system_error) { return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG; }
+Disk disk_state(int system_error) {
+  return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG ? Disk::kFull : Disk::kHasRoom;
+}
 
 bool is_damage(int sqlite_code) {
   const int primary = sqlite_code & 0xff;
   return primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB;
 }
 
-bool is_full(const SQLite::Exception& error, const SQLite::Database* database) {
-  if (error.getErrorCode() == SQLITE_FULL) return true;
-  return error.getErrorCode() == SQLITE_IOERR && database != nullptr && is_no_room(last_error_of_log(*database));
+Disk disk_state(const SQLite::Exception& error, const SQLite::Database* database) {
+  if (error.getErrorCode() == SQLITE_FULL) return Disk::kFull;
+  if (error.getErrorCode() != SQLITE_IOERR || database == nullptr) return Disk::kHasRoom;
+  return disk_state(last_error_of_log(*database));
 }
 
 StoreLock::StoreLock(const std::filesystem::path& store) {
@@ -96,7 +101,7 @@ StoreLock::StoreLock(const std::filesystem::path& store) {
   if (file_ < 0) throw system_error("cannot open " + path);
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const bool held = errno == EWOULDBLOCK;
-    const StorageError error = held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY, false)
+    const StorageError error = held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY)
                                     : system_error("cannot lock " + path);
     ::close(file_);
     throw error;

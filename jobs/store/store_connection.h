@@ -29,12 +29,12 @@ class StoreLock {
   int file_ = -1;
 };
 
-/// Whether a system call failed for want of room: the disk is full, or what this user or process may take of it.
-[[nodiscard]] bool is_no_room(int system_error);
+/// Whether a system call failed because the disk, or the share of this user or process, is full.
+[[nodiscard]] Disk disk_state(int system_error);
 
-/// Whether SQLite says that there is no room left. It has no code of its own for other limits than the disk's: the system call tells.
+/// The same of an error of SQLite, whose codes know the disk's limit only: the system call tells of others.
 /// @param database  that failed; null: unknown
-[[nodiscard]] bool is_full(const SQLite::Exception& error, const SQLite::Database* database);
+[[nodiscard]] Disk disk_state(const SQLite::Exception& error, const SQLite::Database* database);
 
 /// Whether a code of SQLite's, extended or not, says that the file is damaged or no database.
 [[nodiscard]] bool is_damage(int sqlite_code);
@@ -46,7 +46,8 @@ auto with_storage_errors(Work&& work, const SQLite::Database* database = nullptr
   try {
     return std::forward<Work>(work)();
   } catch (const SQLite::Exception& error) {
-    throw StorageError(std::string("the store failed: ") + error.what(), error.getExtendedErrorCode(), is_full(error, database));
+    throw StorageError(std::string("the store failed: ") + error.what(), error.getExtendedErrorCode(),
+                       disk_state(error, database));
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 /// Makes the file, for its owner only: SQLite would make it readable for all.
 void make_empty_file(const std::filesystem::path& file) {
   const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (made < 0) throw StorageError("cannot make " + file.string() + ": " + std::strerror(errno), 0, is_no_room(errno));
+  if (made < 0) throw StorageError("cannot make " + file.string() + ": " + std::strerror(errno), 0, disk_state(errno));
   ::close(made);
 }
 

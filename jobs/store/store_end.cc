@@ -95,7 +95,7 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
                             "WHERE sweep = ? AND state IN ('failed', 'cancelled')");
     queue.bind(1, *sweep);
     if (queue.exec() == 0) return true;
-    rename_queued_contents(database);
+    rekey_queued_jobs(database);
     SQLite::Statement settle(database,
                              "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = max(?3, created_ms), ended_ms = max(?3, created_ms), "
                              "result = (SELECT max(seq) FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL) "
@@ -105,7 +105,7 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
     settle.bind(2, ++changes_);
     settle.bind(3, now_unix_ms());
     settle.exec();
-    check_room(database, max_queued);
+    check_queue_limit(database, max_queued);
     check_quota_of(database);
     return true;
   });

@@ -21,19 +21,19 @@ JobInserter::JobInserter(SQLite::Database& database, IdMaker& ids, std::int64_t 
                "INSERT INTO jobs (id, sweep, replicate, swept, content, kind, reuse, created_ms, state, result, reused, started_ms, ended_ms, change) "
                "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
 
-std::string JobInserter::insert(const PlannedJob& job, std::optional<std::int64_t> sweep, bool reuse) {
+std::string JobInserter::insert(const PlannedJob& job, const JobOwner& owner) {
   const std::int64_t content = content_of(job);
-  const auto result = reuse ? known_result(content) : std::nullopt;
+  const auto result = owner.reuse ? known_result(content) : std::nullopt;
   std::string id = ids_.make(kJobPrefix, now_ms_);
   add_job_.reset();
   add_job_.clearBindings();  // what is not bound below is null
   add_job_.bind(1, id);
-  if (sweep) add_job_.bind(2, *sweep);
+  if (owner.sweep) add_job_.bind(2, *owner.sweep);
   if (job.replicate) add_job_.bind(3, static_cast<std::int64_t>(*job.replicate));
   add_job_.bind(4, job.swept);
   add_job_.bind(5, content);
   add_job_.bind(6, job.kind);
-  add_job_.bind(7, reuse ? 1 : 0);
+  add_job_.bind(7, owner.reuse ? 1 : 0);
   add_job_.bind(8, now_ms_);
   add_job_.bind(9, std::string(state_name(result ? JobState::kSucceeded : JobState::kQueued)));
   add_job_.bind(11, result ? 1 : 0);
@@ -81,14 +81,14 @@ std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, con
   return database.getLastInsertRowid();
 }
 
-void check_room(SQLite::Database& database, std::size_t max_queued) {
+void check_queue_limit(SQLite::Database& database, std::size_t max_queued) {
   const auto queued = database.execAndGet(kQueuedCount).getInt64();
   if (static_cast<std::size_t>(queued) > max_queued) {
     throw QueueFull("with these, " + std::to_string(queued) + " jobs would be waiting; at most " + std::to_string(max_queued) + " may");
   }
 }
 
-void rename_queued_contents(SQLite::Database& database) {
+void rekey_queued_jobs(SQLite::Database& database) {
   SQLite::Statement old(database,
                         "SELECT DISTINCT c.seq, c.parameters FROM jobs j JOIN contents c ON c.seq = j.content "
                         "WHERE j.state = 'queued' AND c.engine_version <> ?");

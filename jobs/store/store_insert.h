@@ -12,14 +12,20 @@
 
 namespace jobs {
 
+/// Sweep of a job, and whether a known result may be reused.
+struct JobOwner {
+  std::optional<std::int64_t> sweep;
+  bool reuse = true;
+};
+
 /// Stores jobs inside one transaction; its statements are prepared once.
 class JobInserter {
  public:
   /// @param change  of the jobs that succeed at once
   JobInserter(SQLite::Database& database, IdMaker& ids, std::int64_t now_ms, std::int64_t change);
 
-  /// Stores a job, as succeeded if its result is known and may be used. Returns its id.
-  std::string insert(const PlannedJob& job, std::optional<std::int64_t> sweep, bool reuse);
+  /// Stores a job, as succeeded if its result is known and may be reused. Returns its id.
+  std::string insert(const PlannedJob& job, const JobOwner& owner);
 
  private:
   std::int64_t content_of(const PlannedJob& job);
@@ -39,10 +45,10 @@ inline constexpr const char* kQueuedCount =
     "(SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NOT NULL)";
 
 /// Throws QueueFull, and so undoes the transaction, if there is no room for what has just been added.
-void check_room(SQLite::Database& database, std::size_t max_queued);
+void check_queue_limit(SQLite::Database& database, std::size_t max_queued);
 
-/// Jobs that a former version of the engine was to compute have results of that version as theirs; gives them new names.
-void rename_queued_contents(SQLite::Database& database);
+/// Gives queued jobs the content of this engine: results of a former one are not theirs.
+void rekey_queued_jobs(SQLite::Database& database);
 
 [[nodiscard]] std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database, const std::string& id);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/base/time_text.h"
 #include "jobs/store/store.h"
-#include "jobs/store/store_quota.h"
+#include "jobs/store/check_quota.h"
 #include "jobs/store/store_results.h"
-#include "jobs/store/store_turns.h"
+#include "jobs/store/sweep_order.h"
 #include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs {
@@ -55,8 +55,8 @@ struct Store::Outcome {
   const std::string trajectory, metrics;
 };
 
-std::optional<ClaimedJob> Store::claim(const Lane& lane, const Taken& taken) {
-  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return claim(statements, lane, taken); });
+std::optional<ClaimedJob> Store::claim(const ExecutorFilter& filter, const OnClaim& on_claim) {
+  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return claim(statements, filter, on_claim); });
 }
 
 bool Store::record(const ClaimedJob& job, const RunRecord& record) {
@@ -64,16 +64,16 @@ bool Store::record(const ClaimedJob& job, const RunRecord& record) {
   return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return this->record(statements, job, outcome); });
 }
 
-std::optional<ClaimedJob> Store::record_and_claim(const ClaimedJob& job, const RunRecord& record, const Lane& lane, const Taken& taken) {
+std::optional<ClaimedJob> Store::record_and_claim(const ClaimedJob& job, const RunRecord& record, const ExecutorFilter& filter, const OnClaim& on_claim) {
   const Outcome outcome(record);
   return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     this->record(statements, job, outcome);
-    return claim(statements, lane, taken);
+    return claim(statements, filter, on_claim);
   });
 }
 
-std::optional<ClaimedJob> Store::claim(Statements& statements, const Lane& lane, const Taken& taken) {
-  for (const std::int64_t sweep : find_turns(statements, lane, served_)) {
+std::optional<ClaimedJob> Store::claim(Statements& statements, const ExecutorFilter& filter, const OnClaim& on_claim) {
+  for (const std::int64_t sweep : order_of_sweeps(statements, filter, served_)) {
     auto job = find_claimable(statements, sweep);
     if (!job) continue;
     const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
@@ -82,7 +82,7 @@ std::optional<ClaimedJob> Store::claim(Statements& statements, const Lane& lane,
     take->bind(3, job->seq);
     take->exec();
     served_[sweep] = ++claims_;
-    if (taken) taken(*job);
+    if (on_claim) on_claim(*job);
     return job;
   }
   return std::nullopt;
@@ -95,12 +95,12 @@ bool Store::record(Statements& statements, const ClaimedJob& job, const Outcome&
   const std::int64_t result = insert_result(statements, *content, outcome.record, outcome.metrics, own_provenance());
   if (outcome.sampled) insert_trajectory(statements, result, outcome.trajectory);
   end_job(statements, job, outcome.succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++changes_);
-  if (outcome.succeeded) settle_waiting(statements, *content, result, now_ms, changes_);
+  if (outcome.succeeded) complete_duplicates(statements, *content, result, now_ms, changes_);
   check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
   return true;
 }
 
-void Store::give_back(const ClaimedJob& job) {
+void Store::requeue(const ClaimedJob& job) {
   writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     const auto put_back = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE seq = ? AND id = ? AND attempt = ? AND state = 'running'");
     put_back->bind(1, job.seq);

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-
-#include <SQLiteCpp/SQLiteCpp.h>
-
-#include "jobs/store/store_room.h"
+#include <cstdint>
 
 namespace jobs {
 
-/// Bytes of the file that hold something: pages that deletions have freed are filled again first.
-inline constexpr const char* kUsedBytesQuery =
-    "SELECT (page_count - freelist_count) * page_size FROM pragma_page_count(), pragma_freelist_count(), pragma_page_size()";
-
-/// Checks, inside the transaction that has added something, that it may stay.
-/// @param used  kUsedBytesQuery, prepared
-/// @param file  of the store
-/// @throws StoreLimitReached if it may not
-void check_quota(SQLite::Statement& used, const StoreRoom& room, const std::filesystem::path& file);
+/// Disk quota of a store. Zero: no limit.
+struct StoreQuota {
+  std::int64_t most_bytes = 0;     ///< that it may hold, its log apart
+  std::int64_t reserve_bytes = 0;  ///< that stay free on the disk for others
+};
 
 }  // namespace jobs

@@ -12,7 +12,7 @@ std::size_t state_index(const std::string& state) {
   for (std::size_t i = 0; i < kJobStates.size(); ++i) {
     if (state == kJobStates[i]) return i;
   }
-  throw StorageError("the store holds an unknown state: " + state, 0, false);
+  throw StorageError("the store holds an unknown state: " + state);
 }
 
 void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
@@ -179,18 +179,19 @@ std::vector<JobRow> Store::list_jobs(const std::string& state, const std::string
   });
 }
 
-std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id, bool parameters) {
+std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id, RowParameters parameters) {
   auto sweep = read_sweep(database, sweep_id);
   if (!sweep) return std::nullopt;
   SweepResults results{.sweep = std::move(*sweep), .rows = {}};
-  const std::string contents = parameters ? " JOIN contents c ON c.seq = j.content" : "";
-  SQLite::Statement list(database, result_columns(parameters ? "c.parameters" : "''") + contents + kOfSweep + " ORDER BY j.seq");
+  const bool all = parameters == RowParameters::kAll;
+  const std::string contents = all ? " JOIN contents c ON c.seq = j.content" : "";
+  SQLite::Statement list(database, result_columns(all ? "c.parameters" : "''") + contents + kOfSweep + " ORDER BY j.seq");
   list.bind(1, sweep_id);
   while (list.executeStep()) results.rows.push_back(result_row(list));
   return results;
 }
 
-std::optional<SweepResults> Store::find_results(const std::string& sweep_id, bool parameters) const {
+std::optional<SweepResults> Store::find_results(const std::string& sweep_id, RowParameters parameters) const {
   return readers_.read([&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
 }
 

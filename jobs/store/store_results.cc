@@ -36,7 +36,7 @@ void insert_trajectory(Statements& statements, std::int64_t result, const std::s
   add->exec();
 }
 
-void settle_waiting(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
+void complete_duplicates(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
   const auto settle = statements.use(
       "UPDATE jobs SET state = 'succeeded', result = ?, reused = 1, started_ms = max(?, created_ms), ended_ms = max(?, created_ms), change = ?, "
       "batch = NULL, place = NULL "

@@ -18,7 +18,7 @@ std::int64_t insert_result(Statements& statements, std::int64_t content, const R
 /// @param blob  by encode_trajectory
 void insert_trajectory(Statements& statements, std::int64_t result, const std::string& blob);
 
-/// Gives a new result to those who waited for it.
-void settle_waiting(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms, std::int64_t change);
+/// Completes queued jobs of the same content with a new result.
+void complete_duplicates(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms, std::int64_t change);
 
 }  // namespace jobs

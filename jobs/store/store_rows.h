@@ -14,10 +14,12 @@ namespace jobs {
 
 [[nodiscard]] std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id);
 [[nodiscard]] std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id);
-[[nodiscard]] std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id, bool parameters);
+[[nodiscard]] std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id,
+                                                       RowParameters parameters);
 [[nodiscard]] std::optional<StudyRow> read_study(const SQLite::Database& database, const std::string& id);
 
-/// Keeps the answer to a request under its key, and forgets those that are too old.
-void keep_answer(SQLite::Database& database, const std::string& key, const std::string& request, const std::string& answer);
+/// Stores the response to a request under its key, and deletes those that are too old.
+void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
+                    const std::string& response);
 
 }  // namespace jobs

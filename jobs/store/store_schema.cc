@@ -158,19 +158,19 @@ void check_health(SQLite::Database& database, const std::string& name) {
   while (tables.executeStep()) {
     const std::string table = tables.getColumn(0).getString();
     const std::string verdict = database.execAndGet("PRAGMA quick_check(" + table + ")").getString();
-    if (verdict != "ok") throw StorageError("the store " + name + " is damaged (" + shortened(verdict) + "); it has been left as it is", SQLITE_CORRUPT, false);
+    if (verdict != "ok") throw StorageError("the store " + name + " is damaged (" + shortened(verdict) + "); it has been left as it is", SQLITE_CORRUPT);
   }
 }
 
 void check_identity(SQLite::Database& database, const std::string& name) {
   const int version = pragma(database, "user_version");
   if (pragma(database, "application_id") != kApplicationId && !(version == 0 && is_empty(database))) {
-    throw StorageError(name + " is a database, but not a store of this program; it has been left as it is", SQLITE_NOTADB, false);
+    throw StorageError(name + " is a database, but not a store of this program; it has been left as it is", SQLITE_NOTADB);
   }
   if (version > kNewestVersion) {
     throw StorageError("the store " + name + " is of a newer program (form " + std::to_string(version) + ", this one knows " +
                            std::to_string(kNewestVersion) + "); it has been left as it is",
-                       SQLITE_MISMATCH, false);
+                       SQLITE_MISMATCH);
   }
 }
 
@@ -194,13 +194,13 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& sto
     // Large pages suit large trajectories. Neither takes effect in a file that has tables, but the second is written all the same.
     if (is_empty(database)) database.exec("PRAGMA page_size = 8192; PRAGMA auto_vacuum = INCREMENTAL");
     if (database.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
-      throw StorageError("the store " + name + " lies on a file system that does not share memory, as a network's", SQLITE_CANTOPEN, false);
+      throw StorageError("the store " + name + " lies on a file system that does not share memory, as a network's", SQLITE_CANTOPEN);
     }
     migrate(database);
   } catch (const SQLite::Exception& error) {
     const int code = error.getErrorCode();
     if (!is_damage(code)) throw;
-    throw StorageError("the store " + name + " is damaged or no database (" + error.what() + "); it has been left as it is", code, false);
+    throw StorageError("the store " + name + " is damaged or no database (" + error.what() + "); it has been left as it is", code);
   }
 }
 

@@ -30,23 +30,23 @@ StudyRow study_row(SQLite::Statement& found) {
 }  // namespace
 
 std::string Store::add_study(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
-                              std::size_t max_queued, const KeptAnswer<StudySnapshot>& kept) {
+                              std::size_t max_queued, const IdempotencyRecord<StudySnapshot>& idempotency) {
   return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     const std::string sweep_id = ids_.make(kSweepPrefix, now_ms);
     const std::int64_t sweep = insert_sweep(database, sweep_id, plan, sweep_request, now_ms);
     JobInserter inserter(database, ids_, now_ms, ++changes_);
-    for (const PlannedJob& job : plan.jobs) inserter.insert(job, sweep, plan.reuse);
-    check_room(database, max_queued);
+    for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
+    check_queue_limit(database, max_queued);
     std::string id = ids_.make(prefix, now_ms);
     SQLite::Statement add(database, "INSERT INTO searches (sweep, id, request) VALUES (?, ?, ?)");
     add.bind(1, sweep);
     add.bind(2, id);
     add.bind(3, request);
     add.exec();
-    if (!kept.key.empty()) {
-      keep_answer(database, kept.key, kept.request,
-                  kept.make_text({.study = read_study(database, id).value(), .results = read_results(database, sweep_id, false).value()}));
+    if (!idempotency.key.empty()) {
+      store_response(database, idempotency.key, idempotency.fingerprint,
+                  idempotency.make_response({.study = read_study(database, id).value(), .results = read_results(database, sweep_id, RowParameters::kNone).value()}));
     }
     check_quota_of(database);
     return id;

@@ -24,16 +24,16 @@ std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
   return is_id(id, type_->id_prefix()) ? store_.find_study(id) : std::nullopt;
 }
 
-json StudyRunner::submit(const ordered_json& request, const KeptText& kept) {
+json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& idempotency) {
   const FirstSweep first = type_->plan_first(request, limits_.max_sweep_jobs);
-  const KeptAnswer<StudySnapshot> answer{
-      .key = kept.key, .request = kept.request, .make_text = [&](StudySnapshot begun) {
+  const IdempotencyRecord<StudySnapshot> record{
+      .key = idempotency.key, .fingerprint = idempotency.fingerprint, .make_response = [&](StudySnapshot begun) {
         // As the study begins: results that are known already have not been told.
         for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
-        return *kept.answer = text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
+        return *idempotency.response = text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
       }};
   const std::string id = store_.add_study(type_->id_prefix(), first.plan, first.request.dump(),
-                                          request.dump(), limits_.max_queued_jobs, answer);
+                                          request.dump(), limits_.max_queued_jobs, record);
   ++generation_;
   return find(id).value();
 }
@@ -41,7 +41,7 @@ json StudyRunner::submit(const ordered_json& request, const KeptText& kept) {
 std::optional<json> StudyRunner::find(const std::string& id) const {
   const auto row = find_row(id);
   if (!row) return std::nullopt;
-  const auto results = store_.find_results(row->sweep_id, false);
+  const auto results = store_.find_results(row->sweep_id);
   return results ? std::optional(type_->make_resource(*row, *results, limits_.threads)) : std::nullopt;
 }
 
@@ -54,7 +54,7 @@ json StudyRunner::list(const PageQuery& query) const {
 std::optional<ResultTable> StudyRunner::find_table(const std::string& id) const {
   const auto row = find_row(id);
   if (!row) return std::nullopt;
-  const auto results = store_.find_results(row->sweep_id, false);
+  const auto results = store_.find_results(row->sweep_id);
   return results ? std::optional(type_->make_table(*row, *results)) : std::nullopt;
 }
 
@@ -140,7 +140,7 @@ bool StudyRunner::tell_results(const StudyRow& study) {
   const auto ended = known == active_.end() ? std::vector<ResultRow>{}
                                             : store_.find_ended(study.sweep_id, known->second.change);
   if (known == active_.end()) {
-    const auto results = store_.find_results(study.sweep_id, false);
+    const auto results = store_.find_results(study.sweep_id);
     if (!results) return false;  // it has been deleted
     ActiveStudy active{.sweep_id = study.sweep_id,
                        .common = ordered_json::parse(results->sweep.request),

@@ -50,10 +50,10 @@ struct StudyChanges {
   bool added = false;  ///< jobs were added
 };
 
-/// Under which key the answer to a request is kept, and what it was.
-struct KeptText {
-  std::string key, request;  ///< as in KeptAnswer
-  std::string* answer = nullptr;
+/// Key and fingerprint of a request, as in IdempotencyRecord, and where its response goes when it is stored.
+struct IdempotentRequest {
+  std::string key, fingerprint;
+  std::string* response = nullptr;
 };
 
 /// Sweep with which a study begins.
@@ -98,9 +98,9 @@ class StudyRunner {
   StudyRunner(Store& store, const StudyLimits& limits, std::unique_ptr<StudyType> type)
       : store_(store), limits_(limits), type_(std::move(type)) {}
 
-  /// @param kept  how the answer is kept; without a key it is not
+  /// @param idempotency  without a key, no response is stored
   /// @throws InvalidRequest, QueueFull
-  nlohmann::json submit(const nlohmann::ordered_json& request, const KeptText& kept);
+  nlohmann::json submit(const nlohmann::ordered_json& request, const IdempotentRequest& idempotency);
   [[nodiscard]] std::optional<nlohmann::json> find(const std::string& id) const;
   [[nodiscard]] std::optional<StudyRow> find_row(const std::string& id) const;
   [[nodiscard]] nlohmann::json list(const PageQuery& query) const;

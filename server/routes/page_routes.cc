@@ -46,7 +46,7 @@ Response get_metrics(const Call& call) {
   Query(call.request, {}).check();
   return {.status = 200,
           .content_type = "text/plain; version=0.0.4; charset=utf-8",
-          .body = call.metrics.text(call.service.find_load(), call.service.list_executors()),
+          .body = call.metrics.text(call.service.read_queue_stats(), call.service.list_executors()),
           .headers = {{"Cache-Control", "no-store"}}};
 }
 

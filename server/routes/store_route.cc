@@ -24,7 +24,7 @@ std::filesystem::path copy_of(const std::filesystem::path& store) { return store
 std::shared_ptr<FileBody> open_nameless(const std::filesystem::path& file, std::shared_ptr<const void> permit) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   std::filesystem::remove(file);
-  if (descriptor < 0) throw jobs::StorageError("the copy of the store cannot be opened", 0, false);
+  if (descriptor < 0) throw jobs::StorageError("the copy of the store cannot be opened");
   return std::make_shared<FileBody>(descriptor, std::move(permit));
 }
 

@@ -70,7 +70,7 @@ class Metrics::Impl {
         .Observe(seconds);
   }
 
-  std::string text(const jobs::Load& load, const nlohmann::json& executors) {
+  std::string text(const jobs::QueueStats& load, const nlohmann::json& executors) {
     const std::lock_guard lock(load_mutex_);
     queued_.Set(static_cast<double>(load.queued));
     running_.Set(static_cast<double>(load.running));
@@ -132,6 +132,6 @@ void Metrics::add_request(const std::string& method, std::string_view route, int
   impl_->add_request(method, route, status, seconds);
 }
 
-std::string Metrics::text(const jobs::Load& load, const nlohmann::json& executors) const { return impl_->text(load, executors); }
+std::string Metrics::text(const jobs::QueueStats& load, const nlohmann::json& executors) const { return impl_->text(load, executors); }
 
 }  // namespace server

@@ -7,7 +7,7 @@
 
 #include "jobs/parameters/job_spec.h"
 #include "jobs/runs/run_record.h"
-#include "jobs/store/load.h"
+#include "jobs/store/queue_stats.h"
 
 namespace server {
 
@@ -27,7 +27,7 @@ class Metrics {
   void add_request(const std::string& method, std::string_view route, int status, double seconds);
 
   /// Everything, with the load as it is now. @param executors  Service::list_executors()
-  [[nodiscard]] std::string text(const jobs::Load& load, const nlohmann::json& executors = {{"items", nlohmann::json::array()}}) const;
+  [[nodiscard]] std::string text(const jobs::QueueStats& load, const nlohmann::json& executors = {{"items", nlohmann::json::array()}}) const;
 
  private:
   class Impl;

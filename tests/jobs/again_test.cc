@@ -130,7 +130,7 @@ TEST(Retry, ForgetsNoNumberOfAnEnd) {
       EXPECT_TRUE(store.retry_sweep(id, 10));
     }
     EXPECT_TRUE(store.find_changes(id, 0)->ended.empty());
-    EXPECT_EQ(store.find_results(id, false)->rows.at(0).change, 0);
+    EXPECT_EQ(store.find_results(id)->rows.at(0).change, 0);
   }
   jobs::Store store(temporary.file());
   static_cast<void>(store.cancel_sweep(id));

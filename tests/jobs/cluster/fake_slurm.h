@@ -11,7 +11,7 @@
 
 namespace jobs_tests {
 
-/// Commands in the place of Slurm's, each a shell script that a test writes; what they are called with is noted.
+/// Commands in the batch_index of Slurm's, each a shell script that a test writes; what they are called with is noted.
 class FakeSlurm {
  public:
   FakeSlurm() {

@@ -14,13 +14,13 @@ namespace jobs_tests {
 namespace {
 
 using jobs::cluster::FileError;
-using jobs::cluster::Place;
+using jobs::cluster::BatchIndex;
 using jobs::cluster::plan_tasks;
 using jobs::cluster::TaskPlan;
 using testing::ElementsAre;
 
 TEST(TaskList, ReadsBackWhatWasWritten) {
-  const std::vector<TaskPlan> tasks{{.places = {0, 1, 2, 7, 9, 10}, .tries = 2, .strikes = 1, .memory_factor = 2, .time_factor = 4}, {.places = {3}}};
+  const std::vector<TaskPlan> tasks{{.indices = {0, 1, 2, 7, 9, 10}, .tries = 2, .strikes = 1, .memory_factor = 2, .time_factor = 4}, {.indices = {3}}};
   EXPECT_EQ(jobs::cluster::read_task_list(jobs::cluster::write_task_list(tasks)), tasks);
   EXPECT_EQ(jobs::cluster::write_task_list(tasks), "0-2,7,9-10 tries 2 strikes 1 memory 2 time 4\n3 tries 0 strikes 0 memory 1 time 1\n");
 }
@@ -62,8 +62,8 @@ jobs::cluster::ResultFile some_results() {
   bad.error_reason = "non_finite";
   bad.error_detail = "no number";
   bad.error_t_s = 0.5;
-  file.results = {{.place = 3, .record = good, .packed_trajectory = std::string("\0\1blob", 6)},
-                  {.place = 9, .record = bad, .packed_trajectory = {}}};
+  file.results = {{.batch_index = 3, .record = good, .packed_trajectory = std::string("\0\1blob", 6)},
+                  {.batch_index = 9, .record = bad, .packed_trajectory = {}}};
   return file;
 }
 
@@ -73,7 +73,7 @@ TEST(Results, ReadBackToTheBit) {
   EXPECT_EQ(read.provenance.libm, "glibc 2.36");
   EXPECT_EQ(read.provenance.engine, "e");
   ASSERT_EQ(read.results.size(), 2U);
-  EXPECT_EQ(read.results[0].place, 3U);
+  EXPECT_EQ(read.results[0].batch_index, 3U);
   EXPECT_EQ(read.results[0].record.metrics.dump(), R"({"none":null,"peak":0.1,"steps":12})");
   EXPECT_EQ(read.results[0].record.wall_time_s, 0.25);
   EXPECT_EQ(read.results[0].packed_trajectory, std::string("\0\1blob", 6));
@@ -101,9 +101,9 @@ TEST(DurableFile, IsWholeAndLeavesNothingElse) {
   EXPECT_THROW(jobs::cluster::write_durably(folder.file() / "below", "x"), FileError);
 }
 
-std::vector<Place> places(std::size_t count) {
-  std::vector<Place> all(count);
-  std::iota(all.begin(), all.end(), Place{0});
+std::vector<BatchIndex> indices(std::size_t count) {
+  std::vector<BatchIndex> all(count);
+  std::iota(all.begin(), all.end(), BatchIndex{0});
   return all;
 }
 
@@ -111,19 +111,19 @@ TEST(PlanTasks, HasEveryJobOnceInOrder) {
   for (const std::size_t n : {1U, 2U, 7U, 100U, 1001U}) {
     std::vector<double> costs(n);
     for (std::size_t i = 0; i < n; ++i) costs[i] = static_cast<double>(i * i % 17);
-    std::vector<Place> all;
-    for (const TaskPlan& task : plan_tasks(places(n), costs, {.threads = 2, .slots = 3, .most_tasks = 50, .task_s = 10.0, .least_task_s = 0.1})) {
-      EXPECT_FALSE(task.places.empty());
-      all.insert(all.end(), task.places.begin(), task.places.end());
+    std::vector<BatchIndex> all;
+    for (const TaskPlan& task : plan_tasks(indices(n), costs, {.threads = 2, .slots = 3, .most_tasks = 50, .task_s = 10.0, .least_task_s = 0.1})) {
+      EXPECT_FALSE(task.indices.empty());
+      all.insert(all.end(), task.indices.begin(), task.indices.end());
     }
-    EXPECT_EQ(all, places(n));
+    EXPECT_EQ(all, indices(n));
   }
 }
 
 TEST(PlanTasks, MakesThreeTasksASlotUnlessTheyAreTooShortOrTooLong) {
   const std::vector<double> costs(6000, 1.0);
   const auto count = [&](double task_s, double least_task_s, int most) {
-    return plan_tasks(places(6000), costs, {.threads = 1, .slots = 10, .most_tasks = most, .task_s = task_s, .least_task_s = least_task_s}).size();
+    return plan_tasks(indices(6000), costs, {.threads = 1, .slots = 10, .most_tasks = most, .task_s = task_s, .least_task_s = least_task_s}).size();
   };
   EXPECT_EQ(count(600.0, 60.0, 1000), 30U);
   EXPECT_EQ(count(100.0, 60.0, 1000), 60U);    // none longer than 100 s
@@ -132,9 +132,9 @@ TEST(PlanTasks, MakesThreeTasksASlotUnlessTheyAreTooShortOrTooLong) {
 }
 
 TEST(PlanTasks, SharesOutCostsRatherThanJobs) {
-  const auto tasks = plan_tasks(places(4), {9.0, 1.0, 1.0, 9.0}, {.threads = 1, .slots = 1, .most_tasks = 2, .task_s = 10.0, .least_task_s = 1.0});
+  const auto tasks = plan_tasks(indices(4), {9.0, 1.0, 1.0, 9.0}, {.threads = 1, .slots = 1, .most_tasks = 2, .task_s = 10.0, .least_task_s = 1.0});
   ASSERT_EQ(tasks.size(), 2U);
-  EXPECT_THAT(tasks[0].places, ElementsAre(0U, 1U));
+  EXPECT_THAT(tasks[0].indices, ElementsAre(0U, 1U));
 }
 
 }  // namespace

@@ -17,19 +17,19 @@ namespace jobs_tests {
 namespace {
 
 using jobs::cluster::FileError;
-using jobs::cluster::Place;
+using jobs::cluster::BatchIndex;
 
 /// A batch of three jobs that one task is to compute: its crank velocities are 5, 6 and 7 rad/s.
 class TaskTest : public testing::Test {
  protected:
   void prepare(const std::string& engine = jobs::engine_version(), double deliver_every_s = 1e6) {
-    std::vector<jobs::PlacedJob> all;
-    for (const std::uint32_t place : {0U, 1U, 2U}) {
-      const nlohmann::json given{{"crank_velocity_rad_s", 5 + place}, {"duration_s", 0.1}, {"run_up_s", 0.05}};
-      all.push_back({.place = place, .parameters = jobs::complete_parameters(given, "").dump(), .kind = {}, .duration_s = 0.1});
+    std::vector<jobs::BatchJob> all;
+    for (const std::uint32_t batch_index : {0U, 1U, 2U}) {
+      const nlohmann::json given{{"crank_velocity_rad_s", 5 + batch_index}, {"duration_s", 0.1}, {"run_up_s", 0.05}};
+      all.push_back({.batch_index = batch_index, .parameters = jobs::complete_parameters(given, "").dump(), .kind = {}, .duration_s = 0.1});
     }
     batch_.prepare({.batch = "bat_1", .engine = engine, .limits = {}, .deliver_every_s = deliver_every_s}, all);
-    batch_.add_generation({{.places = {0, 1, 2}}}, "");
+    batch_.add_generation({{.indices = {0, 1, 2}}}, "");
   }
 
   bool run(const jobs::Runner& runner, const std::function<bool()>& stop = [] { return false; }) {
@@ -37,14 +37,14 @@ class TaskTest : public testing::Test {
                                    [](const std::string&) {});
   }
 
-  /// The places of all results that lie in the folder.
-  std::vector<Place> delivered() {
-    std::vector<Place> places;
+  /// The indices of all results that lie in the folder.
+  std::vector<BatchIndex> delivered() {
+    std::vector<BatchIndex> indices;
     for (const auto& file : batch_.find_new_results()) {
-      for (const auto& result : jobs::cluster::decode_results(jobs::cluster::read_whole(file)).results) places.push_back(result.place);
+      for (const auto& result : jobs::cluster::decode_results(jobs::cluster::read_whole(file)).results) indices.push_back(result.batch_index);
     }
-    std::ranges::sort(places);
-    return places;
+    std::ranges::sort(indices);
+    return indices;
   }
 
   /// Computes the first job at once; the others go on until they are stopped.

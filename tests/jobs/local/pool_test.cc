@@ -22,7 +22,7 @@ jobs::ClaimedJob numbered_job(int k) {
   return {.seq = k, .id = "job_" + std::to_string(k), .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
 }
 
-void record_nothing(const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) {}
+void record_nothing(const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::OnClaim&) {}
 
 TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
   FakeEngine engine;
@@ -30,18 +30,18 @@ TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
   std::atomic<int> offers = 0;
   std::atomic<int> logs = 0;
   std::atomic<bool> stored = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) {
-                          if (claims++ == 0) taken(numbered_job(1));
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) {
+                          if (claims++ == 0) on_claim(numbered_job(1));
                         },
                         .record =
-                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record, const jobs::Taken&) {
+                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record, const jobs::OnClaim&) {
                               EXPECT_EQ(claimed.id, "job_1");
                               EXPECT_EQ(record.end, jobs::RunRecord::End::kSucceeded);
-                              if (offers++ == 0) throw jobs::StorageError("disk full", 13, true);
+                              if (offers++ == 0) throw jobs::StorageError("disk full", 13, jobs::Disk::kFull);
                               stored = true;
                               stored.notify_all();
                             },
-                        .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE() << "a finished job was given back"; }},
+                        .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE() << "a finished job was given back"; }},
                        engine.runner(), 1, [&](const std::string& text) {
                          ++logs;
                          EXPECT_NE(text.find("disk full"), std::string::npos);
@@ -56,13 +56,13 @@ TEST(LocalPool, OutlivesAStoreThatCannotBeClaimedFrom) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<bool> done = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) {
-                          if (claims++ == 0) throw jobs::StorageError("disk full", 13, true);
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim&) {
+                          if (claims++ == 0) throw jobs::StorageError("disk full", 13, jobs::Disk::kFull);
                           done = true;
                           done.notify_all();
                         },
                         .record = record_nothing,
-                        .give_back = [](const jobs::ClaimedJob&) {}},
+                        .requeue = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) {});
   done.wait(false);
   EXPECT_GE(claims, 2);
@@ -72,13 +72,13 @@ TEST(LocalPool, OutlivesALogThatHasNoMemory) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<bool> done = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) {
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim&) {
                           if (claims++ == 0) throw std::bad_alloc();
                           done = true;
                           done.notify_all();
                         },
                         .record = record_nothing,
-                        .give_back = [](const jobs::ClaimedJob&) {}},
+                        .requeue = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) { throw std::bad_alloc(); });
   done.wait(false);
   EXPECT_EQ(claims, 2);
@@ -89,11 +89,11 @@ TEST(LocalPool, ComputesTheJobThatARecordHandsOverAndCanStopIt) {
   std::atomic<int> claims = 0;
   std::atomic<int> records = 0;
   std::atomic<bool> handed_over = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) { if (claims++ == 0) taken(numbered_job(1)); },
-                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord& record, const jobs::Taken& taken) {
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) { if (claims++ == 0) on_claim(numbered_job(1)); },
+                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord& record, const jobs::OnClaim& on_claim) {
                           if (records == 0) {
                             engine.hold();
-                            taken(numbered_job(2));
+                            on_claim(numbered_job(2));
                             handed_over = true;
                             handed_over.notify_all();
                           } else {
@@ -104,7 +104,7 @@ TEST(LocalPool, ComputesTheJobThatARecordHandsOverAndCanStopIt) {
                           ++records;
                           records.notify_all();
                         },
-                        .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
+                        .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
                        engine.runner(), 1, [](const std::string&) {});
   handed_over.wait(false);
   pool.stop_job("job_2");  // which may not have begun yet
@@ -115,17 +115,17 @@ TEST(LocalPool, OffersAResultAloneThatCouldNotBeStoredWithTheNextJob) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<int> records = 0;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) { if (claims++ == 0) taken(numbered_job(1)); },
-                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord&, const jobs::Taken& taken) {
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) { if (claims++ == 0) on_claim(numbered_job(1)); },
+                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord&, const jobs::OnClaim& on_claim) {
                           EXPECT_EQ(job.id, "job_1");
                           if (records++ == 0) {
-                            taken(numbered_job(2));
+                            on_claim(numbered_job(2));
                             throw std::bad_alloc();  // so that nothing has been claimed
                           }
-                          EXPECT_FALSE(taken);
+                          EXPECT_FALSE(on_claim);
                           records.notify_all();
                         },
-                        .give_back = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
+                        .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
                        engine.runner(), 1, [](const std::string&) {});
   for (int seen = records; seen < 2; seen = records) records.wait(seen);
   EXPECT_EQ(engine.begun_speeds().size(), 1U);
@@ -137,16 +137,16 @@ TEST(LocalPool, GivesBackAJobThatItIsHandedAsItStops) {
   std::atomic<bool> recording = false;
   std::atomic<bool> stopping = false;
   std::vector<std::string> given_back;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) { if (claims++ == 0) taken(numbered_job(1)); },
-                        .record = [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken& taken) {
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) { if (claims++ == 0) on_claim(numbered_job(1)); },
+                        .record = [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::OnClaim& on_claim) {
                           engine.hold();
                           recording = true;
                           recording.notify_all();
                           stopping.wait(false);
                           std::this_thread::sleep_for(50ms);
-                          taken(numbered_job(2));
+                          on_claim(numbered_job(2));
                         },
-                        .give_back = [&](const jobs::ClaimedJob& job) { given_back.push_back(job.id); }},
+                        .requeue = [&](const jobs::ClaimedJob& job) { given_back.push_back(job.id); }},
                        engine.runner(), 1, [](const std::string&) {});
   recording.wait(false);
   stopping = true;
@@ -159,9 +159,9 @@ TEST(LocalPool, GivesBackAJobThatItIsHandedAsItStops) {
 TEST(LocalPool, SleepsWhileThereIsNothingToDo) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken&) { ++claims; claims.notify_all(); },
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim&) { ++claims; claims.notify_all(); },
                         .record = record_nothing,
-                        .give_back = [](const jobs::ClaimedJob&) {}},
+                        .requeue = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) {});
   claims.wait(0);
   std::this_thread::sleep_for(50ms);
@@ -175,16 +175,16 @@ TEST(LocalPool, StopsAtOnceWhileItWaitsForTheDisk) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<int> offers = 0;
-  jobs::LocalPool pool({.claim = [&](const jobs::Taken& taken) {
-                          if (claims++ == 0) taken(numbered_job(1));
+  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) {
+                          if (claims++ == 0) on_claim(numbered_job(1));
                         },
                         .record =
-                            [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::Taken&) {
+                            [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::OnClaim&) {
                               ++offers;
                               offers.notify_all();
-                              throw jobs::StorageError("disk full", 13, true);
+                              throw jobs::StorageError("disk full", 13, jobs::Disk::kFull);
                             },
-                        .give_back = [](const jobs::ClaimedJob&) {}},
+                        .requeue = [](const jobs::ClaimedJob&) {}},
                        engine.runner(), 1, [](const std::string&) {});
   const auto start = std::chrono::steady_clock::now();
   for (int seen = 0; seen < 3; seen = offers) offers.wait(seen);

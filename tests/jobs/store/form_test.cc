@@ -39,7 +39,7 @@ TEST(StoreForm, TakesOverAStoreOfForm1) {
     // In the order in which they ended, which is not that of their making: the second one was done first.
     EXPECT_EQ(changes.ended[0].change, 1);
     EXPECT_EQ(changes.ended[1].change, 2);
-    const auto results = store.find_results(id, false).value();
+    const auto results = store.find_results(id).value();
     ASSERT_EQ(results.rows.size(), 2U);
     EXPECT_EQ(changes.ended[0].id, results.rows[1].job_id);
     EXPECT_TRUE(results.rows[0].metrics.has_value());

@@ -49,7 +49,7 @@ class PowerLoss : public testing::TestWithParam<unsigned> {
 
   void do_something(jobs::Store& store, int number) {
     const std::string request = R"({"reuse": false, "sweep": {"crank_velocity_rad_s": [1, 2, )" + std::to_string(number + 3) + "]}}";
-    const jobs::KeptAnswer<jobs::SweepRow> kept{.key = std::to_string(number), .request = request, .make_text = [](const auto& row) { return row.id; }};
+    const jobs::IdempotencyRecord<jobs::SweepRow> kept{.key = std::to_string(number), .fingerprint = request, .make_response = [](const auto& row) { return row.id; }};
     now_.acknowledged.push_back(store.add_sweep(jobs::plan_sweep(request_of(request.c_str()), 10), request, 10'000, kept));
     if (number % 3 == 0) compute_a_job(store);
     if (number % 5 == 4) {

@@ -270,7 +270,7 @@ TEST(Store, KnowsWhatHasBeenComputed) {
   const std::string wider = add_sweep(store, kThreeJobs);
   EXPECT_EQ(count_of(store, wider, jobs::JobState::kSucceeded), 1);
   EXPECT_EQ(count_of(store, wider, jobs::JobState::kQueued), 2);
-  const auto rows = store.find_results(wider, false).value().rows;
+  const auto rows = store.find_results(wider).value().rows;
   EXPECT_EQ(rows[0].metrics, R"({"peak":7.0})");
   EXPECT_TRUE(store.find_job(rows[0].job_id)->reused);
   EXPECT_TRUE(store.find_trajectory(rows[0].job_id).has_value());
@@ -344,7 +344,7 @@ TEST(Store, DropsTheResultOfACancelledJob) {
   EXPECT_EQ(cancellation.outcome, jobs::CancelOutcome::kDone);
   EXPECT_EQ(cancellation.running, (std::vector<std::string>{job.id}));
   EXPECT_FALSE(store.record(job, success(1.0)));
-  store.give_back(job);
+  store.requeue(job);
   EXPECT_EQ(store.find_job(job.id)->state, "cancelled");
   EXPECT_EQ(store.cancel_job(job.id).outcome, jobs::CancelOutcome::kDone);
   EXPECT_EQ(store.cancel_job("job_none").outcome, jobs::CancelOutcome::kMissing);
@@ -359,11 +359,11 @@ TEST(Store, DeletesASweepButNotWhatAnotherShares) {
     EXPECT_TRUE(store.record(store.claim().value(), success(5.0)));
     EXPECT_TRUE(store.record(store.claim().value(), success(10.0)));
     const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-    const auto shared = store.find_results(second, false).value().rows;
+    const auto shared = store.find_results(second).value().rows;
     EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kDone);
     EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kMissing);
     EXPECT_FALSE(store.find_sweep(first).has_value());
-    EXPECT_EQ(store.find_results(second, false).value().rows[0].metrics, R"({"peak":5.0})");
+    EXPECT_EQ(store.find_results(second).value().rows[0].metrics, R"({"peak":5.0})");
     EXPECT_TRUE(store.find_trajectory(shared[0].job_id).has_value());
   }
   EXPECT_EQ(query_sql(temporary.file(), "SELECT (SELECT count(*) FROM results) || ' ' || (SELECT count(*) FROM contents) || ' ' || "
@@ -430,7 +430,7 @@ TEST(Store, LeavesTheRequestOutOfListingsAndChanges) {
   EXPECT_EQ(store.list_sweeps("", "", 1).at(0).request, "");
   EXPECT_EQ(store.find_changes(sweep, 0)->sweep.request, "");
   EXPECT_EQ(store.find_sweep(sweep)->request, kThreeJobs);
-  EXPECT_EQ(store.find_results(sweep, false)->sweep.request, kThreeJobs);
+  EXPECT_EQ(store.find_results(sweep)->sweep.request, kThreeJobs);
 }
 
 TEST(Store, KnowsWhetherASweepHasEnded) {
@@ -443,7 +443,7 @@ TEST(Store, KnowsWhetherASweepHasEnded) {
   EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one queued
   const auto last = store.claim().value();
   EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one running
-  const auto jobs = store.find_results(sweep, false)->rows;
+  const auto jobs = store.find_results(sweep)->rows;
   EXPECT_EQ(store.has_job_ended(jobs[0].job_id), true);
   EXPECT_EQ(store.has_job_ended(jobs[1].job_id), false);
   EXPECT_TRUE(store.record(last, failure()));
@@ -467,7 +467,7 @@ TEST(Store, TellsWhichResultsAreNew) {
   EXPECT_EQ(second[0].state, "failed");
   EXPECT_TRUE(store.find_ended(sweep, second[0].change).empty());
   // The whole table says the same of each job.
-  const auto rows = store.find_results(sweep, false).value().rows;
+  const auto rows = store.find_results(sweep).value().rows;
   EXPECT_EQ(rows[1].change, second[0].change);
   EXPECT_EQ(rows[2].change, 0);
 }

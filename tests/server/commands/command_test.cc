@@ -38,7 +38,7 @@ TEST(RunGuarded, PrintsEachFaultOnALine) {
 
 TEST(RunGuarded, TellsBadInputFromAFailingMachine) {
   EXPECT_EQ(words_of(BadInput("no such file"), kBadInput), "rpsup: no such file\n");
-  EXPECT_EQ(words_of(jobs::StorageError("in use", 5, false), kMachineFailed), "rpsup: in use\n");
+  EXPECT_EQ(words_of(jobs::StorageError("in use", 5), kMachineFailed), "rpsup: in use\n");
   EXPECT_EQ(words_of(CannotWrite("full"), kMachineFailed), "rpsup: full\n");
   EXPECT_EQ(words_of(std::bad_alloc(), kMachineFailed).find("rpsup: there is no memory left"), 0U);
   const std::system_error no_thread(std::make_error_code(std::errc::resource_unavailable_try_again));

@@ -52,8 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
         ErrorCase{"Stopped", std::make_exception_ptr(jobs::Stopped("secret")), 503, true},
         ErrorCase{"NoMemory", std::make_exception_ptr(std::bad_alloc()), 503, false},
         ErrorCase{"StoreLimit", std::make_exception_ptr(jobs::StoreLimitReached("secret")), 507, true},
-        ErrorCase{"DiskFull", std::make_exception_ptr(jobs::StorageError("secret", 13, true)), 507, false},
-        ErrorCase{"DiskBroken", std::make_exception_ptr(jobs::StorageError("secret", 10, false)), 503, false},
+        ErrorCase{"DiskFull", std::make_exception_ptr(jobs::StorageError("secret", 13, jobs::Disk::kFull)), 507, false},
+        ErrorCase{"DiskBroken", std::make_exception_ptr(jobs::StorageError("secret", 10)), 503, false},
         ErrorCase{"Other", std::make_exception_ptr(std::logic_error("secret")), 500, false},
         ErrorCase{"NoException", std::make_exception_ptr(42), 500, false}),
     [](const auto& case_info) { return case_info.param.name; });

@@ -10,14 +10,14 @@
 
 namespace jobs {
 
-/// The keys of requests that are being answered at this moment: a second request under the same key is refused.
-class KeysInUse {
+/// Idempotency keys of requests that are being answered: a second request under the same key is refused.
+class InFlightKeys {
  public:
   /// Holds a key for as long as it lives.
   class Use {
    public:
     /// @throws WrongState if the key is held
-    Use(KeysInUse& keys, std::string key) : keys_(keys), key_(std::move(key)) {
+    Use(InFlightKeys& keys, std::string key) : keys_(keys), key_(std::move(key)) {
       const std::lock_guard lock(keys_.mutex_);
       if (!keys_.held_.insert(key_).second) throw WrongState("a request with this Idempotency-Key is being answered; send it again for its answer");
     }
@@ -29,7 +29,7 @@ class KeysInUse {
     Use& operator=(const Use&) = delete;
 
    private:
-    KeysInUse& keys_;
+    InFlightKeys& keys_;
     std::string key_;
   };
 

@@ -5,8 +5,8 @@
 
 namespace jobs {
 
-/// How much there is to do, and what the store takes.
-struct Load {
+/// Size of the queue and of the store.
+struct QueueStats {
   std::int64_t queued = 0, running = 0;  ///< jobs
   std::int64_t store_bytes = 0;          ///< on disk, with its log
 };

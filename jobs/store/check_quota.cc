@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "jobs/store/store_quota.h"
+#include "jobs/store/check_quota.h"
 
 #include <cstdint>
 #include <string>
@@ -31,7 +31,7 @@ void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes) {
 
 }  // namespace
 
-void check_quota(SQLite::Statement& used, const StoreRoom& room, const std::filesystem::path& file) {
+void check_quota(SQLite::Statement& used, const StoreQuota& room, const std::filesystem::path& file) {
   if (room.most_bytes > 0) check_store(used, room.most_bytes);
   if (room.reserve_bytes > 0) check_disk(file, room.reserve_bytes);
 }

@@ -3,7 +3,7 @@
 
 #include <system_error>
 
-#include "jobs/store/load.h"
+#include "jobs/store/queue_stats.h"
 #include "jobs/store/store_insert.h"
 
 namespace jobs {
@@ -18,12 +18,12 @@ std::int64_t size_or_zero(const std::filesystem::path& file) {
 
 }  // namespace
 
-Load Store::find_load() const {
+QueueStats Store::read_queue_stats() const {
   return readers_.read([&](const SQLite::Database& database) {
     SQLite::Statement count(database, std::string("SELECT (") + kQueuedCount + "), (SELECT count(*) FROM jobs WHERE state = 'running')");
     count.executeStep();
     const std::filesystem::path file = database.getFilename();
-    return Load{.queued = count.getColumn(0).getInt64(), .running = count.getColumn(1).getInt64(),
+    return QueueStats{.queued = count.getColumn(0).getInt64(), .running = count.getColumn(1).getInt64(),
                 .store_bytes = size_or_zero(file) + size_or_zero(file.string() + "-wal")};
   });
 }

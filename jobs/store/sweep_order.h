@@ -17,9 +17,9 @@ inline constexpr const char* kNobodyComputesIt =
     "(j.reuse = 0 OR NOT EXISTS (SELECT 1 FROM jobs r WHERE r.content = j.content AND r.state = 'running') "
     "AND NOT EXISTS (SELECT 1 FROM jobs r WHERE r.content = j.content AND r.batch IS NOT NULL))";
 
-/// The sweeps that have jobs which an executor may take, kSingleJobs for those of none: highest priority first, then those that were served
-/// longest ago.
-/// @param served  which was served when; what is not there never was, and the oldest of those comes first
-[[nodiscard]] std::vector<std::int64_t> find_turns(Statements& statements, const Lane& lane, const std::map<std::int64_t, std::uint64_t>& served);
+/// Scheduling order of the sweeps that have jobs for an executor: highest priority first, then least recently served.
+/// kSingleJobs stands for jobs without a sweep.
+/// @param served  number of the claim that last served a sweep; sweeps that are not in it come first, oldest first
+[[nodiscard]] std::vector<std::int64_t> order_of_sweeps(Statements& statements, const ExecutorFilter& filter, const std::map<std::int64_t, std::uint64_t>& served);
 
 }  // namespace jobs

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of the store's tables, as others see them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jobs/base/states.h"
+
+namespace jobs {
+
+/// Number of a sweep's jobs in each state, by JobState.
+using StateCounts = std::array<std::int64_t, kJobStates.size()>;
+
+/// State of a sweep, from those of its jobs.
+[[nodiscard]] std::string_view sweep_state(const StateCounts& counts);
+[[nodiscard]] bool has_ended(const StateCounts& counts);
+
+/// What is left to compute of a sweep, and what its jobs have cost so far, by PlannedJob::kind.
+struct CostOfKind {
+  std::int64_t queued = 0, running = 0;
+  std::int64_t computed = 0;        ///< ended jobs that were computed, not reused
+  double wall_time_s = 0.0;         ///< of those together, each on one thread
+  double wall_time_squares_s2 = 0;  ///< the sum of their squares
+};
+
+struct SweepRow {
+  std::string id, name;
+  std::string request;                               ///< empty in listings and changes
+  std::string swept;
+  bool replicated = false;
+  std::int64_t priority = 0;
+  std::string executor;                              ///< empty: it named none
+  std::int64_t created_ms = 0;
+  std::optional<std::int64_t> started_ms, ended_ms;  ///< of its first job, and of its last one if all have ended
+  StateCounts counts{};
+  std::map<std::string, CostOfKind> costs;           ///< only of sweeps that have not ended
+};
+
+/// The run behind a result.
+struct RunRow {
+  double wall_time_s = 0.0, cpu_time_s = 0.0;
+  std::string host, cpu, version, commit, compiler, engine;
+  std::string libm, numerics;  ///< empty: of a time when they were not noted
+};
+
+struct JobRow {
+  std::string id;
+  std::optional<std::string> sweep_id;
+  std::optional<std::int64_t> replicate;
+  std::string state;
+  std::string parameters;              ///< empty in listings
+  std::optional<std::string> metrics;  ///< empty in listings
+  std::optional<std::string> error_reason;
+  std::string error_detail;
+  std::optional<double> error_t_s;
+  std::int64_t created_ms = 0;
+  std::optional<std::int64_t> started_ms, ended_ms;
+  std::int64_t attempts = 0;
+  bool reused = false;
+  std::optional<RunRow> run;
+};
+
+/// Study: a search or a wear study, whose evaluations are the jobs of a sweep.
+struct StudyRow {
+  std::string id, sweep_id, name, request, state;
+  std::optional<std::string> error;  ///< why it could not go on
+  std::int64_t created_ms = 0;
+  std::optional<std::int64_t> ended_ms;
+};
+
+enum class RowParameters { kNone, kAll };
+
+/// One job's line in the table of its sweep.
+struct ResultRow {
+  std::string job_id, state, swept;
+  std::optional<std::int64_t> replicate;
+  std::optional<std::string> metrics;
+  std::string parameters{};  ///< RowParameters::kAll only
+  std::int64_t change = 0;   ///< EndedJob::change; 0: it has not ended
+  std::optional<std::string> error_reason{}, error_detail{};  ///< of what failed
+};
+
+/// All jobs of a sweep in one snapshot of the store.
+struct SweepResults {
+  SweepRow sweep;
+  std::vector<ResultRow> rows;  ///< in the order in which the sweep was expanded, what was added to it later last
+};
+
+/// Study with its jobs, in one snapshot of the store.
+struct StudySnapshot {
+  StudyRow study;
+  SweepResults results;
+};
+
+/// A job that has ended.
+struct EndedJob {
+  std::int64_t change = 0;  ///< grows from end to end; what ended in one transaction shares it
+  std::string id, state;
+  std::optional<std::string> error_reason;
+  std::int64_t ended_ms = 0;
+  bool reused = false;
+};
+
+/// What has happened to a sweep since a change.
+struct SweepChanges {
+  SweepRow sweep;
+  std::vector<EndedJob> ended;  ///< by change
+};
+
+}  // namespace jobs
