@@ -1,30 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "engine/analysis/quantities.h"
+#include "jobs/base/change_signal.h"
+#include "jobs/base/in_flight_keys.h"
 #include "jobs/cluster/site.h"
 #include "jobs/results/page_query.h"
+#include "jobs/results/resource_json.h"
 #include "jobs/results/result_query.h"
 #include "jobs/results/result_table.h"
+#include "jobs/runs/executor.h"
 #include "jobs/runs/job_limits.h"
 #include "jobs/runs/run_record.h"
+#include "jobs/store/idempotency_record.h"
 #include "jobs/store/queue_stats.h"
+#include "jobs/store/rows.h"
 #include "jobs/store/store_quota.h"
 #include "jobs/trajectories/trajectory_query.h"
 
 namespace jobs {
+
+class Store;
+class StudyRunner;
+struct Cancellation;
 
 /// When a service begins to compute.
 enum class Start { kAtOnce, kWhenTold };
@@ -62,7 +77,7 @@ struct SweepNews {
 /// parameter, kWear follows a bearing that is worn over the hours.
 enum class Study { kLimit, kWear };
 
-/// The study queue: validates, stores, computes and hands out sweeps and jobs. One per store.
+/// Service of sweeps, jobs and studies: validates, stores, computes and hands them out. One per store.
 ///
 /// Every JSON it returns is the resource as the HTTP interface and the command line show it.
 /// All members may be called from any thread.
@@ -135,12 +150,12 @@ class Service {
   /// What has ended of a study's jobs since that change. It has ended when nothing is to be computed for it any more.
   [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id, std::int64_t after) const;
   /// A number that grows whenever a job begins or ends, or is changed otherwise.
-  [[nodiscard]] std::uint64_t activity() const;
+  [[nodiscard]] std::uint64_t activity() const { return activity_; }
 
   /// Writes a consistent copy of the store to a file that does not exist, while everything goes on.
   /// @returns false if the service was stopped before it was done; then there is no file
   bool copy_store_to(const std::filesystem::path& file) const;
-  [[nodiscard]] const std::filesystem::path& store_file() const;
+  [[nodiscard]] const std::filesystem::path& store_file() const { return options_.store; }
 
   /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once if there is none.
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const;
@@ -151,8 +166,40 @@ class Service {
   void stop();
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  using Submit = std::function<nlohmann::json(const IdempotentRequest&)>;
+  /// Response that is stored under the request's key; without one, that of submit(), which stores it.
+  nlohmann::json answer_once(const std::string& key, const std::string& fingerprint, const Submit& submit);
+
+  void check_open() const;
+  void check_executor(const std::string& name) const;
+  void wake();        ///< the executors
+  void tell_change();
+  [[nodiscard]] bool has_cluster() const { return !options_.site.folder.empty(); }
+  [[nodiscard]] ExecutorFilter filter_of(std::string_view executor) const;
+  [[nodiscard]] int slots_for(const SweepRow& row) const;
+  [[nodiscard]] nlohmann::json sweep_resource(const SweepRow& row, Detail detail) const;
+
+  void claim(const OnClaim& on_claim);
+  /// @param next  takes the next job; empty: nobody does
+  void record(const ClaimedJob& job, const RunRecord& run, const OnClaim& next);
+  /// Does the rest of a cancellation. False if there is nothing of that id. @param why_not  null if it may have ended
+  bool finish_cancelling(const Cancellation& cancellation, const char* why_not);
+
+  [[nodiscard]] StudyRunner& runner(Study study) const { return *runners_[static_cast<std::size_t>(study)]; }
+  /// Changes the jobs of a sweep while no study looks at them.
+  void change_sweep(const std::string& id, const std::function<void()>& change);
+  /// Lets studies go on after each change, until stop().
+  void run_studies();
+
+  const ServiceOptions options_;
+  ChangeSignal changes_;  ///< by which a sweep or a study may have ended
+  std::atomic<std::uint64_t> activity_ = 0;
+  InFlightKeys keys_;
+  std::unique_ptr<Store> store_;
+  std::array<std::unique_ptr<StudyRunner>, 2> runners_;  ///< by Study
+  std::vector<std::unique_ptr<Executor>> executors_;     ///< end before the store they work for; none before start()
+  std::mutex stop_mutex_;                                ///< guards the joining of study_thread_
+  std::jthread study_thread_;                            ///< of run_studies()
 };
 
 }  // namespace jobs

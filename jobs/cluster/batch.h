@@ -10,7 +10,7 @@
 
 #include "jobs/cluster/batch_files.h"
 #include "jobs/cluster/reconcile.h"
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs::cluster {
 

@@ -38,9 +38,9 @@ double delivery_interval_s(int running) { return std::max(30.0, running / 20.0);
 
 }  // namespace
 
-SlurmExecutor::SlurmExecutor(Site site, Store& store, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
+SlurmExecutor::SlurmExecutor(Site site, ClusterBatches& batches, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
                              std::function<void(const std::string&)> log)
-    : site_(std::move(site)), store_(store), filter_(std::move(filter)), limits_(limits), changed_(std::move(changed)), log_(std::move(log)),
+    : site_(std::move(site)), batches_(batches), filter_(std::move(filter)), limits_(limits), changed_(std::move(changed)), log_(std::move(log)),
       slurm_(site_, stop_.get_token()) {
   thread_ = std::jthread([this] { work(); });
 }
@@ -94,7 +94,7 @@ void SlurmExecutor::do_round(Clock::time_point now) {
 /// What is done once, and again until it works.
 void SlurmExecutor::begin() {
   if (max_array_size_ > 0) return;
-  folder_ = site_.folder / store_.find_identity();
+  folder_ = site_.folder / batches_.find_identity();
   std::filesystem::create_directories(folder_);
   std::filesystem::permissions(folder_, std::filesystem::perms(0700));
   if (!lock_) lock_.emplace(folder_);
@@ -109,7 +109,7 @@ void SlurmExecutor::begin() {
 void SlurmExecutor::take_over_batches() {
   live_.clear();
   std::set<std::string> known;
-  for (const BatchRow& row : store_.find_batches()) {
+  for (const BatchRow& row : batches_.list()) {
     add_batch(row);
     known.insert(row.id);
   }
@@ -123,9 +123,9 @@ SlurmExecutor::Live& SlurmExecutor::add_batch(const BatchRow& row) {
   live_.push_back(std::make_unique<Live>(Live{.batch = Batch(row, folder_, site_.grace), .costs_s = {}}));
   Live& live = *live_.back();
   live.batch.read_lists();
-  const auto rates = store_.find_cost_rates();
+  const auto rates = batches_.find_cost_rates();
   std::vector<BatchIndex> wanted;
-  for (const BatchJob& job : store_.find_open_jobs(row.seq)) {
+  for (const BatchJob& job : batches_.find_open_jobs(row.seq)) {
     wanted.push_back(job.batch_index);
     // Of a kind that is not known: as long as a task should be at least, so that each job is one.
     live.costs_s[job.batch_index] = cost_of(job, rates, site_.least_task_s * site_.threads);
@@ -138,7 +138,7 @@ void SlurmExecutor::prepare(const Live& live) const {
   if (live.batch.is_prepared()) return;
   const BatchRow& row = live.batch.row();
   const double interval_s = delivery_interval_s(site_.slots);
-  live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_, .deliver_every_s = interval_s}, store_.find_open_jobs(row.seq));
+  live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_, .deliver_every_s = interval_s}, batches_.find_open_jobs(row.seq));
 }
 
 void SlurmExecutor::take_results() {
@@ -153,7 +153,7 @@ bool SlurmExecutor::take_results_of(Live& live) {
     any = take_file(live, file) || any;
     live.batch.set_seen(file);
   }
-  if (any) live.batch.set_wanted(store_.find_open_indices(live.batch.row().seq));
+  if (any) live.batch.set_wanted(batches_.find_open_indices(live.batch.row().seq));
   return any;
 }
 
@@ -165,7 +165,7 @@ bool SlurmExecutor::take_file(Live& live, const std::filesystem::path& file) {
     for (const BatchResult& result : results.results) {
       records.push_back({.batch_index = result.batch_index, .record = &result.record, .packed_trajectory = &result.packed_trajectory});
     }
-    return store_.record_batch(live.batch.row().seq, results.provenance, records) > 0;
+    return batches_.record(live.batch.row().seq, results.provenance, records) > 0;
   } catch (const FileError& error) {
     log_("results are left out, and are computed again: " + file.string() + ": " + error.what());
     return false;
@@ -181,7 +181,7 @@ void SlurmExecutor::refresh_wanted() {
   }
   for (const auto& live : live_) {
     const bool had_some = !live->batch.wanted().empty();
-    live->batch.set_wanted(store_.find_open_indices(live->batch.row().seq));
+    live->batch.set_wanted(batches_.find_open_indices(live->batch.row().seq));
     if (had_some && live->batch.wanted().empty()) next_look_ = {};
   }
 }
@@ -206,7 +206,7 @@ void SlurmExecutor::look(Clock::time_point now) {
 void SlurmExecutor::act(Live& live, const Decision& decision, const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
   std::vector<BatchIndex> begun, waiting;
   live.batch.take_running(decision.running, begun, waiting);
-  if (!begun.empty() || !waiting.empty()) store_.set_running(live.batch.row().seq, begun, waiting);
+  if (!begun.empty() || !waiting.empty()) batches_.set_running(live.batch.row().seq, begun, waiting);
   if (live.batch.wanted().empty()) std::ofstream(live.batch.folder().cancel()).flush();
   cancel(live, decision.cancel, reports);
   fail(live, decision.fail);
@@ -247,8 +247,8 @@ void SlurmExecutor::fail(Live& live, const std::vector<LostJob>& jobs) {
     records[i].error_detail = as_utf8(jobs[i].detail + (tail.empty() ? "; its log is empty" : "; the end of its log: " + tail));
     placed.push_back({.batch_index = jobs[i].batch_index, .record = &records[i], .packed_trajectory = &no_trajectory});
   }
-  store_.record_batch(live.batch.row().seq, own_provenance(), placed);
-  live.batch.set_wanted(store_.find_open_indices(live.batch.row().seq));
+  batches_.record(live.batch.row().seq, own_provenance(), placed);
+  live.batch.set_wanted(batches_.find_open_indices(live.batch.row().seq));
   changed_();
 }
 
@@ -304,7 +304,7 @@ void SlurmExecutor::take_jobs(Clock::time_point now) {
 
 /// @param room  tasks
 bool SlurmExecutor::take_batch(int room, Clock::time_point now) {
-  const auto rates = store_.find_cost_rates();
+  const auto rates = batches_.find_cost_rates();
   TaskBounds bound = bounds();
   bound.most_tasks = room;
   std::size_t most_jobs = static_cast<std::size_t>(probe_size(bound));
@@ -314,7 +314,7 @@ bool SlurmExecutor::take_batch(int room, Clock::time_point now) {
     const double wished = room * std::max(site_.task_s, site_.least_task_s) * site_.threads / *job_cost_s_;
     most_jobs = static_cast<std::size_t>(std::clamp(wished, 1.0, kMostJobs));
   }
-  const auto batch = store_.claim_batch(filter_, most_jobs);
+  const auto batch = batches_.claim(filter_, most_jobs);
   if (!batch) return false;
   Live& live = add_batch(*batch);
   double total_s = 0.0;
@@ -328,7 +328,7 @@ bool SlurmExecutor::take_batch(int room, Clock::time_point now) {
 bool SlurmExecutor::retire(const Live& live, const std::map<TaskName, TaskReport>& reports) {
   const bool alive = std::ranges::any_of(reports, [](const auto& report) { return is_alive(report.second.phase); });
   if (alive || !live.batch.wanted().empty()) return false;
-  store_.end_batch(live.batch.row().seq);
+  batches_.end(live.batch.row().seq);
   std::error_code ignored;  // what cannot be removed is found at the next start
   std::filesystem::remove_all(live.batch.folder().path, ignored);
   return true;

@@ -19,7 +19,7 @@
 #include "jobs/cluster/slurm.h"
 #include "jobs/runs/executor.h"
 #include "jobs/runs/job_limits.h"
-#include "jobs/store/store.h"
+#include "jobs/store/cluster_batches.h"
 
 namespace jobs::cluster {
 
@@ -30,7 +30,7 @@ class SlurmExecutor : public Executor {
  public:
   /// @param changed  told when jobs have ended
   /// @param log      told what needs a human's eye; both must not throw
-  SlurmExecutor(Site site, Store& store, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
+  SlurmExecutor(Site site, ClusterBatches& batches, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
                 std::function<void(const std::string&)> log);
   ~SlurmExecutor() override;  ///< stop()
 
@@ -72,7 +72,7 @@ class SlurmExecutor : public Executor {
   void tell_problem(const std::string& topic, const std::string& text);
 
   const Site site_;
-  Store& store_;
+  ClusterBatches& batches_;
   const ExecutorFilter filter_;
   const JobLimits limits_;
   const std::function<void()> changed_;

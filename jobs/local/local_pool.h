@@ -16,7 +16,7 @@
 #include "jobs/runs/executor.h"
 #include "jobs/runs/job_limits.h"
 #include "jobs/runs/run_record.h"
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 

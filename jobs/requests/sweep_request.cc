@@ -29,6 +29,12 @@ bool takes_one_value(const std::string& pointer) {
   return pointers.contains(pointer);
 }
 
+constexpr const char* kExecutorFault = "must be \"local\" or \"slurm\"";
+
+bool is_executor(const json& name) {
+  return std::ranges::find(kExecutorNames, name) != kExecutorNames.end();
+}
+
 /// Reads one request; a member function a part of it.
 class SweepParser {
  public:
@@ -91,11 +97,8 @@ class SweepParser {
 
   void read_executor() {
     if (!request_.contains("executor")) return;
-    const ordered_json& name = request_.at("executor");
-    if (!name.is_string() || std::ranges::find(kExecutorNames, name.get<std::string>()) == kExecutorNames.end()) {
-      return fault("/executor", "must be \"local\" or \"slurm\"");
-    }
-    sweep_.executor = name.get<std::string>();
+    if (!is_executor(request_.at("executor"))) return fault("/executor", kExecutorFault);
+    sweep_.executor = request_.at("executor").get<std::string>();
   }
 
   void read_replicates() {
@@ -268,5 +271,17 @@ class SweepParser {
 }  // namespace
 
 SweepRequest parse_sweep_request(const ordered_json& request, std::size_t max_jobs) { return SweepParser(request, max_jobs).parse(); }
+
+std::string parse_move_request(const json& request) {
+  if (!request.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object with \"executor\""}});
+  std::vector<Fault> faults;
+  constexpr std::array<std::string_view, 1> kKeys{"executor"};
+  for (const auto& [key, value] : request.items()) {
+    if (key != kKeys.front()) faults.push_back({pointer_token(key), describe_unknown_key(key, kKeys)});
+  }
+  if (!is_executor(request.value("executor", json()))) faults.push_back({"/executor", kExecutorFault});
+  if (!faults.empty()) throw InvalidRequest(std::move(faults));
+  return request.at("executor");
+}
 
 }  // namespace jobs

@@ -51,4 +51,7 @@ struct SweepRequest {
 /// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
 [[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);
 
+/// Reads {"executor": name}, and returns the name. @throws InvalidRequest with every fault
+[[nodiscard]] std::string parse_move_request(const nlohmann::json& request);
+
 }  // namespace jobs

@@ -8,7 +8,7 @@
 
 #include "jobs/results/result_table.h"
 #include "jobs/runs/run_record.h"
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 

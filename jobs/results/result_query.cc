@@ -12,7 +12,7 @@
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/results/name_list.h"
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 namespace {

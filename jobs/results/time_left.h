@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 

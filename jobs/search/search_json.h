@@ -9,7 +9,7 @@
 
 #include "jobs/results/result_table.h"
 #include "jobs/search/search_request.h"
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 

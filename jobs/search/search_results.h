@@ -12,7 +12,7 @@
 
 #include "jobs/search/limit.h"
 #include "jobs/search/search_request.h"
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of the store's tables, as others see them.
+// Rows of the store's tables as others see them, without SQLite.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@
 #include "jobs/base/states.h"
 
 namespace jobs {
+
+struct RunRecord;
 
 /// Number of a sweep's jobs in each state, by JobState.
 using StateCounts = std::array<std::int64_t, kJobStates.size()>;
@@ -111,6 +114,37 @@ struct EndedJob {
 struct SweepChanges {
   SweepRow sweep;
   std::vector<EndedJob> ended;  ///< by change
+};
+
+/// Job that a worker has claimed.
+struct ClaimedJob {
+  std::int64_t seq = 0;
+  std::string id;
+  std::int64_t attempt = 0;  ///< a record must name it: what an earlier attempt left is void
+  std::string parameters;
+};
+
+/// Called with a job while it is being claimed.
+using OnClaim = std::function<void(const ClaimedJob&)>;
+
+/// Jobs that are given to a cluster together.
+struct BatchRow {
+  std::int64_t seq = 0;
+  std::string id, sweep_id;  ///< the latter empty: of single jobs
+};
+
+/// A job of a batch.
+struct BatchJob {
+  std::uint32_t batch_index = 0;
+  std::string parameters, kind;
+  double duration_s = 0.0;   ///< simulated
+};
+
+/// Result of a job of a batch.
+struct BatchRecord {
+  std::uint32_t batch_index = 0;
+  const RunRecord* record = nullptr;           ///< its trajectory is not looked at
+  const std::string* packed_trajectory = nullptr;  ///< by encode_trajectory; empty: none
 };
 
 }  // namespace jobs

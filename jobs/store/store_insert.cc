@@ -6,7 +6,8 @@
 
 #include "jobs/base/content_id.h"
 #include "jobs/base/provenance.h"
-#include "jobs/store/store.h"
+#include "jobs/base/states.h"
+#include "jobs/base/errors.h"
 
 namespace jobs {
 

@@ -50,6 +50,10 @@ void check_queue_limit(SQLite::Database& database, std::size_t max_queued);
 /// Gives queued jobs the content of this engine: results of a former one are not theirs.
 void rekey_queued_jobs(SQLite::Database& database);
 
+/// Stores the response to a request under its key, and deletes those that are too old.
+void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
+                    const std::string& response);
+
 [[nodiscard]] std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database, const std::string& id);
 
 }  // namespace jobs

@@ -8,6 +8,7 @@
 #include "jobs/base/ids.h"
 #include "jobs/results/page.h"
 #include "jobs/results/resource_json.h"
+#include "jobs/store/store.h"
 
 namespace jobs {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::size_t kNoLimit =
 }  // namespace
 
 std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
-  return is_id(id, type_->id_prefix()) ? store_.find_study(id) : std::nullopt;
+  return is_id(id, type_->id_prefix()) ? store_.studies.find(id) : std::nullopt;
 }
 
 json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& idempotency) {
@@ -32,7 +33,7 @@ json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& i
         for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
         return *idempotency.response = text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
       }};
-  const std::string id = store_.add_study(type_->id_prefix(), first.plan, first.request.dump(),
+  const std::string id = store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(),
                                           request.dump(), limits_.max_queued_jobs, record);
   ++generation_;
   return find(id).value();
@@ -41,20 +42,20 @@ json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& i
 std::optional<json> StudyRunner::find(const std::string& id) const {
   const auto row = find_row(id);
   if (!row) return std::nullopt;
-  const auto results = store_.find_results(row->sweep_id);
+  const auto results = store_.reader.find_results(row->sweep_id);
   return results ? std::optional(type_->make_resource(*row, *results, limits_.threads)) : std::nullopt;
 }
 
 json StudyRunner::list(const PageQuery& query) const {
   const PageChecker checker(query, type_->id_prefix(), type_->listing_keys(), kStudyStates);
-  return make_page(store_.list_studies(type_->id_prefix(), query.state, query.cursor, query.limit + 1),
+  return make_page(store_.studies.list(type_->id_prefix(), query.state, query.cursor, query.limit + 1),
                    query.limit, checker, [this](const StudyRow& row) { return type_->make_summary(row); });
 }
 
 std::optional<ResultTable> StudyRunner::find_table(const std::string& id) const {
   const auto row = find_row(id);
   if (!row) return std::nullopt;
-  const auto results = store_.find_results(row->sweep_id);
+  const auto results = store_.reader.find_results(row->sweep_id);
   return results ? std::optional(type_->make_table(*row, *results)) : std::nullopt;
 }
 
@@ -63,7 +64,7 @@ bool StudyRunner::cancel(const std::string& id, const std::function<void(const s
   const auto row = find_row(id);
   if (!row) return false;
   if (row->state != "running" && row->state != "cancelled") throw WrongState("the study has ended");
-  store_.set_study_state(id, "running", "cancelled");
+  store_.studies.set_state(id, "running", "cancelled");
   active_.erase(id);
   cancel_sweep(row->sweep_id);
   return true;
@@ -98,7 +99,7 @@ StudyChanges StudyRunner::advance() {
   const std::lock_guard lock(mutex_);
   const std::uint64_t generation = generation_;
   if (idle_generation_ == generation) return {};  // without a study, no query after each job
-  const auto running = store_.list_studies(type_->id_prefix(), "running", "", kNoLimit >> 1U);
+  const auto running = store_.studies.list(type_->id_prefix(), "running", "", kNoLimit >> 1U);
   forget_ended(running);
   if (running.empty()) idle_generation_ = generation;
   StudyChanges changes;
@@ -126,7 +127,7 @@ StudyChanges StudyRunner::advance(const StudyRow& study) {
   try {
     return tell_results(study) ? add_next_cases(study) : StudyChanges{};
   } catch (const InvalidRequest& invalid) {  // two values may be valid and one between them not
-    store_.set_study_state(study.id, "running", "failed", invalid.what());
+    store_.studies.set_state(study.id, "running", "failed", invalid.what());
     active_.erase(study.id);
     return {.any = true};
   } catch (...) {  // the next call reads all its jobs again
@@ -138,9 +139,9 @@ StudyChanges StudyRunner::advance(const StudyRow& study) {
 bool StudyRunner::tell_results(const StudyRow& study) {
   const auto known = active_.find(study.id);
   const auto ended = known == active_.end() ? std::vector<ResultRow>{}
-                                            : store_.find_ended(study.sweep_id, known->second.change);
+                                            : store_.reader.find_ended(study.sweep_id, known->second.change);
   if (known == active_.end()) {
-    const auto results = store_.find_results(study.sweep_id);
+    const auto results = store_.reader.find_results(study.sweep_id);
     if (!results) return false;  // it has been deleted
     ActiveStudy active{.sweep_id = study.sweep_id,
                        .common = ordered_json::parse(results->sweep.request),
@@ -163,13 +164,13 @@ StudyChanges StudyRunner::add_next_cases(const StudyRow& study) {
     progress_[study.id] = known.state->progress();
   }
   if (next.end_state) {
-    store_.set_study_state(study.id, "running", *next.end_state, next.error);
+    store_.studies.set_state(study.id, "running", *next.end_state, next.error);
     return {.any = true};
   }
   if (next.cases.empty()) return {.any = true};
   ordered_json request = known.common;
   request["cases"] = next.cases;
-  const bool added = store_.add_cases(study.sweep_id, next.cases, plan_sweep(request, kNoLimit).jobs);
+  const bool added = store_.queue.add_cases(study.sweep_id, next.cases, plan_sweep(request, kNoLimit).jobs);
   return {.any = true, .added = added};
 }
 

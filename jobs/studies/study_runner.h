@@ -18,9 +18,12 @@
 #include "jobs/requests/expand.h"
 #include "jobs/results/page.h"
 #include "jobs/results/result_table.h"
-#include "jobs/store/store.h"
+#include "jobs/store/idempotency_record.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
+
+class Store;
 
 /// Answer of a study to ask(): the cases to compute next, or the end.
 struct NextCases {
@@ -48,12 +51,6 @@ class StudyState {
 struct StudyChanges {
   bool any = false;    ///< a study has a new result or a new state
   bool added = false;  ///< jobs were added
-};
-
-/// Key and fingerprint of a request, as in IdempotencyRecord, and where its response goes when it is stored.
-struct IdempotentRequest {
-  std::string key, fingerprint;
-  std::string* response = nullptr;
 };
 
 /// Sweep with which a study begins.

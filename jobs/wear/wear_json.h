@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/results/result_table.h"
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 #include "jobs/wear/wear_integrator.h"
 #include "jobs/wear/wear_request.h"
 

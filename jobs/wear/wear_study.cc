@@ -14,6 +14,7 @@
 #include "jobs/base/ids.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/expand.h"
+#include "jobs/store/sweep_reader.h"
 #include "jobs/trajectories/trajectory_codec.h"
 #include "jobs/trajectories/trajectory_query.h"
 #include "jobs/wear/wear_json.h"
@@ -32,7 +33,7 @@ WearStudyRequest study_of(const StudyRow& row) {
 /// Cache of the wear rates of jobs.
 class WearRates {
  public:
-  explicit WearRates(const Store& store) : store_(store) {}
+  explicit WearRates(const SweepReader& reader) : reader_(reader) {}
 
   /// Empty if the job has no trajectory with the channels of wear.
   std::optional<WearGrid> find(const std::string& job_id, const WearGrid& depth_um,
@@ -53,7 +54,7 @@ class WearRates {
 
   [[nodiscard]] std::optional<WearGrid> read(const std::string& job_id, const WearGrid& depth_um,
                                              const WearStudyRequest& study) const {
-    const auto blob = store_.find_trajectory(job_id);
+    const auto blob = reader_.find_trajectory(job_id);
     if (!blob) return std::nullopt;
     try {
       return make_rates(std::as_bytes(std::span(*blob)), depth_um, study);
@@ -81,7 +82,7 @@ class WearRates {
 
   static constexpr std::size_t kRateColumn = 5;  // rate_um_h
 
-  const Store& store_;
+  const SweepReader& reader_;
   std::mutex mutex_;  // guards the rest
   std::map<std::string, WearGrid> rates_;  ///< by job
 };
@@ -159,7 +160,7 @@ class WearState final : public StudyState {
 
 class WearStudy final : public StudyType {
  public:
-  explicit WearStudy(const Store& store) : rates_(store) {}
+  explicit WearStudy(const SweepReader& reader) : rates_(reader) {}
 
   [[nodiscard]] std::string_view id_prefix() const override { return kWearStudyPrefix; }
 
@@ -192,6 +193,6 @@ class WearStudy final : public StudyType {
 
 }  // namespace
 
-std::unique_ptr<StudyType> make_wear_study(const Store& store) { return std::make_unique<WearStudy>(store); }
+std::unique_ptr<StudyType> make_wear_study(const SweepReader& reader) { return std::make_unique<WearStudy>(reader); }
 
 }  // namespace jobs

@@ -3,14 +3,15 @@
 
 #include <memory>
 
-#include "jobs/store/store.h"
 #include "jobs/studies/study_runner.h"
 
 namespace jobs {
 
+class SweepReader;
+
 /// Wear studies: a bearing is worn over the hours. The bore after each step is a job, whose wear gives the
 /// next step. See parse_wear_request() and WearIntegrator.
-/// @param store  of the trajectories that give the wear; outlives the result
-[[nodiscard]] std::unique_ptr<StudyType> make_wear_study(const Store& store);
+/// @param reader  of the trajectories that give the wear; outlives the result
+[[nodiscard]] std::unique_ptr<StudyType> make_wear_study(const SweepReader& reader);
 
 }  // namespace jobs

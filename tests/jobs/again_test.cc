@@ -80,14 +80,14 @@ TEST(Retry, ComputesWithTheEngineOfToday) {
   std::string id;
   {
     jobs::Store store(temporary.file());
-    id = store.add_sweep(jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
-    static_cast<void>(store.cancel_sweep(id));
+    id = store.queue.add_sweep(jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
+    static_cast<void>(store.queue.cancel_sweep(id));
   }
   const std::string name = query_sql(temporary.file(), "SELECT content_id FROM contents");
   execute_sql(temporary.file(), "UPDATE contents SET content_id = 'old', engine_version = '0.0.1'");
   {
     jobs::Store store(temporary.file());
-    EXPECT_TRUE(store.retry_sweep(id, 10));
+    EXPECT_TRUE(store.queue.retry_sweep(id, 10));
   }
   EXPECT_EQ(query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"), name);
 }
@@ -123,18 +123,18 @@ TEST(Retry, ForgetsNoNumberOfAnEnd) {
   std::int64_t last = 0;
   {
     jobs::Store store(temporary.file());
-    id = store.add_sweep(jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
+    id = store.queue.add_sweep(jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
     for (int times = 0; times < 3; ++times) {
-      static_cast<void>(store.cancel_sweep(id));
-      last = store.find_changes(id, 0)->ended.at(0).change;
-      EXPECT_TRUE(store.retry_sweep(id, 10));
+      static_cast<void>(store.queue.cancel_sweep(id));
+      last = store.reader.find_changes(id, 0)->ended.at(0).change;
+      EXPECT_TRUE(store.queue.retry_sweep(id, 10));
     }
-    EXPECT_TRUE(store.find_changes(id, 0)->ended.empty());
-    EXPECT_EQ(store.find_results(id)->rows.at(0).change, 0);
+    EXPECT_TRUE(store.reader.find_changes(id, 0)->ended.empty());
+    EXPECT_EQ(store.reader.find_results(id)->rows.at(0).change, 0);
   }
   jobs::Store store(temporary.file());
-  static_cast<void>(store.cancel_sweep(id));
-  EXPECT_EQ(store.find_changes(id, last)->ended.size(), 1U);
+  static_cast<void>(store.queue.cancel_sweep(id));
+  EXPECT_EQ(store.reader.find_changes(id, last)->ended.size(), 1U);
 }
 
 // What a crash leaves is either.
@@ -142,18 +142,18 @@ TEST(Retry, OpensTheStudyOfASweepInOneStep) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   const auto plan = jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5, 6]}})"), 10);
-  const std::string search = store.add_study("sch_", plan, "{}", "{}", 10);
-  const std::string sweep = store.find_study(search)->sweep_id;
-  static_cast<void>(store.cancel_sweep(sweep));
-  EXPECT_TRUE(store.set_study_state(search, "running", "failed", "why"));
-  EXPECT_THROW((void)store.retry_sweep(sweep, 1), jobs::QueueFull);
-  EXPECT_EQ(store.find_study(search)->state, "failed");
-  EXPECT_TRUE(store.retry_sweep(sweep, 10));
-  EXPECT_EQ(store.find_study(search)->state, "running");
-  EXPECT_FALSE(store.find_study(search)->error.has_value());
-  EXPECT_TRUE(store.set_study_state(search, "running", "failed", "why"));
-  EXPECT_TRUE(store.retry_sweep(sweep, 10));
-  EXPECT_EQ(store.find_study(search)->state, "running") << "though no job is tried again";
+  const std::string search = store.studies.add("sch_", plan, "{}", "{}", 10);
+  const std::string sweep = store.studies.find(search)->sweep_id;
+  static_cast<void>(store.queue.cancel_sweep(sweep));
+  EXPECT_TRUE(store.studies.set_state(search, "running", "failed", "why"));
+  EXPECT_THROW((void)store.queue.retry_sweep(sweep, 1), jobs::QueueFull);
+  EXPECT_EQ(store.studies.find(search)->state, "failed");
+  EXPECT_TRUE(store.queue.retry_sweep(sweep, 10));
+  EXPECT_EQ(store.studies.find(search)->state, "running");
+  EXPECT_FALSE(store.studies.find(search)->error.has_value());
+  EXPECT_TRUE(store.studies.set_state(search, "running", "failed", "why"));
+  EXPECT_TRUE(store.queue.retry_sweep(sweep, 10));
+  EXPECT_EQ(store.studies.find(search)->state, "running") << "though no job is tried again";
 }
 
 TEST(Retry, StopsTheAttemptThatRunsWhenAnEarlierOneHasNotEnded) {

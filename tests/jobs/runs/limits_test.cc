@@ -75,20 +75,20 @@ TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
   jobs::Store store(temporary.file(), {.most_bytes = kLimit});
   constexpr const char* kSmall = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
   constexpr const char* kLarge = R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 5000}}})";
-  const std::string kept = store.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued);
-  EXPECT_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued), jobs::StoreLimitReached);
-  EXPECT_EQ(store.list_sweeps("", "", 10).size(), 1u);
+  const std::string kept = store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued);
+  EXPECT_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued), jobs::StoreLimitReached);
+  EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1u);
   // The result of a job, too; it can be read and cancelled, and deleting makes room.
-  const jobs::ClaimedJob job = store.claim().value();
+  const jobs::ClaimedJob job = store.queue.claim().value();
   RunRecord record;
   record.end = RunRecord::End::kFailed;
   record.error_reason = "internal";
   record.error_detail = std::string(kLimit, 'x');
-  EXPECT_THROW((void)store.record(job, record), jobs::StoreLimitReached);
-  EXPECT_EQ(store.find_job(job.id).value().state, "running");
-  EXPECT_EQ(store.cancel_sweep(kept).outcome, jobs::CancelOutcome::kDone);
-  EXPECT_EQ(store.delete_sweep(kept), jobs::DeleteOutcome::kDone);
-  EXPECT_NO_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
+  EXPECT_THROW((void)store.queue.record(job, record), jobs::StoreLimitReached);
+  EXPECT_EQ(store.reader.find_job(job.id).value().state, "running");
+  EXPECT_EQ(store.queue.cancel_sweep(kept).outcome, jobs::CancelOutcome::kDone);
+  EXPECT_EQ(store.queue.delete_sweep(kept), jobs::DeleteOutcome::kDone);
+  EXPECT_NO_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
 }
 
 TEST(StoreLimit, HoldsForWhatIsTriedAgain) {
@@ -97,12 +97,12 @@ TEST(StoreLimit, HoldsForWhatIsTriedAgain) {
   std::string id;
   {
     jobs::Store store(temporary.file());
-    id = store.add_sweep(jobs::plan_sweep(request_of(kRequest), 10'000), kRequest, kMaxQueued);
-    EXPECT_EQ(store.cancel_sweep(id).outcome, jobs::CancelOutcome::kDone);
+    id = store.queue.add_sweep(jobs::plan_sweep(request_of(kRequest), 10'000), kRequest, kMaxQueued);
+    EXPECT_EQ(store.queue.cancel_sweep(id).outcome, jobs::CancelOutcome::kDone);
   }
   jobs::Store store(temporary.file(), {.most_bytes = 100'000});
-  EXPECT_THROW((void)store.retry_sweep(id, kMaxQueued), jobs::StoreLimitReached);
-  EXPECT_EQ(jobs::sweep_state(store.find_sweep(id).value().counts), "cancelled");
+  EXPECT_THROW((void)store.queue.retry_sweep(id, kMaxQueued), jobs::StoreLimitReached);
+  EXPECT_EQ(jobs::sweep_state(store.reader.find_sweep(id).value().counts), "cancelled");
 }
 
 TEST(StoreLimit, LeavesAReserveOfTheDiskToOthers) {
@@ -111,11 +111,11 @@ TEST(StoreLimit, LeavesAReserveOfTheDiskToOthers) {
   const std::int64_t all_of_it = static_cast<std::int64_t>(std::filesystem::space(temporary.file().parent_path()).capacity);
   {
     jobs::Store store(temporary.file(), {.reserve_bytes = all_of_it + 1});
-    EXPECT_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued), jobs::StoreLimitReached);
-    EXPECT_TRUE(store.list_sweeps("", "", 10).empty());
+    EXPECT_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued), jobs::StoreLimitReached);
+    EXPECT_TRUE(store.reader.list_sweeps("", "", 10).empty());
   }
   jobs::Store store(temporary.file(), {.reserve_bytes = 1});
-  EXPECT_NO_THROW((void)store.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued));
+  EXPECT_NO_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued));
 }
 
 }  // namespace

@@ -32,19 +32,19 @@ TEST(StoreForm, TakesOverAStoreOfForm1) {
   const std::string id = query_sql(temporary.file(), "SELECT id FROM sweeps");
   {
     jobs::Store store(temporary.file());
-    const auto changes = store.find_changes(id, 0).value();
+    const auto changes = store.reader.find_changes(id, 0).value();
     EXPECT_EQ(changes.sweep.name, "of form 1");
     EXPECT_EQ(changes.sweep.priority, 0);
     ASSERT_EQ(changes.ended.size(), 2U);
     // In the order in which they ended, which is not that of their making: the second one was done first.
     EXPECT_EQ(changes.ended[0].change, 1);
     EXPECT_EQ(changes.ended[1].change, 2);
-    const auto results = store.find_results(id).value();
+    const auto results = store.reader.find_results(id).value();
     ASSERT_EQ(results.rows.size(), 2U);
     EXPECT_EQ(changes.ended[0].id, results.rows[1].job_id);
     EXPECT_TRUE(results.rows[0].metrics.has_value());
-    EXPECT_TRUE(store.find_trajectory(results.rows[0].job_id).has_value());
-    EXPECT_TRUE(store.find_job(results.rows[0].job_id).has_value());
+    EXPECT_TRUE(store.reader.find_trajectory(results.rows[0].job_id).has_value());
+    EXPECT_TRUE(store.reader.find_job(results.rows[0].job_id).has_value());
   }
   EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "4");
   EXPECT_EQ(query_sql(temporary.file(), "PRAGMA integrity_check"), "ok");
@@ -57,8 +57,8 @@ TEST(StoreForm, CountsOnFromTheChangesThatAStoreHas) {
   const std::string id = query_sql(temporary.file(), "SELECT id FROM sweeps");
   for (const std::int64_t change : {1, 2}) {
     jobs::Store store(temporary.file());
-    EXPECT_EQ(store.find_changes(id, 0).value().ended.back().change, change);
-    static_cast<void>(store.cancel_sweep(id));
+    EXPECT_EQ(store.reader.find_changes(id, 0).value().ended.back().change, change);
+    static_cast<void>(store.queue.cancel_sweep(id));
   }
 }
 

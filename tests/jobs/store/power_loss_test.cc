@@ -50,30 +50,30 @@ class PowerLoss : public testing::TestWithParam<unsigned> {
   void do_something(jobs::Store& store, int number) {
     const std::string request = R"({"reuse": false, "sweep": {"crank_velocity_rad_s": [1, 2, )" + std::to_string(number + 3) + "]}}";
     const jobs::IdempotencyRecord<jobs::SweepRow> kept{.key = std::to_string(number), .fingerprint = request, .make_response = [](const auto& row) { return row.id; }};
-    now_.acknowledged.push_back(store.add_sweep(jobs::plan_sweep(request_of(request.c_str()), 10), request, 10'000, kept));
+    now_.acknowledged.push_back(store.queue.add_sweep(jobs::plan_sweep(request_of(request.c_str()), 10), request, 10'000, kept));
     if (number % 3 == 0) compute_a_job(store);
     if (number % 5 == 4) {
       const std::string id = now_.acknowledged[now_.acknowledged.size() - 2];
-      static_cast<void>(store.cancel_sweep(id));
+      static_cast<void>(store.queue.cancel_sweep(id));
       now_.cancelled.push_back(id);
     }
     if (number % 10 == 9) {
       const std::string id = now_.cancelled.front();
       now_.cancelled.erase(now_.cancelled.begin());
       std::erase(now_.acknowledged, id);  // from here on it may be there, and may not
-      static_cast<void>(store.delete_sweep(id));
+      static_cast<void>(store.queue.delete_sweep(id));
       store.release_free_pages();
       now_.deleted.push_back(id);
     }
   }
 
   static void compute_a_job(jobs::Store& store) {
-    const jobs::ClaimedJob job = store.claim().value();
+    const jobs::ClaimedJob job = store.queue.claim().value();
     jobs::RunRecord record;
     record.end = jobs::RunRecord::End::kFailed;
     record.error_reason = "internal";
     record.error_detail = std::string(20'000, 'x');
-    EXPECT_TRUE(store.record(job, record));
+    EXPECT_TRUE(store.queue.record(job, record));
   }
 
   TemporaryStore temporary_;
@@ -89,12 +89,12 @@ TEST_P(PowerLoss, LeavesWhatWasAcknowledged) {
   for (const Loss& loss : losses_) {
     {
       const jobs::Store store(loss.store);
-      for (const std::string& id : loss.acknowledged) EXPECT_TRUE(store.find_sweep(id).has_value()) << id << " in " << loss.store;
+      for (const std::string& id : loss.acknowledged) EXPECT_TRUE(store.reader.find_sweep(id).has_value()) << id << " in " << loss.store;
       for (const std::string& id : loss.cancelled) {
-        const auto sweep = store.find_sweep(id);
+        const auto sweep = store.reader.find_sweep(id);
         EXPECT_TRUE(sweep && jobs::sweep_state(sweep->counts) == "cancelled") << id;
       }
-      for (const std::string& id : loss.deleted) EXPECT_FALSE(store.find_sweep(id).has_value()) << id;
+      for (const std::string& id : loss.deleted) EXPECT_FALSE(store.reader.find_sweep(id).has_value()) << id;
     }
     for (const std::string& id : loss.acknowledged) {
       EXPECT_EQ(query_sql(loss.store, "SELECT count(*) FROM answers WHERE answer = '" + id + "'"), "1") << "the answer that a repeated request gets";

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxQueuedInStore = 1000;
 
 jobs::SweepPlan stored_plan_of(const char* request) { return jobs::plan_sweep(request_of(request), 10'000); }
 
-std::string add_sweep(jobs::Store& store, const char* request) { return store.add_sweep(stored_plan_of(request), request, kMaxQueuedInStore); }
+std::string add_sweep(jobs::Store& store, const char* request) { return store.queue.add_sweep(plan_of(request), request, kMaxQueued); }
 
 jobs::RunRecord success(double metric) {
   jobs::RunRecord record;
@@ -38,7 +38,7 @@ jobs::RunRecord failure() {
 }
 
 std::int64_t count_of(const jobs::Store& store, const std::string& sweep, jobs::JobState state) {
-  return store.find_sweep(sweep).value().counts[static_cast<std::size_t>(state)];
+  return store.reader.find_sweep(sweep).value().counts[static_cast<std::size_t>(state)];
 }
 
 constexpr const char* kThreeJobs = R"({"sweep": {"crank_velocity_rad_s": [5, 10, 12]}})";
@@ -50,43 +50,43 @@ TEST(Store, QueuesAgainWhatADeadProcessLeftRunning) {
   {
     jobs::Store store(temporary.file());
     sweep = add_sweep(store, kThreeJobs);
-    abandoned = store.claim().value();
+    abandoned = store.queue.claim().value();
     EXPECT_EQ(count_of(store, sweep, jobs::JobState::kRunning), 1);
   }
   jobs::Store store(temporary.file());
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 3);
-  const jobs::ClaimedJob again = store.claim().value();
+  const jobs::ClaimedJob again = store.queue.claim().value();
   EXPECT_EQ(again.id, abandoned.id);
   EXPECT_EQ(again.attempt, 2);
   // What the first attempt still delivers is void; the second counts, once.
-  EXPECT_FALSE(store.record(abandoned, success(1.0)));
-  EXPECT_TRUE(store.record(again, success(2.0)));
-  EXPECT_FALSE(store.record(again, success(3.0)));
-  EXPECT_EQ(store.find_job(again.id)->metrics, R"({"peak":2.0})");
-  EXPECT_EQ(store.find_job(again.id)->attempts, 2);
+  EXPECT_FALSE(store.queue.record(abandoned, success(1.0)));
+  EXPECT_TRUE(store.queue.record(again, success(2.0)));
+  EXPECT_FALSE(store.queue.record(again, success(3.0)));
+  EXPECT_EQ(store.reader.find_job(again.id)->metrics, R"({"peak":2.0})");
+  EXPECT_EQ(store.reader.find_job(again.id)->attempts, 2);
 }
 
 TEST(Store, RecordsAJobAndClaimsTheNextOrDoesNeither) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   const std::string sweep = add_sweep(store, kThreeJobs);
-  const jobs::ClaimedJob first = store.claim().value();
+  const jobs::ClaimedJob first = store.queue.claim().value();
   const auto refuse = [](const jobs::ClaimedJob&) { throw std::bad_alloc(); };
-  EXPECT_THROW((void)store.record_and_claim(first, success(1.0), {}, refuse), std::bad_alloc);
+  EXPECT_THROW((void)store.queue.record_and_claim(first, success(1.0), {}, refuse), std::bad_alloc);
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kRunning), 1);
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 2);
   std::string told;
-  const auto second = store.record_and_claim(first, success(1.0), {}, [&](const jobs::ClaimedJob& job) { told = job.id; });
+  const auto second = store.queue.record_and_claim(first, success(1.0), {}, [&](const jobs::ClaimedJob& job) { told = job.id; });
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(told, second->id);
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kSucceeded), 1);
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kRunning), 1);
   // One that was cancelled meanwhile leaves nothing; the next is claimed as ever.
-  EXPECT_EQ(store.cancel_job(second->id).outcome, jobs::CancelOutcome::kDone);
-  const auto third = store.record_and_claim(*second, success(2.0), {}, {});
+  EXPECT_EQ(store.queue.cancel_job(second->id).outcome, jobs::CancelOutcome::kDone);
+  const auto third = store.queue.record_and_claim(*second, success(2.0), {}, {});
   ASSERT_TRUE(third.has_value());
-  EXPECT_FALSE(store.find_job(second->id)->metrics.has_value());
-  EXPECT_FALSE(store.record_and_claim(*third, success(3.0), {}, {}).has_value());
+  EXPECT_FALSE(store.reader.find_job(second->id)->metrics.has_value());
+  EXPECT_FALSE(store.queue.record_and_claim(*third, success(3.0), {}, {}).has_value());
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kSucceeded), 2);
 }
 
@@ -252,7 +252,7 @@ TEST(Store, RefusesALogWhoseStoreIsGone) {
   EXPECT_FALSE(std::filesystem::exists(killed));
   { std::ofstream(killed) << file; }
   const jobs::Store store(killed);
-  EXPECT_EQ(store.list_sweeps("", "", 10).size(), 1U) << "the store was put back";
+  EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1U) << "the store was put back";
 }
 
 TEST(Store, TurnsADirectoryOrAMissingFolderDown) {
@@ -266,14 +266,14 @@ TEST(Store, KnowsWhatHasBeenComputed) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-  EXPECT_TRUE(store.record(store.claim().value(), success(7.0)));
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(7.0)));
   const std::string wider = add_sweep(store, kThreeJobs);
   EXPECT_EQ(count_of(store, wider, jobs::JobState::kSucceeded), 1);
   EXPECT_EQ(count_of(store, wider, jobs::JobState::kQueued), 2);
-  const auto rows = store.find_results(wider).value().rows;
+  const auto rows = store.reader.find_results(wider).value().rows;
   EXPECT_EQ(rows[0].metrics, R"({"peak":7.0})");
-  EXPECT_TRUE(store.find_job(rows[0].job_id)->reused);
-  EXPECT_TRUE(store.find_trajectory(rows[0].job_id).has_value());
+  EXPECT_TRUE(store.reader.find_job(rows[0].job_id)->reused);
+  EXPECT_TRUE(store.reader.find_trajectory(rows[0].job_id).has_value());
   const std::string forced = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}, "reuse": false})");
   EXPECT_EQ(count_of(store, forced, jobs::JobState::kQueued), 1);
 }
@@ -282,7 +282,7 @@ TEST(Store, ComputesAFailedContentAgain) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   const std::string first = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-  EXPECT_TRUE(store.record(store.claim().value(), failure()));
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), failure()));
   EXPECT_EQ(count_of(store, first, jobs::JobState::kFailed), 1);
   const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
   EXPECT_EQ(count_of(store, second, jobs::JobState::kQueued), 1);
@@ -293,13 +293,13 @@ TEST(Store, LetsAJobWaitForTheSameContentElsewhere) {
   jobs::Store store(temporary.file());
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
   const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5, 10]}})");
-  const auto five = store.claim().value();
-  const auto ten = store.claim().value();
+  const auto five = store.queue.claim().value();
+  const auto ten = store.queue.claim().value();
   EXPECT_NE(five.parameters, ten.parameters);
-  EXPECT_FALSE(store.claim().has_value());
-  EXPECT_TRUE(store.record(five, success(1.0)));
+  EXPECT_FALSE(store.queue.claim().has_value());
+  EXPECT_TRUE(store.queue.record(five, success(1.0)));
   EXPECT_EQ(count_of(store, second, jobs::JobState::kSucceeded), 1);
-  EXPECT_FALSE(store.claim().has_value());
+  EXPECT_FALSE(store.queue.claim().has_value());
 }
 
 TEST(Store, LetsAWaitingJobRunWhenTheOtherFailed) {
@@ -307,10 +307,10 @@ TEST(Store, LetsAWaitingJobRunWhenTheOtherFailed) {
   jobs::Store store(temporary.file());
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-  const auto first = store.claim().value();
-  EXPECT_FALSE(store.claim().has_value());
-  EXPECT_TRUE(store.record(first, failure()));
-  EXPECT_TRUE(store.claim().has_value());
+  const auto first = store.queue.claim().value();
+  EXPECT_FALSE(store.queue.claim().has_value());
+  EXPECT_TRUE(store.queue.record(first, failure()));
+  EXPECT_TRUE(store.queue.claim().has_value());
 }
 
 TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
@@ -318,10 +318,10 @@ TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
   jobs::Store store(temporary.file());
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4]}})");
   std::vector<std::string> speeds;
-  const auto claim = [&] { speeds.push_back(json_of(store.claim().value().parameters).at("crank_velocity_rad_s").dump()); };
+  const auto claim = [&] { speeds.push_back(json_of(store.queue.claim().value().parameters).at("crank_velocity_rad_s").dump()); };
   claim();
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [11, 12]}})");
-  (void)store.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueuedInStore);
+  (void)store.queue.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueued);
   for (int i = 0; i < 6; ++i) claim();
   EXPECT_EQ(speeds, (std::vector<std::string>{"1.0", "11.0", "21.0", "2.0", "12.0", "3.0", "4.0"}));
 }
@@ -329,25 +329,25 @@ TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
 TEST(Store, RefusesMoreThanMayWaitAndStoresNoneOfThem) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
-  EXPECT_THROW((void)store.add_sweep(stored_plan_of(kThreeJobs), kThreeJobs, 2), jobs::QueueFull);
-  EXPECT_TRUE(store.list_sweeps("", "", 10).empty());
-  EXPECT_TRUE(store.list_jobs("", "", 10).empty());
-  EXPECT_NO_THROW((void)store.add_sweep(stored_plan_of(kThreeJobs), kThreeJobs, 3));
+  EXPECT_THROW((void)store.queue.add_sweep(plan_of(kThreeJobs), kThreeJobs, 2), jobs::QueueFull);
+  EXPECT_TRUE(store.reader.list_sweeps("", "", 10).empty());
+  EXPECT_TRUE(store.reader.list_jobs("", "", 10).empty());
+  EXPECT_NO_THROW((void)store.queue.add_sweep(plan_of(kThreeJobs), kThreeJobs, 3));
 }
 
 TEST(Store, DropsTheResultOfACancelledJob) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   add_sweep(store, kThreeJobs);
-  const auto job = store.claim().value();
-  const auto cancellation = store.cancel_job(job.id);
+  const auto job = store.queue.claim().value();
+  const auto cancellation = store.queue.cancel_job(job.id);
   EXPECT_EQ(cancellation.outcome, jobs::CancelOutcome::kDone);
   EXPECT_EQ(cancellation.running, (std::vector<std::string>{job.id}));
-  EXPECT_FALSE(store.record(job, success(1.0)));
-  store.requeue(job);
-  EXPECT_EQ(store.find_job(job.id)->state, "cancelled");
-  EXPECT_EQ(store.cancel_job(job.id).outcome, jobs::CancelOutcome::kDone);
-  EXPECT_EQ(store.cancel_job("job_none").outcome, jobs::CancelOutcome::kMissing);
+  EXPECT_FALSE(store.queue.record(job, success(1.0)));
+  store.queue.requeue(job);
+  EXPECT_EQ(store.reader.find_job(job.id)->state, "cancelled");
+  EXPECT_EQ(store.queue.cancel_job(job.id).outcome, jobs::CancelOutcome::kDone);
+  EXPECT_EQ(store.queue.cancel_job("job_none").outcome, jobs::CancelOutcome::kMissing);
 }
 
 TEST(Store, DeletesASweepButNotWhatAnotherShares) {
@@ -355,16 +355,16 @@ TEST(Store, DeletesASweepButNotWhatAnotherShares) {
   {
     jobs::Store store(temporary.file());
     const std::string first = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5, 10]}})");
-    EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kNotEnded);
-    EXPECT_TRUE(store.record(store.claim().value(), success(5.0)));
-    EXPECT_TRUE(store.record(store.claim().value(), success(10.0)));
+    EXPECT_EQ(store.queue.delete_sweep(first), jobs::DeleteOutcome::kNotEnded);
+    EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(5.0)));
+    EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(10.0)));
     const std::string second = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-    const auto shared = store.find_results(second).value().rows;
-    EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kDone);
-    EXPECT_EQ(store.delete_sweep(first), jobs::DeleteOutcome::kMissing);
-    EXPECT_FALSE(store.find_sweep(first).has_value());
-    EXPECT_EQ(store.find_results(second).value().rows[0].metrics, R"({"peak":5.0})");
-    EXPECT_TRUE(store.find_trajectory(shared[0].job_id).has_value());
+    const auto shared = store.reader.find_results(second).value().rows;
+    EXPECT_EQ(store.queue.delete_sweep(first), jobs::DeleteOutcome::kDone);
+    EXPECT_EQ(store.queue.delete_sweep(first), jobs::DeleteOutcome::kMissing);
+    EXPECT_FALSE(store.reader.find_sweep(first).has_value());
+    EXPECT_EQ(store.reader.find_results(second).value().rows[0].metrics, R"({"peak":5.0})");
+    EXPECT_TRUE(store.reader.find_trajectory(shared[0].job_id).has_value());
   }
   EXPECT_EQ(query_sql(temporary.file(), "SELECT (SELECT count(*) FROM results) || ' ' || (SELECT count(*) FROM contents) || ' ' || "
                                         "(SELECT count(*) FROM trajectories) || ' ' || (SELECT count(*) FROM jobs)"), "1 1 1 1");
@@ -378,13 +378,13 @@ TEST(Store, GivesTheRoomOfADeletedSweepBack) {
   {
     jobs::Store store(temporary.file());
     const std::string sweep = add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 500}}})");
-    ASSERT_EQ(store.cancel_sweep(sweep).outcome, jobs::CancelOutcome::kDone);
+    ASSERT_EQ(store.queue.cancel_sweep(sweep).outcome, jobs::CancelOutcome::kDone);
   }
   full = std::filesystem::file_size(temporary.file());
   {
     jobs::Store store(temporary.file());
-    const std::string sweep = store.list_sweeps("", "", 1).at(0).id;
-    EXPECT_EQ(store.delete_sweep(sweep), jobs::DeleteOutcome::kDone);
+    const std::string sweep = store.reader.list_sweeps("", "", 1).at(0).id;
+    EXPECT_EQ(store.queue.delete_sweep(sweep), jobs::DeleteOutcome::kDone);
     store.release_free_pages();
   }
   EXPECT_LT(std::filesystem::file_size(temporary.file()), full / 4);
@@ -408,14 +408,14 @@ TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-  EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(1.0)));
   const std::string sweep = add_sweep(store, R"({"sweep": {"coupler": ["rigid", "flexible"], "crank_velocity_rad_s": [5, 10, 12]}})");
-  auto costs = store.find_sweep(sweep).value().costs;
+  auto costs = store.reader.find_sweep(sweep).value().costs;
   EXPECT_EQ(costs.at("rigid, clearance").computed, 0);
   EXPECT_EQ(costs.at("rigid, clearance").queued, 2);
-  EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
-  (void)store.claim();
-  costs = store.find_sweep(sweep).value().costs;
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(1.0)));
+  (void)store.queue.claim();
+  costs = store.reader.find_sweep(sweep).value().costs;
   EXPECT_EQ(costs.at("rigid, clearance").computed, 1);
   EXPECT_EQ(costs.at("rigid, clearance").wall_time_s, 2.0);
   EXPECT_EQ(costs.at("rigid, clearance").running, 1);
@@ -427,47 +427,47 @@ TEST(Store, LeavesTheRequestOutOfListingsAndChanges) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   const std::string sweep = add_sweep(store, kThreeJobs);
-  EXPECT_EQ(store.list_sweeps("", "", 1).at(0).request, "");
-  EXPECT_EQ(store.find_changes(sweep, 0)->sweep.request, "");
-  EXPECT_EQ(store.find_sweep(sweep)->request, kThreeJobs);
-  EXPECT_EQ(store.find_results(sweep)->sweep.request, kThreeJobs);
+  EXPECT_EQ(store.reader.list_sweeps("", "", 1).at(0).request, "");
+  EXPECT_EQ(store.reader.find_changes(sweep, 0)->sweep.request, "");
+  EXPECT_EQ(store.reader.find_sweep(sweep)->request, kThreeJobs);
+  EXPECT_EQ(store.reader.find_results(sweep)->sweep.request, kThreeJobs);
 }
 
 TEST(Store, KnowsWhetherASweepHasEnded) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
-  EXPECT_FALSE(store.has_sweep_ended("sweep_none").has_value());
+  EXPECT_FALSE(store.reader.has_sweep_ended("sweep_none").has_value());
   const std::string sweep = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5, 6]}})");
-  EXPECT_EQ(store.has_sweep_ended(sweep), false);  // all queued
-  EXPECT_TRUE(store.record(store.claim().value(), success(1.0)));
-  EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one queued
-  const auto last = store.claim().value();
-  EXPECT_EQ(store.has_sweep_ended(sweep), false);  // one running
-  const auto jobs = store.find_results(sweep)->rows;
-  EXPECT_EQ(store.has_job_ended(jobs[0].job_id), true);
-  EXPECT_EQ(store.has_job_ended(jobs[1].job_id), false);
-  EXPECT_TRUE(store.record(last, failure()));
-  EXPECT_EQ(store.has_job_ended(jobs[1].job_id), true);
-  EXPECT_EQ(store.has_sweep_ended(sweep), true);
+  EXPECT_EQ(store.reader.has_sweep_ended(sweep), false);  // all queued
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(1.0)));
+  EXPECT_EQ(store.reader.has_sweep_ended(sweep), false);  // one queued
+  const auto last = store.queue.claim().value();
+  EXPECT_EQ(store.reader.has_sweep_ended(sweep), false);  // one running
+  const auto jobs = store.reader.find_results(sweep)->rows;
+  EXPECT_EQ(store.reader.has_job_ended(jobs[0].job_id), true);
+  EXPECT_EQ(store.reader.has_job_ended(jobs[1].job_id), false);
+  EXPECT_TRUE(store.queue.record(last, failure()));
+  EXPECT_EQ(store.reader.has_job_ended(jobs[1].job_id), true);
+  EXPECT_EQ(store.reader.has_sweep_ended(sweep), true);
 }
 
 TEST(Store, TellsWhichResultsAreNew) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
   const std::string sweep = add_sweep(store, kThreeJobs);
-  EXPECT_TRUE(store.find_ended(sweep, 0).empty());
-  store.record(store.claim().value(), success(1.0));
-  const auto first = store.find_ended(sweep, 0);
+  EXPECT_TRUE(store.reader.find_ended(sweep, 0).empty());
+  store.queue.record(store.queue.claim().value(), success(1.0));
+  const auto first = store.reader.find_ended(sweep, 0);
   ASSERT_EQ(first.size(), 1U);
   EXPECT_EQ(first[0].swept, "[5.0]");
   EXPECT_EQ(first[0].metrics, R"({"peak":1.0})");
-  store.record(store.claim().value(), failure());
-  const auto second = store.find_ended(sweep, first[0].change);
+  store.queue.record(store.queue.claim().value(), failure());
+  const auto second = store.reader.find_ended(sweep, first[0].change);
   ASSERT_EQ(second.size(), 1U);
   EXPECT_EQ(second[0].state, "failed");
-  EXPECT_TRUE(store.find_ended(sweep, second[0].change).empty());
+  EXPECT_TRUE(store.reader.find_ended(sweep, second[0].change).empty());
   // The whole table says the same of each job.
-  const auto rows = store.find_results(sweep).value().rows;
+  const auto rows = store.reader.find_results(sweep).value().rows;
   EXPECT_EQ(rows[1].change, second[0].change);
   EXPECT_EQ(rows[2].change, 0);
 }
@@ -484,11 +484,11 @@ TEST(Store, AddsCasesToARequestAsTheyAreWritten) {
   for (int k = 1; k <= kExtension; ++k) cases.push_back({{"clearance_mm", 0.1 + k / 3000.0}});
   auto added = expected;
   added["cases"] = cases;
-  EXPECT_TRUE(store.add_cases(sweep, cases, jobs::plan_sweep(added, 10'000).jobs));
+  EXPECT_TRUE(store.queue.add_cases(sweep, cases, jobs::plan_sweep(added, 10'000).jobs));
   for (const auto& one : cases) expected["cases"].push_back(one);
-  EXPECT_EQ(store.find_sweep(sweep)->request, expected.dump());
-  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 1 + kExtension);
-  EXPECT_FALSE(store.add_cases("swp_none", cases, {}));
+  EXPECT_EQ(store.reader.find_sweep(sweep)->request, expected.dump());
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 1 + kCases);
+  EXPECT_FALSE(store.queue.add_cases("swp_none", cases, {}));
 }
 
 TEST(SweepState, FollowsFromItsJobs) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Studies: each belongs to the sweep of its evaluations, and is deleted with it. Their table is named "searches" for the searches, which were first.
+#include "jobs/store/study_table.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "jobs/base/time_text.h"
-#include "jobs/store/store.h"
+#include "jobs/store/read_rows.h"
 #include "jobs/store/store_insert.h"
-#include "jobs/store/store_rows.h"
 
 namespace jobs {
 namespace {
 
+/// Each study belongs to the sweep of its evaluations, and is deleted with it. The table has the name of the searches,
+/// which were the first type of study.
 constexpr const char* kStudyQuery =
     "SELECT c.id, s.id, s.name, c.request, c.state, c.error, s.created_ms, c.ended_ms FROM searches c JOIN sweeps s ON s.seq = c.sweep";
 
@@ -29,16 +30,16 @@ StudyRow study_row(SQLite::Statement& found) {
 
 }  // namespace
 
-std::string Store::add_study(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
+std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
                               std::size_t max_queued, const IdempotencyRecord<StudySnapshot>& idempotency) {
-  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
-    const std::string sweep_id = ids_.make(kSweepPrefix, now_ms);
+    const std::string sweep_id = core_.ids.make(kSweepPrefix, now_ms);
     const std::int64_t sweep = insert_sweep(database, sweep_id, plan, sweep_request, now_ms);
-    JobInserter inserter(database, ids_, now_ms, ++changes_);
+    JobInserter inserter(database, core_.ids, now_ms, ++core_.changes);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
     check_queue_limit(database, max_queued);
-    std::string id = ids_.make(prefix, now_ms);
+    std::string id = core_.ids.make(prefix, now_ms);
     SQLite::Statement add(database, "INSERT INTO searches (sweep, id, request) VALUES (?, ?, ?)");
     add.bind(1, sweep);
     add.bind(2, id);
@@ -48,7 +49,7 @@ std::string Store::add_study(std::string_view prefix, const SweepPlan& plan, con
       store_response(database, idempotency.key, idempotency.fingerprint,
                   idempotency.make_response({.study = read_study(database, id).value(), .results = read_results(database, sweep_id, RowParameters::kNone).value()}));
     }
-    check_quota_of(database);
+    core_.check_quota(database);
     return id;
   });
 }
@@ -59,12 +60,12 @@ std::optional<StudyRow> read_study(const SQLite::Database& database, const std::
   return find.executeStep() ? std::optional(study_row(find)) : std::nullopt;
 }
 
-std::optional<StudyRow> Store::find_study(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) { return read_study(database, id); });
+std::optional<StudyRow> StudyTable::find(const std::string& id) const {
+  return core_.readers.read([&](const SQLite::Database& database) { return read_study(database, id); });
 }
 
-std::vector<StudyRow> Store::list_studies(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::vector<StudyRow> StudyTable::list(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
         std::string(kStudyQuery) +
             " WHERE (?1 = '' OR c.id < ?1) AND (?2 = '' OR c.state = ?2) AND substr(c.id, 1, length(?4)) = ?4 ORDER BY c.id DESC LIMIT ?3");
@@ -78,8 +79,8 @@ std::vector<StudyRow> Store::list_studies(std::string_view prefix, const std::st
   });
 }
 
-bool Store::set_study_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error) {
-  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+bool StudyTable::set_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     SQLite::Statement set(database,
         "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE ?3 END WHERE id = ?4 AND state = ?5");
     set.bind(1, state);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "jobs/store/job_queue.h"
+
 #include "jobs/base/time_text.h"
-#include "jobs/store/store.h"
 #include "jobs/store/check_quota.h"
 #include "jobs/store/store_results.h"
 #include "jobs/store/sweep_order.h"
@@ -42,7 +43,7 @@ void end_job(Statements& statements, const ClaimedJob& job, JobState state, std:
 
 }  // namespace
 
-struct Store::Outcome {
+struct JobQueue::Outcome {
   explicit Outcome(const RunRecord& run)
       : record(run),
         succeeded(run.end == RunRecord::End::kSucceeded),
@@ -55,25 +56,25 @@ struct Store::Outcome {
   const std::string trajectory, metrics;
 };
 
-std::optional<ClaimedJob> Store::claim(const ExecutorFilter& filter, const OnClaim& on_claim) {
-  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return claim(statements, filter, on_claim); });
+std::optional<ClaimedJob> JobQueue::claim(const ExecutorFilter& filter, const OnClaim& on_claim) {
+  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return claim(statements, filter, on_claim); });
 }
 
-bool Store::record(const ClaimedJob& job, const RunRecord& record) {
+bool JobQueue::record(const ClaimedJob& job, const RunRecord& record) {
   const Outcome outcome(record);  // outside of the lock: other threads compute in the meantime
-  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return this->record(statements, job, outcome); });
+  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return this->record(statements, job, outcome); });
 }
 
-std::optional<ClaimedJob> Store::record_and_claim(const ClaimedJob& job, const RunRecord& record, const ExecutorFilter& filter, const OnClaim& on_claim) {
+std::optional<ClaimedJob> JobQueue::record_and_claim(const ClaimedJob& job, const RunRecord& record, const ExecutorFilter& filter, const OnClaim& on_claim) {
   const Outcome outcome(record);
-  return writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     this->record(statements, job, outcome);
     return claim(statements, filter, on_claim);
   });
 }
 
-std::optional<ClaimedJob> Store::claim(Statements& statements, const ExecutorFilter& filter, const OnClaim& on_claim) {
-  for (const std::int64_t sweep : order_of_sweeps(statements, filter, served_)) {
+std::optional<ClaimedJob> JobQueue::claim(Statements& statements, const ExecutorFilter& filter, const OnClaim& on_claim) {
+  for (const std::int64_t sweep : order_of_sweeps(statements, filter, core_.served)) {
     auto job = find_claimable(statements, sweep);
     if (!job) continue;
     const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
@@ -81,27 +82,27 @@ std::optional<ClaimedJob> Store::claim(Statements& statements, const ExecutorFil
     take->bind(2, now_unix_ms());
     take->bind(3, job->seq);
     take->exec();
-    served_[sweep] = ++claims_;
+    core_.served[sweep] = ++core_.claims;
     if (on_claim) on_claim(*job);
     return job;
   }
   return std::nullopt;
 }
 
-bool Store::record(Statements& statements, const ClaimedJob& job, const Outcome& outcome) {
+bool JobQueue::record(Statements& statements, const ClaimedJob& job, const Outcome& outcome) {
   const auto content = content_if_current(statements, job);
   if (!content) return false;
   const std::int64_t now_ms = now_unix_ms();
   const std::int64_t result = insert_result(statements, *content, outcome.record, outcome.metrics, own_provenance());
   if (outcome.sampled) insert_trajectory(statements, result, outcome.trajectory);
-  end_job(statements, job, outcome.succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++changes_);
-  if (outcome.succeeded) complete_duplicates(statements, *content, result, now_ms, changes_);
-  check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
+  end_job(statements, job, outcome.succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++core_.changes);
+  if (outcome.succeeded) complete_duplicates(statements, *content, result, now_ms, core_.changes);
+  check_quota(*statements.use(kUsedBytesQuery).operator->(), core_.quota, core_.file);
   return true;
 }
 
-void Store::requeue(const ClaimedJob& job) {
-  writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+void JobQueue::requeue(const ClaimedJob& job) {
+  core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     const auto put_back = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE seq = ? AND id = ? AND attempt = ? AND state = 'running'");
     put_back->bind(1, job.seq);
     put_back->bind(2, job.id);

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "jobs/store/store_rows.h"
+#include "jobs/store/sweep_reader.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "jobs/store/read_rows.h"
+#include "jobs/store/store_insert.h"
 
 namespace jobs {
 namespace {
@@ -118,6 +124,13 @@ ResultRow result_row(SQLite::Statement& found) {
           .error_reason = optional_text(found.getColumn(7)), .error_detail = optional_text(found.getColumn(8))};
 }
 
+/// By its name alone: to open and close a file takes away SQLite's locks on it.
+std::int64_t size_or_zero(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  return error ? 0 : static_cast<std::int64_t>(size);
+}
+
 }  // namespace
 
 std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) { return read_sweep(database, id, "request"); }
@@ -128,12 +141,12 @@ std::optional<JobRow> read_job(const SQLite::Database& database, const std::stri
   return find.executeStep() ? std::optional(job_row(find)) : std::nullopt;
 }
 
-std::optional<SweepRow> Store::find_sweep(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) { return read_sweep(database, id); });
+std::optional<SweepRow> SweepReader::find_sweep(const std::string& id) const {
+  return core_.readers.read([&](const SQLite::Database& database) { return read_sweep(database, id); });
 }
 
-std::optional<bool> Store::has_sweep_ended(const std::string& id) const {
-  return readers_.read_often([&](Statements& statements) -> std::optional<bool> {
+std::optional<bool> SweepReader::has_sweep_ended(const std::string& id) const {
+  return core_.readers.read_often([&](Statements& statements) -> std::optional<bool> {
     const auto find = statements.use("SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') "
                                      "OR EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') FROM sweeps s WHERE s.id = ?");
     find->bindNoCopy(1, id);
@@ -141,8 +154,8 @@ std::optional<bool> Store::has_sweep_ended(const std::string& id) const {
   });
 }
 
-std::vector<SweepRow> Store::list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::vector<SweepRow> SweepReader::list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database, sweep_columns("''") + " WHERE ?1 = '' OR id < ?1 ORDER BY id DESC");
     list.bind(1, before);
     std::vector<SweepRow> rows;
@@ -155,20 +168,20 @@ std::vector<SweepRow> Store::list_sweeps(const std::string& state, const std::st
   });
 }
 
-std::optional<JobRow> Store::find_job(const std::string& id) const {
-  return readers_.read([&](const SQLite::Database& database) { return read_job(database, id); });
+std::optional<JobRow> SweepReader::find_job(const std::string& id) const {
+  return core_.readers.read([&](const SQLite::Database& database) { return read_job(database, id); });
 }
 
-std::optional<bool> Store::has_job_ended(const std::string& id) const {
-  return readers_.read_often([&](Statements& statements) -> std::optional<bool> {
+std::optional<bool> SweepReader::has_job_ended(const std::string& id) const {
+  return core_.readers.read_often([&](Statements& statements) -> std::optional<bool> {
     const auto find = statements.use("SELECT state NOT IN ('queued', 'running') FROM jobs WHERE id = ?");
     find->bindNoCopy(1, id);
     return find->executeStep() ? std::optional(find->getColumn(0).getInt() != 0) : std::nullopt;
   });
 }
 
-std::vector<JobRow> Store::list_jobs(const std::string& state, const std::string& before, std::size_t limit) const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::vector<JobRow> SweepReader::list_jobs(const std::string& state, const std::string& before, std::size_t limit) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database, job_columns("''", "NULL") + " WHERE (?1 = '' OR j.id < ?1) AND (?2 = '' OR j.state = ?2) ORDER BY j.id DESC LIMIT ?3");
     list.bind(1, before);
     list.bind(2, state);
@@ -191,12 +204,12 @@ std::optional<SweepResults> read_results(const SQLite::Database& database, const
   return results;
 }
 
-std::optional<SweepResults> Store::find_results(const std::string& sweep_id, RowParameters parameters) const {
-  return readers_.read([&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
+std::optional<SweepResults> SweepReader::find_results(const std::string& sweep_id, RowParameters parameters) const {
+  return core_.readers.read([&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
 }
 
-std::vector<ResultRow> Store::find_ended(const std::string& sweep_id, std::int64_t after) const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::vector<ResultRow> SweepReader::find_ended(const std::string& sweep_id, std::int64_t after) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database, result_columns("''") + kOfSweep + " AND j.change > ? ORDER BY j.change, j.seq");
     list.bind(1, sweep_id);
     list.bind(2, after);
@@ -206,8 +219,8 @@ std::vector<ResultRow> Store::find_ended(const std::string& sweep_id, std::int64
   });
 }
 
-std::optional<SweepChanges> Store::find_changes(const std::string& sweep_id, std::int64_t after) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
+std::optional<SweepChanges> SweepReader::find_changes(const std::string& sweep_id, std::int64_t after) const {
+  return core_.readers.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
     auto sweep = read_sweep(database, sweep_id, "''");
     if (!sweep) return std::nullopt;
     SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
@@ -225,13 +238,23 @@ std::optional<SweepChanges> Store::find_changes(const std::string& sweep_id, std
   });
 }
 
-std::optional<std::string> Store::find_trajectory(const std::string& job_id) const {
-  return readers_.read([&](const SQLite::Database& database) -> std::optional<std::string> {
+std::optional<std::string> SweepReader::find_trajectory(const std::string& job_id) const {
+  return core_.readers.read([&](const SQLite::Database& database) -> std::optional<std::string> {
     SQLite::Statement find(database, "SELECT t.data FROM jobs j JOIN trajectories t ON t.result = j.result WHERE j.id = ?");
     find.bind(1, job_id);
     if (!find.executeStep()) return std::nullopt;
     const SQLite::Column data = find.getColumn(0);
     return std::string(static_cast<const char*>(data.getBlob()), static_cast<std::size_t>(data.getBytes()));
+  });
+}
+
+QueueStats SweepReader::read_queue_stats() const {
+  return core_.readers.read([&](const SQLite::Database& database) {
+    SQLite::Statement count(database, std::string("SELECT (") + kQueuedCount + "), (SELECT count(*) FROM jobs WHERE state = 'running')");
+    count.executeStep();
+    const std::filesystem::path file = database.getFilename();
+    return QueueStats{.queued = count.getColumn(0).getInt64(), .running = count.getColumn(1).getInt64(),
+                .store_bytes = size_or_zero(file) + size_or_zero(file.string() + "-wal")};
   });
 }
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs that are given to a cluster, many at a time.
-
-#include "jobs/store/store_batches.h"
+#include "jobs/store/cluster_batches.h"
 
 #include <algorithm>
 #include <set>
 
 #include "jobs/base/time_text.h"
-#include "jobs/store/store.h"
 #include "jobs/store/store_insert.h"
 #include "jobs/store/check_quota.h"
 #include "jobs/store/store_results.h"
@@ -103,23 +100,23 @@ void release_batches_of_other_engines(SQLite::Database& database) {
   release.exec();
 }
 
-std::optional<BatchRow> Store::claim_batch(const ExecutorFilter& filter, std::size_t most_jobs) {
-  return writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
-    for (const std::int64_t sweep : order_of_sweeps(statements, filter, served_)) {
+std::optional<BatchRow> ClusterBatches::claim(const ExecutorFilter& filter, std::size_t most_jobs) {
+  return core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
+    for (const std::int64_t sweep : order_of_sweeps(statements, filter, core_.served)) {
       const auto candidates = find_candidates(statements, sweep, most_jobs);
       if (candidates.empty()) continue;
       const std::int64_t now_ms = now_unix_ms();
-      const BatchRow batch = insert_batch(statements, ids_.make(kBatchPrefix, now_ms), find_sweep_id(statements, sweep), now_ms);
+      const BatchRow batch = insert_batch(statements, core_.ids.make(kBatchPrefix, now_ms), find_sweep_id(statements, sweep), now_ms);
       for (std::size_t k = 0; k < candidates.size(); ++k) set_batch_index(statements, candidates[k].seq, batch.seq, k);
-      served_[sweep] = ++claims_;
+      core_.served[sweep] = ++core_.claims;
       return batch;
     }
     return std::nullopt;
   });
 }
 
-std::vector<BatchRow> Store::find_batches() const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::vector<BatchRow> ClusterBatches::list() const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database, "SELECT seq, id, coalesce(sweep_id, '') FROM batches ORDER BY seq");
     std::vector<BatchRow> batches;
     while (list.executeStep()) {
@@ -129,8 +126,8 @@ std::vector<BatchRow> Store::find_batches() const {
   });
 }
 
-std::vector<std::uint32_t> Store::find_open_indices(std::int64_t batch) const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::vector<std::uint32_t> ClusterBatches::find_open_indices(std::int64_t batch) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database, "SELECT place FROM jobs WHERE batch = ? ORDER BY place");
     list.bind(1, batch);
     std::vector<std::uint32_t> indices;
@@ -139,8 +136,8 @@ std::vector<std::uint32_t> Store::find_open_indices(std::int64_t batch) const {
   });
 }
 
-std::vector<BatchJob> Store::find_open_jobs(std::int64_t batch) const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::vector<BatchJob> ClusterBatches::find_open_jobs(std::int64_t batch) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
                            "SELECT j.place, c.parameters, j.kind, json_extract(c.parameters, '$.duration_s') FROM jobs j "
                            "JOIN contents c ON c.seq = j.content WHERE j.batch = ? ORDER BY j.place");
@@ -154,11 +151,11 @@ std::vector<BatchJob> Store::find_open_jobs(std::int64_t batch) const {
   });
 }
 
-std::size_t Store::record_batch(std::int64_t batch, const Provenance& provenance, const std::vector<BatchRecord>& records) {
-  return writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
+std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provenance, const std::vector<BatchRecord>& records) {
+  return core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
     const std::int64_t now_ms = now_unix_ms();
     std::size_t stored = 0;
-    ++changes_;
+    ++core_.changes;
     for (const BatchRecord& each : records) {
       const auto found = find_batch_job(statements, batch, each.batch_index, provenance.engine);
       if (!found) continue;
@@ -166,17 +163,17 @@ std::size_t Store::record_batch(std::int64_t batch, const Provenance& provenance
       const std::string metrics = succeeded ? each.record->metrics.dump() : "";
       const std::int64_t result = insert_result(statements, found->content, *each.record, metrics, provenance);
       if (!each.packed_trajectory->empty()) insert_trajectory(statements, result, *each.packed_trajectory);
-      end_batch_job(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, changes_);
-      if (succeeded) complete_duplicates(statements, found->content, result, now_ms, changes_);
+      end_batch_job(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, core_.changes);
+      if (succeeded) complete_duplicates(statements, found->content, result, now_ms, core_.changes);
       ++stored;
     }
-    check_quota(*statements.use(kUsedBytesQuery).operator->(), room_, file_);
+    check_quota(*statements.use(kUsedBytesQuery).operator->(), core_.quota, core_.file);
     return stored;
   });
 }
 
-void Store::set_running(std::int64_t batch, const std::vector<std::uint32_t>& running, const std::vector<std::uint32_t>& waiting) {
-  writer_.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint32_t>& running, const std::vector<std::uint32_t>& waiting) {
+  core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     for (const std::uint32_t batch_index : running) {
       const auto begin = statements.use(
           "UPDATE jobs SET state = 'running', attempt = attempt + 1, started_ms = max(?, created_ms) "
@@ -195,8 +192,8 @@ void Store::set_running(std::int64_t batch, const std::vector<std::uint32_t>& ru
   });
 }
 
-void Store::end_batch(std::int64_t batch) {
-  writer_.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
+void ClusterBatches::end(std::int64_t batch) {
+  core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
     const auto release = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL, batch = NULL, place = NULL WHERE batch = ?");
     release->bind(1, batch);
     release->exec();
@@ -206,8 +203,8 @@ void Store::end_batch(std::int64_t batch) {
   });
 }
 
-std::map<std::string, double> Store::find_cost_rates() const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::map<std::string, double> ClusterBatches::find_cost_rates() const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
                            "SELECT j.kind, avg(r.wall_time_s / json_extract(c.parameters, '$.duration_s')) "
                            "FROM (SELECT seq, content, wall_time_s FROM results WHERE error_reason IS NULL ORDER BY seq DESC LIMIT 500) r "
@@ -218,30 +215,11 @@ std::map<std::string, double> Store::find_cost_rates() const {
   });
 }
 
-std::string Store::find_identity() const {
-  return readers_.read([&](const SQLite::Database& database) {
+std::string ClusterBatches::find_identity() const {
+  return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement find(database, "SELECT id FROM identity");
     find.executeStep();
     return find.getColumn(0).getString();
-  });
-}
-
-bool Store::move_sweep(const std::string& id, const std::string& executor) {
-  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    const auto sweep = find_sweep_seq(database, id);
-    if (!sweep) return false;
-    SQLite::Statement left(database, "SELECT 1 FROM jobs WHERE sweep = ? AND state IN ('queued', 'running') LIMIT 1");
-    left.bind(1, *sweep);
-    if (!left.executeStep()) throw WrongState("the sweep has ended");
-    left.reset();
-    SQLite::Statement move(database, "UPDATE sweeps SET executor = ? WHERE seq = ?");
-    move.bind(1, executor);
-    move.bind(2, *sweep);
-    move.exec();
-    SQLite::Statement release(database, "UPDATE jobs SET batch = NULL, place = NULL WHERE sweep = ? AND state = 'queued' AND batch IS NOT NULL");
-    release.bind(1, *sweep);
-    release.exec();
-    return true;
   });
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ending and deleting what is stored, and trying it again.
+// Jobs and sweeps that are cancelled, retried, moved or deleted.
 
 #include <algorithm>
 
 #include "jobs/base/time_text.h"
-#include "jobs/store/store.h"
+#include "jobs/store/job_queue.h"
 #include "jobs/store/store_insert.h"
 
 namespace jobs {
@@ -65,27 +65,27 @@ void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
 
 }  // namespace
 
-Cancellation Store::cancel_sweep(const std::string& id) {
-  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
+Cancellation JobQueue::cancel_sweep(const std::string& id) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
     if (!find_sweep_seq(database, id)) return {};
     std::vector<std::string> running = find_running(database, "s.id", id);
     const std::string of_sweep = "sweep = (SELECT seq FROM sweeps WHERE id = ?)";
-    const bool done = cancel_where(database, of_sweep, id, ++changes_) > 0 || any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
+    const bool done = cancel_where(database, of_sweep, id, ++core_.changes) > 0 || any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
     return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
   });
 }
 
-Cancellation Store::cancel_job(const std::string& id) {
-  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
+Cancellation JobQueue::cancel_job(const std::string& id) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
     if (!any_in_state(database, "id = ?", id)) return {};
     std::vector<std::string> running = find_running(database, "j.id", id);
-    const bool done = cancel_where(database, "id = ?", id, ++changes_) > 0 || any_in_state(database, "state = 'cancelled' AND id = ?", id);
+    const bool done = cancel_where(database, "id = ?", id, ++core_.changes) > 0 || any_in_state(database, "state = 'cancelled' AND id = ?", id);
     return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
   });
 }
 
-bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
-  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+bool JobQueue::retry_sweep(const std::string& id, std::size_t max_queued) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return false;
     run_for_each(database, "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = ?", {*sweep});
@@ -102,22 +102,41 @@ bool Store::retry_sweep(const std::string& id, std::size_t max_queued) {
                              "WHERE sweep = ?1 AND state = 'queued' AND reuse = 1 "
                              "AND EXISTS (SELECT 1 FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL)");
     settle.bind(1, *sweep);
-    settle.bind(2, ++changes_);
+    settle.bind(2, ++core_.changes);
     settle.bind(3, now_unix_ms());
     settle.exec();
     check_queue_limit(database, max_queued);
-    check_quota_of(database);
+    core_.check_quota(database);
     return true;
   });
 }
 
-DeleteOutcome Store::delete_sweep(const std::string& id) {
-  return writer_.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+bool JobQueue::move_sweep(const std::string& id, const std::string& executor) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    const auto sweep = find_sweep_seq(database, id);
+    if (!sweep) return false;
+    SQLite::Statement left(database, "SELECT 1 FROM jobs WHERE sweep = ? AND state IN ('queued', 'running') LIMIT 1");
+    left.bind(1, *sweep);
+    if (!left.executeStep()) throw WrongState("the sweep has ended");
+    left.reset();
+    SQLite::Statement move(database, "UPDATE sweeps SET executor = ? WHERE seq = ?");
+    move.bind(1, executor);
+    move.bind(2, *sweep);
+    move.exec();
+    SQLite::Statement release(database, "UPDATE jobs SET batch = NULL, place = NULL WHERE sweep = ? AND state = 'queued' AND batch IS NOT NULL");
+    release.bind(1, *sweep);
+    release.exec();
+    return true;
+  });
+}
+
+DeleteOutcome JobQueue::delete_sweep(const std::string& id) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return DeleteOutcome::kMissing;
     if (any_in_state(database, "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id)) return DeleteOutcome::kNotEnded;
     delete_sweep_rows(database, *sweep);
-    served_.erase(*sweep);
+    core_.served.erase(*sweep);
     return DeleteOutcome::kDone;
   });
 }

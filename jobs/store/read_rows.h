@@ -6,7 +6,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "jobs/store/store.h"
+#include "jobs/store/rows.h"
 
 namespace jobs {
 
@@ -17,9 +17,5 @@ namespace jobs {
 [[nodiscard]] std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id,
                                                        RowParameters parameters);
 [[nodiscard]] std::optional<StudyRow> read_study(const SQLite::Database& database, const std::string& id);
-
-/// Stores the response to a request under its key, and deletes those that are too old.
-void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
-                    const std::string& response);
 
 }  // namespace jobs

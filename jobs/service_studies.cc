@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Studies of the service, and the thread that lets them go on.
+
+#include "jobs/base/content_id.h"
+#include "jobs/service.h"
+#include "jobs/store/store.h"
+#include "jobs/studies/study_runner.h"
+
+namespace jobs {
+
+using nlohmann::json;
+
+json Service::submit_study(Study study, const nlohmann::ordered_json& request, const std::string& key) {
+  const char* const route = study == Study::kLimit ? "POST /v1/searches " : "POST /v1/wear-studies ";
+  return answer_once(key, route + sha256_hex(request.dump()), [&](const IdempotentRequest& idempotency) {
+    json begun = runner(study).submit(request, idempotency);
+    wake();
+    tell_change();  // its first results may be known already
+    return begun;
+  });
+}
+
+std::optional<json> Service::find_study(Study study, const std::string& id) const { return runner(study).find(id); }
+
+json Service::list_studies(Study study, const PageQuery& query) const { return runner(study).list(query); }
+
+std::optional<ResultTable> Service::find_study_table(Study study, const std::string& id,
+                                                     const ResultQuery& query) const {
+  auto table = runner(study).find_table(id);
+  if (table) jobs::apply(query, *table, kStudyColumns);
+  return table;
+}
+
+std::optional<SweepNews> Service::find_study_news(Study study, const std::string& id, std::int64_t after) const {
+  const auto row = runner(study).find_row(id);
+  if (!row) return std::nullopt;
+  auto news = find_news(row->sweep_id, after);
+  if (!news) return std::nullopt;
+  const bool runs = row->state == "running";
+  news->progress = {{"id", id}, {"sweep_id", row->sweep_id}, {"state", row->state},
+                    {"counts", news->progress.at("counts")},
+                    {"progress", runs ? runner(study).find_progress(id) : 1.0}};
+  news->ended = news->ended && !runs;
+  return news;
+}
+
+bool Service::wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const {
+  return changes_.wait_for(at_most, [&]() -> std::optional<bool> {
+    const auto row = runner(study).find_row(id);
+    return row ? std::optional(row->state != "running") : std::nullopt;
+  });
+}
+
+std::optional<json> Service::cancel_study(Study study, const std::string& id) {
+  const auto cancel_sweep = [this](const std::string& sweep) {
+    finish_cancelling(store_->queue.cancel_sweep(sweep), nullptr);
+  };
+  return runner(study).cancel(id, cancel_sweep) ? runner(study).find(id) : std::nullopt;
+}
+
+std::optional<json> Service::retry_study(Study study, const std::string& id) {
+  check_open();
+  const auto retry_sweep = [this](const std::string& sweep) {
+    store_->queue.retry_sweep(sweep, options_.max_queued_jobs);
+  };
+  if (!runner(study).retry(id, retry_sweep)) return std::nullopt;
+  wake();
+  tell_change();
+  return runner(study).find(id);
+}
+
+bool Service::delete_study(Study study, const std::string& id) {
+  const auto sweep = runner(study).find_ended_sweep(id);
+  return sweep && delete_sweep(*sweep);
+}
+
+void Service::change_sweep(const std::string& id, const std::function<void()>& change) {
+  runner(Study::kLimit).change_sweep(id, [&] { runner(Study::kWear).change_sweep(id, change); });
+}
+
+void Service::run_studies() {
+  constexpr std::chrono::seconds kPause{5};  // after a failure of the store
+  while (!changes_.is_closed()) {
+    const std::uint64_t seen = changes_.count();
+    try {
+      StudyChanges changes;
+      for (const auto& each : runners_) {
+        const StudyChanges one = each->advance();
+        changes.any |= one.any;
+        changes.added |= one.added;
+      }
+      if (changes.added) wake();
+      if (changes.any) tell_change();
+      changes_.wait(seen);
+    } catch (const std::exception& error) {  // the store's errors, or no memory
+      options_.log(std::string("the studies could not go on yet: ") + error.what());
+      changes_.wait_until_closed(kPause);
+    }
+  }
+}
+
+}  // namespace jobs
