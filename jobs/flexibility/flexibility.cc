@@ -10,7 +10,7 @@
 #include "jobs/base/errors.h"
 #include "jobs/base/optional_json.h"
 #include "jobs/requests/axis.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/statistics/replicate_statistics.h"
 
 namespace jobs {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "jobs/base/errors.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/statistics/estimate.h"
 #include "jobs/statistics/replicate_statistics.h"
 

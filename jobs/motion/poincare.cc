@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "jobs/base/errors.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 
 namespace jobs {
 

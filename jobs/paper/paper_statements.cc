@@ -18,7 +18,7 @@
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/statistics/first_order_index.h"
 #include "jobs/statistics/median.h"
 

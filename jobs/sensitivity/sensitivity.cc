@@ -8,7 +8,7 @@
 
 #include "jobs/base/errors.h"
 #include "jobs/requests/sampled_designs.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/statistics/effect_points.h"
 #include "jobs/statistics/replicate_statistics.h"
 

@@ -12,7 +12,7 @@
 #include "jobs/base/errors.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/axis.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/surrogate/polynomial_chaos.h"
 
 namespace jobs {

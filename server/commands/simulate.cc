@@ -12,6 +12,7 @@
 
 #include "jobs/requests/parameters.h"
 #include "jobs/results/csv.h"
+#include "jobs/results/table_json.h"
 #include "jobs/run_job.h"
 #include "jobs/service.h"
 #include "jobs/trajectories/npz.h"
@@ -19,7 +20,6 @@
 #include "server/commands/command.h"
 #include "server/commands/plot.h"
 #include "server/messages/json_text.h"
-#include "server/routes/tables.h"
 
 namespace server::commands {
 
@@ -85,7 +85,7 @@ void check_channels(const SimulateOptions& options, const jobs::JobSpec& spec) {
 /// In the format that the file's name ends in.
 std::string trajectory_text(const std::string& path, const engine::Trajectory& trajectory) {
   if (path.ends_with(".npz")) return jobs::to_npz(trajectory);
-  return path.ends_with(".csv") ? jobs::to_csv(trajectory) : to_json_columns(trajectory);
+  return path.ends_with(".csv") ? jobs::to_csv(trajectory) : jobs::to_json_columns(trajectory);
 }
 
 /// The channels that were asked for, in the order of the table, time first.

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <set>
 #include <vector>
 
@@ -111,17 +109,5 @@ nlohmann::ordered_json parse_json(std::string_view text) {
     return parse_strictly(mended);
   }
 }
-
-void append_number_to(std::string& text, double value) {
-  if (!std::isfinite(value)) {
-    text += "null";
-    return;
-  }
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  text.append(digits, end);
-}
-
-void append_string_to(std::string& text, const std::string& value) { text += to_text(nlohmann::json(value)); }
 
 }  // namespace server

@@ -27,13 +27,7 @@ inline constexpr std::size_t kMaxObjectKeys = 1024;
 ///         a key that an object has twice, more than kMaxJsonDepth levels, more than kMaxObjectKeys keys in an object.
 [[nodiscard]] nlohmann::ordered_json parse_json(std::string_view text);
 
-/// Appends a number as JSON that reads back exactly; null for what is not finite.
-void append_number_to(std::string& text, double value);
-
-/// Appends a string with its quotes; bytes that are no UTF-8 become U+FFFD.
-void append_string_to(std::string& text, const std::string& value);
-
-/// JSON text of a value, with the same rule for bytes that are no UTF-8.
+/// JSON text of a value; bytes that are no UTF-8 become U+FFFD.
 template <typename Json>
 [[nodiscard]] std::string to_text(const Json& value, int indent = -1) {
   return value.dump(indent, ' ', false, Json::error_handler_t::replace);

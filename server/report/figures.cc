@@ -14,7 +14,7 @@
 
 #include "charts/chart.h"
 #include "jobs/requests/axis.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/statistics/replicate_statistics.h"
 #include "server/report/html.h"
 

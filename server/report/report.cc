@@ -9,7 +9,7 @@
 
 #include "jobs/base/errors.h"
 #include "jobs/flexibility/flexibility.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/sensitivity/sensitivity.h"
 #include "jobs/statistics/replicate_statistics.h"
 #include "server/messages/json_text.h"

@@ -15,7 +15,8 @@
 #include "jobs/motion/spectrum.h"
 #include "jobs/paper/paper_statements.h"
 #include "jobs/results/csv.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
+#include "jobs/results/table_json.h"
 #include "jobs/sensitivity/sensitivity.h"
 #include "jobs/surrogate/surrogate.h"
 #include "jobs/trajectories/npz.h"
@@ -125,7 +126,7 @@ std::optional<engine::Trajectory> find_wear_run(const Call& call, const jobs::Tr
 }
 
 Response make_columns(const Call& call, TableFormat format, const engine::Trajectory& table, const std::string& name) {
-  std::string text = format == TableFormat::kCsv ? jobs::to_csv(table) : format == TableFormat::kNpz ? jobs::to_npz(table) : to_json_columns(table);
+  std::string text = format == TableFormat::kCsv ? jobs::to_csv(table) : format == TableFormat::kNpz ? jobs::to_npz(table) : jobs::to_json_columns(table);
   return with_etag(call.request, make_table(format, std::move(text), name + "-" + call.id));  // only what has ended has a trajectory
 }
 

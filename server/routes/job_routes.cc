@@ -7,6 +7,7 @@
 
 #include "jobs/requests/parameter_schema.h"
 #include "jobs/results/csv.h"
+#include "jobs/results/table_json.h"
 #include "jobs/trajectories/npz.h"
 #include "server/messages/conditional.h"
 #include "server/messages/json_text.h"
@@ -35,7 +36,7 @@ Resource job_resource(const Call& call) {
 
 std::string trajectory_text(const engine::Trajectory& trajectory, TableFormat format) {
   if (format == TableFormat::kCsv) return jobs::to_csv(trajectory);
-  return format == TableFormat::kNpz ? jobs::to_npz(trajectory) : to_json_columns(trajectory);
+  return format == TableFormat::kNpz ? jobs::to_npz(trajectory) : jobs::to_json_columns(trajectory);
 }
 
 }  // namespace

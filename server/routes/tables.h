@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "engine/analysis/quantities.h"
 #include "jobs/results/result_table.h"
 #include "server/messages/message.h"
 #include "server/messages/query.h"
@@ -18,18 +17,8 @@ enum class TableFormat { kJson, kCsv, kNdjson, kNpz };
 /// The same for a trajectory: `?format=csv|json|npz`.
 [[nodiscard]] TableFormat find_column_format(const Request& request, Query& query);
 
-/// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each has, after the
-/// metrics, replicates_count, _mean, _spread, _min and _max of its set.
-[[nodiscard]] std::string to_json_rows(const jobs::ResultTable& table);
-
-/// The same objects, each on a line of its own and nothing between them: NDJSON.
-[[nodiscard]] std::string to_json_lines(const jobs::ResultTable& table);
-
 /// A table as text in one of the formats of rows.
 [[nodiscard]] std::string to_text(const jobs::ResultTable& table, TableFormat format);
-
-/// {"channels": [key, ...], "columns": {key: [number, ...], ...}}; null for what is not finite.
-[[nodiscard]] std::string to_json_columns(const engine::Trajectory& trajectory);
 
 /// A table as an answer: JSON as text, CSV and NumPy's format as a download with a name.
 /// @param file_stem  of the download; letters, digits, '-' and '_'

@@ -2,9 +2,9 @@
 // How large a stored trajectory is beside the JSON that the service answers with, all channels, default output (5 s at 1 kHz).
 // Also what encoding and decoding it costs.
 
+#include "jobs/results/table_json.h"
 #include "jobs/run_job.h"
 #include "jobs/trajectories/trajectory_codec.h"
-#include "server/routes/tables.h"
 #include "tests/bench/path/measure.h"
 
 namespace {
@@ -25,8 +25,8 @@ int main() {
     const double encoded = thread_cpu_s();
     for (int i = 0; i < kTimes; ++i) (void)jobs::decode_trajectory(std::as_bytes(std::span(blob)), {});
     const double decoded = thread_cpu_s();
-    const double json_bytes = static_cast<double>(server::to_json_columns(trajectory).size());
-    const double engine_json_bytes = static_cast<double>(server::to_json_columns(simulate(kind.parameters).trajectory).size());
+    const double json_bytes = static_cast<double>(jobs::to_json_columns(trajectory).size());
+    const double engine_json_bytes = static_cast<double>(jobs::to_json_columns(simulate(kind.parameters).trajectory).size());
     const double values = static_cast<double>(trajectory.columns.size() * trajectory.columns.front().size());
     print_figure(kind.name + ": values", values, "");
     print_figure(kind.name + ": bytes a value in JSON", json_bytes / values, "B");

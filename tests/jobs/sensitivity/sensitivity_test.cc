@@ -9,7 +9,7 @@
 
 #include "jobs/base/errors.h"
 #include "jobs/requests/sampled_designs.h"
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 #include "tests/jobs/service_support.h"
 
 namespace jobs_tests {

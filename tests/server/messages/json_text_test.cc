@@ -78,25 +78,4 @@ TEST(ParseJson, RefusesANulWhereverItStands) {
 
 TEST(ParseJson, RefusesBytesThatAreNoUtf8) { EXPECT_NE(message_of("\"\xff\""), "accepted"); }
 
-TEST(AppendNumber, ReadsBackExactly) {
-  for (const double value : {0.1, -1.0 / 3.0, 5e-324, 1.7976931348623157e308, 123456789.0, 0.0}) {
-    std::string text;
-    server::append_number_to(text, value);
-    EXPECT_EQ(std::strtod(text.c_str(), nullptr), value) << text;
-  }
-}
-
-TEST(AppendNumber, IsNullForWhatIsNotFinite) {
-  std::string text;
-  server::append_number_to(text, std::numeric_limits<double>::quiet_NaN());
-  server::append_number_to(text, -std::numeric_limits<double>::infinity());
-  EXPECT_EQ(text, "nullnull");
-}
-
-TEST(AppendString, EscapesAndReplacesWhatIsNoUtf8) {
-  std::string text;
-  server::append_string_to(text, "a\"\n\xff");
-  EXPECT_EQ(text, "\"a\\\"\\n\xef\xbf\xbd\"");
-}
-
 }  // namespace

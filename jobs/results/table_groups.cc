@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "jobs/sensitivity/row_groups.h"
+#include "jobs/results/table_groups.h"
 
 #include <algorithm>
 #include <array>
