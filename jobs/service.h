@@ -60,7 +60,7 @@ struct ServiceOptions {
   RunListener ran{};            ///< told, from any thread, of each run on this machine before it is recorded; empty: nobody
 };
 
-/// What has happened to a sweep since a change.
+/// News of a sweep since a change.
 struct SweepNews {
   /// {"sweep_id", "state", "counts", "progress", "eta_s", "eta_low_s", "eta_high_s"}; of a study {"id", "sweep_id", "state", "counts", "progress"}
   nlohmann::json progress;
@@ -81,7 +81,7 @@ enum class Study { kLimit, kWear };
 ///
 /// Every JSON it returns is the resource as the HTTP interface and the command line show it.
 /// All members may be called from any thread.
-/// What throws: InvalidRequest (a faulty request; of a query "/limit", "/state", "/cursor", "/fields/0", "/order_by/0",
+/// Exceptions: InvalidRequest (a faulty request; of a query "/limit", "/state", "/cursor", "/fields/0", "/order_by/0",
 /// "/clearance_mm_gt", "/channels/0", "/from", "/to", "/points" are the pointers), WrongState, StorageError, Stopped (of new work, after stop()).
 class Service {
  public:
@@ -134,7 +134,7 @@ class Service {
   bool delete_study(Study study, const std::string& id);
 
   [[nodiscard]] QueueStats read_queue_stats() const;
-  /// Who computes jobs here: {"items": [status, ...]}, the one first that takes sweeps which name none. See Executor::status().
+  /// Executors: {"items": [status, ...]}, the default one first. See Executor::status().
   [[nodiscard]] nlohmann::json list_executors() const;
 
   /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there is none.
@@ -145,9 +145,9 @@ class Service {
   /// Deletes a sweep that has ended, with its jobs and the results that no other job shares. False if there is none.
   bool delete_sweep(const std::string& id);
 
-  /// What has ended since that change; 0: since the beginning.
+  /// Jobs that have ended since that change; 0: since the beginning.
   [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const;
-  /// What has ended of a study's jobs since that change. It has ended when nothing is to be computed for it any more.
+  /// Jobs of a study that have ended since that change. The study has ended when nothing is left to compute for it.
   [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id, std::int64_t after) const;
   /// A number that grows whenever a job begins or ends, or is changed otherwise.
   [[nodiscard]] std::uint64_t activity() const { return activity_; }

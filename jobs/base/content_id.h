@@ -12,7 +12,7 @@ namespace jobs {
 /// The one text of a parameter set: keys sorted, no blanks, shortest numbers. @param completed  all parameters, canonical
 [[nodiscard]] std::string canonical_text(const nlohmann::json& completed);
 
-/// What names a result: the same parameters computed by the same engine. SHA-256 in hex, 64 characters.
+/// Content of a job, the name of its result: SHA-256 of its parameters and of the engine, 64 hexadecimal digits.
 [[nodiscard]] std::string content_id(std::string_view canonical_parameters, std::string_view engine_version);
 
 inline constexpr std::size_t kSha256Digits = 64;  ///< hexadecimal ones

@@ -7,7 +7,7 @@
 
 namespace jobs {
 
-/// What JSON has for a value that may not be there.
+/// JSON of a value; null for an empty one.
 template <typename T>
 [[nodiscard]] nlohmann::json value_or_null(const std::optional<T>& value) { return value ? nlohmann::json(*value) : nlohmann::json(); }
 

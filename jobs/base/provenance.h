@@ -5,7 +5,7 @@
 
 namespace jobs {
 
-/// Where and by what a result was computed. Results are equal to the bit where cpu, libm, numerics and the program's engine are.
+/// Machine and program that computed a result. Results are equal to the bit where cpu, libm, numerics and the program's engine are.
 struct Provenance {
   std::string host, cpu;
   std::string libm;      ///< the mathematical library of the C library: "glibc 2.36"
@@ -14,7 +14,7 @@ struct Provenance {
   std::string engine;    ///< what a result's content is named with
 };
 
-/// That of results which this process computes.
+/// Provenance of the results of this process.
 [[nodiscard]] const Provenance& own_provenance();
 
 // The mathematical library picks the variants of its functions (sin, exp, pow) that suit the processor, when a program starts. They differ in
@@ -26,7 +26,7 @@ struct Provenance {
 /// Whether this process was started with it.
 [[nodiscard]] bool has_portable_numerics();
 
-/// What the contents of this process are named with: the engine's version and, if they are portable, its numerics.
+/// Engine's part of this process's contents: the engine's version and, if they are portable, its numerics.
 [[nodiscard]] const std::string& engine_version();
 
 }  // namespace jobs

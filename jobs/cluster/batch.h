@@ -23,7 +23,7 @@ class Batch {
 
   [[nodiscard]] const BatchRow& row() const { return row_; }
   [[nodiscard]] const BatchFolder& folder() const { return folder_; }
-  /// What Slurm knows a generation by.
+  /// Name of a generation in Slurm.
   [[nodiscard]] std::string array_name(int generation) const { return "rpsup-" + row_.id + "-g" + std::to_string(generation); }
   [[nodiscard]] std::vector<std::string> array_names() const;
   [[nodiscard]] int generations() const { return generations_; }
@@ -55,7 +55,7 @@ class Batch {
   [[nodiscard]] Decision decide(const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
     return reconciler_.decide(tasks_, reports, now);
   }
-  /// Which indices have begun to run since the last time, and which wait again.
+  /// Collects the indices that have begun to run since the last call, and those that wait again.
   void take_running(const std::set<BatchIndex>& running, std::vector<BatchIndex>& begun, std::vector<BatchIndex>& waiting);
 
   /// Tasks that have indices left.

@@ -18,7 +18,7 @@ constexpr std::string_view kResultsMagic = "RPSUPRS1";
 constexpr std::size_t kLongestText = 60'000;
 constexpr std::uint32_t kLargestHeader = 64U << 20U;
 
-/// Where a job's parameters lie behind the table.
+/// Position of a job's parameters behind the table.
 struct JobEntry {
   BatchIndex batch_index = 0;
   std::uint64_t offset = 0;

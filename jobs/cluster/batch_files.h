@@ -14,7 +14,7 @@
 
 namespace jobs::cluster {
 
-/// Where the files of a batch lie:
+/// Files of a batch:
 ///
 ///     jobs         the parameters of all jobs, which never changes
 ///     g<k>.list    generation k: line i is the task with array index i
@@ -35,7 +35,7 @@ struct BatchFolder {
   [[nodiscard]] std::filesystem::path cancel() const { return path / "CANCEL"; }
 };
 
-/// What all tasks of a batch need to know.
+/// Data that all tasks of a batch need.
 struct BatchHeader {
   std::string batch;   ///< id
   std::string engine;  ///< that must compute it

@@ -9,7 +9,7 @@
 
 namespace jobs::cluster {
 
-/// What a check has found.
+/// Finding of a check.
 struct Finding {
   enum class Kind { kGood, kWarning, kFault };
 

@@ -13,7 +13,7 @@
 
 namespace jobs::cluster {
 
-/// What Slurm has of our tasks, as it was when it was last asked; for humans. May be used from any thread.
+/// Status of our tasks in Slurm at the last query, for humans. May be used from any thread.
 class ClusterStatus {
  public:
   /// Takes over what squeue said.

@@ -8,7 +8,7 @@
 
 namespace jobs::cluster {
 
-/// What bounds the tasks into which jobs are put.
+/// Bounds on the tasks into which jobs are put.
 struct TaskBounds {
   int threads = 1;            ///< of a task
   int slots = 1;              ///< tasks that run at a time
@@ -22,7 +22,7 @@ struct TaskBounds {
 /// @param costs_s  of the jobs by index, on one thread
 [[nodiscard]] std::vector<TaskPlan> plan_tasks(const std::vector<BatchIndex>& indices, const std::vector<double>& costs_s, const TaskBounds& bounds);
 
-/// How many jobs to take at once when nothing is known of what they cost: some for every slot, but not more than are needed to know.
+/// Number of jobs of a first batch, whose cost is unknown: some for every slot, but not more than are needed to know it.
 [[nodiscard]] inline int probe_size(const TaskBounds& bounds) { return std::min(2 * bounds.slots * bounds.threads, 100); }
 
 }  // namespace jobs::cluster

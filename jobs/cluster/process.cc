@@ -61,7 +61,7 @@ class Pipe {
   std::array<int, 2> ends_{};
 };
 
-/// How the child begins: no input, its output in our pipes, nothing else open, no signal blocked or ignored, a group of its own.
+/// Start of the child: no input, its output in our pipes, nothing else open, no signal blocked or ignored, a group of its own.
 class SpawnSettings {
  public:
   SpawnSettings(const Pipe& out, const Pipe& err) {

@@ -8,7 +8,7 @@
 
 namespace jobs::cluster {
 
-/// What became of another program.
+/// Result of another program.
 struct ProcessOutcome {
   enum class End { kExited, kNotStarted, kTimedOut, kStopped };
 
@@ -17,7 +17,7 @@ struct ProcessOutcome {
   std::string out, err;  ///< what it wrote; of each the first 64 MiB
 
   [[nodiscard]] bool succeeded() const { return end == End::kExited && code == 0; }
-  /// What to tell a human: its last words, or how it ended.
+  /// Text for a human: its last output, or how it ended.
   [[nodiscard]] std::string text() const;
 };
 

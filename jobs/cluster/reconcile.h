@@ -31,7 +31,7 @@ struct LostJob {
   TaskName task;       ///< the last one, whose log may say more
 };
 
-/// What is to be done about a batch.
+/// Actions for a batch.
 struct Decision {
   std::vector<TaskPlan> submit;   ///< as the next generation
   std::vector<TaskName> cancel;   ///< what Slurm has of them is not wanted

@@ -23,7 +23,7 @@ using std::chrono::milliseconds;
 
 std::string file_prefix(const TaskOrder& order) { return "g" + std::to_string(order.generation) + "-" + std::to_string(order.index) + "-"; }
 
-/// What an earlier run of the same task has left: Slurm starts a task again whose node has failed.
+/// Results of an earlier run of the same task: Slurm starts a task again whose node has failed.
 std::set<BatchIndex> find_done(const TaskOrder& order, const std::filesystem::path& out, const std::function<void(const std::string&)>& log) {
   std::set<BatchIndex> done;
   for (const auto& entry : std::filesystem::directory_iterator(out)) {

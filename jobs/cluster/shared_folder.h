@@ -13,7 +13,7 @@ namespace jobs::cluster {
 /// @throws FileError
 [[nodiscard]] std::filesystem::path share_program(const Site& site);
 
-/// What Slurm runs for each task of a generation.
+/// Script that Slurm runs for each task of a generation.
 [[nodiscard]] std::string make_script(const Site& site, const std::filesystem::path& program, const std::string& arguments);
 
 /// The last lines of a file, at most so many bytes; empty if it cannot be read.

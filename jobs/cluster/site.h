@@ -8,7 +8,7 @@
 
 namespace jobs::cluster {
 
-/// What a service must know of the cluster it uses: chosen by whoever runs it.
+/// Settings of the cluster, chosen by whoever runs the service.
 struct Site {
   std::filesystem::path folder;      ///< that the service and all nodes see under this name; empty: there is no cluster
   std::filesystem::path program;     ///< that nodes run, copied into the folder; empty: this one

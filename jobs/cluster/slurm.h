@@ -24,7 +24,7 @@ struct ArrayOrder {
   std::string log;               ///< file for what task %a prints
 };
 
-/// What sbatch answered. If it did not say a number the array may exist all the same ("socket timed out"): only squeue can tell.
+/// Answer of sbatch. If it named no number, the array may exist all the same ("socket timed out"): only squeue can tell.
 struct Submission {
   std::optional<std::string> array_job;
   std::string problem;  ///< empty if there is a number

@@ -91,7 +91,7 @@ void SlurmExecutor::do_round(Clock::time_point now) {
   take_jobs(now);
 }
 
-/// What is done once, and again until it works.
+/// First steps, which are repeated until they succeed.
 void SlurmExecutor::begin() {
   if (max_array_size_ > 0) return;
   folder_ = site_.folder / batches_.find_identity();
@@ -127,7 +127,7 @@ SlurmExecutor::Live& SlurmExecutor::add_batch(const BatchRow& row) {
   std::vector<BatchIndex> wanted;
   for (const BatchJob& job : batches_.find_open_jobs(row.seq)) {
     wanted.push_back(job.batch_index);
-    // Of a kind that is not known: as long as a task should be at least, so that each job is one.
+    // A job of an unknown kind: the shortest length of a task, so that each job is one.
     live.costs_s[job.batch_index] = cost_of(job, rates, site_.least_task_s * site_.threads);
   }
   live.batch.set_wanted(wanted);

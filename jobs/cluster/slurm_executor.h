@@ -81,7 +81,7 @@ class SlurmExecutor : public Executor {
   const Slurm slurm_;
   ClusterStatus status_;
 
-  // Of the thread alone.
+  // Used by the thread alone.
   std::optional<StoreLock> lock_;        ///< on the folder: two services must not manage the same batches
   std::filesystem::path folder_;         ///< of this store's batches
   std::filesystem::path program_;        ///< as nodes see it

@@ -8,10 +8,10 @@
 
 namespace jobs::cluster {
 
-/// Where a job stands in its batch, from 0.
+/// Index of a job in its batch, from 0.
 using BatchIndex = std::uint32_t;
 
-/// What one task is to compute, and what has become of the tasks that were to do it before.
+/// Jobs of one task, and the failures of earlier tasks with them.
 struct TaskPlan {
   std::vector<BatchIndex> indices;  ///< ascending
   int tries = 0;              ///< how often these jobs were lost

@@ -84,7 +84,7 @@ std::optional<Reports> parse_reports(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty()) continue;
     const auto fields = split_fields(line);
-    // What is left of an array whose tasks were all cancelled before they began: no word of any one of them.
+    // An array whose tasks were all cancelled before they began: nothing is said of any one of them.
     if (fields && (*fields)[2] == "N/A" && !is_alive(phase_of((*fields)[3]))) continue;
     const auto index = fields ? to_int((*fields)[2]) : std::nullopt;
     const auto cpus = fields ? to_int((*fields)[4]) : std::nullopt;

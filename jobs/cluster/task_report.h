@@ -16,7 +16,7 @@ struct TaskName {
   auto operator<=>(const TaskName&) const = default;
 };
 
-/// What Slurm's word for a task's state means to us.
+/// Meaning of Slurm's word for a task's state.
 enum class Phase { kPending, kRunning, kUnknownWord, kCompleted, kFailed, kTimeout, kNodeFail, kOutOfMemory, kCancelled, kPreempted };
 
 /// A word that a future Slurm may have is no reason to give a task up: it counts as alive.
@@ -38,7 +38,7 @@ struct TaskReport {
   [[nodiscard]] bool needs_human() const;
 };
 
-/// What squeue said: by the array's name, then by the task's index.
+/// Output of squeue, by the array's name, then by the task's index.
 using Reports = std::map<std::string, std::map<int, TaskReport>, std::less<>>;
 
 /// The columns that squeue is asked for. The reason is last, since it may hold anything.

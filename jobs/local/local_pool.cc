@@ -30,7 +30,7 @@ void lower_priority() {
   ::pthread_setname_np(::pthread_self(), "rpsup-solver");
 }
 
-/// What a job frees at its end, the next one takes again: the allocator is not to give it back in between, page by page. For the
+/// Keeps freed memory for the next job: the allocator would give it back in between, page by page. For the
 /// whole process, since the allocator knows no other way.
 /// @param threads  that compute jobs
 void keep_freed_memory(int threads) {

@@ -20,7 +20,7 @@
 
 namespace jobs {
 
-/// Where an executor gets its jobs and leaves what became of them. Members may be called from any thread and throw StorageError.
+/// Source of an executor's jobs, and receiver of their records. Members may be called from any thread and throw StorageError.
 struct JobSource {
   /// Hands over a job, if there is one, before anybody else can know that it is running. If taking it throws, or this does afterwards, it is not.
   std::function<void(const OnClaim&)> claim;

@@ -21,7 +21,7 @@ namespace jobs {
 /// Finds channels of a job; empty if it has none.
 using FindTrajectory = std::function<std::optional<engine::Trajectory>(const std::string& job_id, const TrajectoryQuery& query)>;
 
-/// What is wanted of a bifurcation diagram.
+/// Query of a bifurcation diagram.
 struct BifurcationQuery {
   std::string channel = "journal_x_mm";
   double phase = 0.0;          ///< of the crank, [rad]

@@ -11,7 +11,7 @@
 
 namespace jobs {
 
-/// What samples are multiplied by before they are transformed: hann tells neighbouring frequencies apart, flat_top measures amplitudes between
+/// Window function of the samples before the transform: hann tells neighbouring frequencies apart, flat_top measures amplitudes between
 /// the lines of the spectrum, rectangular leaves the samples as they are.
 enum class Window { kHann, kFlatTop, kRectangular };
 inline constexpr std::string_view kWindowNames[] = {"hann", "flat_top", "rectangular"};

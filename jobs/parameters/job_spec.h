@@ -9,7 +9,7 @@
 
 namespace jobs {
 
-/// What one job asks the engine for.
+/// Input of the engine for one job.
 struct JobSpec {
   engine::RpsupParameters parameters;
   engine::RunOptions options;

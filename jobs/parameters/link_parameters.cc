@@ -40,7 +40,7 @@ double table_length_of(std::size_t link) {
   return link == kCross ? kTableLengthOfCross_m : default_value(*find_parameter(kRodKeys[link].length)).get<double>();
 }
 
-/// What a link's section is to that of the table's link: areas, and squares of the radius of gyration.
+/// Ratios of a link's section to that of the table's link: areas, and squares of the radius of gyration.
 struct SectionRatio {
   double area = 1.0, radius_squared = 1.0;
 };

@@ -30,7 +30,7 @@ struct OfLink {
 template <typename Spec, typename T>
 auto& field(Spec& spec, OfLink<T> member) { return spec.parameters.*member.link.*member.member; }
 
-/// What the rows of the table say, whatever the type of the engine's member.
+/// Columns of the table that do not depend on the type of the engine's member.
 struct About {
   std::string_view key;
   std::string_view member;

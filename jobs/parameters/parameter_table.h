@@ -15,10 +15,10 @@ namespace jobs {
 
 enum class ParameterKind { kNumber, kInteger, kChoice };
 
-/// What a parameter is of: any job, each joint with clearance, each flexible body, or the RPSUP linkage alone.
+/// Scope of a parameter: any job, each joint with clearance, each flexible body, or the RPSUP linkage alone.
 enum class ParameterScope { kRun, kJoint, kMaterial, kRpsup };
 
-/// Where a default comes from: printed in the paper, deduced from its numbers, fitted to the ratios of peaks that it prints, or chosen by this project.
+/// Source of a default: printed in the paper, deduced from its numbers, fitted to the ratios of peaks that it prints, or chosen by this project.
 enum class DefaultSource { kPaper, kDeduced, kFitted, kChosen };
 
 /// "paper", "deduced from the paper", "fitted to the paper's ratios" or "chosen".

@@ -45,7 +45,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// How far a key is from a known one; empty if too far to be a slip of the pen. A key that is right but for its unit
+/// Edit distance of a key from a known one; empty if too far to be a slip of the pen. A key that is right but for its unit
 /// ("clearance") is as near as can be.
 std::optional<std::size_t> key_distance(std::string_view given, std::string_view known) {
   if (!given.empty() && known.size() > given.size() && known.starts_with(given) && known[given.size()] == '_') return 0;

@@ -12,7 +12,7 @@
 
 namespace jobs {
 
-/// What is wrong with a value by itself, and what is allowed; empty if it may be used.
+/// Fault of a value by itself, and what is allowed; empty if it may be used.
 [[nodiscard]] std::string describe_fault(const ParameterInfo& info, const nlohmann::json& value);
 
 /// The same for any number. Booleans are no numbers.
@@ -27,7 +27,7 @@ namespace jobs {
 /// A number of a parameter set, which has it, by its key.
 [[nodiscard]] inline double number_at(const nlohmann::json& parameters, std::string_view key) { return parameters.at(key).get<double>(); }
 
-/// What to say of a key that is none of `known`: "unknown key; did you mean clearance_mm?", else all of them.
+/// Text for a key that is none of `known`: "unknown key; did you mean clearance_mm?", else all of them.
 /// @param listed  where to read them if they are many; empty: nowhere else
 [[nodiscard]] std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known, std::string_view listed = {});
 

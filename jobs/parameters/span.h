@@ -13,14 +13,14 @@
 
 namespace jobs {
 
-/// What lies between two numbers, in equal steps or in equal ratios.
+/// Interval of numbers, divided in equal steps or in equal ratios.
 struct Span {
   double from = 0.0;
   double to = 0.0;
   bool logarithmic = false;  ///< then both ends are above 0
 };
 
-/// What lies between two numbers above 0 in equal ratios, from (to / from)^part: NaN or beyond the ends if to / from is no normal double.
+/// Number between two others above 0, from (to / from)^part: NaN or beyond the ends if to / from is no normal double.
 [[nodiscard]] double geometric_between(double from, double to, double part);
 
 /// Reads {"from", "to", "scale"}; "scale" is "linear" (the default) or "log". Adds the faults of its form.

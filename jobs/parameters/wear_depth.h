@@ -33,7 +33,7 @@ inline constexpr Range kWearDepthRange{.minimum = 0.0, .maximum = 100'000.0};  /
 
 [[nodiscard]] nlohmann::json wear_schema();
 
-/// What the key is for, in one line.
+/// Help of the key, in one line.
 inline constexpr std::string_view kWearHelp =
     "Depth worn off the bearing's bore: for each ring of the journal a list of sectors of equal width, from the bearing's x on. For contact "
     "continuum";

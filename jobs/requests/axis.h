@@ -13,7 +13,7 @@
 
 namespace jobs {
 
-/// How many values one axis may be asked for; far fewer make a sweep that is too large.
+/// Largest number of values of one axis; far fewer make a sweep that is too large.
 inline constexpr Range kCountRange{.minimum = 1, .maximum = 1e9};
 
 /// One swept parameter and its values, in the order of the request.
@@ -35,12 +35,12 @@ enum class Repeats { kRefused, kAllowed };
 /// A value in the form in which equal values are equal: 5 and 5.0 are one number. @param value  has no faults
 [[nodiscard]] std::string value_identity(const std::string& path, const nlohmann::json& value);
 
-/// How many values an axis has, without making them. 0 if it has faults, which are added.
+/// Number of values of an axis, without making them. 0 if it has faults, which are added.
 /// @param pointer  where the axis stands in the request
 [[nodiscard]] std::uint64_t count_axis_values(const std::string& path, const nlohmann::json& axis, const std::string& pointer,
                                               std::vector<Fault>& faults);
 
-/// Where a design's values of a path stand in a request.
+/// Pointer to a design's values of a path.
 [[nodiscard]] std::string pointer_of_axis(std::string_view path);
 
 /// Whether one of an axis' values is this one, without making them.

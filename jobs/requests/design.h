@@ -17,7 +17,8 @@ struct Design {
   std::vector<std::vector<nlohmann::json>> points;  ///< one value a parameter each; empty: there is no design
 };
 
-/// How many points {"type", "over", ...} has, without making them. 0 if it has faults, which are added; they point into "/design".
+/// Number of points of {"type", "over", ...}, without making them. 0 if it has faults, which are added; they point into
+/// "/design".
 /// @param parameters  of all points of the sweep, without faults: the centre of one_at_a_time is made of them
 [[nodiscard]] std::uint64_t count_design_points(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
 

@@ -25,7 +25,7 @@ using nlohmann::json;
 
 constexpr std::string_view kStiffnessKey = "contact_stiffness_scale";
 
-/// Where a point lies in its sweep.
+/// Position of a point in its sweep.
 struct Position {
   std::size_t case_index = 0;
   std::size_t design_point = 0;
@@ -65,7 +65,7 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
-/// What stands for values in a line: of a worn bore the largest depth, of a described linkage its name, with a number where another linkage of
+/// Short form of a value in one line: of a worn bore the largest depth, of a described linkage its name, with a number where another linkage of
 /// the sweep has that name already.
 class ShownValues {
  public:

@@ -40,7 +40,7 @@ struct SweepPlan {
 /// @throws InvalidRequest with every fault
 [[nodiscard]] PlannedJob plan_job(const nlohmann::json& parameters);
 
-/// What replicate k multiplies contact_stiffness_scale by: 1 for k = 0, else 1 + perturbation u, with u in [-1, 1) made
+/// Factor of replicate k on contact_stiffness_scale: 1 for k = 0, else 1 + perturbation u, with u in [-1, 1) made
 /// of the upper 53 bits of the k-th number of the generator splitmix64 that starts from the seed.
 [[nodiscard]] double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation);
 

@@ -136,7 +136,7 @@ class Union {
   std::vector<Fault> faults_;
 };
 
-/// What tells the jobs of one sweep apart.
+/// Identity of a job within its sweep.
 using JobName = std::pair<std::string, std::optional<std::uint64_t>>;
 
 JobName name_of(const PlannedJob& job) { return {job.content_id, job.replicate}; }

@@ -10,7 +10,7 @@
 
 namespace jobs {
 
-/// What has to be done so that a sweep becomes what the union of its request and an addition asks for.
+/// Request and jobs that extend a sweep to the union of its request and an addition.
 struct Extension {
   nlohmann::ordered_json request;  ///< the union; equal to the former one if there is nothing new
   std::vector<PlannedJob> jobs;    ///< those that the sweep does not have, in the order of the union

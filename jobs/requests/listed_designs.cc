@@ -84,7 +84,7 @@ std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parame
   for (const auto& [path, axis] : design.at("over").items()) count += count_axis_values(path, axis, pointer_of_axis(path), faults);
   if (faults.size() != before) return 0;
   const auto centre = centre_of(design, parameters);
-  // Of parameters with faults nothing is known.
+  // Nothing is known of parameters with faults.
   const bool are_known = std::ranges::none_of(faults, [](const Fault& fault) { return fault.pointer.starts_with("/parameters"); });
   std::size_t next = 0;
   for (const auto& [path, axis] : design.at("over").items()) {

@@ -46,7 +46,7 @@ const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& 
   return is_place ? &whole[index] : nullptr;
 }
 
-/// What stands at a path; null if nothing does.
+/// Value at a path; null if there is none.
 const nlohmann::json* find_at(const nlohmann::json& parameters, std::string_view path) {
   const nlohmann::json* found = &parameters;
   for (const std::string& part : parts_of(path)) {
@@ -82,7 +82,7 @@ bool is_linkage_path(std::string_view path) { return path.starts_with("linkage."
 
 std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path) {
   if (const auto* const value = find_at(parameters, path)) return value->is_number() ? "" : "is no number of the linkage described";
-  // What is left out has a default, and may be swept as well.
+  // A value that is left out has a default, and may be swept as well.
   const auto* const around = find_at(parameters, path.substr(0, path.rfind('.')));
   return around != nullptr && around->is_object() ? "" : "there is no such place in the linkage described";
 }

@@ -20,7 +20,7 @@ namespace jobs {
 /// Whether a path names a number inside a described linkage: "linkage.bodies.rod.mass_kg".
 [[nodiscard]] bool is_linkage_path(std::string_view path);
 
-/// What keeps a path from naming a number of the linkage that a parameter set describes; empty if nothing does.
+/// Fault of a path that names no number of the linkage in a parameter set; empty if there is none.
 [[nodiscard]] std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path);
 
 /// "links.1,3.mass_kg" -> "/links/1,3/mass_kg".

@@ -156,7 +156,7 @@ json without_linkage(json completed) {
   return completed;
 }
 
-/// Of a key that would be right elsewhere.
+/// Text for a key that would be right elsewhere.
 std::string describe_misplaced(const std::string& key) {
   if (key == "parameters") return "unknown key; parameters stand in this object itself";
   if (key == "sweep" || key == "cases" || key == "design" || key == "replicates")

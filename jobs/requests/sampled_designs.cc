@@ -41,7 +41,7 @@ bool check_range(const std::string& path, const json& given, std::vector<Fault>&
   return faults.size() == before;
 }
 
-/// How many different values a parameter can have, at most kEndless. Adds the faults.
+/// Number of different values of a parameter, at most kEndless. Adds the faults.
 std::uint64_t count_levels(const std::string& path, const json& given, std::vector<Fault>& faults) {
   if (given.is_array() && !given.empty()) return given.size();
   if (!given.is_object() || !is_numeric(path)) {
@@ -53,7 +53,7 @@ std::uint64_t count_levels(const std::string& path, const json& given, std::vect
   return static_cast<std::uint64_t>(given.at("to").get<double>() - given.at("from").get<double>()) + 1;
 }
 
-/// What a coordinate of the unit cube stands for.
+/// Value for a coordinate of the unit cube.
 class Dimension {
  public:
   Dimension(const std::string& path, const json& given, std::vector<Fault>& faults) : integer_(is_integer(path)) {

@@ -15,7 +15,7 @@
 
 namespace jobs {
 
-/// What a request may hold.
+/// Keys of a request.
 inline constexpr std::array<std::string_view, 9> kSweepRequestKeys{"name",       "parameters", "sweep",    "design",  "cases",
                                                                     "replicates", "reuse",      "priority", "executor"};
 
@@ -23,7 +23,7 @@ inline constexpr std::size_t kLongestName = 200;  ///< bytes
 inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
 inline constexpr Range kPriorityRange{.minimum = -100, .maximum = 100};
 
-/// How often each point of a sweep is run, with slightly different contact stiffness.
+/// Replicates of each point of a sweep, with slightly different contact stiffness.
 struct Replicates {
   bool requested = false;       ///< whether rows carry `replicate`
   std::uint64_t count = 1;

@@ -8,7 +8,7 @@
 namespace jobs {
 namespace {
 
-/// How much of the text the next name takes.
+/// Length of the next name in the text.
 std::size_t name_size(std::string_view text, std::span<const std::string> known) {
   std::size_t size = std::min(text.find(','), text.size());
   for (const std::string& name : known) {

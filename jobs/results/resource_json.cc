@@ -62,7 +62,7 @@ json time_left_json(const SweepRow& row, int threads) {
   return {{"eta_s", left->expected_s}, {"eta_low_s", left->low_s}, {"eta_high_s", left->high_s}};
 }
 
-/// Where the metrics stand in a row of a table, by their keys.
+/// Columns of the metrics in a table, by their keys.
 using MetricColumns = std::map<std::string, std::size_t, std::less<>>;
 
 MetricColumns metric_columns(const std::vector<std::string>& keys, std::size_t first) {
@@ -136,7 +136,8 @@ void append_others(const ResultRow& row, const std::vector<std::string>& others,
   }
 }
 
-/// What a row brings to its set. Only what has succeeded has metrics, and a peak may be null: the run ended before its window.
+/// Value of a row in its set. Only jobs that succeeded have metrics, and a peak may be null: the run ended before its
+/// window.
 ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
   return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)), .value = peak.is_number() ? std::optional(peak.get<double>()) : std::nullopt};
 }

@@ -28,7 +28,7 @@ enum class Detail { kFull, kListing };
 /// Fields that the resources of all studies have. @param route  "/v1/searches/", say; the id follows it
 [[nodiscard]] nlohmann::json study_json(const StudyRow& row, const std::string& route);
 
-/// How far a sweep is: a part of its resource.
+/// Progress of a sweep, a part of its resource.
 [[nodiscard]] nlohmann::json progress_json(const SweepRow& row, int threads);
 
 /// Keys of an object.

@@ -20,7 +20,7 @@ struct ResultFilter {
   std::string value;
 };
 
-/// What is wanted of the results of a sweep. Columns are those of its table, all other parameters, and kErrorColumns.
+/// Query of the results of a sweep. Columns are those of its table, all other parameters, and kErrorColumns.
 struct ResultQuery {
   std::string fields;                 ///< columns, with commas between, in the order in which they are wanted; empty: all
   std::vector<ResultFilter> filters;  ///< rows that have no value of the column pass none

@@ -19,7 +19,7 @@ struct RowGroup {
   std::vector<std::size_t> rows;
 };
 
-/// Where a column stands. @throws InvalidRequest with that pointer if there is none of that name
+/// Index of a column. @throws InvalidRequest with that pointer if there is none of that name
 [[nodiscard]] std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer);
 
 /// In the order of their first rows.

@@ -8,7 +8,7 @@ namespace jobs {
 
 struct JobSpec;
 
-/// What one job may take of the machine. A job that reaches a limit fails, with the limit's name as its reason. Zero: no limit.
+/// Limits of one job. A job that reaches a limit fails, with the limit's name as its reason. Zero: no limit.
 struct JobLimits {
   double wall_time_s = 0.0;       ///< "time_limit"
   long steps = 0;                 ///< of the integrator, "step_limit"; the engine has one of its own, too
@@ -21,7 +21,7 @@ class NeedsTooMuchMemory : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a job asks the engine for, within the limits.
+/// Input of the engine for a job, within the limits.
 /// @throws NeedsTooMuchMemory before any of it is taken
 [[nodiscard]] JobSpec within_limits(JobSpec spec, const JobLimits& limits);
 

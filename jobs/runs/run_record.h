@@ -16,7 +16,7 @@ namespace jobs {
 /// Computes one job; tests put their own in the place of engine::simulate_rpsup.
 using Runner = std::function<engine::RunResult(const JobSpec&, const engine::StopQuery&)>;
 
-/// What one run of a job left.
+/// Record of one run of a job.
 struct RunRecord {
   enum class End { kSucceeded, kFailed, kStopped };
 

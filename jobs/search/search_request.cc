@@ -139,7 +139,7 @@ class SearchParser {
     search_.rule.quantile = request_.at("quantile").get<double>();
   }
 
-  /// What a search has in common with a sweep is read as a sweep's.
+  /// Reads the keys that a search has in common with a sweep.
   void read_common() {
     ordered_json common = ordered_json::object();
     for (const std::string_view key : kKeysOfItsSweeps) {

@@ -9,7 +9,7 @@
 
 namespace jobs {
 
-/// How much each parameter of a sweep's design changes a metric: a row for each parameter and each combination of what else is swept.
+/// Sensitivity of a metric to each parameter of a sweep's design: a row for each parameter and each combination of what else is swept.
 /// The response at a point is the mean over its replicates. Blocks of the design with a point that has no value are left out.
 ///
 ///     morris:    effect_mean, effect_size with _low and _high, effect_deviation: of a whole range, in the metric's unit

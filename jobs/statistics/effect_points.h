@@ -21,7 +21,7 @@ namespace jobs {
 /// @param dimensions  at most kMostSobolDimensions / 2
 [[nodiscard]] UnitPoints saltelli_points(std::size_t blocks, std::size_t dimensions, std::uint64_t seed);
 
-/// What a whole range of one input changes in a response: Morris' measures.
+/// Morris' measures of the change of a response by a whole range of one input.
 struct ElementaryEffects {
   double mean = 0.0;       ///< mu: of the effects with their signs
   Estimate mean_size;      ///< mu*: of their magnitudes; the interval is Student's
@@ -32,7 +32,7 @@ struct ElementaryEffects {
 /// @returns one a dimension
 [[nodiscard]] std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points, std::span<const double> values);
 
-/// Which part of a response's variance an input makes: Sobol's indices.
+/// Sobol's indices: part of a response's variance that an input makes.
 struct SobolIndices {
   Estimate first_order;  ///< alone
   Estimate total;        ///< with all that it does together with others

@@ -12,7 +12,7 @@ namespace jobs {
 /// The metric that replicates of a parameter set are compared by.
 inline constexpr std::string_view kReplicateMetric = "peak_slider_acceleration_m_s2";
 
-/// What the replicates of one parameter set say of kReplicateMetric together, in its unit; of a described linkage, of its first metric.
+/// Statistics of kReplicateMetric over the replicates of one parameter set, in its unit; of a described linkage, of its first metric.
 struct ReplicateStatistics {
   std::size_t count = 0;         ///< replicates that have a value: those that have succeeded
   std::optional<double> mean;    ///< empty if count is 0

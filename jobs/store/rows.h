@@ -24,7 +24,7 @@ using StateCounts = std::array<std::int64_t, kJobStates.size()>;
 [[nodiscard]] std::string_view sweep_state(const StateCounts& counts);
 [[nodiscard]] bool has_ended(const StateCounts& counts);
 
-/// What is left to compute of a sweep, and what its jobs have cost so far, by PlannedJob::kind.
+/// Jobs of one PlannedJob::kind in a sweep: how many are left, and what those that were computed cost.
 struct CostOfKind {
   std::int64_t queued = 0, running = 0;
   std::int64_t computed = 0;        ///< ended jobs that were computed, not reused
@@ -110,7 +110,7 @@ struct EndedJob {
   bool reused = false;
 };
 
-/// What has happened to a sweep since a change.
+/// Changes of a sweep since a change.
 struct SweepChanges {
   SweepRow sweep;
   std::vector<EndedJob> ended;  ///< by change

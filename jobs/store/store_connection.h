@@ -51,7 +51,7 @@ auto with_storage_errors(Work&& work, const SQLite::Database* database = nullptr
   }
 }
 
-/// How sure a commit must be before it returns.
+/// Guarantee of a commit when it returns.
 enum class Durability {
   kSurvivesProcess,    ///< of what can be computed again
   kSurvivesPowerLoss,  ///< of what has been promised to a user

@@ -39,7 +39,7 @@ class JobInserter {
 
 /// Stores a sweep without its jobs. Returns its number.
 std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms);
-/// How many jobs wait, here or in the queue of a cluster: both counts walk an index that holds little else.
+/// Number of jobs that wait, here or in the queue of a cluster: both counts walk an index that holds little else.
 inline constexpr const char* kQueuedCount =
     "SELECT (SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NULL) + "
     "(SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NOT NULL)";

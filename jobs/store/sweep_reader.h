@@ -34,7 +34,7 @@ class SweepReader {
                                                          RowParameters parameters = RowParameters::kNone) const;
   /// The jobs of a sweep that have ended after that change, by change.
   [[nodiscard]] std::vector<ResultRow> find_ended(const std::string& sweep_id, std::int64_t after) const;
-  /// What has ended after that change; 0: everything.
+  /// The same of all that a listener is told; 0: since the beginning.
   [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
   /// The packed trajectory of a job that has one.
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;

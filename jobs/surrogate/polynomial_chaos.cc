@@ -24,7 +24,7 @@ void add_exponents(std::size_t inputs, int degree, std::vector<int>& begun, std:
   }
 }
 
-/// How many there are: (inputs + degree) over degree.
+/// Number of terms: (inputs + degree) over degree.
 double count_terms(std::size_t inputs, int degree) {
   double count = 1.0;
   for (int d = 1; d <= degree; ++d) count *= (static_cast<double>(inputs) + d) / d;

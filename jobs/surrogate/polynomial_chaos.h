@@ -28,7 +28,7 @@ class PolynomialChaos {
   /// The part of the response's variance that is predicted: 1 - error^2 / variance. Negative where the mean alone would do better; 1 if nothing
   /// varies.
   [[nodiscard]] double predicted_part() const { return predicted_part_; }
-  /// What each point is predicted to be from all others.
+  /// Prediction of each point from all others.
   [[nodiscard]] const Eigen::VectorXd& left_out_predictions() const { return left_out_; }
 
  private:

@@ -49,7 +49,7 @@ class ByteReader {
   std::span<const std::byte> rest_;
 };
 
-/// How hard to look for what repeats.
+/// Effort of the search for repetitions.
 enum class Effort {
   kFull,   ///< level 1
   kLittle  ///< of bytes that are packed already: long runs are found, the checksum is what matters

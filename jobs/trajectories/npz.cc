@@ -52,7 +52,7 @@ std::uint32_t crc_of(std::string_view head, std::string_view data) {
   return static_cast<std::uint32_t>(crc);
 }
 
-/// What a local header and a line of the directory have in common.
+/// Fields that a local header and a line of the directory have in common.
 void append_description(std::string& bytes, const ArchivedFile& entry) {
   constexpr std::uint32_t kVersion = 20;
   constexpr std::uint32_t kMidnight = 0;

@@ -166,7 +166,7 @@ constexpr auto kPack = [] {
 
 constexpr std::size_t kHeadSize = 1 + sizeof(std::uint32_t);
 
-/// Of a column that repeats its first value, what packing its blocks would give.
+/// Packed blocks of a column that repeats its first value.
 void pack_constant(double value, std::size_t blocks, std::string& packed) {
   const std::uint32_t first = ordered(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
   packed.assign(kHeadSize + blocks, '\0');  // blocks without bits

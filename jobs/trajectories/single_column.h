@@ -32,7 +32,7 @@ class SinglePacker {
 /// @throws DamagedTrajectory if the bytes are not those of a column of that many samples
 [[nodiscard]] std::vector<double> unpack_singles(std::string_view packed, std::size_t samples);
 
-/// How long a packed column may be.
+/// Largest length of a packed column.
 [[nodiscard]] std::size_t largest_packed_size(std::size_t samples);
 
 }  // namespace jobs

@@ -105,7 +105,7 @@ std::vector<EncodedColumn> encode_columns(const engine::Trajectory& trajectory) 
   return blocks;
 }
 
-/// What the header says of a channel.
+/// Channel in the header.
 struct StoredChannel {
   engine::QuantityInfo info;
   Encoding encoding = Encoding::kDouble;

@@ -41,7 +41,7 @@ void check_is_table(const engine::Trajectory& trajectory);
 /// @throws DamagedTrajectory; sizes are checked against limits before memory is taken
 [[nodiscard]] engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<const std::string> keys);
 
-/// What a blob holds, without its columns.
+/// Contents of a blob, without its columns.
 [[nodiscard]] std::vector<engine::QuantityInfo> decode_channels(std::span<const std::byte> blob);
 
 }  // namespace jobs

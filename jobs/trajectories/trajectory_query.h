@@ -11,7 +11,7 @@
 
 namespace jobs {
 
-/// What is wanted of a trajectory.
+/// Query of a trajectory.
 struct TrajectoryQuery {
   std::vector<std::string> channels;  ///< empty: all; t_s always comes first
   std::optional<double> from, to;     ///< [s], both included

@@ -8,7 +8,7 @@
 
 namespace jobs {
 
-/// Which arc of a worn bore a ring of the journal presses on, and how the wear divides over it: as the
+/// Arc of a worn bore that a ring of the journal presses on, and the division of the wear over it: as the
 /// pressure of an elastic layer does, which grows with how deep the bore is pressed,
 ///
 ///     p(phi) ~ |e| cos(phi - theta) - c_r - g(phi) where that is above 0,    |e| = R(theta) + penetration

@@ -18,7 +18,7 @@ inline constexpr Range kSectorsRange{.minimum = 4, .maximum = 720};
 inline constexpr Range kWearCoefficientRange{
     .minimum = 0.0, .maximum = 1e-6, .lower = Bound::kExclusive};  ///< [m^2/N]
 
-/// What is wanted of a wear map.
+/// Query of a wear map.
 struct WearQuery {
   double wear_coefficient = 1e-15;  ///< worn volume over normal force and sliding distance, [m^2/N]
   std::size_t sectors = 36;         ///< around the bore, in kSectorsRange
