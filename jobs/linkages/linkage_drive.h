@@ -7,15 +7,18 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/model/drive_law.h"
+#include "engine/model/mechanism.h"
 #include "engine/model/rpsup_parameters.h"
 #include "jobs/base/errors.h"
 
 namespace jobs {
 
 /// The faults of the law by which a coordinate moves. @param drive  an object
-void check_drive(const nlohmann::json& drive, bool slides, const std::string& pointer, std::vector<Fault>& faults);
+void check_drive(const nlohmann::json& drive, engine::Motion motion, const std::string& pointer,
+                 std::vector<Fault>& faults);
 
 /// @param drive  without faults
-[[nodiscard]] engine::DriveLaw read_drive(const nlohmann::json& drive, bool slides, const engine::RpsupParameters& defaults);
+[[nodiscard]] engine::DriveLaw read_drive(const nlohmann::json& drive, engine::Motion motion,
+                                          const engine::RpsupParameters& defaults);
 
 }  // namespace jobs

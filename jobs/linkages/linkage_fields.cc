@@ -26,19 +26,26 @@ std::string points_text(const LinkageField& field, std::string_view count) {
 }
 
 std::string describe_list_fault(const LinkageField& field, const json& value) {
-  const bool fits = value.is_array() && (field.kind == FieldKind::kPoint     ? value.size() == 3
-                                         : field.kind == FieldKind::kInertia ? value.size() == 3 || value.size() == 6
-                                                                             : !value.empty() && value.size() <= 10'000);
-  const bool numbers = fits && std::all_of(value.begin(), value.end(),
-                                           [&](const json& x) { return x.is_number() && field.range.contains(x.get<double>()); });
+  const bool fits =
+      value.is_array() && (field.kind == FieldKind::kPoint     ? value.size() == 3
+                           : field.kind == FieldKind::kInertia ? value.size() == 3 || value.size() == 6
+                                                               : !value.empty() && value.size() <= 10'000);
+  const bool numbers = fits && std::all_of(value.begin(), value.end(), [&](const json& x) {
+                         return x.is_number() && field.range.contains(x.get<double>());
+                       });
   if (numbers) return "";
-  return points_text(field, field.kind == FieldKind::kPoint ? "three" : field.kind == FieldKind::kInertia ? "three or six" : "one or more");
+  return points_text(field, field.kind == FieldKind::kPoint     ? "three"
+                            : field.kind == FieldKind::kInertia ? "three or six"
+                                                                : "one or more");
 }
 
 std::string describe_word_fault(const LinkageField& field, const json& value) {
-  if (value.is_string() && std::ranges::find(field.words, value.get_ref<const std::string&>()) != field.words.end()) return "";
+  if (value.is_string() &&
+      std::ranges::find(field.words, value.get_ref<const std::string&>()) != field.words.end())
+    return "";
   std::string text = "must be one of ";
-  for (std::size_t i = 0; i < field.words.size(); ++i) text.append(i > 0 ? ", \"" : "\"").append(field.words[i]).append("\"");
+  for (std::size_t i = 0; i < field.words.size(); ++i)
+    text.append(i > 0 ? ", \"" : "\"").append(field.words[i]).append("\"");
   return text;
 }
 
@@ -47,8 +54,10 @@ std::string describe_field_fault(const LinkageField& field, const json& value) {
     case FieldKind::kNumber: return describe_number_fault(field.range, field.unit, value);
     case FieldKind::kInteger: return describe_integer_fault(field.range, value);
     case FieldKind::kBoolean: return value.is_boolean() ? "" : "must be true or false";
-    case FieldKind::kText: return value.is_string() && value.get_ref<const std::string&>().size() <= kLongestText ?
-        "" : "must be a string of at most 100 bytes";
+    case FieldKind::kText:
+      return value.is_string() && value.get_ref<const std::string&>().size() <= kLongestText
+                 ? ""
+                 : "must be a string of at most 100 bytes";
     case FieldKind::kWord: return describe_word_fault(field, value);
     case FieldKind::kBody: return value.is_string() ? "" : "must be the name of a body";
     case FieldKind::kPoint:
@@ -75,9 +84,12 @@ json schema_of_field(const LinkageField& field) {
     case FieldKind::kWord: schema = {{"type", "string"}, {"enum", field.words}}; break;
     case FieldKind::kText: schema = {{"type", "string"}, {"maxLength", kLongestText}}; break;
     case FieldKind::kBody: schema = {{"type", "string"}}; break;
-    case FieldKind::kPoint: schema = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", number_schema(field)}}; break;
-    case FieldKind::kInertia: schema = {{"type", "array"}, {"minItems", 3}, {"maxItems", 6}, {"items", number_schema(field)}}; break;
-    case FieldKind::kNumbers: schema = {{"type", "array"}, {"minItems", 1}, {"maxItems", 10'000}, {"items", number_schema(field)}}; break;
+    case FieldKind::kPoint: schema = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3},
+                                      {"items", number_schema(field)}}; break;
+    case FieldKind::kInertia: schema = {{"type", "array"}, {"minItems", 3}, {"maxItems", 6},
+                                        {"items", number_schema(field)}}; break;
+    case FieldKind::kNumbers: schema = {{"type", "array"}, {"minItems", 1}, {"maxItems", 10'000},
+                                        {"items", number_schema(field)}}; break;
     case FieldKind::kObject: schema = {{"type", "object"}}; break;
   }
   schema["description"] = field.help;
@@ -86,8 +98,10 @@ json schema_of_field(const LinkageField& field) {
 }
 
 /// The value of a coordinate that slides, in m, or turns, in rad.
-LinkageField motion_field(bool slides, std::string_view in_metres, std::string_view in_radians, std::string_view help, bool required, Range range) {
-  return {.key = slides ? in_metres : in_radians, .range = range, .unit = slides ? "m" : "rad", .help = help, .required = required};
+LinkageField motion_field(engine::Motion motion, std::string_view in_metres, std::string_view in_radians,
+                          std::string_view help, bool required, Range range) {
+  return {.key = slides(motion) ? in_metres : in_radians, .range = range, .unit = slides(motion) ? "m" : "rad",
+          .help = help, .required = required};
 }
 
 }  // namespace
@@ -97,7 +111,8 @@ const LinkageFields& linkage_fields() {
       {.key = "name", .kind = FieldKind::kText, .help = "What the linkage is called"},
       {.key = "bodies", .kind = FieldKind::kObject, .help = "The bodies by their names", .required = true},
       {.key = "joints", .kind = FieldKind::kObject, .help = "The joints by their names", .required = true},
-      {.key = "springs", .kind = FieldKind::kObject, .help = "Springs and dampers between points of two bodies, by their names"},
+      {.key = "springs", .kind = FieldKind::kObject,
+       .help = "Springs and dampers between points of two bodies, by their names"},
       {.key = "gravity_m_s2", .kind = FieldKind::kPoint, .range = between(-1000, 1000), .unit = "m/s^2",
        .help = "Acceleration of gravity; without it (0, -gravity_m_s2, 0)"},
   };
@@ -107,12 +122,15 @@ const LinkageFields& linkage_fields() {
 const LinkageFields& body_fields() {
   static const LinkageFields fields{
       {.key = "mass_kg", .range = between(0, 1e6), .unit = "kg", .help = "Mass; 0: none", .required = true},
-      {.key = "centre_of_mass_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m", .help = "In the body's frame; without it its origin"},
+      {.key = "centre_of_mass_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m",
+       .help = "In the body's frame; without it its origin"},
       {.key = "inertia_kg_m2", .kind = FieldKind::kInertia, .range = between(-1e9, 1e9), .unit = "kg m^2",
        .help = "(xx, yy, zz) or (xx, yy, zz, xy, xz, yz) about the centre of mass, along the body's axes; without it none: a point"},
-      {.key = "inertia_about_origin_kg_m2", .kind = FieldKind::kInertia, .range = between(-1e9, 1e9), .unit = "kg m^2",
+      {.key = "inertia_about_origin_kg_m2", .kind = FieldKind::kInertia, .range = between(-1e9, 1e9),
+       .unit = "kg m^2",
        .help = "The same about the origin of the body's frame, instead"},
-      {.key = "beam", .kind = FieldKind::kObject, .help = "The body is a straight flexible beam along its x axis, from its frame's origin"},
+      {.key = "beam", .kind = FieldKind::kObject,
+       .help = "The body is a straight flexible beam along its x axis, from its frame's origin"},
   };
   return fields;
 }
@@ -121,42 +139,87 @@ const LinkageFields& beam_fields() {
   static const LinkageFields fields{
       {.key = "length_m", .range = between(1e-3, 1000), .unit = "m", .help = "Length", .required = true},
       {.key = "diameter_mm", .range = above(0, 10'000), .unit = "mm", .help = "Of a round section, outside"},
-      {.key = "inner_diameter_mm", .range = between(0, 10'000), .unit = "mm", .help = "Of a round section that is a tube"},
-      {.key = "height_mm", .range = above(0, 10'000), .unit = "mm", .help = "Of a rectangular section, along y"},
-      {.key = "width_mm", .range = above(0, 10'000), .unit = "mm", .help = "Of a rectangular section, along z"},
+      {.key = "inner_diameter_mm", .range = between(0, 10'000), .unit = "mm",
+       .help = "Of a round section that is a tube"},
+      {.key = "height_mm", .range = above(0, 10'000), .unit = "mm",
+       .help = "Of a rectangular section, along y"},
+      {.key = "width_mm", .range = above(0, 10'000), .unit = "mm",
+       .help = "Of a rectangular section, along z"},
       {.key = "axial_inertia_kg_m2", .range = above(0, 1e9), .unit = "kg m^2",
        .help = "Moment of the mass about the beam's axis; without it that of the section"},
-      {.key = "elements", .kind = FieldKind::kInteger, .range = between(2, 64), .help = "Rigid elements; without it rigid_elements of the job"},
-      {.key = "youngs_modulus_pa", .range = between(1e5, 1e13), .unit = "Pa", .help = "Without it that of the job"},
-      {.key = "shear_modulus_pa", .range = between(1e5, 1e13), .unit = "Pa", .help = "Without it that of the job"},
-      {.key = "damping_ratio", .range = between(0, 10), .help = "Of the first bending mode of the beam pinned at both ends; without it 0.01"},
+      {.key = "elements", .kind = FieldKind::kInteger, .range = between(2, 64),
+       .help = "Rigid elements; without it rigid_elements of the job"},
+      {.key = "youngs_modulus_pa", .range = between(1e5, 1e13), .unit = "Pa",
+       .help = "Without it that of the job"},
+      {.key = "shear_modulus_pa", .range = between(1e5, 1e13), .unit = "Pa",
+       .help = "Without it that of the job"},
+      {.key = "damping_ratio", .range = between(0, 10),
+       .help = "Of the first bending mode of the beam pinned at both ends; without it 0.01"},
   };
   return fields;
 }
 
 const LinkageFields& joint_fields() {
   static const LinkageFields fields{
-      {.key = "kind", .kind = FieldKind::kWord, .help = "What the joint lets its second body do", .required = true,
-       .words = {"revolute", "prismatic", "cylindrical", "screw", "universal", "spherical", "planar", "free", "weld"}},
-      {.key = "from", .kind = FieldKind::kBody, .help = "First body; \"ground\" is the fixed frame", .required = true},
-      {.key = "to", .kind = FieldKind::kBody, .help = "Second body, whose frame is that of the joint unless the joint closes a loop",
+      {.key = "kind",
+       .kind = FieldKind::kWord,
+       .help = "What the joint lets its second body do",
+       .required = true,
+       .words = {"revolute", "prismatic", "cylindrical", "screw", "universal", "spherical", "planar", "free",
+                 "weld"}},
+      {.key = "from",
+       .kind = FieldKind::kBody,
+       .help = "First body; \"ground\" is the fixed frame",
        .required = true},
-      {.key = "at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m", .help = "Place in the first body's frame; without it its origin"},
-      {.key = "turned_deg", .kind = FieldKind::kPoint, .range = kAngle, .unit = "deg",
+      {.key = "to",
+       .kind = FieldKind::kBody,
+       .help = "Second body, whose frame is that of the joint unless the joint closes a loop",
+       .required = true},
+      {.key = "at_m",
+       .kind = FieldKind::kPoint,
+       .range = kLength,
+       .unit = "m",
+       .help = "Place in the first body's frame; without it its origin"},
+      {.key = "turned_deg",
+       .kind = FieldKind::kPoint,
+       .range = kAngle,
+       .unit = "deg",
        .help = "How the joint's frame is turned in it: R_z(c) R_y(b) R_x(a) of (a, b, c)"},
-      {.key = "axis", .kind = FieldKind::kWord, .help = "Axis of the joint's frame; without it z", .words = kAxes},
-      {.key = "second_axis", .kind = FieldKind::kWord, .help = "Second axis of a universal joint; without it y", .words = kAxes},
-      {.key = "lead_mm", .range = between(-10'000, 10'000), .unit = "mm", .help = "How far a screw slides in one turn"},
-      {.key = "closes_loop", .kind = FieldKind::kBoolean, .help = "True: both bodies are carried by other joints"},
-      {.key = "to_at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m",
+      {.key = "axis",
+       .kind = FieldKind::kWord,
+       .help = "Axis of the joint's frame; without it z",
+       .words = kAxes},
+      {.key = "second_axis",
+       .kind = FieldKind::kWord,
+       .help = "Second axis of a universal joint; without it y",
+       .words = kAxes},
+      {.key = "lead_mm",
+       .range = between(-10'000, 10'000),
+       .unit = "mm",
+       .help = "How far a screw slides in one turn"},
+      {.key = "closes_loop",
+       .kind = FieldKind::kBoolean,
+       .help = "True: both bodies are carried by other joints"},
+      {.key = "to_at_m",
+       .kind = FieldKind::kPoint,
+       .range = kLength,
+       .unit = "m",
        .help = "Of a joint that closes a loop: place in the second body's frame"},
-      {.key = "to_turned_deg", .kind = FieldKind::kPoint, .range = kAngle, .unit = "deg",
+      {.key = "to_turned_deg",
+       .kind = FieldKind::kPoint,
+       .range = kAngle,
+       .unit = "deg",
        .help = "Of a joint that closes a loop: how its frame is turned in the second body's"},
-      {.key = "clearance", .kind = FieldKind::kObject,
-       .help = "Of a revolute joint that closes a loop: it has clearance, as the job's own parameters say, save those that stand here"},
-      {.key = "freedoms", .kind = FieldKind::kObject,
-       .help = "Of a joint of several freedoms: slide and turn of a cylindrical or screw joint, first and second of a universal one, z, y and x of a "
-               "spherical one, x, y and turn of a planar one, x, y, z, turn_z, turn_y and turn_x of a free one"},
+      {.key = "clearance",
+       .kind = FieldKind::kObject,
+       .help = "Of a revolute joint that closes a loop: it has clearance, as the job's own parameters say, "
+               "save those that stand here"},
+      {.key = "freedoms",
+       .kind = FieldKind::kObject,
+       .help = "Of a joint of several freedoms: slide and turn of a cylindrical or screw joint, first and "
+               "second of a universal one, z, y and x of a "
+               "spherical one, x, y and turn of a planar one, x, y, z, turn_z, turn_y and turn_x of a free "
+               "one"},
   };
   return fields;
 }
@@ -164,69 +227,84 @@ const LinkageFields& joint_fields() {
 const LinkageFields& spring_fields() {
   constexpr Range kNotNegative = between(0, 1e12);
   static const LinkageFields fields{
-      {.key = "from", .kind = FieldKind::kBody, .help = "First body; \"ground\" is the fixed frame", .required = true},
+      {.key = "from", .kind = FieldKind::kBody, .help = "First body; \"ground\" is the fixed frame",
+       .required = true},
       {.key = "to", .kind = FieldKind::kBody, .help = "Second body, another one", .required = true},
-      {.key = "at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m", .help = "Its end on the first body, in the body's frame; without it 0"},
+      {.key = "at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m",
+       .help = "Its end on the first body, in the body's frame; without it 0"},
       {.key = "to_at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m",
        .help = "Its end on the second body, in the body's frame; without it 0"},
       {.key = "stiffness_n_m", .range = kNotNegative, .unit = "N/m", .help = "Of the spring; without it 0"},
-      {.key = "damping_n_s_m", .range = kNotNegative, .unit = "N s/m", .help = "Of the damper, along the spring; without it 0"},
+      {.key = "damping_n_s_m", .range = kNotNegative, .unit = "N s/m",
+       .help = "Of the damper, along the spring; without it 0"},
       {.key = "free_length_m", .range = between(0, 1000), .unit = "m",
        .help = "At which the spring is unloaded; without it the distance of its ends at t = 0"},
   };
   return fields;
 }
 
-LinkageFields freedom_fields(bool slides) {
+LinkageFields freedom_fields(engine::Motion motion) {
   constexpr Range kAny = between(-1e6, 1e6);
   constexpr Range kPositive = between(0, 1e12);
   return {
-      motion_field(slides, "start_m", "start_rad", "Where the coordinate is at t = 0; without it the loops decide", false, kAny),
-      {.key = slides ? "start_rate_m_s" : "start_rate_rad_s", .range = kAny, .unit = slides ? "m/s" : "rad/s",
+      motion_field(motion, "start_m", "start_rad", "Where the coordinate is at t = 0; without it the loops decide", false, kAny),
+      {.key = slides(motion) ? "start_rate_m_s" : "start_rate_rad_s", .range = kAny,
+       .unit = slides(motion) ? "m/s" : "rad/s",
        .help = "Its rate at t = 0; without it the loops decide, and where they leave it free it is 0"},
-      motion_field(slides, "guess_m", "guess_rad", "Where closing the loops begins to look for it; without it 0", false, kAny),
-      {.key = slides ? "stiffness_n_m" : "stiffness_n_m_rad", .range = kPositive, .unit = slides ? "N/m" : "N m/rad",
+      motion_field(motion, "guess_m", "guess_rad", "Where closing the loops begins to look for it; without it 0", false, kAny),
+      {.key = slides(motion) ? "stiffness_n_m" : "stiffness_n_m_rad", .range = kPositive,
+       .unit = slides(motion) ? "N/m" : "N m/rad",
        .help = "Of a spring that is unloaded at 0"},
-      {.key = slides ? "damping_n_s_m" : "damping_n_m_s_rad", .range = kPositive, .unit = slides ? "N s/m" : "N m s/rad", .help = "Of a damper"},
-      {.key = "drive", .kind = FieldKind::kObject, .help = "The law by which the coordinate moves; without it it is free"},
+      {.key = slides(motion) ? "damping_n_s_m" : "damping_n_m_s_rad", .range = kPositive,
+       .unit = slides(motion) ? "N s/m" : "N m s/rad", .help = "Of a damper"},
+      {.key = "drive", .kind = FieldKind::kObject,
+       .help = "The law by which the coordinate moves; without it it is free"},
   };
 }
 
-LinkageFields drive_fields(bool slides, std::string_view law) {
+LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
   constexpr Range kAny = between(-1e6, 1e6);
   LinkageFields fields{{.key = "law", .kind = FieldKind::kWord, .help = "Kind of motion", .required = true,
                         .words = {std::begin(kLaws), std::end(kLaws)}}};
   const auto add = [&](LinkageField field) { fields.push_back(std::move(field)); };
   if (law == "run_up") {
-    add({.key = slides ? "velocity_m_s" : "velocity_rad_s", .range = kAny, .unit = slides ? "m/s" : "rad/s",
+    add({.key = slides(motion) ? "velocity_m_s" : "velocity_rad_s", .range = kAny,
+         .unit = slides(motion) ? "m/s" : "rad/s",
          .help = "Reached by the cycloidal law, then kept", .required = true});
-    add({.key = "time_s", .range = kTime, .unit = "s", .help = "In which it is reached; without it run_up_s of the job, 0: from the start"});
-    add(motion_field(slides, "from_m", "from_rad", "Position at t = 0; without it 0", false, kAny));
+    add({.key = "time_s", .range = kTime, .unit = "s",
+         .help = "In which it is reached; without it run_up_s of the job, 0: from the start"});
+    add(motion_field(motion, "from_m", "from_rad", "Position at t = 0; without it 0", false, kAny));
   } else if (law == "rise_return_pause") {
-    add(motion_field(slides, "stroke_m", "stroke_rad", "Length of the rise, and of the return", true, kAny));
-    add({.key = "stroke_time_s", .range = between(1e-3, 3600), .unit = "s", .help = "Of the rise, and of the return", .required = true});
+    add(motion_field(motion, "stroke_m", "stroke_rad", "Length of the rise, and of the return", true, kAny));
+    add({.key = "stroke_time_s", .range = between(1e-3, 3600), .unit = "s",
+         .help = "Of the rise, and of the return", .required = true});
     add({.key = "pause_s", .range = kTime, .unit = "s", .help = "After each return; without it 0"});
     add({.key = "stroke_law", .kind = FieldKind::kWord,
          .help = "Law of the rise and of the return; without it cycloidal. cosine: harmonic motion; parabolic: constant acceleration and deceleration",
          .words = {"cycloidal", "cosine", "parabolic"}});
-    add(motion_field(slides, "from_m", "from_rad", "Position in the pause; without it 0", false, kAny));
+    add(motion_field(motion, "from_m", "from_rad", "Position in the pause; without it 0", false, kAny));
   } else if (law == "cycloidal") {
-    add(motion_field(slides, "from_m", "from_rad", "Where it begins; without it 0", false, kAny));
-    add(motion_field(slides, "rise_m", "rise_rad", "How far it goes", true, kAny));
+    add(motion_field(motion, "from_m", "from_rad", "Where it begins; without it 0", false, kAny));
+    add(motion_field(motion, "rise_m", "rise_rad", "How far it goes", true, kAny));
     add({.key = "begin_s", .range = kTime, .unit = "s", .help = "When it begins; without it 0"});
-    add({.key = "time_s", .range = between(1e-3, 3600), .unit = "s", .help = "How long it takes", .required = true});
+    add({.key = "time_s", .range = between(1e-3, 3600), .unit = "s", .help = "How long it takes",
+         .required = true});
   } else if (law == "harmonic") {
-    add(motion_field(slides, "mean_m", "mean_rad", "Without it 0", false, kAny));
-    add(motion_field(slides, "amplitude_m", "amplitude_rad", "Of the sine", true, kAny));
-    add({.key = "frequency_hz", .range = above(0, 1e5), .unit = "Hz", .help = "Of the sine", .required = true});
+    add(motion_field(motion, "mean_m", "mean_rad", "Without it 0", false, kAny));
+    add(motion_field(motion, "amplitude_m", "amplitude_rad", "Of the sine", true, kAny));
+    add({.key = "frequency_hz", .range = above(0, 1e5), .unit = "Hz", .help = "Of the sine",
+         .required = true});
     add({.key = "phase_rad", .range = kAny, .unit = "rad", .help = "Of the sine; without it 0"});
   } else if (law == "polynomial") {
-    add({.key = slides ? "coefficients_m_s" : "coefficients_rad_s", .kind = FieldKind::kNumbers, .range = between(-1e9, 1e9),
-         .unit = slides ? "m/s^k" : "rad/s^k",
+    add({.key = slides(motion) ? "coefficients_m_s" : "coefficients_rad_s", .kind = FieldKind::kNumbers,
+         .range = between(-1e9, 1e9),
+         .unit = slides(motion) ? "m/s^k" : "rad/s^k",
          .help = "c_0, c_1, ...: the coordinate is c_0 + c_1 t + c_2 t^2 + ...", .required = true});
   } else if (law == "table") {
-    add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s", .help = "Rising; two or more", .required = true});
-    add({.key = slides ? "values_m" : "values_rad", .kind = FieldKind::kNumbers, .range = kAny, .unit = slides ? "m" : "rad",
+    add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s",
+         .help = "Rising; two or more", .required = true});
+    add({.key = slides(motion) ? "values_m" : "values_rad", .kind = FieldKind::kNumbers, .range = kAny,
+         .unit = slides(motion) ? "m" : "rad",
          .help = "One for each time; between them the natural cubic spline, outside straight on", .required = true});
   }
   return fields;
@@ -237,24 +315,29 @@ const LinkageFields& clearance_fields() {
     LinkageFields made;
     for (const ParameterInfo& info : parameter_table()) {
       if (info.scope != ParameterScope::kJoint && info.scope != ParameterScope::kMaterial) continue;
-      const FieldKind kind = info.kind == ParameterKind::kChoice ? FieldKind::kWord : info.kind == ParameterKind::kInteger ?
-          FieldKind::kInteger : FieldKind::kNumber;
-      made.push_back({.key = info.key, .kind = kind, .range = info.range, .unit = info.unit, .help = info.help, .words = info.choices});
+      const FieldKind kind = info.kind == ParameterKind::kChoice    ? FieldKind::kWord
+                             : info.kind == ParameterKind::kInteger ? FieldKind::kInteger
+                                                                    : FieldKind::kNumber;
+      made.push_back({.key = info.key, .kind = kind, .range = info.range, .unit = info.unit,
+                      .help = info.help, .words = info.choices});
     }
     return made;
   }();
   return fields;
 }
 
-void check_fields(const json& object, const LinkageFields& fields, const std::string& pointer, std::vector<Fault>& faults) {
+void check_fields(const json& object, const LinkageFields& fields, const std::string& pointer,
+                  std::vector<Fault>& faults) {
   std::vector<std::string_view> known;
   for (const LinkageField& field : fields) {
     known.push_back(field.key);
-    if (field.required && !object.contains(field.key)) faults.push_back({pointer + pointer_token(field.key), "is missing"});
+    if (field.required && !object.contains(field.key))
+      faults.push_back({pointer + pointer_token(field.key), "is missing"});
   }
   for (const auto& [key, value] : object.items()) {
     const auto field = std::ranges::find(fields, key, &LinkageField::key);
-    std::string detail = field == fields.end() ? describe_unknown_key(key, known) : describe_field_fault(*field, value);
+    std::string detail =
+        field == fields.end() ? describe_unknown_key(key, known) : describe_field_fault(*field, value);
     if (!detail.empty()) faults.push_back({pointer + pointer_token(key), std::move(detail)});
   }
 }

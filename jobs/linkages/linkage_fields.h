@@ -7,12 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/model/mechanism.h"
 #include "jobs/base/errors.h"
 #include "jobs/parameters/range.h"
 
 namespace jobs {
 
-/// What may stand under a key of a described linkage.
+/// Kind of value under a key of a described linkage.
 enum class FieldKind {
   kNumber,
   kInteger,
@@ -25,6 +26,8 @@ enum class FieldKind {
   kNumbers,  ///< a list of numbers
   kObject,   ///< an object of its own, checked by itself
 };
+
+[[nodiscard]] constexpr bool slides(engine::Motion motion) { return motion == engine::Motion::kTranslation; }
 
 /// One key of an object of the description. Checks and the schema read these tables.
 struct LinkageField {
@@ -44,14 +47,17 @@ using LinkageFields = std::vector<LinkageField>;
 [[nodiscard]] const LinkageFields& beam_fields();
 [[nodiscard]] const LinkageFields& joint_fields();
 [[nodiscard]] const LinkageFields& spring_fields();
-[[nodiscard]] LinkageFields freedom_fields(bool slides);                   ///< of a coordinate that slides or turns
-[[nodiscard]] LinkageFields drive_fields(bool slides, std::string_view law);
-[[nodiscard]] const LinkageFields& clearance_fields();                     ///< the parameters of a job that a clearance joint may have of its own
+[[nodiscard]] LinkageFields freedom_fields(engine::Motion motion);
+[[nodiscard]] LinkageFields drive_fields(engine::Motion motion, std::string_view law);
+[[nodiscard]] const LinkageFields& clearance_fields();  ///< parameters of a job that a clearance joint may
+                                                        ///< have
 
-inline constexpr std::string_view kLaws[] = {"run_up", "rise_return_pause", "cycloidal", "harmonic", "polynomial", "table"};
+inline constexpr std::string_view kLaws[] = {"run_up",   "rise_return_pause", "cycloidal",
+                                             "harmonic", "polynomial",        "table"};
 
 /// The faults of an object's keys and of the values that can be judged by themselves.
-void check_fields(const nlohmann::json& object, const LinkageFields& fields, const std::string& pointer, std::vector<Fault>& faults);
+void check_fields(const nlohmann::json& object, const LinkageFields& fields, const std::string& pointer,
+                  std::vector<Fault>& faults);
 
 /// The schema of an object of these keys.
 [[nodiscard]] nlohmann::json schema_of_fields(const LinkageFields& fields);

@@ -24,10 +24,12 @@ inline constexpr std::string_view kRpsupName = "rpsup";
 /// @param description  value of the key "linkage"
 /// @param defaults     the job's own parameters: of clearance joints, beams, drives and gravity
 /// @param faults       gets every fault, pointers from the parameter set; empty if there are faults
-[[nodiscard]] std::optional<engine::Linkage> read_linkage(const nlohmann::json& description, const engine::RpsupParameters& defaults,
+[[nodiscard]] std::optional<engine::Linkage> read_linkage(const nlohmann::json& description,
+                                                          const engine::RpsupParameters& defaults,
                                                           std::vector<Fault>& faults);
 
-/// What a fault's field of engine::check_linkage means in the description: "bodies.rod.mass" -> "/linkage/bodies/rod/mass_kg".
+/// Pointer into the description for a fault's field of engine::check_linkage: "bodies.rod.mass" ->
+/// "/linkage/bodies/rod/mass_kg".
 [[nodiscard]] std::string pointer_of_linkage_field(std::string_view field);
 
 /// A description in the one form in which it is stored: all numbers as doubles, -0 as 0.

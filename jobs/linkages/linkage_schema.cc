@@ -14,23 +14,25 @@ void take_properties(const json& from, json& to) {
 }
 
 json named(json entry, std::string_view what) {
-  return {{"type", "object"}, {"description", what}, {"minProperties", 1}, {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]{0,31}$"}}},
+  return {{"type", "object"}, {"description", what}, {"minProperties", 1},
+          {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]{0,31}$"}}},
           {"additionalProperties", std::move(entry)}};
 }
 
-json schema_of_drive(bool slides) {
+json schema_of_drive(engine::Motion motion) {
   json any = json::array();
   for (const std::string_view law : kLaws) {
-    json schema = schema_of_fields(drive_fields(slides, law));
+    json schema = schema_of_fields(drive_fields(motion, law));
     schema["properties"]["law"] = {{"const", law}};
     any.push_back(std::move(schema));
   }
-  return {{"description", "The law by which the coordinate moves; without it it is free"}, {"oneOf", std::move(any)}};
+  return {{"description", "The law by which the coordinate moves; without it it is free"},
+          {"oneOf", std::move(any)}};
 }
 
-json schema_of_freedom(bool slides) {
-  json schema = schema_of_fields(freedom_fields(slides));
-  schema["properties"]["drive"] = schema_of_drive(slides);
+json schema_of_freedom(engine::Motion motion) {
+  json schema = schema_of_fields(freedom_fields(motion));
+  schema["properties"]["drive"] = schema_of_drive(motion);
   return schema;
 }
 
@@ -42,21 +44,24 @@ json schema_of_body() {
   return schema;
 }
 
-/// Which keys go with which kind is said by refusals: here are those of all kinds.
+/// The keys of all kinds of joint; refusals tell which of them a kind does not have.
 json schema_of_joint() {
   json schema = schema_of_fields(joint_fields());
-  const json turns = schema_of_freedom(false), slides = schema_of_freedom(true);
-  take_properties(slides, schema);
-  take_properties(turns, schema);
-  schema["properties"]["drive"] = {{"anyOf", {schema_of_drive(false), schema_of_drive(true)}}};
+  const json turn = schema_of_freedom(engine::Motion::kRotation);
+  const json slide = schema_of_freedom(engine::Motion::kTranslation);
+  take_properties(slide, schema);
+  take_properties(turn, schema);
+  schema["properties"]["drive"] = {
+      {"anyOf", {schema_of_drive(engine::Motion::kRotation), schema_of_drive(engine::Motion::kTranslation)}}};
   json clearance = schema_of_fields(clearance_fields());
   clearance["description"] = schema["properties"]["clearance"]["description"];
   schema["properties"]["clearance"] = std::move(clearance);
   json& freedoms = schema["properties"]["freedoms"];
   freedoms["additionalProperties"] = false;
-  freedoms["properties"] = {{"slide", slides}};
-  for (const char* const name : {"turn", "first", "second", "turn_z", "turn_y", "turn_x"}) freedoms["properties"][name] = turns;
-  for (const char* const name : {"x", "y", "z"}) freedoms["properties"][name] = {{"anyOf", {slides, turns}}};
+  freedoms["properties"] = {{"slide", slide}};
+  for (const char* const name : {"turn", "first", "second", "turn_z", "turn_y", "turn_x"})
+    freedoms["properties"][name] = turn;
+  for (const char* const name : {"x", "y", "z"}) freedoms["properties"][name] = {{"anyOf", {slide, turn}}};
   return schema;
 }
 
@@ -66,8 +71,10 @@ json linkage_schema() {
   json described = schema_of_fields(linkage_fields());
   described["properties"]["bodies"] = named(schema_of_body(), "The bodies by their names");
   described["properties"]["joints"] = named(schema_of_joint(), "The joints by their names");
-  described["properties"]["springs"] = named(schema_of_fields(spring_fields()), "Springs and dampers between points of two bodies, by their names");
-  return {{"description", "The linkage: \"rpsup\", or a description of any other"}, {"default", kRpsupName}, {"x-default-source", "chosen"},
+  described["properties"]["springs"] = named(
+      schema_of_fields(spring_fields()), "Springs and dampers between points of two bodies, by their names");
+  return {{"description", "The linkage: \"rpsup\", or a description of any other"}, {"default", kRpsupName},
+          {"x-default-source", "chosen"},
           {"oneOf", {{{"const", kRpsupName}}, std::move(described)}}};
 }
 

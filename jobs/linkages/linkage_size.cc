@@ -17,8 +17,10 @@ constexpr std::size_t kFreedomsOfAnElement = 3;
 
 std::size_t elements_of(const json& beam, std::size_t otherwise) {
   const auto found = beam.find("elements");
-  // What is swept may be any number so far.
-  return found == beam.end() || !found->is_number() ? otherwise : static_cast<std::size_t>(std::clamp(found->get<double>(), 1.0, 1e6));
+  // A swept value may be any number so far.
+  return found == beam.end() || !found->is_number()
+             ? otherwise
+             : static_cast<std::size_t>(std::clamp(found->get<double>(), 1.0, 1e6));
 }
 
 }  // namespace
@@ -32,25 +34,28 @@ LinkageSize size_of_linkage(const json& description, std::size_t elements) {
   }
   size.coordinates = size.freedoms;
   for (const json& body : description.at("bodies")) {
-    if (body.contains("beam")) size.coordinates += kFreedomsOfAnElement * (elements_of(body.at("beam"), elements) - 1);
+    if (body.contains("beam"))
+      size.coordinates += kFreedomsOfAnElement * (elements_of(body.at("beam"), elements) - 1);
   }
   return size;
 }
 
 std::string describe_size_fault(const LinkageSize& size) {
   if (size.coordinates > kMostCoordinates)
-    return "has " + std::to_string(size.coordinates) + " coordinates, of its joints and between the elements of its beams; at most " +
+    return "has " + std::to_string(size.coordinates) +
+           " coordinates, of its joints and between the elements of its beams; at most " +
            std::to_string(kMostCoordinates) + " are allowed";
   if (size.constraints > kMostConstraints)
-    return "has joints that close loops by " + std::to_string(size.constraints) + " constraints; at most " + std::to_string(kMostConstraints) +
-           " are allowed";
+    return "has joints that close loops by " + std::to_string(size.constraints) + " constraints; at most " +
+           std::to_string(kMostConstraints) + " are allowed";
   return "";
 }
 
 double calc_closing_work(const LinkageSize& size) {
   // As measured: of linkages of 600 coordinates, without loops and with 300 constraints.
   const auto square = static_cast<double>(size.coordinates * size.coordinates);
-  const auto product = static_cast<double>(size.freedoms * size.constraints * std::min(size.freedoms, size.constraints));
+  const auto product =
+      static_cast<double>(size.freedoms * size.constraints * std::min(size.freedoms, size.constraints));
   return 1.0 + square / 3e3 + product / 1e5;
 }
 

@@ -8,7 +8,7 @@
 
 namespace jobs {
 
-/// How much there is to compute with a described linkage.
+/// Size of a described linkage, which decides what its jobs cost.
 struct LinkageSize {
   std::size_t coordinates = 0;  ///< of the joints that carry bodies, and between the elements of beams
   std::size_t freedoms = 0;     ///< those of the joints alone
@@ -19,7 +19,8 @@ struct LinkageSize {
 /// @param elements     rigid elements of a beam that does not say how many
 [[nodiscard]] LinkageSize size_of_linkage(const nlohmann::json& description, std::size_t elements);
 
-/// Why a linkage is too large for a job, empty if it is not: memory and time of a step grow with the square of the coordinates and more.
+/// Why a linkage is too large for a job, empty if it is not: memory and time of a step grow with the square
+/// of the coordinates and more.
 [[nodiscard]] std::string describe_size_fault(const LinkageSize& size);
 
 /// Time to see whether the loops of a linkage close, in times of one with few bodies.
