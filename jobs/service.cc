@@ -42,7 +42,8 @@ json ended_job_json(const EndedJob& job) {
 Service::Service(ServiceOptions options)
     : options_(with_defaults(std::move(options))),
       store_(std::make_unique<Store>(options_.store, options_.store_quota)) {
-  const StudyLimits limits{.max_sweep_jobs = options_.max_sweep_jobs, .max_queued_jobs = options_.max_queued_jobs,
+  const StudyLimits limits{.max_sweep_jobs = options_.max_sweep_jobs,
+                           .max_queued_jobs = options_.max_queued_jobs,
                            .threads = options_.threads};
   runners_ = {std::make_unique<StudyRunner>(*store_, limits, make_limit_study()),
               std::make_unique<StudyRunner>(*store_, limits, make_wear_study(store_->reader))};
@@ -50,7 +51,8 @@ Service::Service(ServiceOptions options)
     options_.log("the store's results are of the engine " + store_->engine_before() + ", this program's is " +
                  engine_version() + ": jobs that are asked for again are computed again");
   }
-  static_cast<void>(sha256_hex(""));  // OpenSSL that finds no memory when it is first used does not work any more
+  // OpenSSL that finds no memory when it is first used does not work any more
+  static_cast<void>(sha256_hex(""));
   if (options_.start == Start::kAtOnce) start();
 }
 
@@ -63,12 +65,12 @@ void Service::start() {
                                     const OnClaim& next) { record(job, run, next); },
                    .requeue = [this](const ClaimedJob& job) { store_->queue.requeue(job); },
                    .ran = options_.ran};
-  executors_.push_back(std::make_unique<LocalPool>(std::move(source), options_.runner, options_.threads, options_.log,
-                                                   options_.job_limits));
+  executors_.push_back(std::make_unique<LocalPool>(std::move(source), options_.runner, options_.threads,
+                                                   options_.log, options_.job_limits));
   if (has_cluster()) {
     executors_.push_back(std::make_unique<cluster::SlurmExecutor>(
-        options_.site, store_->batches, filter_of(kSlurmExecutor), options_.job_limits, [this] { tell_change(); },
-        options_.log));
+        options_.site, store_->batches, filter_of(kSlurmExecutor), options_.job_limits,
+        [this] { tell_change(); }, options_.log));
   }
   study_thread_ = std::jthread([this] { run_studies(); });
 }
@@ -102,8 +104,8 @@ json Service::submit_job(const json& parameters, const std::string& key) {
     const auto make_response = [&](const JobRow& row) {
       return *idempotency.response = text_of(job_json(row, Detail::kFull));
     };
-    const std::string id =
-        store_->queue.add_job(plan_job(parameters), options_.max_queued_jobs, {key, fingerprint, make_response});
+    const std::string id = store_->queue.add_job(plan_job(parameters), options_.max_queued_jobs,
+                                                 {key, fingerprint, make_response});
     wake();
     return find_job(id).value();
   });
@@ -186,7 +188,8 @@ json Service::list_jobs(const PageQuery& query) const {
                    [&](const JobRow& row) { return job_json(row, Detail::kListing, checker.wanted()); });
 }
 
-std::optional<ResultTable> Service::find_results(const std::string& sweep_id, const ResultQuery& query) const {
+std::optional<ResultTable> Service::find_results(const std::string& sweep_id,
+                                                 const ResultQuery& query) const {
   const auto sweep = store_->reader.find_sweep(sweep_id);
   if (!sweep) return std::nullopt;
   const auto others = find_other_columns(query, swept_of(*sweep));
@@ -213,7 +216,8 @@ std::optional<SweepNews> Service::find_news(const std::string& sweep_id, std::in
   if (!changes) return std::nullopt;
   SweepNews news{.progress = progress_json(changes->sweep, slots_for(changes->sweep)),
                  .ended = has_ended(changes->sweep.counts), .jobs = {}};
-  for (const EndedJob& job : changes->ended) news.jobs.push_back({.change = job.change, .job = ended_job_json(job)});
+  for (const EndedJob& job : changes->ended) news.jobs.push_back({.change = job.change,
+                                                                  .job = ended_job_json(job)});
   return news;
 }
 
@@ -308,7 +312,8 @@ ExecutorFilter Service::filter_of(std::string_view executor) const {
 
 int Service::slots_for(const SweepRow& row) const {
   const std::string& name = row.executor.empty() ? options_.executor : row.executor;
-  return name == kSlurmExecutor && has_cluster() ? options_.site.slots * options_.site.threads : options_.threads;
+  return name == kSlurmExecutor && has_cluster() ? options_.site.slots * options_.site.threads
+                                                 : options_.threads;
 }
 
 json Service::sweep_resource(const SweepRow& row, Detail detail) const {

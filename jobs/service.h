@@ -55,14 +55,17 @@ struct ServiceOptions {
   cluster::Site site{};         ///< the cluster; without a folder there is none
   std::string executor = "local";  ///< of sweeps that name none: "local", or "slurm" if there is a cluster
   Runner runner;                ///< empty: the engine
-  /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not throw.
+  /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not
+  /// throw.
   std::function<void(const std::string&)> log;
-  RunListener ran{};            ///< told, from any thread, of each run on this machine before it is recorded; empty: nobody
+  /// Told, from any thread, of each run on this machine before it is recorded; empty: nobody
+  RunListener ran{};
 };
 
 /// News of a sweep since a change.
 struct SweepNews {
-  /// {"sweep_id", "state", "counts", "progress", "eta_s", "eta_low_s", "eta_high_s"}; of a study {"id", "sweep_id", "state", "counts", "progress"}
+  /// {"sweep_id", "state", "counts", "progress", "eta_s", "eta_low_s", "eta_high_s"}; of a study {"id",
+  /// "sweep_id", "state", "counts", "progress"}
   nlohmann::json progress;
   bool ended = false;
   /// A job that has ended: {"job_id", "state", "error_reason", "ended_at", "reused"}.
@@ -73,20 +76,20 @@ struct SweepNews {
   std::vector<EndedJob> jobs;            ///< by change
 };
 
-/// Types of study: a sweep to which cases are added as its results ask for them. kLimit searches the limit of a
-/// parameter, kWear follows a bearing that is worn over the hours.
+/// Types of study: a sweep to which cases are added as its results ask for them. kLimit searches the limit of
+/// a parameter, kWear follows a bearing that is worn over the hours.
 enum class Study { kLimit, kWear };
 
 /// Service of sweeps, jobs and studies: validates, stores, computes and hands them out. One per store.
 ///
-/// Every JSON it returns is the resource as the HTTP interface and the command line show it.
-/// All members may be called from any thread.
-/// Exceptions: InvalidRequest (a faulty request; of a query "/limit", "/state", "/cursor", "/fields/0", "/order_by/0",
-/// "/clearance_mm_gt", "/channels/0", "/from", "/to", "/points" are the pointers), WrongState, StorageError, Stopped (of new work, after stop()).
+/// Every JSON it returns is the resource as the HTTP interface and the command line show it. All members may
+/// be called from any thread. Exceptions: InvalidRequest (a faulty request; of a query "/limit", "/state",
+/// "/cursor", "/fields/0", "/order_by/0", "/clearance_mm_gt", "/channels/0", "/from", "/to", "/points" are
+/// the pointers), WrongState, StorageError, Stopped (of new work, after stop()).
 class Service {
  public:
-  /// Opens the store (its lock is held until destruction), queues again what a former process left running, and starts the pool if
-  /// that is to be done at once.
+  /// Opens the store (its lock is held until destruction), queues again what a former process left running,
+  /// and starts the pool if that is to be done at once.
   explicit Service(ServiceOptions options);
   ~Service();  ///< stop()
   Service(const Service&) = delete;
@@ -96,15 +99,17 @@ class Service {
   void start();
 
   /// Stores a sweep and its jobs, or nothing at all. When it returns, the sweep survives a crash.
-  /// @param request  order-preserving, since the axes multiply in the order in which they were written, the last one
-  ///                 fastest: parse the body with nlohmann::ordered_json::parse
+  /// @param request  order-preserving, since the axes multiply in the order in which they were written, the
+  ///     last one fastest: parse the body with nlohmann::ordered_json::parse
   /// @throws QueueFull if more than max_queued_jobs would be waiting
-  /// @param key  chosen by the client; for a week, the same request under the same key is answered as before, and nothing new is
-  ///             stored. Another request under it is an InvalidRequest, one that comes while the first is answered a WrongState. Empty: none
+  /// @param key  chosen by the client; for a week, the same request under the same key is answered as before,
+  ///     and nothing new is stored. Another request under it is an InvalidRequest, one that comes while the
+  ///     first is answered a WrongState. Empty: none
   nlohmann::json submit_sweep(const nlohmann::ordered_json& request, const std::string& key = {});
   nlohmann::json submit_job(const nlohmann::json& parameters, const std::string& key = {});
 
-  /// Adds values to the axes of a sweep, and cases to its cases; only what is new is computed. See plan_extension().
+  /// Adds values to the axes of a sweep, and cases to its cases; only what is new is computed. See
+  /// plan_extension().
   std::optional<nlohmann::json> extend_sweep(const std::string& id, const nlohmann::ordered_json& addition);
   /// Queues the failed and cancelled jobs of a sweep again; those that have succeeded stay.
   std::optional<nlohmann::json> retry_sweep(const std::string& id);
@@ -114,19 +119,25 @@ class Service {
 
   [[nodiscard]] std::optional<nlohmann::json> find_sweep(const std::string& id) const;
   [[nodiscard]] std::optional<nlohmann::json> find_job(const std::string& id) const;
-  [[nodiscard]] nlohmann::json list_sweeps(const PageQuery& query) const;  ///< {"items": [...], "next_cursor": ""}
+  [[nodiscard]] nlohmann::json list_sweeps(
+      const PageQuery& query) const;  ///< {"items": [...], "next_cursor": ""}
   [[nodiscard]] nlohmann::json list_jobs(const PageQuery& query) const;
-  [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id, const ResultQuery& query = {}) const;
+  [[nodiscard]] std::optional<ResultTable> find_results(const std::string& sweep_id,
+                                                        const ResultQuery& query = {}) const;
   /// Empty if there is no such job or it has no trajectory (yet).
-  [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id, const TrajectoryQuery& query) const;
+  [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id,
+                                                                  const TrajectoryQuery& query) const;
 
-  /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves. See parse_search_request() and
-  /// parse_wear_request(). @param key  as of submit_sweep()
-  nlohmann::json submit_study(Study study, const nlohmann::ordered_json& request, const std::string& key = {});
+  /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves.
+  /// See parse_search_request() and parse_wear_request(). @param key as of submit_sweep()
+  nlohmann::json submit_study(Study study, const nlohmann::ordered_json& request,
+                              const std::string& key = {});
   [[nodiscard]] std::optional<nlohmann::json> find_study(Study study, const std::string& id) const;
   [[nodiscard]] nlohmann::json list_studies(Study study, const PageQuery& query) const;
-  /// Flat rows: the limits of a search, the cycles of a bearing that is worn. @param query  of the columns that they have
-  [[nodiscard]] std::optional<ResultTable> find_study_table(Study study, const std::string& id, const ResultQuery& query = {}) const;
+  /// Flat rows: the limits of a search, the cycles of a bearing that is worn. @param query of the columns
+  /// that they have
+  [[nodiscard]] std::optional<ResultTable> find_study_table(Study study, const std::string& id,
+                                                            const ResultQuery& query = {}) const;
   std::optional<nlohmann::json> cancel_study(Study study, const std::string& id);
   /// Queues failed and cancelled jobs of a study again, and lets it go on.
   std::optional<nlohmann::json> retry_study(Study study, const std::string& id);
@@ -137,18 +148,22 @@ class Service {
   /// Executors: {"items": [status, ...]}, the default one first. See Executor::status().
   [[nodiscard]] nlohmann::json list_executors() const;
 
-  /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there is none.
-  /// Cancelling what is already cancelled changes nothing; what has ended otherwise throws WrongState.
+  /// Cancels what has not ended; running jobs stop within half a second. Returns the resource; empty if there
+  /// is none. Cancelling what is already cancelled changes nothing; what has ended otherwise throws
+  /// WrongState.
   std::optional<nlohmann::json> cancel_sweep(const std::string& id);
   std::optional<nlohmann::json> cancel_job(const std::string& id);
 
-  /// Deletes a sweep that has ended, with its jobs and the results that no other job shares. False if there is none.
+  /// Deletes a sweep that has ended, with its jobs and the results that no other job shares. False if there
+  /// is none.
   bool delete_sweep(const std::string& id);
 
   /// Jobs that have ended since that change; 0: since the beginning.
   [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const;
-  /// Jobs of a study that have ended since that change. The study has ended when nothing is left to compute for it.
-  [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id, std::int64_t after) const;
+  /// Jobs of a study that have ended since that change. The study has ended when nothing is left to compute
+  /// for it.
+  [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id,
+                                                         std::int64_t after) const;
   /// A number that grows whenever a job begins or ends, or is changed otherwise.
   [[nodiscard]] std::uint64_t activity() const { return activity_; }
 
@@ -157,10 +172,13 @@ class Service {
   bool copy_store_to(const std::filesystem::path& file) const;
   [[nodiscard]] const std::filesystem::path& store_file() const { return options_.store; }
 
-  /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once if there is none.
+  /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once
+  /// if there is none.
   bool wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const;
-  bool wait_for_job(const std::string& id, std::chrono::milliseconds at_most) const;                    ///< the same of a job
-  bool wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const;  ///< the same of a study
+  /// The same of a job
+  bool wait_for_job(const std::string& id, std::chrono::milliseconds at_most) const;
+  /// The same of a study
+  bool wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const;
 
   /// Ends the pool: running jobs are stopped and go back to the queue. Nothing can be submitted afterwards.
   void stop();
@@ -182,7 +200,8 @@ class Service {
   void claim(const OnClaim& on_claim);
   /// @param next  takes the next job; empty: nobody does
   void record(const ClaimedJob& job, const RunRecord& run, const OnClaim& next);
-  /// Does the rest of a cancellation. False if there is nothing of that id. @param why_not  null if it may have ended
+  /// Does the rest of a cancellation. False if there is nothing of that id. @param why_not null if it may
+  /// have ended
   bool finish_cancelling(const Cancellation& cancellation, const char* why_not);
 
   [[nodiscard]] StudyRunner& runner(Study study) const { return *runners_[static_cast<std::size_t>(study)]; }
@@ -197,7 +216,8 @@ class Service {
   InFlightKeys keys_;
   std::unique_ptr<Store> store_;
   std::array<std::unique_ptr<StudyRunner>, 2> runners_;  ///< by Study
-  std::vector<std::unique_ptr<Executor>> executors_;     ///< end before the store they work for; none before start()
+  /// End before the store they work for; none before start()
+  std::vector<std::unique_ptr<Executor>> executors_;
   std::mutex stop_mutex_;                                ///< guards the joining of study_thread_
   std::jthread study_thread_;                            ///< of run_studies()
 };

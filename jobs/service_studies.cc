@@ -20,7 +20,9 @@ json Service::submit_study(Study study, const nlohmann::ordered_json& request, c
   });
 }
 
-std::optional<json> Service::find_study(Study study, const std::string& id) const { return runner(study).find(id); }
+std::optional<json> Service::find_study(Study study, const std::string& id) const {
+  return runner(study).find(id);
+}
 
 json Service::list_studies(Study study, const PageQuery& query) const { return runner(study).list(query); }
 
@@ -31,7 +33,8 @@ std::optional<ResultTable> Service::find_study_table(Study study, const std::str
   return table;
 }
 
-std::optional<SweepNews> Service::find_study_news(Study study, const std::string& id, std::int64_t after) const {
+std::optional<SweepNews> Service::find_study_news(Study study, const std::string& id,
+                                                  std::int64_t after) const {
   const auto row = runner(study).find_row(id);
   if (!row) return std::nullopt;
   auto news = find_news(row->sweep_id, after);

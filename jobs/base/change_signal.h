@@ -23,9 +23,11 @@ class ChangeSignal {
   void wait(std::uint64_t seen) const;
   /// Blocks until the signal is closed, or for at most that long.
   void wait_until_closed(std::chrono::seconds at_most) const;
-  /// Blocks until has_ended() is true, which is asked after changes, or for at most that long, or until the signal is
-  /// closed. @returns whether has_ended() was true; false at once if it is empty: there is nothing to wait for
-  bool wait_for(std::chrono::milliseconds at_most, const std::function<std::optional<bool>()>& has_ended) const;
+  /// Blocks until has_ended() is true, which is asked after changes, or for at most that long, or until the
+  /// signal is closed. @returns whether has_ended() was true; false at once if it is empty: there is nothing
+  /// to wait for
+  bool wait_for(std::chrono::milliseconds at_most,
+                const std::function<std::optional<bool>()>& has_ended) const;
 
  private:
   mutable std::mutex mutex_;  // guards the rest

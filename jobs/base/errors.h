@@ -14,7 +14,8 @@ struct Fault {
   std::string detail;
 };
 
-/// A request that is well-formed JSON but asks for something that is not allowed. Carries every fault, not the first.
+/// A request that is well-formed JSON but asks for something that is not allowed. Carries every fault, not
+/// the first.
 class InvalidRequest : public std::runtime_error {
  public:
   explicit InvalidRequest(std::vector<Fault> faults)
@@ -24,7 +25,9 @@ class InvalidRequest : public std::runtime_error {
   [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 
  private:
-  static std::string text_of(const Fault& fault) { return fault.pointer.empty() ? fault.detail : fault.pointer + ": " + fault.detail; }
+  static std::string text_of(const Fault& fault) {
+    return fault.pointer.empty() ? fault.detail : fault.pointer + ": " + fault.detail;
+  }
 
   std::vector<Fault> faults_;
 };

@@ -8,7 +8,9 @@
 namespace jobs {
 namespace {
 
-bool is_plain(char c) { return static_cast<unsigned char>(c) >= ' ' && static_cast<unsigned char>(c) < 0x80 && c != '\\'; }
+bool is_plain(char c) {
+  return static_cast<unsigned char>(c) >= ' ' && static_cast<unsigned char>(c) < 0x80 && c != '\\';
+}
 
 template <typename T>
 std::optional<nlohmann::json> read_as(std::string_view digits) {
@@ -58,9 +60,13 @@ std::optional<nlohmann::json> FlatJson::number() {
   const std::string_view digits = rest_.substr(0, size);
   // Leading zeros are no JSON, and what nlohmann::json writes starts and ends its numbers with a digit.
   const std::string_view unsigned_digits = digits.starts_with('-') ? digits.substr(1) : digits;
-  if (unsigned_digits.empty() || unsigned_digits.back() < '0' || unsigned_digits.front() < '0') return std::nullopt;
-  if (unsigned_digits.size() > 1 && unsigned_digits[0] == '0' && unsigned_digits[1] >= '0') return std::nullopt;
-  auto value = !integer ? read_as<double>(digits) : digits.starts_with('-') ? read_as<std::int64_t>(digits) : read_as<std::uint64_t>(digits);
+  if (unsigned_digits.empty() || unsigned_digits.back() < '0' || unsigned_digits.front() < '0')
+    return std::nullopt;
+  if (unsigned_digits.size() > 1 && unsigned_digits[0] == '0' && unsigned_digits[1] >= '0')
+    return std::nullopt;
+  auto value = !integer                  ? read_as<double>(digits)
+               : digits.starts_with('-') ? read_as<std::int64_t>(digits)
+                                         : read_as<std::uint64_t>(digits);
   if (value) rest_.remove_prefix(size);
   return value;
 }

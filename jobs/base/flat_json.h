@@ -8,9 +8,10 @@
 
 namespace jobs {
 
-/// Reads a JSON object or list whose values are neither, one value after the other: the texts of a result, of which a table has
-/// thousands. It knows what nlohmann::json writes without indentation, no escapes in strings, and gives what that would read;
-/// whoever meets anything else reads the text with nlohmann::json instead.
+/// Reads a JSON object or list whose values are neither, one value after the other: the texts of a result, of
+/// which a table has thousands. It knows what nlohmann::json writes without indentation, no escapes in
+/// strings, and gives what that would read; whoever meets anything else reads the text with nlohmann::json
+/// instead.
 class FlatJson {
  public:
   explicit FlatJson(std::string_view text) : rest_(text) {}
@@ -18,11 +19,13 @@ class FlatJson {
   /// Takes '{' or '['. False if something else stands there.
   [[nodiscard]] bool open(char bracket) { return take(bracket); }
 
-  /// Takes the next key, with what separates it. False at the end of the object, and if there is something else.
+  /// Takes the next key, with what separates it. False at the end of the object, and if there is something
+  /// else.
   [[nodiscard]] bool next_key(std::string_view& key);
   /// Takes the value of a key.
   [[nodiscard]] std::optional<nlohmann::json> value();
-  /// Takes the next value of a list, with what separates it. False at the end of the list, and if there is something else.
+  /// Takes the next value of a list, with what separates it. False at the end of the list, and if there is
+  /// something else.
   [[nodiscard]] bool next_value(nlohmann::json& value);
 
   /// Takes '}' or ']'. True if that is the end of the text: then everything that was read was right.

@@ -13,7 +13,8 @@ constexpr int kHalfChanceLength = 8;
 constexpr std::uint64_t kHalfChanceMask = (std::uint64_t{1} << 40U) - 1;
 
 void append_base32(std::uint64_t value, int length, std::string& text) {
-  for (int digit = length - 1; digit >= 0; --digit) text += kAlphabet[(value >> (5U * static_cast<unsigned>(digit))) & 31U];
+  for (int digit = length - 1; digit >= 0; --digit)
+    text += kAlphabet[(value >> (5U * static_cast<unsigned>(digit))) & 31U];
 }
 
 std::uint64_t draw_40_bits() {
@@ -30,7 +31,8 @@ std::string IdMaker::make(std::string_view prefix, std::int64_t now_unix_ms) {
     chance_high_ = draw_40_bits();
     chance_low_ = draw_40_bits();
   } else {
-    // The same millisecond, or a clock that was set back: count on. A carry out of 80 bits would go into the time.
+    // The same millisecond, or a clock that was set back: count on. A carry out of 80 bits would go into the
+    // time.
     chance_low_ = (chance_low_ + 1) & kHalfChanceMask;
     if (chance_low_ == 0) chance_high_ = (chance_high_ + 1) & kHalfChanceMask;
     if (chance_low_ == 0 && chance_high_ == 0) ++last_ms_;

@@ -8,8 +8,9 @@
 
 namespace jobs {
 
-/// Makes opaque ids that sort by the time of their making: prefix, 10 characters of Unix time in ms, 16 of chance, in
-/// Crockford's base 32 in lower case. Within a process each is greater than the one before, whatever the clock does.
+/// Makes opaque ids that sort by the time of their making: prefix, 10 characters of Unix time in ms, 16 of
+/// chance, in Crockford's base 32 in lower case. Within a process each is greater than the one before,
+/// whatever the clock does.
 class IdMaker {
  public:
   [[nodiscard]] std::string make(std::string_view prefix, std::int64_t now_unix_ms);

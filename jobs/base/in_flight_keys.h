@@ -19,7 +19,9 @@ class InFlightKeys {
     /// @throws WrongState if the key is held
     Use(InFlightKeys& keys, std::string key) : keys_(keys), key_(std::move(key)) {
       const std::lock_guard lock(keys_.mutex_);
-      if (!keys_.held_.insert(key_).second) throw WrongState("a request with this Idempotency-Key is being answered; send it again for its answer");
+      if (!keys_.held_.insert(key_).second)
+        throw WrongState(
+            "a request with this Idempotency-Key is being answered; send it again for its answer");
     }
     ~Use() {
       const std::lock_guard lock(keys_.mutex_);

@@ -8,7 +8,8 @@ namespace jobs {
 /// Name of this computer.
 [[nodiscard]] const std::string& host_name();
 
-/// Model of its processor, as the kernel tells it; "unknown" if it does not. Results are equal to the bit between equal ones.
+/// Model of its processor, as the kernel tells it; "unknown" if it does not. Results are equal to the bit
+/// between equal ones.
 [[nodiscard]] const std::string& cpu_name();
 
 }  // namespace jobs

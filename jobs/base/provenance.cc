@@ -33,7 +33,8 @@ bool has_portable_numerics() {
 }
 
 const std::string& engine_version() {
-  static const std::string version = std::string(kEngineVersion) + (has_portable_numerics() ? "-portable" : "");
+  static const std::string version =
+      std::string(kEngineVersion) + (has_portable_numerics() ? "-portable" : "");
   return version;
 }
 

@@ -5,11 +5,13 @@
 
 namespace jobs {
 
-/// Machine and program that computed a result. Results are equal to the bit where cpu, libm, numerics and the program's engine are.
+/// Machine and program that computed a result. Results are equal to the bit where cpu, libm, numerics and the
+/// program's engine are.
 struct Provenance {
   std::string host, cpu;
   std::string libm;      ///< the mathematical library of the C library: "glibc 2.36"
-  std::string numerics;  ///< which of its variants: "native" (the fastest that the processor has) or "portable"
+  /// Variant of libm: "native" (the fastest that the processor has) or "portable"
+  std::string numerics;
   std::string version, commit, compiler;  ///< of the program
   std::string engine;    ///< what a result's content is named with
 };
@@ -17,11 +19,12 @@ struct Provenance {
 /// Provenance of the results of this process.
 [[nodiscard]] const Provenance& own_provenance();
 
-// The mathematical library picks the variants of its functions (sin, exp, pow) that suit the processor, when a program starts. They differ in
-// the last bit of some results, so that two kinds of processors give two answers. Portable numerics take the variants that every x86-64
-// processor has: one answer everywhere.
+// The mathematical library picks the variants of its functions (sin, exp, pow) that suit the processor, when
+// a program starts. They differ in the last bit of some results, so that two kinds of processors give two
+// answers. Portable numerics take the variants that every x86-64 processor has: one answer everywhere.
 
-/// The value of GLIBC_TUNABLES with which a program starts in portable numerics: it keeps what is set already.
+/// The value of GLIBC_TUNABLES with which a program starts in portable numerics: it keeps what is set
+/// already.
 [[nodiscard]] std::string portable_tunables();
 /// Whether this process was started with it.
 [[nodiscard]] bool has_portable_numerics();

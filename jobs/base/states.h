@@ -8,8 +8,11 @@
 namespace jobs {
 
 enum class JobState { kQueued, kRunning, kSucceeded, kFailed, kCancelled };
-inline constexpr std::array<std::string_view, 5> kJobStates{"queued", "running", "succeeded", "failed", "cancelled"};
-[[nodiscard]] inline std::string_view state_name(JobState state) { return kJobStates[static_cast<std::size_t>(state)]; }
+inline constexpr std::array<std::string_view, 5> kJobStates{"queued", "running", "succeeded", "failed",
+                                                            "cancelled"};
+[[nodiscard]] inline std::string_view state_name(JobState state) {
+  return kJobStates[static_cast<std::size_t>(state)];
+}
 
 /// States of searches and wear studies.
 inline constexpr std::array<std::string_view, 4> kStudyStates{"running", "succeeded", "failed", "cancelled"};

@@ -69,13 +69,15 @@ void Batch::set_wanted(const std::vector<BatchIndex>& wanted) {
 void Batch::share_out() {
   for (auto& [name, task] : tasks_) task.wanted.clear();
   for (const BatchIndex batch_index : wanted_) {
-    if (const auto owner = owner_.find(batch_index); owner != owner_.end()) tasks_.at(owner->second).wanted.push_back(batch_index);
+    if (const auto owner = owner_.find(batch_index); owner != owner_.end())
+      tasks_.at(owner->second).wanted.push_back(batch_index);
   }
 }
 
 std::vector<BatchIndex> Batch::unassigned() const {
   std::vector<BatchIndex> indices;
-  std::ranges::copy_if(wanted_, std::back_inserter(indices), [&](BatchIndex batch_index) { return !owner_.contains(batch_index); });
+  std::ranges::copy_if(wanted_, std::back_inserter(indices),
+                       [&](BatchIndex batch_index) { return !owner_.contains(batch_index); });
   return indices;
 }
 
@@ -85,7 +87,8 @@ std::vector<std::filesystem::path> Batch::find_new_results() const {
   // Reading the folder, rather than asking for names, makes a network's file system look again.
   for (const auto& entry : std::filesystem::directory_iterator(folder_.out())) {
     const std::string name = entry.path().filename().string();
-    if (name.ends_with(".results") && !name.starts_with('.') && !seen_.contains(name)) files.push_back(entry.path());
+    if (name.ends_with(".results") && !name.starts_with('.') && !seen_.contains(name))
+      files.push_back(entry.path());
   }
   std::ranges::sort(files);
   return files;
@@ -96,19 +99,22 @@ std::map<TaskName, TaskReport> Batch::reports_of(const Reports& all) const {
   for (int generation = 0; generation < generations_; ++generation) {
     const auto found = all.find(array_name(generation));
     if (found == all.end()) continue;
-    for (const auto& [index, report] : found->second) reports.emplace(TaskName{.generation = generation, .index = index}, report);
+    for (const auto& [index, report] : found->second) reports.emplace(TaskName{.generation = generation,
+                                                                               .index = index}, report);
   }
   return reports;
 }
 
-void Batch::take_running(const std::set<BatchIndex>& running, std::vector<BatchIndex>& begun, std::vector<BatchIndex>& waiting) {
+void Batch::take_running(const std::set<BatchIndex>& running, std::vector<BatchIndex>& begun,
+                         std::vector<BatchIndex>& waiting) {
   std::ranges::set_difference(running, running_, std::back_inserter(begun));
   std::ranges::set_difference(running_, running, std::back_inserter(waiting));
   running_ = running;
 }
 
 int Batch::open_tasks() const {
-  return static_cast<int>(std::ranges::count_if(tasks_, [](const auto& task) { return !task.second.wanted.empty(); }));
+  return static_cast<int>(
+      std::ranges::count_if(tasks_, [](const auto& task) { return !task.second.wanted.empty(); }));
 }
 
 }  // namespace jobs::cluster

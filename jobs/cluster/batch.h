@@ -14,7 +14,8 @@
 
 namespace jobs::cluster {
 
-/// A batch that a cluster computes, as its folder and the store tell it. What is here can be made from them at any time.
+/// A batch that a cluster computes, as its folder and the store tell it. What is here can be made from them
+/// at any time.
 class Batch {
  public:
   /// @param folder  of all batches of the store
@@ -24,7 +25,9 @@ class Batch {
   [[nodiscard]] const BatchRow& row() const { return row_; }
   [[nodiscard]] const BatchFolder& folder() const { return folder_; }
   /// Name of a generation in Slurm.
-  [[nodiscard]] std::string array_name(int generation) const { return "rpsup-" + row_.id + "-g" + std::to_string(generation); }
+  [[nodiscard]] std::string array_name(int generation) const {
+    return "rpsup-" + row_.id + "-g" + std::to_string(generation);
+  }
   [[nodiscard]] std::vector<std::string> array_names() const;
   [[nodiscard]] int generations() const { return generations_; }
 
@@ -56,7 +59,8 @@ class Batch {
     return reconciler_.decide(tasks_, reports, now);
   }
   /// Collects the indices that have begun to run since the last call, and those that wait again.
-  void take_running(const std::set<BatchIndex>& running, std::vector<BatchIndex>& begun, std::vector<BatchIndex>& waiting);
+  void take_running(const std::set<BatchIndex>& running, std::vector<BatchIndex>& begun,
+                    std::vector<BatchIndex>& waiting);
 
   /// Tasks that have indices left.
   [[nodiscard]] int open_tasks() const;

@@ -27,7 +27,8 @@ struct JobEntry {
 
 std::string read_bytes(std::ifstream& in, std::size_t size, const std::filesystem::path& file) {
   std::string bytes(size, '\0');
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) throw FileError(file.string() + " is cut off");
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
+    throw FileError(file.string() + " is cut off");
   return bytes;
 }
 
@@ -48,8 +49,9 @@ std::vector<JobEntry> read_header(std::string_view bytes, BatchHeader& header) {
   return entries;
 }
 
-constexpr std::array kProvenance{&Provenance::host,    &Provenance::cpu,    &Provenance::libm,     &Provenance::numerics,
-                                 &Provenance::version, &Provenance::commit, &Provenance::compiler, &Provenance::engine};
+constexpr std::array kProvenance{&Provenance::host,     &Provenance::cpu,     &Provenance::libm,
+                                 &Provenance::numerics, &Provenance::version, &Provenance::commit,
+                                 &Provenance::compiler, &Provenance::engine};
 
 void write_provenance(ByteWriter& to, const Provenance& from) {
   for (const auto text : kProvenance) to.text(from.*text);
@@ -90,7 +92,8 @@ RunRecord decode_record(std::string_view bytes) {
   ByteReader reader(std::as_bytes(std::span(bytes)));
   RunRecord record;
   const auto end = reader.number<std::uint8_t>();
-  if (end > static_cast<std::uint8_t>(RunRecord::End::kFailed)) throw FileError("a result has ended in no known way");
+  if (end > static_cast<std::uint8_t>(RunRecord::End::kFailed))
+    throw FileError("a result has ended in no known way");
   record.end = static_cast<RunRecord::End>(end);
   record.error_reason = reader.text();
   record.error_detail = reader.text();
@@ -143,7 +146,8 @@ std::string encode_jobs(const BatchHeader& header, const BatchJobs& jobs) {
   return size.bytes() + head + texts;
 }
 
-BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIndex>& wanted, BatchHeader& header) {
+BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIndex>& wanted,
+                    BatchHeader& header) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read " + file.string());
   std::uint32_t size = 0;
@@ -153,7 +157,8 @@ BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIn
   const std::string head = read_bytes(in, size, file);
   std::map<BatchIndex, JobEntry> entries;
   try {
-    for (const JobEntry& entry : read_header(unseal(kJobsMagic, head), header)) entries.emplace(entry.batch_index, entry);
+    for (const JobEntry& entry : read_header(unseal(kJobsMagic, head), header))
+      entries.emplace(entry.batch_index, entry);
   } catch (const DamagedTrajectory& error) {
     throw FileError(file.string() + " is damaged: " + error.what());
   }
@@ -165,7 +170,8 @@ BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIn
     std::string text = read_bytes(in, found->second.size + kSha256Digits, file);
     const std::string digest = text.substr(found->second.size);
     text.resize(found->second.size);
-    if (sha256_hex(text) != digest) throw FileError(file.string() + " is damaged at job " + std::to_string(batch_index));
+    if (sha256_hex(text) != digest)
+      throw FileError(file.string() + " is damaged at job " + std::to_string(batch_index));
     jobs.emplace(batch_index, std::move(text));
   }
   return jobs;

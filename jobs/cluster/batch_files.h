@@ -26,8 +26,12 @@ struct BatchFolder {
   std::filesystem::path path;
 
   [[nodiscard]] std::filesystem::path jobs() const { return path / "jobs"; }
-  [[nodiscard]] std::filesystem::path list(int generation) const { return path / ("g" + std::to_string(generation) + ".list"); }
-  [[nodiscard]] std::filesystem::path script(int generation) const { return path / ("g" + std::to_string(generation) + ".sh"); }
+  [[nodiscard]] std::filesystem::path list(int generation) const {
+    return path / ("g" + std::to_string(generation) + ".list");
+  }
+  [[nodiscard]] std::filesystem::path script(int generation) const {
+    return path / ("g" + std::to_string(generation) + ".sh");
+  }
   [[nodiscard]] std::filesystem::path out() const { return path / "out"; }
   [[nodiscard]] std::filesystem::path log(int generation, int index) const {
     return path / "log" / ("g" + std::to_string(generation) + "-" + std::to_string(index) + ".log");
@@ -49,7 +53,8 @@ using BatchJobs = std::map<BatchIndex, std::string>;
 [[nodiscard]] std::string encode_jobs(const BatchHeader& header, const BatchJobs& jobs);
 /// Reads the header and those jobs that are wanted, not the others.
 /// @throws FileError if a wanted one is not there or damaged
-[[nodiscard]] BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIndex>& wanted, BatchHeader& header);
+[[nodiscard]] BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIndex>& wanted,
+                                  BatchHeader& header);
 
 /// A job's result as a task leaves it.
 struct BatchResult {

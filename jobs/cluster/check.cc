@@ -23,7 +23,8 @@ using Kind = Finding::Kind;
 
 constexpr std::size_t kTrialLogTail = 600;
 /// Some impacts: what processors do differently shows.
-constexpr const char* kJob = R"({"duration_s": 0.3, "run_up_s": 0.1, "clearance_mm": 0.25, "coupler": "flexible"})";
+constexpr const char* kJob =
+    R"({"duration_s": 0.3, "run_up_s": 0.1, "clearance_mm": 0.25, "coupler": "flexible"})";
 
 std::string seconds_text(double seconds) {
   const long tenths = std::lround(seconds * 10.0);
@@ -33,7 +34,8 @@ std::string seconds_text(double seconds) {
 std::string with_options(const Site& site) {
   std::string text;
   const std::array<std::pair<const char*, std::string>, 4> options{
-      {{"partition", site.partition}, {"account", site.account}, {"QOS", site.qos}, {"constraint", site.constraint}}};
+      {{"partition", site.partition}, {"account", site.account}, {"QOS", site.qos},
+       {"constraint", site.constraint}}};
   for (const auto& [name, value] : options) {
     if (!value.empty()) text += std::string(text.empty() ? " with " : ", ") + name + " " + value;
   }
@@ -45,7 +47,8 @@ class Check {
  public:
   Check(const Site& site, const std::function<void(const Finding&)>& tell)
       : site_(site), tell_(tell), slurm_(site),
-        batch_({.seq = 0, .id = "check-" + host_name() + "-" + std::to_string(::getpid()), .sweep_id = {}}, site.folder, site.grace) {}
+        batch_({.seq = 0, .id = "check-" + host_name() + "-" + std::to_string(::getpid()),
+                .sweep_id = {}}, site.folder, site.grace) {}
 
   ~Check() {
     for (const std::string& name : batch_.array_names()) slurm_.cancel_array(name);
@@ -60,9 +63,11 @@ class Check {
     const auto limits = slurm_.find_limits(problem);
     if (!limits) {
       return fault(problem, "Is this a machine from which jobs are submitted, as a login node? "
-                            "If Slurm's commands work on another one, give --slurm-prefix 'ssh THAT-MACHINE --'.");
+                            "If Slurm's commands work on another one, give --slurm-prefix 'ssh THAT-MACHINE "
+                            "--'.");
     }
-    good("Slurm " + limits->version + " answers; an array may have " + std::to_string(limits->max_array_size - 1) + " tasks");
+    good("Slurm " + limits->version + " answers; an array may have " +
+         std::to_string(limits->max_array_size - 1) + " tasks");
     if (site_.most_tasks() >= limits->max_array_size) {
       warn("--slurm-tasks or --slurm-slots allow more tasks at a time than an array may have",
            "More arrays are made; ask the site whether so many tasks are welcome.");
@@ -75,11 +80,15 @@ class Check {
       program_ = share_program(site_);
       const auto job = nlohmann::json::parse(kJob);
       const std::string parameters = complete_parameters(job, "").dump();
-      batch_.prepare({.batch = batch_.row().id, .engine = engine_version(), .limits = {}, .deliver_every_s = 60.0},
+      batch_.prepare({.batch = batch_.row().id, .engine = engine_version(), .limits = {},
+                      .deliver_every_s = 60.0},
                      {{.batch_index = 0, .parameters = parameters, .kind = {}, .duration_s = 0.3}});
-      batch_.add_generation({{.indices = {0}}}, make_script(site_, program_, "run-task " + shell_quoted(batch_.folder().path.string()) + " 0"));
+      batch_.add_generation(
+          {{.indices = {0}}},
+          make_script(site_, program_, "run-task " + shell_quoted(batch_.folder().path.string()) + " 0"));
     } catch (const std::exception& error) {
-      return fault(error.what(), "--slurm-folder must be a folder in which this user may write, with some 50 MB of room.");
+      return fault(error.what(),
+                   "--slurm-folder must be a folder in which this user may write, with some 50 MB of room.");
     }
     good("the shared folder can be written; the program for nodes is " + program_.string());
     return true;
@@ -91,7 +100,8 @@ class Check {
     const ProcessOutcome outcome = slurm_.run(arguments, site_.submit_deadline);
     if (!outcome.succeeded()) {
       return fault("sbatch would refuse the tasks: " + outcome.text(),
-                   "sinfo shows partitions, sacctmgr show assoc user=$USER accounts; give them by --slurm-partition, --slurm-account and so on.");
+                   "sinfo shows partitions, sacctmgr show assoc user=$USER accounts; give them by "
+                   "--slurm-partition, --slurm-account and so on.");
     }
     good("sbatch would take the tasks" + with_options(site_));
     return true;
@@ -104,7 +114,8 @@ class Check {
     std::optional<Clock::time_point> ended;
     TaskReport last;
     for (auto next_look = start; Clock::now() - start < at_most && !stop_requested();) {
-      if (const auto files = batch_.find_new_results(); !files.empty()) return compare(decode_results(read_whole(files.front())), start, ended);
+      if (const auto files = batch_.find_new_results(); !files.empty())
+        return compare(decode_results(read_whole(files.front())), start, ended);
       if (Clock::now() >= next_look) {
         next_look = Clock::now() + std::min(site_.queue_poll, std::chrono::milliseconds(2'000));
         last = look(last);
@@ -113,13 +124,18 @@ class Check {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    return fault("the job has not been computed within " + std::to_string(at_most.count()) + " s; Slurm says " + last.word + ", " + last.reason,
-                 is_alive(last.phase) ? "If the queue is long, check again with a larger --wait-s; sinfo shows which nodes are up." : "");
+    return fault(
+        "the job has not been computed within " + std::to_string(at_most.count()) + " s; Slurm says " +
+            last.word + ", " + last.reason,
+        is_alive(last.phase)
+            ? "If the queue is long, check again with a larger --wait-s; sinfo shows which nodes are up."
+            : "");
   }
 
  private:
   void good(std::string text) { tell_({.kind = Kind::kGood, .text = std::move(text), .advice = {}}); }
-  void warn(std::string text, std::string advice) { tell_({.kind = Kind::kWarning, .text = std::move(text), .advice = std::move(advice)}); }
+  void warn(std::string text, std::string advice) { tell_({.kind = Kind::kWarning, .text = std::move(text),
+                                                           .advice = std::move(advice)}); }
   bool fault(std::string text, std::string advice) {
     tell_({.kind = Kind::kFault, .text = std::move(text), .advice = std::move(advice)});
     return false;
@@ -128,7 +144,8 @@ class Check {
   [[nodiscard]] ArrayOrder order() const {
     constexpr double kTime_s = 300.0;
     const BatchFolder& folder = batch_.folder();
-    return {.name = batch_.array_name(0), .tasks = 1, .time_s = kTime_s, .memory_factor = 1, .folder = folder.path, .script = folder.script(0),
+    return {.name = batch_.array_name(0), .tasks = 1, .time_s = kTime_s, .memory_factor = 1,
+            .folder = folder.path, .script = folder.script(0),
             .log = (folder.path / "log" / "g0-%a.log").string()};
   }
 
@@ -144,34 +161,42 @@ class Check {
     const std::string log = tail_of(batch_.folder().log(0, 0), kTrialLogTail);
     const std::string ended = "the task ended as " + last.word + " on " + last.node + " without a result";
     if (log.empty() && !std::filesystem::exists(batch_.folder().log(0, 0))) {
-      return fault(ended + " and without a log", "The node does not see the shared folder, or may not write into it: "
-                                                 "--slurm-folder must be on a file system that all nodes have.");
+      return fault(ended + " and without a log",
+                   "The node does not see the shared folder, or may not write into it: "
+                   "--slurm-folder must be on a file system that all nodes have.");
     }
-    return fault(ended + "; its log: " + log, "If a library is missing there, --slurm-prologue can load it ('module load gcc').");
+    return fault(ended + "; its log: " + log,
+                 "If a library is missing there, --slurm-prologue can load it ('module load gcc').");
   }
 
   bool compare(const ResultFile& file, Clock::time_point start, std::optional<Clock::time_point> ended) {
     const std::chrono::duration<double> took = Clock::now() - start;
-    good("a node, " + file.provenance.host + ", has computed a job; its result was here after " + seconds_text(took.count()));
+    good("a node, " + file.provenance.host + ", has computed a job; its result was here after " +
+         seconds_text(took.count()));
     if (ended) {
       const std::chrono::duration<double> late = Clock::now() - *ended;
-      const std::string text = "the result showed " + seconds_text(late.count()) + " after the end of the task";
+      const std::string text =
+          "the result showed " + seconds_text(late.count()) + " after the end of the task";
       if (late > site_.grace / 2) warn(text, "Let --slurm-grace-s be some times that.");
     }
     const JobSpec job = to_job_spec(complete_parameters(nlohmann::json::parse(kJob), ""));
     const RunRecord own = run_and_record(job, engine_runner(), [](double) { return false; });
     const std::string here = provenance_text(own_provenance()), there = provenance_text(file.provenance);
     const BatchResult& result = file.results.at(0);
-    if (result.record.metrics == own.metrics && result.packed_trajectory == encode_trajectory(own.trajectory)) {
+    if (result.record.metrics == own.metrics &&
+        result.packed_trajectory == encode_trajectory(own.trajectory)) {
       good("it is the result of this machine to the bit (" + there + ")");
     } else {
       warn("it is not the result of this machine to the bit: here " + here + ", there " + there,
-           "Results of both are right, but not the same bytes. Let --slurm-constraint choose nodes of one kind, or give --numerics portable.");
+           "Results of both are right, but not the same bytes. Let --slurm-constraint choose nodes of one "
+           "kind, or give --numerics portable.");
     }
     return true;
   }
 
-  static std::string provenance_text(const Provenance& from) { return from.cpu + ", " + from.libm + ", " + from.numerics + " numerics"; }
+  static std::string provenance_text(const Provenance& from) {
+    return from.cpu + ", " + from.libm + ", " + from.numerics + " numerics";
+  }
 
   const Site& site_;
   const std::function<void(const Finding&)>& tell_;
@@ -182,10 +207,11 @@ class Check {
 
 }  // namespace
 
-bool check_cluster(const Site& site, const std::function<void(const Finding&)>& tell, std::chrono::seconds at_most,
-                   const std::function<bool()>& stop_requested) {
+bool check_cluster(const Site& site, const std::function<void(const Finding&)>& tell,
+                   std::chrono::seconds at_most, const std::function<bool()>& stop_requested) {
   Check check(site, tell);
-  return check.ask_for_limits() && check.write_into_folder() && check.try_options() && check.have_a_job_computed(at_most, stop_requested);
+  return check.ask_for_limits() && check.write_into_folder() && check.try_options() &&
+         check.have_a_job_computed(at_most, stop_requested);
 }
 
 }  // namespace jobs::cluster

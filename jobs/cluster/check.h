@@ -18,13 +18,14 @@ struct Finding {
   std::string advice;  ///< what to do about it; empty if there is nothing to do
 };
 
-/// Tries a cluster out as a service would use it, since what usually is wrong shows nowhere: asks Slurm for its limits, writes into the shared
-/// folder, has sbatch look at the options, and has a node compute one job, whose result must be that of this machine to the bit.
-/// @param tell            told each finding at once
-/// @param at_most         time for the node's result
+/// Tries a cluster out as a service would use it, since what usually is wrong shows nowhere: asks Slurm for
+/// its limits, writes into the shared folder, has sbatch look at the options, and has a node compute one job,
+/// whose result must be that of this machine to the bit.
+/// @param tell  told each finding at once
+/// @param at_most  time for the node's result
 /// @param stop_requested  asked now and then
 /// @returns whether there was no fault
-bool check_cluster(const Site& site, const std::function<void(const Finding&)>& tell, std::chrono::seconds at_most,
-                   const std::function<bool()>& stop_requested);
+bool check_cluster(const Site& site, const std::function<void(const Finding&)>& tell,
+                   std::chrono::seconds at_most, const std::function<bool()>& stop_requested);
 
 }  // namespace jobs::cluster

@@ -40,9 +40,11 @@ nlohmann::json ClusterStatus::json() const {
   nlohmann::json problems = nlohmann::json::array();
   for (const auto& [topic, text] : problems_) problems.push_back(text);
   for (const auto& [reason, tasks] : need_human_) {
-    problems.push_back(std::to_string(tasks) + (tasks == 1 ? " task waits" : " tasks wait") + " for somebody to act: Slurm says " + reason);
+    problems.push_back(std::to_string(tasks) + (tasks == 1 ? " task waits" : " tasks wait") +
+                       " for somebody to act: Slurm says " + reason);
   }
-  return {{"tasks", {{"pending", pending_}, {"running", running_}}}, {"nodes", nodes_}, {"waiting", std::move(waiting)},
+  return {{"tasks", {{"pending", pending_}, {"running", running_}}}, {"nodes", nodes_},
+          {"waiting", std::move(waiting)},
           {"problems", std::move(problems)}};
 }
 

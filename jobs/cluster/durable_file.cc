@@ -84,9 +84,11 @@ std::string seal(std::string_view magic, std::string_view bytes) {
 }
 
 std::string_view unseal(std::string_view magic, std::string_view sealed) {
-  if (sealed.size() < magic.size() + kSha256Digits || !sealed.starts_with(magic)) throw FileError("no file of this program, or one that is cut off");
+  if (sealed.size() < magic.size() + kSha256Digits || !sealed.starts_with(magic))
+    throw FileError("no file of this program, or one that is cut off");
   const std::string_view bytes = sealed.substr(magic.size(), sealed.size() - magic.size() - kSha256Digits);
-  if (sha256_hex(bytes) != sealed.substr(sealed.size() - kSha256Digits)) throw FileError("damaged: its checksum is another one");
+  if (sha256_hex(bytes) != sealed.substr(sealed.size() - kSha256Digits))
+    throw FileError("damaged: its checksum is another one");
   return bytes;
 }
 

@@ -14,8 +14,8 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes a file that is there as a whole or not at all, whatever fails, and that other machines see only when it is complete:
-/// under another name, flushed, renamed, and its folder flushed.
+/// Writes a file that is there as a whole or not at all, whatever fails, and that other machines see only
+/// when it is complete: under another name, flushed, renamed, and its folder flushed.
 /// @throws FileError
 void write_durably(const std::filesystem::path& file, std::string_view bytes);
 

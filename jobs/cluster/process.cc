@@ -61,7 +61,8 @@ class Pipe {
   std::array<int, 2> ends_{};
 };
 
-/// Start of the child: no input, its output in our pipes, nothing else open, no signal blocked or ignored, a group of its own.
+/// Start of the child: no input, its output in our pipes, nothing else open, no signal blocked or ignored, a
+/// group of its own.
 class SpawnSettings {
  public:
   SpawnSettings(const Pipe& out, const Pipe& err) {
@@ -77,7 +78,8 @@ class SpawnSettings {
     ::posix_spawnattr_setsigmask(&attributes_, &none);
     ::posix_spawnattr_setsigdefault(&attributes_, &all);
     ::posix_spawnattr_setpgroup(&attributes_, 0);
-    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    ::posix_spawnattr_setflags(&attributes_,
+                               POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
   ~SpawnSettings() {
     ::posix_spawnattr_destroy(&attributes_);
@@ -98,7 +100,8 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 }
 
 /// Reads until the child has ended: what it has started may keep the pipes open for longer.
-void follow(pid_t child, Pipe& out, Pipe& err, Clock::time_point until, const std::stop_token& stop, ProcessOutcome& outcome) {
+void follow(pid_t child, Pipe& out, Pipe& err, Clock::time_point until, const std::stop_token& stop,
+            ProcessOutcome& outcome) {
   bool out_open = true, err_open = true;
   int status = 0;
   for (milliseconds wait{1};; wait = std::min(2 * wait, milliseconds(50))) {
@@ -139,7 +142,8 @@ std::string ProcessOutcome::text() const {
   return words.empty() ? "it ended with exit code " + std::to_string(code) : words;
 }
 
-ProcessOutcome run_process(const std::vector<std::string>& arguments, milliseconds deadline, const std::stop_token& stop) {
+ProcessOutcome run_process(const std::vector<std::string>& arguments, milliseconds deadline,
+                           const std::stop_token& stop) {
   ProcessOutcome outcome;
   std::vector<std::string> words = arguments;
   std::vector<std::string> variables = cleaned_environment();
@@ -147,8 +151,8 @@ ProcessOutcome run_process(const std::vector<std::string>& arguments, millisecon
   pid_t child = 0;
   {
     const SpawnSettings settings(out, err);
-    const int error = ::posix_spawnp(&child, words.front().c_str(), &settings.actions_, &settings.attributes_, pointers_to(words).data(),
-                                     pointers_to(variables).data());
+    const int error = ::posix_spawnp(&child, words.front().c_str(), &settings.actions_, &settings.attributes_,
+                                     pointers_to(words).data(), pointers_to(variables).data());
     if (error != 0) {
       outcome.err = words.front() + " cannot be started: " + std::strerror(error);
       return outcome;

@@ -21,13 +21,15 @@ struct ProcessOutcome {
   [[nodiscard]] std::string text() const;
 };
 
-/// Runs a program, found by PATH, without a shell: no input, a deadline (or a request to stop) at which it and all it has started are killed,
-/// and cleaned_environment().
-[[nodiscard]] ProcessOutcome run_process(const std::vector<std::string>& arguments, std::chrono::milliseconds deadline,
+/// Runs a program, found by PATH, without a shell: no input, a deadline (or a request to stop) at which it
+/// and all it has started are killed, and cleaned_environment().
+[[nodiscard]] ProcessOutcome run_process(const std::vector<std::string>& arguments,
+                                         std::chrono::milliseconds deadline,
                                          const std::stop_token& stop = {});
 
-/// This process's environment without what would change how Slurm's commands work or what they print (SQUEUE_FORMAT, SBATCH_*, SLURM_* of
-/// a job that this may be part of), save SLURM_CONF; and without our own secrets and options.
+/// This process's environment without what would change how Slurm's commands work or what they print
+/// (SQUEUE_FORMAT, SBATCH_*, SLURM_* of a job that this may be part of), save SLURM_CONF; and without our own
+/// secrets and options.
 [[nodiscard]] std::vector<std::string> cleaned_environment();
 
 /// The words of a command line, with blanks between; a text in single or double quotes is one word.

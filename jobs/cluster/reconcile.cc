@@ -22,12 +22,16 @@ Loss loss_of(const TaskState& task, const TaskReport* report) {
 
 std::string how_it_ended(const TaskReport* report) {
   if (report == nullptr) return "Slurm does not know its last task any more";
-  const std::string reason = report->reason.empty() || report->reason == "None" ? "" : " (" + report->reason + ")";
-  return "its last task ended as " + report->word + reason + (report->node.empty() ? "" : " on " + report->node);
+  const std::string reason =
+      report->reason.empty() || report->reason == "None" ? "" : " (" + report->reason + ")";
+  return "its last task ended as " + report->word + reason +
+         (report->node.empty() ? "" : " on " + report->node);
 }
 
-void fail_all(const TaskPlan& plan, const TaskName& name, const char* reason, const std::string& detail, Decision& decision) {
-  for (const BatchIndex batch_index : plan.indices) decision.fail.push_back({.batch_index = batch_index, .reason = reason, .detail = detail, .task = name});
+void fail_all(const TaskPlan& plan, const TaskName& name, const char* reason, const std::string& detail,
+              Decision& decision) {
+  for (const BatchIndex batch_index : plan.indices)
+    decision.fail.push_back({.batch_index = batch_index, .reason = reason, .detail = detail, .task = name});
 }
 
 /// The jobs of a task in so many parts of nearly equal size, each as a task of its own.
@@ -35,7 +39,9 @@ void submit_in_parts(const TaskPlan& plan, std::size_t parts, Decision& decision
   const std::size_t n = plan.indices.size();
   for (std::size_t k = 0; k < parts; ++k) {
     TaskPlan part = plan;
-    const auto at = [&](std::size_t part_index) { return plan.indices.begin() + static_cast<std::ptrdiff_t>(n * part_index / parts); };
+    const auto at = [&](std::size_t part_index) {
+      return plan.indices.begin() + static_cast<std::ptrdiff_t>(n * part_index / parts);
+    };
     part.indices.assign(at(k), at(k + 1));
     decision.submit.push_back(std::move(part));
   }
@@ -44,7 +50,8 @@ void submit_in_parts(const TaskPlan& plan, std::size_t parts, Decision& decision
 void replace_failed(TaskPlan plan, const TaskName& name, const TaskReport* report, Decision& decision) {
   ++plan.strikes;
   if (plan.strikes < 2) return decision.submit.push_back(std::move(plan));
-  if (plan.indices.size() > 1) return submit_in_parts(plan, std::min(plan.indices.size(), kMostParts), decision);
+  if (plan.indices.size() > 1)
+    return submit_in_parts(plan, std::min(plan.indices.size(), kMostParts), decision);
   fail_all(plan, name, "task_failed", "no task could compute this job: " + how_it_ended(report), decision);
 }
 
@@ -72,7 +79,9 @@ void replace(const TaskName& name, const TaskState& task, const TaskReport* repo
   const bool got_on = task.wanted.size() < task.plan.indices.size();
   plan.tries = got_on ? 1 : plan.tries + 1;
   if (plan.tries >= kMostTries && loss != Loss::kOwnFault) {
-    return fail_all(plan, name, "task_lost", "its tasks were lost " + std::to_string(plan.tries) + " times; " + how_it_ended(report), decision);
+    return fail_all(plan, name, "task_lost",
+                    "its tasks were lost " + std::to_string(plan.tries) + " times; " + how_it_ended(report),
+                    decision);
   }
   switch (loss) {
     case Loss::kOwnFault: return replace_failed(std::move(plan), name, report, decision);
@@ -84,7 +93,9 @@ void replace(const TaskName& name, const TaskState& task, const TaskReport* repo
 
 }  // namespace
 
-bool Reconciler::has_lasted(const TaskName& name, Clock::time_point now) { return now - since_.try_emplace(name, now).first->second >= grace_; }
+bool Reconciler::has_lasted(const TaskName& name, Clock::time_point now) {
+  return now - since_.try_emplace(name, now).first->second >= grace_;
+}
 
 bool Reconciler::is_given_up(const TaskName& name, const TaskReport* report, Clock::time_point now) {
   if (report != nullptr && report->is_held_by_failure()) return true;
@@ -100,11 +111,13 @@ bool Reconciler::is_to_be_cancelled(const TaskName& name, const TaskReport* repo
     since_.erase(name);
     return false;
   }
-  // One that runs may be about to end by itself: it has just left its last result, or sees that the batch is cancelled.
+  // One that runs may be about to end by itself: it has just left its last result, or sees that the batch is
+  // cancelled.
   return report->phase == Phase::kPending || has_lasted(name, now);
 }
 
-Decision Reconciler::decide(const TaskStates& tasks, const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
+Decision Reconciler::decide(const TaskStates& tasks, const std::map<TaskName, TaskReport>& reports,
+                            Clock::time_point now) {
   Decision decision;
   for (const auto& [name, task] : tasks) {
     const auto found = reports.find(name);
@@ -114,7 +127,8 @@ Decision Reconciler::decide(const TaskStates& tasks, const std::map<TaskName, Ta
       continue;
     }
     const bool alive = report != nullptr && is_alive(report->phase);
-    if (alive && report->phase == Phase::kRunning) decision.running.insert(task.wanted.begin(), task.wanted.end());
+    if (alive && report->phase == Phase::kRunning)
+      decision.running.insert(task.wanted.begin(), task.wanted.end());
     if (!is_given_up(name, report, now)) continue;
     if (alive) decision.cancel.push_back(name);
     replace(name, task, report, decision);

@@ -21,15 +21,19 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-std::string file_prefix(const TaskOrder& order) { return "g" + std::to_string(order.generation) + "-" + std::to_string(order.index) + "-"; }
+std::string file_prefix(const TaskOrder& order) {
+  return "g" + std::to_string(order.generation) + "-" + std::to_string(order.index) + "-";
+}
 
 /// Results of an earlier run of the same task: Slurm starts a task again whose node has failed.
-std::set<BatchIndex> find_done(const TaskOrder& order, const std::filesystem::path& out, const std::function<void(const std::string&)>& log) {
+std::set<BatchIndex> find_done(const TaskOrder& order, const std::filesystem::path& out,
+                               const std::function<void(const std::string&)>& log) {
   std::set<BatchIndex> done;
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     if (!entry.path().filename().string().starts_with(file_prefix(order))) continue;
     try {
-      for (const BatchResult& result : decode_results(read_whole(entry.path())).results) done.insert(result.batch_index);
+      for (const BatchResult& result : decode_results(read_whole(entry.path())).results)
+        done.insert(result.batch_index);
     } catch (const FileError& error) {
       log(entry.path().string() + ": " + error.what());
     }
@@ -48,11 +52,13 @@ TaskPlan read_plan(const TaskOrder& order, const BatchFolder& folder) {
 /// The results that are ready, and the files they go to.
 class Delivery {
  public:
-  Delivery(const TaskOrder& order, BatchFolder folder, std::string batch) : order_(order), folder_(std::move(folder)), batch_(std::move(batch)) {}
+  Delivery(const TaskOrder& order, BatchFolder folder, std::string batch)
+      : order_(order), folder_(std::move(folder)), batch_(std::move(batch)) {}
 
   void add(BatchIndex batch_index, RunRecord record) {
     BatchResult result{.batch_index = batch_index, .record = std::move(record), .packed_trajectory = {}};
-    if (!result.record.trajectory.columns.empty()) result.packed_trajectory = encode_trajectory(result.record.trajectory);
+    if (!result.record.trajectory.columns.empty())
+      result.packed_trajectory = encode_trajectory(result.record.trajectory);
     result.record.trajectory = {};
     const std::lock_guard lock(mutex_);
     ready_bytes_ += result.packed_trajectory.size();
@@ -86,7 +92,8 @@ class Delivery {
       // A name of its own: another process may have been given the same task, and has other jobs ready.
       constexpr std::size_t kDigits = 16;
       const std::string bytes = encode_results(file);
-      write_durably(folder_.out() / (file_prefix(order_) + sha256_hex(bytes).substr(0, kDigits) + ".results"), bytes);
+      write_durably(folder_.out() / (file_prefix(order_) + sha256_hex(bytes).substr(0, kDigits) + ".results"),
+                    bytes);
     } catch (const FileError&) {
       lock.lock();
       std::ranges::move(ready_, std::back_inserter(file.results));
@@ -116,7 +123,8 @@ class Remaining {
     const std::lock_guard lock(mutex_);
     if (jobs_.empty()) return;
     const auto& [batch_index, parameters] = *jobs_.begin();
-    on_claim(ClaimedJob{.seq = batch_index, .id = std::to_string(batch_index), .attempt = 1, .parameters = parameters});
+    on_claim(ClaimedJob{.seq = batch_index, .id = std::to_string(batch_index), .attempt = 1,
+                        .parameters = parameters});
     jobs_.erase(jobs_.begin());
   }
 
@@ -142,7 +150,8 @@ void deliver_at_the_end(Delivery& delivery, const std::function<void(const std::
 
 }  // namespace
 
-bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requested, const std::function<void(const std::string&)>& log) {
+bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requested,
+              const std::function<void(const std::string&)>& log) {
   const BatchFolder folder{order.folder};
   TaskPlan plan = read_plan(order, folder);
   const std::set<BatchIndex> done = find_done(order, folder.out(), log);
@@ -150,13 +159,16 @@ bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requeste
   if (plan.indices.empty()) return true;
   BatchHeader header;
   Remaining remaining(read_jobs(folder.jobs(), plan.indices, header));
-  if (header.engine != engine_version()) throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
+  if (header.engine != engine_version())
+    throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
   Delivery delivery(order, folder, header.batch);
   LocalPool pool({.claim = [&](const OnClaim& on_claim) { remaining.claim(on_claim); },
-                  .record = [&](const ClaimedJob& job, const RunRecord& record, const OnClaim&) { delivery.add(static_cast<BatchIndex>(job.seq), record); },
+                  .record = [&](const ClaimedJob& job, const RunRecord& record,
+                                const OnClaim&) { delivery.add(static_cast<BatchIndex>(job.seq), record); },
                   .requeue = [](const ClaimedJob&) {}},
                  order.runner, order.threads, log, header.limits);
-  const auto interval = std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(header.deliver_every_s));
+  const auto interval = std::chrono::duration_cast<SteadyClock::duration>(
+      std::chrono::duration<double>(header.deliver_every_s));
   auto next = SteadyClock::now() + interval;
   auto next_look = SteadyClock::now();
   bool complete = false;

@@ -18,12 +18,14 @@ struct TaskOrder {
   Runner runner;
 };
 
-/// Computes the jobs of a task that have no result from it yet, and leaves their results in the folder: now and then those that are ready, all
-/// at the end. Ends early, with what is ready, once it is told to or the batch is cancelled.
+/// Computes the jobs of a task that have no result from it yet, and leaves their results in the folder: now
+/// and then those that are ready, all at the end. Ends early, with what is ready, once it is told to or the
+/// batch is cancelled.
 /// @param stop_requested  asked ten times a second
 /// @param log  told what a human may want to read in the task's log
 /// @returns whether every job has a result
 /// @throws FileError if the task cannot be read
-bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requested, const std::function<void(const std::string&)>& log);
+bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requested,
+              const std::function<void(const std::string&)>& log);
 
 }  // namespace jobs::cluster

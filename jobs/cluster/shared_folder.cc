@@ -18,14 +18,16 @@ std::filesystem::path share_program(const Site& site) {
   std::error_code error;
   if (std::filesystem::exists(shared, error)) return shared;
   std::filesystem::create_directories(shared.parent_path(), error);
-  if (error) throw FileError("cannot make the folder " + shared.parent_path().string() + ": " + error.message());
+  if (error)
+    throw FileError("cannot make the folder " + shared.parent_path().string() + ": " + error.message());
   write_durably(shared, bytes);
   std::filesystem::permissions(shared, std::filesystem::perms(0755), error);
   if (error) throw FileError("cannot make " + shared.string() + " a program: " + error.message());
   return shared;
 }
 
-std::string make_script(const Site& site, const std::filesystem::path& program, const std::string& arguments) {
+std::string make_script(const Site& site, const std::filesystem::path& program,
+                        const std::string& arguments) {
   std::string script = "#!/bin/sh\n";
   if (!site.prologue.empty()) script += site.prologue + "\n";
   if (has_portable_numerics()) script += "export GLIBC_TUNABLES=" + shell_quoted(portable_tunables()) + "\n";

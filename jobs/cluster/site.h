@@ -10,7 +10,8 @@ namespace jobs::cluster {
 
 /// Settings of the cluster, chosen by whoever runs the service.
 struct Site {
-  std::filesystem::path folder;      ///< that the service and all nodes see under this name; empty: there is no cluster
+  /// That the service and all nodes see under this name; empty: there is no cluster
+  std::filesystem::path folder;
   std::filesystem::path program;     ///< that nodes run, copied into the folder; empty: this one
   std::vector<std::string> prefix;   ///< words before each of Slurm's commands: {"ssh", "login", "--"}
   std::string partition, account, qos, constraint;  ///< as sbatch takes them; empty: the site's default
@@ -21,10 +22,12 @@ struct Site {
   int tasks = 0;                     ///< tasks that may wait or run at a time; 0: twice the slots
   long memory_mb = 0;                ///< for each processor; 0: the site's default
   double task_s = 600.0;             ///< that a task is to take
-  double least_task_s = 60.0;        ///< that a task is to take at least, since Slurm takes a second or so to start it
+  /// That a task is to take at least, since Slurm takes a second or so to start it
+  double least_task_s = 60.0;
   std::chrono::milliseconds queue_poll{15'000};   ///< between two looks into Slurm's queue
   std::chrono::milliseconds folder_poll{2'000};   ///< between two looks into the folder
-  std::chrono::milliseconds grace{60'000};        ///< for files of a task that has ended, which a network may show late
+  /// For files of a task that has ended, which a network may show late
+  std::chrono::milliseconds grace{60'000};
   std::chrono::milliseconds submit_deadline{60'000};
   std::chrono::milliseconds query_deadline{30'000};
 

@@ -16,7 +16,8 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 std::optional<std::string> read_array_job(const std::string& text) {
   const std::string line = first_line(text);
   const std::string number = line.substr(0, line.find(';'));
-  const bool digits = !number.empty() && std::ranges::all_of(number, [](unsigned char c) { return std::isdigit(c) != 0; });
+  const bool digits =
+      !number.empty() && std::ranges::all_of(number, [](unsigned char c) { return std::isdigit(c) != 0; });
   return digits ? std::optional(number) : std::nullopt;
 }
 
@@ -34,7 +35,9 @@ std::string find_setting(const std::string& config, const std::string& key) {
 
 int leading_number(const std::string& text) { return std::atoi(text.c_str()); }
 
-std::string whole_minutes(double seconds) { return std::to_string(std::max(1L, std::lround(std::ceil(seconds / 60.0)))); }
+std::string whole_minutes(double seconds) {
+  return std::to_string(std::max(1L, std::lround(std::ceil(seconds / 60.0))));
+}
 
 /// ssh gives its words to a shell on the other side.
 bool is_remote_shell(const std::vector<std::string>& prefix) {
@@ -45,18 +48,28 @@ bool is_remote_shell(const std::vector<std::string>& prefix) {
 
 ProcessOutcome Slurm::run(std::vector<std::string> command, std::chrono::milliseconds deadline) const {
   std::vector<std::string> arguments = site_.prefix;
-  for (std::string& word : command) arguments.push_back(is_remote_shell(site_.prefix) ? shell_quoted(word) : std::move(word));
+  for (std::string& word : command)
+    arguments.push_back(is_remote_shell(site_.prefix) ? shell_quoted(word) : std::move(word));
   return run_process(arguments, deadline, stop_);
 }
 
-/// No signal is asked for before the time limit: a task that ended because of it would count as failed. At the limit Slurm sends one anyway, and
-/// what is ready is left in the folder within moments.
+/// No signal is asked for before the time limit: a task that ended because of it would count as failed. At
+/// the limit Slurm sends one anyway, and what is ready is left in the folder within moments.
 std::vector<std::string> Slurm::submit_arguments(const ArrayOrder& order) const {
   std::string array = "--array=0-" + std::to_string(order.tasks - 1);
   if (order.tasks > site_.slots) array += "%" + std::to_string(site_.slots);
-  std::vector<std::string> arguments{"sbatch", "--parsable", "--job-name=" + order.name, array, "--nodes=1", "--ntasks=1",
-                                     "--cpus-per-task=" + std::to_string(site_.threads), "--time=" + whole_minutes(order.time_s),
-                                     "--requeue", "--open-mode=append", "--chdir=" + order.folder.string(), "--output=" + order.log};
+  std::vector<std::string> arguments{"sbatch",
+                                     "--parsable",
+                                     "--job-name=" + order.name,
+                                     array,
+                                     "--nodes=1",
+                                     "--ntasks=1",
+                                     "--cpus-per-task=" + std::to_string(site_.threads),
+                                     "--time=" + whole_minutes(order.time_s),
+                                     "--requeue",
+                                     "--open-mode=append",
+                                     "--chdir=" + order.folder.string(),
+                                     "--output=" + order.log};
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) arguments.push_back(option + value);
   };
@@ -74,15 +87,18 @@ Submission Slurm::submit(const ArrayOrder& order) const {
   const ProcessOutcome outcome = run(submit_arguments(order), site_.submit_deadline);
   if (!outcome.succeeded()) return {.array_job = std::nullopt, .problem = "sbatch: " + outcome.text()};
   auto number = read_array_job(outcome.out);
-  if (!number) return {.array_job = std::nullopt, .problem = "sbatch answered what is no number: " + first_line(outcome.out).substr(0, 200)};
+  if (!number)
+    return {.array_job = std::nullopt,
+            .problem = "sbatch answered what is no number: " + first_line(outcome.out).substr(0, 200)};
   return {.array_job = std::move(number), .problem = {}};
 }
 
 std::optional<Reports> Slurm::observe(const std::vector<std::string>& names, std::string& problem) const {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
-  const ProcessOutcome outcome =
-      run({"squeue", "--noheader", "--array", "--states=all", "--name=" + list, "--format=" + std::string(kReportFormat)}, site_.query_deadline);
+  const ProcessOutcome outcome = run({"squeue", "--noheader", "--array", "--states=all", "--name=" + list,
+                                      "--format=" + std::string(kReportFormat)},
+                                     site_.query_deadline);
   if (!outcome.succeeded()) {
     problem = "squeue: " + outcome.text();
     return std::nullopt;
@@ -92,7 +108,9 @@ std::optional<Reports> Slurm::observe(const std::vector<std::string>& names, std
   return reports;
 }
 
-void Slurm::cancel_array(const std::string& name) const { (void)run({"scancel", "--name=" + name}, site_.query_deadline); }
+void Slurm::cancel_array(const std::string& name) const {
+  (void)run({"scancel", "--name=" + name}, site_.query_deadline);
+}
 
 void Slurm::cancel_tasks(const std::string& array_job, const std::vector<int>& indices) const {
   std::string list;

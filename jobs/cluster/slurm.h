@@ -24,7 +24,8 @@ struct ArrayOrder {
   std::string log;               ///< file for what task %a prints
 };
 
-/// Answer of sbatch. If it named no number, the array may exist all the same ("socket timed out"): only squeue can tell.
+/// Answer of sbatch. If it named no number, the array may exist all the same ("socket timed out"): only
+/// squeue can tell.
 struct Submission {
   std::optional<std::string> array_job;
   std::string problem;  ///< empty if there is a number
@@ -49,7 +50,8 @@ class Slurm {
   /// @param names  of arrays
   /// @param problem  set if nothing is returned
   /// @returns empty if Slurm could not be asked: then nothing is known of any task
-  [[nodiscard]] std::optional<Reports> observe(const std::vector<std::string>& names, std::string& problem) const;
+  [[nodiscard]] std::optional<Reports> observe(const std::vector<std::string>& names,
+                                               std::string& problem) const;
 
   /// Whether there was something to cancel is not told: Slurm does not say it either.
   void cancel_array(const std::string& name) const;
@@ -60,7 +62,8 @@ class Slurm {
   [[nodiscard]] std::optional<SlurmLimits> find_limits(std::string& problem) const;
 
   /// Runs one of Slurm's commands as this site wants it.
-  [[nodiscard]] ProcessOutcome run(std::vector<std::string> command, std::chrono::milliseconds deadline) const;
+  [[nodiscard]] ProcessOutcome run(std::vector<std::string> command,
+                                   std::chrono::milliseconds deadline) const;
 
  private:
   const Site site_;

@@ -30,7 +30,9 @@ double cost_of(const BatchJob& job, const std::map<std::string, double>& rates, 
 
 /// A log may hold anything; JSON takes UTF-8 only.
 std::string as_utf8(const std::string& text) {
-  return nlohmann::json::parse(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).get<std::string>();
+  return nlohmann::json::parse(
+             nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
+      .get<std::string>();
 }
 
 /// Tasks that leave something every so often must not be too much for the folder together: 20 a second.
@@ -38,9 +40,15 @@ double delivery_interval_s(int running) { return std::max(30.0, running / 20.0);
 
 }  // namespace
 
-SlurmExecutor::SlurmExecutor(Site site, ClusterBatches& batches, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
+SlurmExecutor::SlurmExecutor(Site site, ClusterBatches& batches, ExecutorFilter filter,
+                             const JobLimits& limits, std::function<void()> changed,
                              std::function<void(const std::string&)> log)
-    : site_(std::move(site)), batches_(batches), filter_(std::move(filter)), limits_(limits), changed_(std::move(changed)), log_(std::move(log)),
+    : site_(std::move(site)),
+      batches_(batches),
+      filter_(std::move(filter)),
+      limits_(limits),
+      changed_(std::move(changed)),
+      log_(std::move(log)),
       slurm_(site_, stop_.get_token()) {
   thread_ = std::jthread([this] { work(); });
 }
@@ -105,7 +113,8 @@ void SlurmExecutor::begin() {
   max_array_size_ = limits ? limits->max_array_size : kUsualArraySize;
 }
 
-/// Batches of a former program: those the store knows, and folders that it does not know any more, whose tasks nobody wants.
+/// Batches of a former program: those the store knows, and folders that it does not know any more, whose
+/// tasks nobody wants.
 void SlurmExecutor::take_over_batches() {
   live_.clear();
   std::set<std::string> known;
@@ -138,7 +147,8 @@ void SlurmExecutor::prepare(const Live& live) const {
   if (live.batch.is_prepared()) return;
   const BatchRow& row = live.batch.row();
   const double interval_s = delivery_interval_s(site_.slots);
-  live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_, .deliver_every_s = interval_s}, batches_.find_open_jobs(row.seq));
+  live.batch.prepare({.batch = row.id, .engine = engine_version(), .limits = limits_,
+                      .deliver_every_s = interval_s}, batches_.find_open_jobs(row.seq));
 }
 
 void SlurmExecutor::take_results() {
@@ -163,7 +173,8 @@ bool SlurmExecutor::take_file(Live& live, const std::filesystem::path& file) {
     if (results.batch != live.batch.row().id) throw FileError("it is of another batch, " + results.batch);
     std::vector<BatchRecord> records;
     for (const BatchResult& result : results.results) {
-      records.push_back({.batch_index = result.batch_index, .record = &result.record, .packed_trajectory = &result.packed_trajectory});
+      records.push_back({.batch_index = result.batch_index, .record = &result.record,
+                         .packed_trajectory = &result.packed_trajectory});
     }
     return batches_.record(live.batch.row().seq, results.provenance, records) > 0;
   } catch (const FileError& error) {
@@ -203,7 +214,8 @@ void SlurmExecutor::look(Clock::time_point now) {
   });
 }
 
-void SlurmExecutor::act(Live& live, const Decision& decision, const std::map<TaskName, TaskReport>& reports, Clock::time_point now) {
+void SlurmExecutor::act(Live& live, const Decision& decision, const std::map<TaskName, TaskReport>& reports,
+                        Clock::time_point now) {
   std::vector<BatchIndex> begun, waiting;
   live.batch.take_running(decision.running, begun, waiting);
   if (!begun.empty() || !waiting.empty()) batches_.set_running(live.batch.row().seq, begun, waiting);
@@ -225,7 +237,8 @@ std::vector<TaskPlan> SlurmExecutor::plan_unassigned(const Live& live, const Tas
   return plan_tasks(indices, costs_s, bound);
 }
 
-void SlurmExecutor::cancel(Live& live, const std::vector<TaskName>& tasks, const std::map<TaskName, TaskReport>& reports) {
+void SlurmExecutor::cancel(Live& live, const std::vector<TaskName>& tasks,
+                           const std::map<TaskName, TaskReport>& reports) {
   std::map<std::string, std::vector<int>> by_array;
   for (const TaskName& name : tasks) by_array[reports.at(name).array_job].push_back(name.index);
   if (tasks.size() > 1 && live.batch.wanted().empty()) {
@@ -241,11 +254,14 @@ void SlurmExecutor::fail(Live& live, const std::vector<LostJob>& jobs) {
   std::vector<BatchRecord> placed;
   const std::string no_trajectory;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const std::string tail = tail_of(live.batch.folder().log(jobs[i].task.generation, jobs[i].task.index), kLogTail);
+    const std::string tail =
+        tail_of(live.batch.folder().log(jobs[i].task.generation, jobs[i].task.index), kLogTail);
     records[i].end = RunRecord::End::kFailed;
     records[i].error_reason = jobs[i].reason;
-    records[i].error_detail = as_utf8(jobs[i].detail + (tail.empty() ? "; its log is empty" : "; the end of its log: " + tail));
-    placed.push_back({.batch_index = jobs[i].batch_index, .record = &records[i], .packed_trajectory = &no_trajectory});
+    records[i].error_detail =
+        as_utf8(jobs[i].detail + (tail.empty() ? "; its log is empty" : "; the end of its log: " + tail));
+    placed.push_back({.batch_index = jobs[i].batch_index, .record = &records[i],
+                      .packed_trajectory = &no_trajectory});
   }
   batches_.record(live.batch.row().seq, own_provenance(), placed);
   live.batch.set_wanted(batches_.find_open_indices(live.batch.row().seq));
@@ -256,23 +272,31 @@ void SlurmExecutor::submit(Live& live, std::vector<TaskPlan> tasks, Clock::time_
   const auto most = static_cast<std::size_t>(std::max(1, std::min(max_array_size_, site_.most_tasks())));
   for (std::size_t first = 0; first < tasks.size(); first += most) {
     const auto end = std::min(first + most, tasks.size());
-    submit_generation(live, {tasks.begin() + static_cast<std::ptrdiff_t>(first), tasks.begin() + static_cast<std::ptrdiff_t>(end)}, now);
+    submit_generation(live,
+                      {tasks.begin() + static_cast<std::ptrdiff_t>(first),
+                       tasks.begin() + static_cast<std::ptrdiff_t>(end)},
+                      now);
   }
 }
 
-/// The list is in the folder before Slurm is asked. If Slurm does not say that it has the array, it may have it all the same: only a look at
-/// its queue tells, after some time.
+/// The list is in the folder before Slurm is asked. If Slurm does not say that it has the array, it may have
+/// it all the same: only a look at its queue tells, after some time.
 void SlurmExecutor::submit_generation(Live& live, const std::vector<TaskPlan>& tasks, Clock::time_point now) {
   prepare(live);
   const int generation = live.batch.generations();
   const BatchFolder& folder = live.batch.folder();
-  const std::string arguments = "run-task " + shell_quoted(folder.path.string()) + " " + std::to_string(generation);
+  const std::string arguments =
+      "run-task " + shell_quoted(folder.path.string()) + " " + std::to_string(generation);
   live.batch.add_generation(tasks, make_script(site_, program_, arguments));
   const auto largest = std::ranges::max_element(tasks, {}, &TaskPlan::memory_factor);
-  const Submission answer = slurm_.submit({.name = live.batch.array_name(generation), .tasks = static_cast<int>(tasks.size()),
-                                           .time_s = time_limit_s(live, tasks), .memory_factor = largest->memory_factor, .folder = folder.path,
-                                           .script = folder.script(generation),
-                                           .log = (folder.path / "log" / ("g" + std::to_string(generation) + "-%a.log")).string()});
+  const Submission answer =
+      slurm_.submit({.name = live.batch.array_name(generation),
+                     .tasks = static_cast<int>(tasks.size()),
+                     .time_s = time_limit_s(live, tasks),
+                     .memory_factor = largest->memory_factor,
+                     .folder = folder.path,
+                     .script = folder.script(generation),
+                     .log = (folder.path / "log" / ("g" + std::to_string(generation) + "-%a.log")).string()});
   tell_problem("sbatch", answer.problem);
   if (answer.array_job) {
     live.batch.refusals = 0;
@@ -297,7 +321,8 @@ void SlurmExecutor::take_jobs(Clock::time_point now) {
   // Room is left for a sweep that comes later: it need not wait for the tasks of a large one to end.
   const int most = site_.most_tasks();
   for (int room = most - open_tasks(); room > 0 && 4 * room >= most; room = most - open_tasks()) {
-    const bool refused = std::ranges::any_of(live_, [](const auto& live) { return live->batch.refusals > 0; });
+    const bool refused =
+        std::ranges::any_of(live_, [](const auto& live) { return live->batch.refusals > 0; });
     if (refused || !take_batch(std::max(1, room / 2), now)) return;
   }
 }
@@ -326,7 +351,8 @@ bool SlurmExecutor::take_batch(int room, Clock::time_point now) {
 
 /// Whether nothing is left of a batch, here and in Slurm; then it is forgotten.
 bool SlurmExecutor::retire(const Live& live, const std::map<TaskName, TaskReport>& reports) {
-  const bool alive = std::ranges::any_of(reports, [](const auto& report) { return is_alive(report.second.phase); });
+  const bool alive =
+      std::ranges::any_of(reports, [](const auto& report) { return is_alive(report.second.phase); });
   if (alive || !live.batch.wanted().empty()) return false;
   batches_.end(live.batch.row().seq);
   std::error_code ignored;  // what cannot be removed is found at the next start
@@ -335,11 +361,13 @@ bool SlurmExecutor::retire(const Live& live, const std::map<TaskName, TaskReport
 }
 
 int SlurmExecutor::open_tasks() const {
-  return std::accumulate(live_.begin(), live_.end(), 0, [](int sum, const auto& live) { return sum + live->batch.open_tasks(); });
+  return std::accumulate(live_.begin(), live_.end(), 0,
+                         [](int sum, const auto& live) { return sum + live->batch.open_tasks(); });
 }
 
 TaskBounds SlurmExecutor::bounds() const {
-  return {.threads = site_.threads, .slots = site_.slots, .most_tasks = site_.most_tasks(), .task_s = site_.task_s,
+  return {.threads = site_.threads, .slots = site_.slots, .most_tasks = site_.most_tasks(),
+          .task_s = site_.task_s,
           .least_task_s = site_.least_task_s};
 }
 

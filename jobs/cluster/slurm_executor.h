@@ -23,15 +23,16 @@
 
 namespace jobs::cluster {
 
-/// Has jobs computed by a Slurm cluster. One thread does the same again and again, after a start as at any time: it takes the results that have
-/// come into the shared folder, asks Slurm which tasks may still deliver some, gives what is lost to new tasks, and takes jobs from the
-/// store while there is room for more tasks. Tasks go on when the service ends; the next one with the same store takes their results.
+/// Has jobs computed by a Slurm cluster. One thread does the same again and again, after a start as at any
+/// time: it takes the results that have come into the shared folder, asks Slurm which tasks may still deliver
+/// some, gives what is lost to new tasks, and takes jobs from the store while there is room for more tasks.
+/// Tasks go on when the service ends; the next one with the same store takes their results.
 class SlurmExecutor : public Executor {
  public:
   /// @param changed  told when jobs have ended
   /// @param log      told what needs a human's eye; both must not throw
-  SlurmExecutor(Site site, ClusterBatches& batches, ExecutorFilter filter, const JobLimits& limits, std::function<void()> changed,
-                std::function<void(const std::string&)> log);
+  SlurmExecutor(Site site, ClusterBatches& batches, ExecutorFilter filter, const JobLimits& limits,
+                std::function<void()> changed, std::function<void(const std::string&)> log);
   ~SlurmExecutor() override;  ///< stop()
 
   void wake() override;
@@ -55,7 +56,8 @@ class SlurmExecutor : public Executor {
   bool take_file(Live& live, const std::filesystem::path& file);
   void refresh_wanted();
   void look(Clock::time_point now);
-  void act(Live& live, const Decision& decision, const std::map<TaskName, TaskReport>& reports, Clock::time_point now);
+  void act(Live& live, const Decision& decision, const std::map<TaskName, TaskReport>& reports,
+           Clock::time_point now);
   void cancel(Live& live, const std::vector<TaskName>& tasks, const std::map<TaskName, TaskReport>& reports);
   void fail(Live& live, const std::vector<LostJob>& jobs);
   void submit(Live& live, std::vector<TaskPlan> tasks, Clock::time_point now);

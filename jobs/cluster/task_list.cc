@@ -24,7 +24,8 @@ std::string ranges_text(const std::vector<BatchIndex>& indices) {
 BatchIndex read_index(std::string_view text) {
   BatchIndex batch_index = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), batch_index);
-  if (error != std::errc() || end != text.data() + text.size()) throw FileError("a list of tasks has no number where one should be");
+  if (error != std::errc() || end != text.data() + text.size())
+    throw FileError("a list of tasks has no number where one should be");
   return batch_index;
 }
 
@@ -46,8 +47,8 @@ std::vector<BatchIndex> read_ranges(std::string_view text) {
 std::string write_task_list(const std::vector<TaskPlan>& tasks) {
   std::ostringstream text;
   for (const TaskPlan& task : tasks) {
-    text << ranges_text(task.indices) << " tries " << task.tries << " strikes " << task.strikes << " memory " << task.memory_factor << " time "
-         << task.time_factor << '\n';
+    text << ranges_text(task.indices) << " tries " << task.tries << " strikes " << task.strikes << " memory "
+         << task.memory_factor << " time " << task.time_factor << '\n';
   }
   return text.str();
 }
@@ -59,7 +60,8 @@ std::vector<TaskPlan> read_task_list(std::string_view text) {
     std::istringstream words(line);
     std::string indices, tries, strikes, memory, time;
     TaskPlan task;
-    words >> indices >> tries >> task.tries >> strikes >> task.strikes >> memory >> task.memory_factor >> time >> task.time_factor;
+    words >> indices >> tries >> task.tries >> strikes >> task.strikes >> memory >> task.memory_factor >>
+        time >> task.time_factor;
     const bool named = tries == "tries" && strikes == "strikes" && memory == "memory" && time == "time";
     if (!words || !named) throw FileError("a line is no task: " + line.substr(0, 80));
     task.indices = read_ranges(indices);

@@ -13,7 +13,8 @@ constexpr std::size_t kFields = 7;
 std::optional<int> to_int(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && value >= 0 ? std::optional(value) : std::nullopt;
+  return error == std::errc() && end == text.data() + text.size() && value >= 0 ? std::optional(value)
+                                                                                : std::nullopt;
 }
 
 /// The last field takes what is left, whatever it holds.
@@ -63,13 +64,24 @@ Phase phase_of(std::string_view word) {
   return Phase::kUnknownWord;
 }
 
-bool TaskReport::is_held_by_failure() const { return phase == Phase::kPending && reason.find("launch failed") != std::string::npos; }
+bool TaskReport::is_held_by_failure() const {
+  return phase == Phase::kPending && reason.find("launch failed") != std::string::npos;
+}
 
 bool TaskReport::needs_human() const {
   if (phase != Phase::kPending) return phase == Phase::kUnknownWord;
-  constexpr std::array<std::string_view, 12> kReasons{"JobHeldUser", "JobHeldAdmin", "BadConstraints", "DependencyNeverSatisfied", "QOS", "Assoc",
-                                                      "PartitionDown", "PartitionInactive", "PartitionNodeLimit", "PartitionTimeLimit",
-                                                      "InvalidAccount", "ReqNodeNotAvail"};
+  constexpr std::array<std::string_view, 12> kReasons{"JobHeldUser",
+                                                      "JobHeldAdmin",
+                                                      "BadConstraints",
+                                                      "DependencyNeverSatisfied",
+                                                      "QOS",
+                                                      "Assoc",
+                                                      "PartitionDown",
+                                                      "PartitionInactive",
+                                                      "PartitionNodeLimit",
+                                                      "PartitionTimeLimit",
+                                                      "InvalidAccount",
+                                                      "ReqNodeNotAvail"};
   for (const std::string_view known : kReasons) {
     if (reason.find(known) != std::string::npos) return true;
   }
@@ -89,7 +101,8 @@ std::optional<Reports> parse_reports(std::string_view text) {
     const auto index = fields ? to_int((*fields)[2]) : std::nullopt;
     const auto cpus = fields ? to_int((*fields)[4]) : std::nullopt;
     if (!index || !cpus || (*fields)[0].empty() || (*fields)[3].empty()) return std::nullopt;
-    TaskReport report{.phase = phase_of((*fields)[3]), .word = std::string((*fields)[3]), .array_job = std::string((*fields)[1]), .cpus = *cpus,
+    TaskReport report{.phase = phase_of((*fields)[3]), .word = std::string((*fields)[3]),
+                      .array_job = std::string((*fields)[1]), .cpus = *cpus,
                       .node = std::string((*fields)[5]), .reason = std::string((*fields)[6])};
     const auto [known, is_new] = reports[std::string((*fields)[0])].try_emplace(*index, report);
     if (!is_new && !is_alive(known->second.phase)) known->second = std::move(report);

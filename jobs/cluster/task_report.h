@@ -17,7 +17,8 @@ struct TaskName {
 };
 
 /// Meaning of Slurm's word for a task's state.
-enum class Phase { kPending, kRunning, kUnknownWord, kCompleted, kFailed, kTimeout, kNodeFail, kOutOfMemory, kCancelled, kPreempted };
+enum class Phase { kPending, kRunning, kUnknownWord, kCompleted, kFailed, kTimeout, kNodeFail, kOutOfMemory,
+                   kCancelled, kPreempted };
 
 /// A word that a future Slurm may have is no reason to give a task up: it counts as alive.
 [[nodiscard]] Phase phase_of(std::string_view word);

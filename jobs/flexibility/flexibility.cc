@@ -22,7 +22,8 @@ constexpr double kSame = 1e-3;  // how right peaks are: a ratio nearer to 1 says
 constexpr const char* kLosses[] = {"friction_work_j", "impact_loss_j", "structural_loss_j"};
 
 /// The values of a column in those rows of a group that have this coupler.
-std::vector<double> values_of(const ResultTable& results, const RowGroup& group, std::size_t coupler, const std::string& which, std::size_t column) {
+std::vector<double> values_of(const ResultTable& results, const RowGroup& group, std::size_t coupler,
+                              const std::string& which, std::size_t column) {
   std::vector<double> values;
   for (const std::size_t r : group.rows) {
     if (results.rows[r][coupler] != which) continue;
@@ -39,8 +40,10 @@ struct Pair {
 
 Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coupler, std::size_t metric) {
   Pair pair{.rigid = calc_replicate_statistics(values_of(results, group, coupler, "rigid", metric)),
-            .flexible = calc_replicate_statistics(values_of(results, group, coupler, "flexible", metric)), .ratio = {}, .least = {}, .largest = {}};
-  const bool comparable = pair.rigid.count > 0 && pair.flexible.count > 0 && *pair.rigid.min > 0.0;  // ratios of signs say nothing
+            .flexible = calc_replicate_statistics(values_of(results, group, coupler, "flexible", metric)),
+            .ratio = {}, .least = {}, .largest = {}};
+  // Ratios of signs say nothing
+  const bool comparable = pair.rigid.count > 0 && pair.flexible.count > 0 && *pair.rigid.min > 0.0;
   if (!comparable) return pair;
   pair.ratio = *pair.flexible.mean / *pair.rigid.mean;
   pair.least = *pair.flexible.min / *pair.rigid.max;
@@ -56,12 +59,16 @@ json verdict_of(const Pair& pair) {
   return side_of(*pair.largest) < 0 ? "helps" : side_of(*pair.least) > 0 ? "harms" : "either";
 }
 
-/// The energy that the coupler's dampers take, and its part of all losses, on the mean over the flexible jobs.
-std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup& group, std::size_t coupler) {
+/// The energy that the coupler's dampers take, and its part of all losses, on the mean over the flexible
+/// jobs.
+std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup& group,
+                                      std::size_t coupler) {
   double all = 0.0;
   std::optional<double> taken;
   for (const char* const loss : kLosses) {
-    const auto mean = calc_replicate_statistics(values_of(results, group, coupler, "flexible", find_column(results, loss, ""))).mean;
+    const auto mean = calc_replicate_statistics(
+                          values_of(results, group, coupler, "flexible", find_column(results, loss, "")))
+                          .mean;
     if (mean) all += *mean;
     taken = mean;  // the last one is the coupler's
   }
@@ -69,8 +76,10 @@ std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup
   return {*taken, all > 0.0 ? json(*taken / all) : json()};
 }
 
-/// For each group the last value before it along a column at which the ratio made a difference, if it was on the other side of 1 there.
-std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std::vector<Pair>& pairs, std::optional<std::size_t> along) {
+/// For each group the last value before it along a column at which the ratio made a difference, if it was on
+/// the other side of 1 there.
+std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std::vector<Pair>& pairs,
+                                 std::optional<std::size_t> along) {
   std::vector<json> reversals(groups.size());
   if (!along) return reversals;
   std::map<json, std::map<double, std::size_t>> lines;  // all else equal, in the order of the values along
@@ -96,8 +105,9 @@ std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std:
 }
 
 void append(const ReplicateStatistics& statistics, std::vector<json>& cells) {
-  cells.insert(cells.end(), {statistics.count, value_or_null(statistics.mean), value_or_null(statistics.spread), value_or_null(statistics.min),
-      value_or_null(statistics.max)});
+  cells.insert(cells.end(),
+               {statistics.count, value_or_null(statistics.mean), value_or_null(statistics.spread),
+                value_or_null(statistics.min), value_or_null(statistics.max)});
 }
 
 }  // namespace
@@ -118,12 +128,15 @@ ResultTable compare_couplers(const json& sweep, const ResultTable& results, cons
     columns.push_back(find_column(results, path, ""));
     table.columns.push_back(path);
   }
-  if (!varied) throw WrongState("the sweep does not vary the coupler: there are no rigid and flexible jobs to pair");
+  if (!varied)
+    throw WrongState("the sweep does not vary the coupler: there are no rigid and flexible jobs to pair");
   const std::string along_name = along ? table.columns[*along] : "";
-  table.columns.insert(table.columns.end(), {"metric", "ratio", "ratio_least", "ratio_largest", "verdict", "along", "reverses_from",
-      "coupler_loss_j", "coupler_loss_part"});
+  table.columns.insert(table.columns.end(),
+                       {"metric", "ratio", "ratio_least", "ratio_largest", "verdict", "along",
+                        "reverses_from", "coupler_loss_j", "coupler_loss_part"});
   for (const std::string coupler : {"rigid", "flexible"}) {
-    for (const char* const part : {"_count", "_mean", "_spread", "_min", "_max"}) table.columns.push_back(coupler + part);
+    for (const char* const part : {"_count", "_mean", "_spread", "_min", "_max"})
+      table.columns.push_back(coupler + part);
   }
   const std::size_t coupler = find_column(results, "coupler", "");
   const auto groups = group_rows(results, columns);
@@ -134,8 +147,9 @@ ResultTable compare_couplers(const json& sweep, const ResultTable& results, cons
     const Pair& pair = pairs[g];
     const auto [loss, part] = coupler_loss_of(results, groups[g], coupler);
     std::vector<json> cells = groups[g].values;
-    cells.insert(cells.end(), {metric, value_or_null(pair.ratio), value_or_null(pair.least), value_or_null(pair.largest), verdict_of(pair),
-                               along ? json(along_name) : json(), reversals[g], loss, part});
+    cells.insert(cells.end(),
+                 {metric, value_or_null(pair.ratio), value_or_null(pair.least), value_or_null(pair.largest),
+                  verdict_of(pair), along ? json(along_name) : json(), reversals[g], loss, part});
     append(pair.rigid, cells);
     append(pair.flexible, cells);
     table.rows.push_back(std::move(cells));

@@ -9,15 +9,18 @@
 
 namespace jobs {
 
-/// Whether a flexible coupler helps: a row for each combination of what a sweep varies beside the coupler, in which its rigid and its flexible
-/// jobs stand side by side.
+/// Whether a flexible coupler helps: a row for each combination of what a sweep varies beside the coupler, in
+/// which its rigid and its flexible jobs stand side by side.
 ///
-/// `ratio` is the flexible mean of the metric over the rigid one; with replicates it lies between `ratio_least` (the least flexible value over
-/// the largest rigid one) and `ratio_largest`. `verdict` is "helps" if even the largest is below 0.999, "harms" if even the least is above 1.001,
-/// else "either": peaks are no better than that. `reverses_from` is the last value of `along`, the first number that is swept, before this one whose
-/// ratio differs from 1 by more than 0.001, if that was on the other side of 1, all else equal. `coupler_loss_j` is the energy that the coupler's
-/// dampers take, `coupler_loss_part` its part of all losses.
+/// `ratio` is the flexible mean of the metric over the rigid one; with replicates it lies between
+/// `ratio_least` (the least flexible value over the largest rigid one) and `ratio_largest`. `verdict` is
+/// "helps" if even the largest is below 0.999, "harms" if even the least is above 1.001, else "either": peaks
+/// are no better than that. `reverses_from` is the last value of `along`, the first number that is swept,
+/// before this one whose ratio differs from 1 by more than 0.001, if that was on the other side of 1, all
+/// else equal. `coupler_loss_j` is the energy that the coupler's dampers take, `coupler_loss_part` its part
+/// of all losses.
 /// @throws InvalidRequest ("/metric"); WrongState if the sweep does not vary the coupler
-[[nodiscard]] ResultTable compare_couplers(const nlohmann::json& sweep, const ResultTable& results, const std::string& metric);
+[[nodiscard]] ResultTable compare_couplers(const nlohmann::json& sweep, const ResultTable& results,
+                                           const std::string& metric);
 
 }  // namespace jobs

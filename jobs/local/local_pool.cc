@@ -43,8 +43,13 @@ void keep_freed_memory(int threads) {
 
 }  // namespace
 
-LocalPool::LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log, const JobLimits& limits)
-    : source_(std::move(source)), runner_(std::move(runner)), limits_(limits), slots_(threads), log_(std::move(log)) {
+LocalPool::LocalPool(JobSource source, Runner runner, int threads,
+                     std::function<void(const std::string&)> log, const JobLimits& limits)
+    : source_(std::move(source)),
+      runner_(std::move(runner)),
+      limits_(limits),
+      slots_(threads),
+      log_(std::move(log)) {
   keep_freed_memory(threads);
   for (int i = 0; i < threads; ++i) {
     threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
@@ -69,7 +74,8 @@ void LocalPool::stop_job(const std::string& id) {
 }
 
 nlohmann::json LocalPool::status() const {
-  return {{"name", kLocalExecutor}, {"slots", slots_}, {"tasks", nullptr}, {"nodes", {host_name()}}, {"waiting", nlohmann::json::array()},
+  return {{"name", kLocalExecutor}, {"slots", slots_}, {"tasks", nullptr}, {"nodes", {host_name()}},
+          {"waiting", nlohmann::json::array()},
           {"problems", nlohmann::json::array()}};
 }
 
@@ -126,7 +132,9 @@ std::optional<LocalPool::Task> LocalPool::take(const HandOver& hand_over) {
 /// Takes no memory: what has been claimed meanwhile would be lost with the exception.
 void LocalPool::forget(const ClaimedJob& job) noexcept {
   const std::lock_guard lock(running_mutex_);
-  std::erase_if(running_, [&](const auto& running) { return running.first.first == job.id && running.first.second == job.attempt; });
+  std::erase_if(running_, [&](const auto& running) {
+    return running.first.first == job.id && running.first.second == job.attempt;
+  });
 }
 
 std::optional<LocalPool::Task> LocalPool::claim_next() { return take(source_.claim); }
@@ -139,9 +147,10 @@ std::optional<LocalPool::Task> LocalPool::compute(const Task& task, const std::s
   return next;
 }
 
-std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const {
-  // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the user of the job.
-  // It sees the specification that is read here, whose linkage says which metrics there are.
+std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_token& stop,
+                                        const std::stop_token& job_stop) const {
+  // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the
+  // user of the job. It sees the specification that is read here, whose linkage says which metrics there are.
   JobSpec spec;
   const auto read_and_run = [&](const JobSpec&, const engine::StopQuery& query) {
     spec = within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_);
@@ -158,9 +167,12 @@ std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_t
   }
 }
 
-/// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered again. If the
-/// program ends before that, the job is still marked as running and will be queued again at the next start.
-std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop) {
+/// Nothing computed is thrown away because the disk is full for a while: the record is kept and offered
+/// again. If the program ends before that, the job is still marked as running and will be queued again at the
+/// next start.
+std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job,
+                                                  const std::optional<RunRecord>& record,
+                                                  const std::stop_token& stop) {
   bool with_next = true;  // at the first try: what is wrong with the next job must not keep this one's result
   for (milliseconds next_pause = kFirstPause;; next_pause = std::min(2 * next_pause, kLongestPause)) {
     with_next = with_next && !stop.stop_requested();
@@ -169,7 +181,8 @@ std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job, const s
         source_.requeue(job);
         return std::nullopt;
       }
-      return take([&](const OnClaim& on_claim) { source_.record(job, *record, with_next ? on_claim : OnClaim{}); });
+      return take(
+          [&](const OnClaim& on_claim) { source_.record(job, *record, with_next ? on_claim : OnClaim{}); });
     } catch (const std::exception& error) {  // the store's errors, or no memory
       tell("the result could not be stored yet", job.id, error);
     }
@@ -182,7 +195,8 @@ std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job, const s
 void LocalPool::tell(const char* what, const std::string& id, const std::exception& error) const noexcept {
   try {
     log_(std::string(what) + (id.empty() ? "" : " (" + id + ")") + ": " + error.what());
-  } catch (const std::bad_alloc&) {  // there is no memory to tell it with, and an exception would end the process
+  } catch (
+      const std::bad_alloc&) {  // there is no memory to tell it with, and an exception would end the process
   }
 }
 

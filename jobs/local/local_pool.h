@@ -20,22 +20,27 @@
 
 namespace jobs {
 
-/// Source of an executor's jobs, and receiver of their records. Members may be called from any thread and throw StorageError.
+/// Source of an executor's jobs, and receiver of their records. Members may be called from any thread and
+/// throw StorageError.
 struct JobSource {
-  /// Hands over a job, if there is one, before anybody else can know that it is running. If taking it throws, or this does afterwards, it is not.
+  /// Hands over a job, if there is one, before anybody else can know that it is running. If taking it throws,
+  /// or this does afterwards, it is not.
   std::function<void(const OnClaim&)> claim;
-  /// May claim the next job at once, if there is somebody to take it, or do nothing at all; if it hands over none, claim() is asked.
+  /// May claim the next job at once, if there is somebody to take it, or do nothing at all; if it hands over
+  /// none, claim() is asked.
   std::function<void(const ClaimedJob&, const RunRecord&, const OnClaim&)> record;
   std::function<void(const ClaimedJob&)> requeue;
   RunListener ran{};  ///< before the record is left; empty: nobody is told
 };
 
-/// Computes jobs on threads of this process, as many at a time as it has threads. Threads sleep while there is nothing to do.
+/// Computes jobs on threads of this process, as many at a time as it has threads. Threads sleep while there
+/// is nothing to do.
 class LocalPool : public Executor {
  public:
   /// @param log     told what needs a human's eye; must not throw
   /// @param limits  of each job
-  LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log, const JobLimits& limits = {});
+  LocalPool(JobSource source, Runner runner, int threads, std::function<void(const std::string&)> log,
+            const JobLimits& limits = {});
   ~LocalPool() override;  ///< stop()
 
   void wake() override;
@@ -56,10 +61,13 @@ class LocalPool : public Executor {
   /// Does what is to be done for the job. @returns the next one, if that has been claimed on the way
   [[nodiscard]] std::optional<Task> compute(const Task& task, const std::stop_token& stop);
   /// Empty if there was no memory even to say so.
-  [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop, const std::stop_token& job_stop) const;
+  [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop,
+                                             const std::stop_token& job_stop) const;
   /// @param record  empty: the job goes back to the queue
-  [[nodiscard]] std::optional<Task> deliver(const ClaimedJob& job, const std::optional<RunRecord>& record, const std::stop_token& stop);
-  /// Calls hand_over(on_claim) and makes a task of the job that is handed over: one that can be stopped as soon as others know that it runs.
+  [[nodiscard]] std::optional<Task> deliver(const ClaimedJob& job, const std::optional<RunRecord>& record,
+                                            const std::stop_token& stop);
+  /// Calls hand_over(on_claim) and makes a task of the job that is handed over: one that can be stopped as
+  /// soon as others know that it runs.
   template <typename HandOver>
   [[nodiscard]] std::optional<Task> take(const HandOver& hand_over);
   void forget(const ClaimedJob& job) noexcept;
@@ -72,8 +80,10 @@ class LocalPool : public Executor {
   const int slots_;
   const std::function<void(const std::string&)> log_;
 
-  std::mutex running_mutex_;  // guards running_; taken while the source is locked, so nothing may be asked of that under it
-  /// By id and attempt: a job that was cancelled and queued again may begin before its former attempt has stopped.
+  // Guards running_; taken while the source is locked, so nothing may be asked of that under it
+  std::mutex running_mutex_;
+  /// By id and attempt: a job that was cancelled and queued again may begin before its former attempt has
+  /// stopped.
   std::map<std::pair<std::string, std::int64_t>, std::stop_source> running_;
 
   std::mutex wake_mutex_;  // guards wakes_

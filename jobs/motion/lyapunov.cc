@@ -29,7 +29,8 @@ double size_of(const std::vector<std::vector<double>>& run) {
   return std::sqrt(squares);
 }
 
-double distance(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b, std::size_t k) {
+double distance(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b,
+                std::size_t k) {
   double squares = 0.0;
   for (std::size_t c = 0; c < a.size(); ++c) squares += (a[c][k] - b[c][k]) * (a[c][k] - b[c][k]);
   return std::sqrt(squares);
@@ -52,7 +53,8 @@ using Columns = std::vector<std::vector<double>>;
 
 /// t_s, and the journal's place.
 std::optional<Columns> find_orbit(const json& job_id, const FindTrajectory& find) {
-  auto run = find(job_id.get<std::string>(), {.channels = {"journal_x_mm", "journal_y_mm"}, .from = {}, .to = {}});
+  auto run = find(job_id.get<std::string>(), {.channels = {"journal_x_mm", "journal_y_mm"}, .from = {},
+                                              .to = {}});
   return run ? std::optional(std::move(run->columns)) : std::nullopt;
 }
 
@@ -60,7 +62,8 @@ std::optional<Divergence> compare(const Columns& a, const Columns& b) {
   const std::size_t samples = std::min(a[0].size(), b[0].size());
   const auto cut = [&](const Columns& run) {
     Columns place;
-    for (std::size_t c = 1; c < run.size(); ++c) place.emplace_back(run[c].begin(), run[c].begin() + static_cast<std::ptrdiff_t>(samples));
+    for (std::size_t c = 1; c < run.size(); ++c)
+      place.emplace_back(run[c].begin(), run[c].begin() + static_cast<std::ptrdiff_t>(samples));
     return place;
   };
   return measure_divergence(std::span(a[0]).first(samples), cut(a), cut(b));
@@ -105,20 +108,23 @@ std::optional<Divergence> measure_divergence(std::span<const double> t, const Co
   }
   if (times.size() < kFewestForSlope) return std::nullopt;
   const double exponent = slope_of(times, logarithms);
-  if (exponent <= 0.0) return std::nullopt;  // they came closer, until one impact more or less threw them apart
+  // They came closer, until one impact more or less threw them apart
+  if (exponent <= 0.0) return std::nullopt;
   return Divergence{.exponent = exponent, .from = times.front(), .to = times.back()};
 }
 
 ResultTable make_lyapunov(const json& axes, const ResultTable& results, const FindTrajectory& find) {
-  if (std::ranges::find(results.columns, "replicate") == results.columns.end()) throw WrongState("the sweep has no replicates, which could part");
+  if (std::ranges::find(results.columns, "replicate") == results.columns.end())
+    throw WrongState("the sweep has no replicates, which could part");
   if (results.rows.size() > kMostJobsOfDiagram) {
-    throw WrongState("the sweep has " + std::to_string(results.rows.size()) + " jobs; exponents are measured of " +
-        std::to_string(kMostJobsOfDiagram) + " at most");
+    throw WrongState("the sweep has " + std::to_string(results.rows.size()) +
+                     " jobs; exponents are measured of " + std::to_string(kMostJobsOfDiagram) + " at most");
   }
   ResultTable table{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended};
   std::vector<std::size_t> swept;
   for (const std::string& path : table.columns) swept.push_back(find_column(results, path, ""));
-  table.columns.insert(table.columns.end(), {"pairs", "pairs_diverged", "exponent_1_s", "exponent_low_1_s", "exponent_high_1_s", "from_s", "to_s"});
+  table.columns.insert(table.columns.end(), {"pairs", "pairs_diverged", "exponent_1_s", "exponent_low_1_s",
+                                             "exponent_high_1_s", "from_s", "to_s"});
   const std::size_t job = find_column(results, "job_id", "");
   for (const RowGroup& set : group_rows(results, swept)) {
     const auto first = find_orbit(results.rows[set.rows.front()][job], find);

@@ -13,7 +13,8 @@
 namespace jobs {
 
 engine::Trajectory take_section(const engine::Trajectory& run, double phase) {
-  const auto angle_at = std::ranges::find(run.channels, "crank_angle_rad", &engine::QuantityInfo::key) - run.channels.begin();
+  const auto angle_at =
+      std::ranges::find(run.channels, "crank_angle_rad", &engine::QuantityInfo::key) - run.channels.begin();
   const std::vector<double>& t = run.columns.at(0);
   const std::vector<double>& angle = run.columns.at(static_cast<std::size_t>(angle_at));
   engine::Trajectory section;
@@ -34,18 +35,21 @@ engine::Trajectory take_section(const engine::Trajectory& run, double phase) {
     const double part = (turn - before) / (after - before);
     section.columns[0].push_back(std::lerp(t[k - 1], t[k], part));
     section.columns[1].push_back(turn);
-    for (std::size_t c = 0; c < others.size(); ++c) section.columns[c + 2].push_back(std::lerp((*others[c])[k - 1], (*others[c])[k], part));
+    for (std::size_t c = 0; c < others.size(); ++c)
+      section.columns[c + 2].push_back(std::lerp((*others[c])[k - 1], (*others[c])[k], part));
   }
   return section;
 }
 
-ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& results, const BifurcationQuery& query, const FindTrajectory& find) {
+ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& results,
+                             const BifurcationQuery& query, const FindTrajectory& find) {
   if (results.rows.size() > kMostJobsOfDiagram) {
-    throw WrongState("the sweep has " + std::to_string(results.rows.size()) + " jobs; a diagram is made of " + std::to_string(kMostJobsOfDiagram) +
-        " at most");
+    throw WrongState("the sweep has " + std::to_string(results.rows.size()) + " jobs; a diagram is made of " +
+                     std::to_string(kMostJobsOfDiagram) + " at most");
   }
   if (query.channel == "t_s" || query.channel == "crank_angle_rad") {
-    throw InvalidRequest(std::vector<Fault>{{"/channel", "must be another one than t_s and crank_angle_rad, which say when the crank passes"}});
+    throw InvalidRequest(std::vector<Fault>{
+        {"/channel", "must be another one than t_s and crank_angle_rad, which say when the crank passes"}});
   }
   ResultTable table{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended};
   std::vector<std::size_t> swept;
@@ -54,7 +58,8 @@ ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& resu
   const std::size_t job = find_column(results, "job_id", "");
   table.columns.insert(table.columns.end(), {"job_id", "t_s", query.channel});
   for (const auto& row : results.rows) {
-    const TrajectoryQuery wanted{.channels = {query.channel, "crank_angle_rad"}, .from = query.from ? *query.from : row[run_up].get<double>(),
+    const TrajectoryQuery wanted{.channels = {query.channel, "crank_angle_rad"},
+                                 .from = query.from ? *query.from : row[run_up].get<double>(),
         .to = {}};
     const auto run = find(row[job].get<std::string>(), wanted);
     if (!run) continue;
@@ -63,7 +68,8 @@ ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& resu
       std::vector<nlohmann::json> cells;
       for (const std::size_t column : swept) cells.push_back(row[column]);
       const double value = section.columns.back()[k];
-      cells.insert(cells.end(), {row[job], section.columns[0][k], std::isfinite(value) ? nlohmann::json(value) : nlohmann::json()});
+      cells.insert(cells.end(), {row[job], section.columns[0][k],
+                                 std::isfinite(value) ? nlohmann::json(value) : nlohmann::json()});
       table.rows.push_back(std::move(cells));
     }
   }

@@ -32,7 +32,8 @@ double window_at(Window window, double part) {
   if (window == Window::kRectangular) return 1.0;
   if (window == Window::kHann) return 0.5 - 0.5 * std::cos(turn);
   double sum = 0.0;
-  for (std::size_t k = 0; k < kFlatTop.size(); ++k) sum += (k % 2 == 0 ? 1.0 : -1.0) * kFlatTop[k] * std::cos(static_cast<double>(k) * turn);
+  for (std::size_t k = 0; k < kFlatTop.size(); ++k)
+    sum += (k % 2 == 0 ? 1.0 : -1.0) * kFlatTop[k] * std::cos(static_cast<double>(k) * turn);
   return sum;
 }
 
@@ -47,7 +48,9 @@ std::size_t count_even_samples(const std::vector<double>& t) {
 
 std::optional<Window> find_window(std::string_view name) {
   const auto found = std::ranges::find(kWindowNames, name);
-  return found == std::end(kWindowNames) ? std::nullopt : std::optional(static_cast<Window>(found - std::begin(kWindowNames)));
+  return found == std::end(kWindowNames)
+             ? std::nullopt
+             : std::optional(static_cast<Window>(found - std::begin(kWindowNames)));
 }
 
 Spectrum calc_spectrum(std::span<const double> samples, double rate, Window window) {
@@ -81,16 +84,19 @@ Spectrum calc_spectrum(std::span<const double> samples, double rate, Window wind
 
 engine::Trajectory make_spectrum(const engine::Trajectory& run, Window window) {
   const std::vector<double>& t = run.columns.at(0);
-  if (t.size() < kFewestSamples) throw WrongState("a spectrum needs at least " + std::to_string(kFewestSamples) + " samples; there are " +
-      std::to_string(t.size()));
+  if (t.size() < kFewestSamples)
+    throw WrongState("a spectrum needs at least " + std::to_string(kFewestSamples) + " samples; there are " +
+                     std::to_string(t.size()));
   const auto samples = std::span(run.columns.at(1)).first(count_even_samples(t));
   const std::string& channel = run.channels.at(1).key;
-  if (!std::ranges::all_of(samples, [](double x) { return std::isfinite(x); })) throw WrongState(channel + " has no values in this job");
+  if (!std::ranges::all_of(samples, [](double x) { return std::isfinite(x); }))
+    throw WrongState(channel + " has no values in this job");
   Spectrum spectrum = calc_spectrum(samples, 1.0 / (t[1] - t[0]), window);
-  return {.channels = {{.key = "frequency_hz", .help = "frequency"},
-                       {.key = channel, .help = "amplitude of a sine of that frequency"},
-                       {.key = channel + "_squared_per_hz", .help = "power spectral density"}},
-          .columns = {std::move(spectrum.frequency), std::move(spectrum.amplitude), std::move(spectrum.density)}};
+  return {
+      .channels = {{.key = "frequency_hz", .help = "frequency"},
+                   {.key = channel, .help = "amplitude of a sine of that frequency"},
+                   {.key = channel + "_squared_per_hz", .help = "power spectral density"}},
+      .columns = {std::move(spectrum.frequency), std::move(spectrum.amplitude), std::move(spectrum.density)}};
 }
 
 }  // namespace jobs

@@ -19,11 +19,12 @@ constexpr std::string_view kLinksPointer = "/links";
 struct RodKeys {
   std::string_view length, diameter, inner_diameter;
 };
-constexpr std::array<RodKeys, engine::kLinkCount> kRodKeys{{{"crank_length_m", "crank_diameter_mm", "crank_inner_diameter_mm"},
-                                                            {"rod_length_m", "rod_diameter_mm", "rod_inner_diameter_mm"},
-                                                            {"coupler_length_m", "coupler_diameter_mm", ""},
-                                                            {"", "", ""},
-                                                            {"cross_length_mm", "cross_diameter_mm", "cross_inner_diameter_mm"}}};
+constexpr std::array<RodKeys, engine::kLinkCount> kRodKeys{
+    {{"crank_length_m", "crank_diameter_mm", "crank_inner_diameter_mm"},
+     {"rod_length_m", "rod_diameter_mm", "rod_inner_diameter_mm"},
+     {"coupler_length_m", "coupler_diameter_mm", ""},
+     {"", "", ""},
+     {"cross_length_mm", "cross_diameter_mm", "cross_inner_diameter_mm"}}};
 constexpr std::size_t kCross = 4;                  ///< lies along its z axis, and may have no length
 constexpr double kTableLengthOfCross_m = 0.1;      ///< of the tube with the table's mass and moments
 
@@ -37,7 +38,8 @@ double length_of(std::size_t link, const json& completed) {
 }
 
 double table_length_of(std::size_t link) {
-  return link == kCross ? kTableLengthOfCross_m : default_value(*find_parameter(kRodKeys[link].length)).get<double>();
+  return link == kCross ? kTableLengthOfCross_m
+                        : default_value(*find_parameter(kRodKeys[link].length)).get<double>();
 }
 
 /// Ratios of a link's section to that of the table's link: areas, and squares of the radius of gyration.
@@ -51,7 +53,9 @@ std::string link_pointer(std::string_view link, std::string_view part) {
 
 void collect_moment_faults(const json& moments, const std::string& pointer, std::vector<Fault>& faults) {
   if (!moments.is_array() || moments.size() != 3) {
-    faults.push_back({pointer, "must be a list of three moments [I_x, I_y, I_z] about the link's frame origin, each " + kInertiaRange.text() + " kg m^2"});
+    faults.push_back(
+        {pointer, "must be a list of three moments [I_x, I_y, I_z] about the link's frame origin, each " +
+                      kInertiaRange.text() + " kg m^2"});
     return;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -83,8 +87,10 @@ double default_number(std::string_view key) { return default_value(*find_paramet
 
 SectionRatio section_ratio(const RodKeys& keys, const json& completed) {
   const double outer = number_at(completed, keys.diameter), outer_0 = default_number(keys.diameter);
-  if (keys.inner_diameter.empty()) return {(outer / outer_0) * (outer / outer_0), (outer / outer_0) * (outer / outer_0)};
-  const double inner = number_at(completed, keys.inner_diameter), inner_0 = default_number(keys.inner_diameter);
+  if (keys.inner_diameter.empty())
+    return {(outer / outer_0) * (outer / outer_0), (outer / outer_0) * (outer / outer_0)};
+  const double inner = number_at(completed, keys.inner_diameter),
+               inner_0 = default_number(keys.inner_diameter);
   return {(outer * outer - inner * inner) / (outer_0 * outer_0 - inner_0 * inner_0),
           (outer * outer + inner * inner) / (outer_0 * outer_0 + inner_0 * inner_0)};
 }
@@ -93,15 +99,18 @@ SectionRatio section_ratio(const RodKeys& keys, const json& completed) {
 engine::LinkInertia default_rod(std::size_t link, double length, const json& given, const json& completed) {
   const engine::LinkInertia table = engine::RpsupParameters{}.links[link];
   const SectionRatio section = section_ratio(kRodKeys[link], completed);
-  const double mass = given.contains(kMassKey) ? number_at(given, kMassKey) : table.mass * (length / table_length_of(link)) * section.area;
-  const double axial = table.inertia[static_cast<Eigen::Index>(axis_of(link))] * (mass / table.mass) * section.radius_squared;
+  const double mass = given.contains(kMassKey) ? number_at(given, kMassKey)
+                                               : table.mass * (length / table_length_of(link)) * section.area;
+  const double axial =
+      table.inertia[static_cast<Eigen::Index>(axis_of(link))] * (mass / table.mass) * section.radius_squared;
   engine::LinkInertia rod = engine::rod_inertia(mass, length, axial);
   if (link == kCross) std::swap(rod.inertia[0], rod.inertia[2]);
   return rod;
 }
 
 engine::LinkInertia default_link(std::size_t link, const json& given, const json& completed) {
-  if (const double length = length_of(link, completed); length > 0.0) return default_rod(link, length, given, completed);
+  if (const double length = length_of(link, completed); length > 0.0)
+    return default_rod(link, length, given, completed);
   engine::LinkInertia table = engine::RpsupParameters{}.links[link];
   if (!given.contains(kMassKey)) return table;
   const double mass = number_at(given, kMassKey);
@@ -117,21 +126,26 @@ json complete_link(std::size_t link, const json& given, const json& completed) {
   return {{kMassKey, filled.mass}, {kInertiaKey, std::move(moments)}};
 }
 
-/// Whether three moments are those of some body; equal sums pass in spite of rounding (thin plates have them).
+/// Whether three moments are those of some body; equal sums pass in spite of rounding (thin plates have
+/// them).
 bool is_possible(const std::array<double, 3>& moments) {
   constexpr double kRounding = 1e-9;
   const double sum = moments[0] + moments[1] + moments[2];
-  return std::all_of(moments.begin(), moments.end(), [&](double moment) { return moment > 0.0 && 2.0 * moment <= sum * (1.0 + kRounding); });
+  return std::all_of(moments.begin(), moments.end(),
+                     [&](double moment) { return moment > 0.0 && 2.0 * moment <= sum * (1.0 + kRounding); });
 }
 
 }  // namespace
 
 std::vector<Fault> find_link_faults(const json& given) {
-  if (!given.is_object()) return {{std::string(kLinksPointer), "must be an object with a key for each link: \"1,1\", \"1,2\", \"1,3\", \"2,1\", \"2,2\""}};
+  if (!given.is_object())
+    return {{std::string(kLinksPointer),
+             "must be an object with a key for each link: \"1,1\", \"1,2\", \"1,3\", \"2,1\", \"2,2\""}};
   std::vector<Fault> faults;
   for (const auto& [link, parts] : given.items()) {
     if (std::find(kLinkNames.begin(), kLinkNames.end(), link) == kLinkNames.end()) {
-      faults.push_back({link_pointer(link, ""), "unknown link; the links are \"1,1\", \"1,2\", \"1,3\", \"2,1\", \"2,2\""});
+      faults.push_back({link_pointer(link, ""),
+                        "unknown link; the links are \"1,1\", \"1,2\", \"1,3\", \"2,1\", \"2,2\""});
     } else {
       collect_part_faults(link, parts, faults);
     }
@@ -161,9 +175,10 @@ std::vector<Fault> find_inertia_faults(const json& completed) {
         if (axis != axis_of(i)) moments[axis] -= steiner;
       if (!is_possible(moments)) {
         const std::string across = i == kCross ? "I_x and I_y" : "I_y and I_z";
-        faults.push_back({pointer, "no body has these moments: about the centre of mass, in the middle of the link, " + across +
-                                       " are less by m (l/2)^2 = " + readable_number(steiner) +
-                                       " kg m^2, and each must be positive and at most the sum of the other two"});
+        faults.push_back(
+            {pointer, "no body has these moments: about the centre of mass, in the middle of the link, " +
+                          across + " are less by m (l/2)^2 = " + readable_number(steiner) +
+                          " kg m^2, and each must be positive and at most the sum of the other two"});
       }
     }
   }

@@ -18,13 +18,15 @@ enum class ParameterKind { kNumber, kInteger, kChoice };
 /// Scope of a parameter: any job, each joint with clearance, each flexible body, or the RPSUP linkage alone.
 enum class ParameterScope { kRun, kJoint, kMaterial, kRpsup };
 
-/// Source of a default: printed in the paper, deduced from its numbers, fitted to the ratios of peaks that it prints, or chosen by this project.
+/// Source of a default: printed in the paper, deduced from its numbers, fitted to the ratios of peaks that it
+/// prints, or chosen by this project.
 enum class DefaultSource { kPaper, kDeduced, kFitted, kChosen };
 
 /// "paper", "deduced from the paper", "fitted to the paper's ratios" or "chosen".
 [[nodiscard]] std::string_view source_name(DefaultSource source);
 
-/// One parameter as users know it. Everything that is said about parameters (checks, defaults, schema, conversion) reads this.
+/// One parameter as users know it. Everything that is said about parameters (checks, defaults, schema,
+/// conversion) reads this.
 struct ParameterInfo {
   std::string_view key;     ///< ends in its unit
   std::string_view member;  ///< the engine's name of it, as engine::InvalidInput::field gives it

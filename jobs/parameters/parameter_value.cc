@@ -16,11 +16,14 @@ std::string allowed_text(std::string_view noun, const Range& range, std::string_
 }
 
 bool is_whole(const nlohmann::json& value) {
-  return value.is_number_integer() || (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>());
+  return value.is_number_integer() ||
+         (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>());
 }
 
 std::string describe_choice_fault(const ParameterInfo& info, const nlohmann::json& value) {
-  if (value.is_string() && std::find(info.choices.begin(), info.choices.end(), value.get_ref<const std::string&>()) != info.choices.end()) return "";
+  if (value.is_string() && std::find(info.choices.begin(), info.choices.end(),
+                                     value.get_ref<const std::string&>()) != info.choices.end())
+    return "";
   std::string text = "must be ";
   for (std::size_t i = 0; i < info.choices.size(); ++i) {
     if (i > 0) text += i + 1 == info.choices.size() ? " or " : ", ";
@@ -45,10 +48,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Edit distance of a key from a known one; empty if too far to be a slip of the pen. A key that is right but for its unit
-/// ("clearance") is as near as can be.
+/// Edit distance of a key from a known one; empty if too far to be a slip of the pen. A key that is right but
+/// for its unit ("clearance") is as near as can be.
 std::optional<std::size_t> key_distance(std::string_view given, std::string_view known) {
-  if (!given.empty() && known.size() > given.size() && known.starts_with(given) && known[given.size()] == '_') return 0;
+  if (!given.empty() && known.size() > given.size() && known.starts_with(given) && known[given.size()] == '_')
+    return 0;
   const std::size_t furthest = std::max<std::size_t>(1, known.size() / 4);
   // The difference of the lengths is a lower bound, and costs nothing.
   if (given.size() > known.size() + furthest || known.size() > given.size() + furthest) return std::nullopt;
@@ -86,7 +90,8 @@ nlohmann::json canonical_value(const ParameterInfo& info, const nlohmann::json& 
   return nullptr;
 }
 
-std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known, std::string_view listed) {
+std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known,
+                                 std::string_view listed) {
   constexpr std::size_t kFew = 12;  // that a user reads through, if they are listed elsewhere
   std::string_view nearest;
   std::optional<std::size_t> least;

@@ -21,16 +21,22 @@ struct Range {
 };
 
 /// With both ends.
-[[nodiscard]] constexpr Range between(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum}; }
+[[nodiscard]] constexpr Range between(double minimum, double maximum) { return {.minimum = minimum,
+                                                                                .maximum = maximum}; }
 /// Without its minimum.
-[[nodiscard]] constexpr Range above(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .lower = Bound::kExclusive}; }
+[[nodiscard]] constexpr Range above(double minimum, double maximum) {
+  return {.minimum = minimum, .maximum = maximum, .lower = Bound::kExclusive};
+}
 /// Without its maximum.
-[[nodiscard]] constexpr Range below(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum, .upper = Bound::kExclusive}; }
+[[nodiscard]] constexpr Range below(double minimum, double maximum) {
+  return {.minimum = minimum, .maximum = maximum, .upper = Bound::kExclusive};
+}
 
 /// Seeds: the integers that every reader of JSON keeps.
 inline constexpr Range kSeedRange{.minimum = 0, .maximum = 9007199254740991.0};
 
-/// A number in a sentence: without an exponent where that is easy to read. Reads back as the same double, too.
+/// A number in a sentence: without an exponent where that is easy to read. Reads back as the same double,
+/// too.
 [[nodiscard]] std::string readable_number(double x);
 
 /// The shortest decimal that reads back as the same double; "nan", "inf" and "-inf" for the others.

@@ -20,12 +20,14 @@ struct Span {
   bool logarithmic = false;  ///< then both ends are above 0
 };
 
-/// Number between two others above 0, from (to / from)^part: NaN or beyond the ends if to / from is no normal double.
+/// Number between two others above 0, from (to / from)^part: NaN or beyond the ends if to / from is no normal
+/// double.
 [[nodiscard]] double geometric_between(double from, double to, double part);
 
 /// Reads {"from", "to", "scale"}; "scale" is "linear" (the default) or "log". Adds the faults of its form.
 /// @param other_keys  what else may stand there; the caller reads it
-[[nodiscard]] std::optional<Span> read_span(const nlohmann::json& span, std::span<const std::string_view> other_keys,
+[[nodiscard]] std::optional<Span> read_span(const nlohmann::json& span,
+                                            std::span<const std::string_view> other_keys,
                                             const std::string& pointer, std::vector<Fault>& faults);
 
 }  // namespace jobs

@@ -15,7 +15,8 @@ constexpr double kUmPerM = 1e6;
 constexpr std::size_t kMostRings = 16;  // as many as radial_levels allows
 
 std::string shape_text() {
-  return "must be a list for each ring of the journal, each of the same number of depths, " + kWearSectorsRange.text();
+  return "must be a list for each ring of the journal, each of the same number of depths, " +
+         kWearSectorsRange.text();
 }
 
 void collect_ring_faults(const json& ring, const std::string& pointer, std::vector<Fault>& faults) {
@@ -31,11 +32,14 @@ void collect_ring_faults(const json& ring, const std::string& pointer, std::vect
 std::vector<Fault> find_wear_faults(const json& value) {
   const std::string pointer = pointer_token(kWearKey);
   const auto is_ring = [&](const json& ring) {
-    return ring.is_array() && kWearSectorsRange.contains(static_cast<double>(ring.size())) && ring.size() == value.front().size();
+    return ring.is_array() && kWearSectorsRange.contains(static_cast<double>(ring.size())) &&
+           ring.size() == value.front().size();
   };
-  if (!value.is_array() || value.empty() || value.size() > kMostRings || !std::ranges::all_of(value, is_ring)) return {{pointer, shape_text()}};
+  if (!value.is_array() || value.empty() || value.size() > kMostRings || !std::ranges::all_of(value, is_ring))
+    return {{pointer, shape_text()}};
   std::vector<Fault> faults;
-  for (std::size_t r = 0; r < value.size(); ++r) collect_ring_faults(value[r], pointer + "/" + std::to_string(r), faults);
+  for (std::size_t r = 0; r < value.size(); ++r)
+    collect_ring_faults(value[r], pointer + "/" + std::to_string(r), faults);
   return faults;
 }
 
@@ -64,11 +68,18 @@ engine::WearDepth to_wear_depth(const json& value) {
 
 json wear_schema() {
   json depth{{"type", "number"}, {"minimum", kWearDepthRange.minimum}, {"maximum", kWearDepthRange.maximum}};
-  json ring{{"type", "array"}, {"items", std::move(depth)}, {"minItems", static_cast<int>(kWearSectorsRange.minimum)},
+  json ring{{"type", "array"}, {"items", std::move(depth)},
+            {"minItems", static_cast<int>(kWearSectorsRange.minimum)},
             {"maxItems", static_cast<int>(kWearSectorsRange.maximum)}};
-  return {{"type", "array"}, {"items", std::move(ring)}, {"minItems", 1}, {"maxItems", kMostRings}, {"x-unit", "um"},
-          {"description", std::string(kWearHelp) + ". As many lists as radial_levels says, all of the same length, no depth above a tenth of "
-                          "the bearing's radius. Left out, the bore is round"}};
+  return {{"type", "array"},
+          {"items", std::move(ring)},
+          {"minItems", 1},
+          {"maxItems", kMostRings},
+          {"x-unit", "um"},
+          {"description",
+           std::string(kWearHelp) +
+               ". As many lists as radial_levels says, all of the same length, no depth above a tenth of "
+               "the bearing's radius. Left out, the bore is round"}};
 }
 
 }  // namespace jobs

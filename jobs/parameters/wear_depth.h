@@ -13,12 +13,14 @@
 
 namespace jobs {
 
-// The parameter that says how deep the bearing's bore is worn: a list for each ring of the journal, of the depths in sectors of equal width
-// around it, the first from the bearing's x on. It is in a parameter set only if it is given.
+// The parameter that says how deep the bearing's bore is worn: a list for each ring of the journal, of the
+// depths in sectors of equal width around it, the first from the bearing's x on. It is in a parameter set
+// only if it is given.
 
 inline constexpr std::string_view kWearKey = "wear_depth_um";
 inline constexpr Range kWearSectorsRange{.minimum = 8, .maximum = 360};
-inline constexpr Range kWearDepthRange{.minimum = 0.0, .maximum = 100'000.0};  ///< at most a tenth of the bearing's radius, whatever that is, [um]
+/// At most a tenth of the bearing's radius, whatever that is, [um]
+inline constexpr Range kWearDepthRange{.minimum = 0.0, .maximum = 100'000.0};
 
 /// The faults that a value has by itself, pointers from the parameter set.
 [[nodiscard]] std::vector<Fault> find_wear_faults(const nlohmann::json& value);
@@ -35,7 +37,8 @@ inline constexpr Range kWearDepthRange{.minimum = 0.0, .maximum = 100'000.0};  /
 
 /// Help of the key, in one line.
 inline constexpr std::string_view kWearHelp =
-    "Depth worn off the bearing's bore: for each ring of the journal a list of sectors of equal width, from the bearing's x on. For contact "
+    "Depth worn off the bearing's bore: for each ring of the journal a list of sectors of equal width, from "
+    "the bearing's x on. For contact "
     "continuum";
 
 }  // namespace jobs

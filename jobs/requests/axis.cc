@@ -18,14 +18,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestLinkagePath = 200;  ///< bytes; the names of bodies, joints and springs have at most 32
+/// Bytes; the names of bodies, joints and springs have at most 32
+constexpr std::size_t kLongestLinkagePath = 200;
 
 /// Adds the faults of {"from", "to", "count", "scale"}. Returns whether there are none.
 bool check_span(const json& axis, const std::string& pointer, std::vector<Fault>& faults) {
   constexpr std::array<std::string_view, 1> kCount{"count"};
   const std::size_t before = faults.size();
   (void)read_span(axis, kCount, pointer, faults);
-  std::string detail = axis.contains("count") ? describe_integer_fault(kCountRange, axis.at("count")) : "is missing";
+  std::string detail =
+      axis.contains("count") ? describe_integer_fault(kCountRange, axis.at("count")) : "is missing";
   if (detail.empty() && axis.at("count") == 1 && axis.value("from", json()) != axis.value("to", json())) {
     detail = "must be 2 or more, since from and to differ";
   }
@@ -37,7 +39,8 @@ bool check_span(const json& axis, const std::string& pointer, std::vector<Fault>
 class SpanValues {
  public:
   explicit SpanValues(const json& span)
-      : ends_{.from = span.at("from").get<double>(), .to = span.at("to").get<double>(), .logarithmic = span.value("scale", "linear") == "log"},
+      : ends_{.from = span.at("from").get<double>(), .to = span.at("to").get<double>(),
+              .logarithmic = span.value("scale", "linear") == "log"},
         count_(span.at("count").get<std::uint64_t>()) {}
 
   [[nodiscard]] std::uint64_t size() const { return count_; }
@@ -48,7 +51,8 @@ class SpanValues {
     const auto a = static_cast<double>(count_ - 1 - k);
     const auto b = static_cast<double>(k);
     const auto n = static_cast<double>(count_ - 1);
-    return ends_.logarithmic ? geometric_between(ends_.from, ends_.to, b / n) : (ends_.from * a + ends_.to * b) / n;
+    return ends_.logarithmic ? geometric_between(ends_.from, ends_.to, b / n)
+                             : (ends_.from * a + ends_.to * b) / n;
   }
 
   /// They rise or fall, so that a billion of them need not be looked at.
@@ -88,7 +92,8 @@ void collect_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, 
     const auto value_faults = find_path_faults(axis.path, axis.values[k]);
     const std::string which = is_span ? "value " + axis.values[k].dump() + ": " : "";
     for (const Fault& fault : value_faults) faults.push_back({axis.pointers[k], which + fault.detail});
-    if (repeats == Repeats::kRefused && value_faults.empty() && !seen.insert(value_identity(axis.path, axis.values[k])).second) {
+    if (repeats == Repeats::kRefused && value_faults.empty() &&
+        !seen.insert(value_identity(axis.path, axis.values[k])).second) {
       faults.push_back({axis.pointers[k], which + "is in this axis already"});
     }
   }
@@ -99,11 +104,17 @@ void collect_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, 
 bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults) {
   const auto& known = known_paths();
   const bool in_linkage = is_linkage_path(path);
-  if (std::find(known.begin(), known.end(), path) != known.end() || (in_linkage && path.size() <= kLongestLinkagePath)) return true;
+  if (std::find(known.begin(), known.end(), path) != known.end() ||
+      (in_linkage && path.size() <= kLongestLinkagePath))
+    return true;
   if (in_linkage) {
-    faults.push_back({pointer, "is longer than any place in a linkage: at most " + std::to_string(kLongestLinkagePath) + " bytes"});
+    faults.push_back({pointer, "is longer than any place in a linkage: at most " +
+                                   std::to_string(kLongestLinkagePath) + " bytes"});
   } else if (path == kLinkageKey) {
-    faults.push_back({pointer, "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole linkages are cases"});
+    faults.push_back(
+        {pointer,
+         "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole "
+         "linkages are cases"});
   } else if (path == kWearKey) {
     faults.push_back({pointer, "worn bores are cases, each with its lists"});
   } else if (path == "links") {
@@ -117,7 +128,8 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
 
 bool is_numeric(const std::string& path) {
   const ParameterInfo* info = find_parameter(path);
-  return info != nullptr ? info->kind != ParameterKind::kChoice : is_linkage_path(path) || path.ends_with("mass_kg");
+  return info != nullptr ? info->kind != ParameterKind::kChoice
+                         : is_linkage_path(path) || path.ends_with("mass_kg");
 }
 
 std::string value_identity(const std::string& path, const json& value) {
@@ -126,12 +138,16 @@ std::string value_identity(const std::string& path, const json& value) {
   return value.is_number() ? json(value.get<double>()).dump() : value.dump();
 }
 
-std::uint64_t count_axis_values(const std::string& path, const json& axis, const std::string& pointer, std::vector<Fault>& faults) {
+std::uint64_t count_axis_values(const std::string& path, const json& axis, const std::string& pointer,
+                                std::vector<Fault>& faults) {
   if (!is_known_path(path, pointer, faults)) return 0;
   if (axis.is_array() && !axis.empty()) return axis.size();
-  if (axis.is_object() && is_numeric(path)) return check_span(axis, pointer, faults) ? axis.at("count").get<std::uint64_t>() : 0;
-  faults.push_back({pointer, is_numeric(path) ? "must be a list of one value or more, or {\"from\", \"to\", \"count\", \"scale\"}"
-                                              : "must be a list of one value or more"});
+  if (axis.is_object() && is_numeric(path))
+    return check_span(axis, pointer, faults) ? axis.at("count").get<std::uint64_t>() : 0;
+  faults.push_back(
+      {pointer, is_numeric(path)
+                    ? "must be a list of one value or more, or {\"from\", \"to\", \"count\", \"scale\"}"
+                    : "must be a list of one value or more"});
   return 0;
 }
 
@@ -140,11 +156,13 @@ std::string pointer_of_axis(std::string_view path) { return "/design/over" + poi
 bool axis_contains(const std::string& path, const json& axis, const json& value) {
   if (axis.is_object()) return SpanValues(axis).contains(value.get<double>());
   return std::ranges::any_of(axis, [&](const json& other) {
-    return find_path_faults(path, other).empty() && value_identity(path, other) == value_identity(path, value);
+    return find_path_faults(path, other).empty() &&
+           value_identity(path, other) == value_identity(path, value);
   });
 }
 
-Axis make_axis(const std::string& path, const json& axis, const std::string& pointer, std::vector<Fault>& faults, Repeats repeats) {
+Axis make_axis(const std::string& path, const json& axis, const std::string& pointer,
+               std::vector<Fault>& faults, Repeats repeats) {
   Axis made{.path = path, .values = {}, .pointers = {}};
   if (axis.is_array()) {
     add_list_values(axis, pointer, made);

@@ -27,7 +27,8 @@ struct Axis {
 enum class Repeats { kRefused, kAllowed };
 
 /// Whether an axis may have this path; if not, the fault is added.
-[[nodiscard]] bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults);
+[[nodiscard]] bool is_known_path(const std::string& path, const std::string& pointer,
+                                 std::vector<Fault>& faults);
 
 /// Whether a path's values are single numbers. @param path  a known one
 [[nodiscard]] bool is_numeric(const std::string& path);
@@ -37,8 +38,8 @@ enum class Repeats { kRefused, kAllowed };
 
 /// Number of values of an axis, without making them. 0 if it has faults, which are added.
 /// @param pointer  where the axis stands in the request
-[[nodiscard]] std::uint64_t count_axis_values(const std::string& path, const nlohmann::json& axis, const std::string& pointer,
-                                              std::vector<Fault>& faults);
+[[nodiscard]] std::uint64_t count_axis_values(const std::string& path, const nlohmann::json& axis,
+                                              const std::string& pointer, std::vector<Fault>& faults);
 
 /// Pointer to a design's values of a path.
 [[nodiscard]] std::string pointer_of_axis(std::string_view path);
@@ -46,12 +47,15 @@ enum class Repeats { kRefused, kAllowed };
 /// Whether one of an axis' values is this one, without making them.
 /// @param axis   has passed count_axis_values
 /// @param value  has no faults
-[[nodiscard]] bool axis_contains(const std::string& path, const nlohmann::json& axis, const nlohmann::json& value);
+[[nodiscard]] bool axis_contains(const std::string& path, const nlohmann::json& axis,
+                                 const nlohmann::json& value);
 
 /// The values of an axis whose count is known to be affordable. Faults of single values are added.
 ///
-///     linear:  (from (n - 1 - k) + to k) / (n - 1),    log:  from (to / from)^(k / (n - 1)),    both with exact ends.
-[[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer, std::vector<Fault>& faults,
-                             Repeats repeats = Repeats::kRefused);
+///     linear:  (from (n - 1 - k) + to k) / (n - 1),    log:  from (to / from)^(k / (n - 1)),
+///
+/// both with exact ends.
+[[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer,
+                             std::vector<Fault>& faults, Repeats repeats = Repeats::kRefused);
 
 }  // namespace jobs

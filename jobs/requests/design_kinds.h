@@ -20,9 +20,11 @@ struct DesignKind {
   std::string_view help;
   std::vector<std::string_view> keys;  ///< beside type and over
   /// Counts the points and adds the faults that can be seen without making them.
-  std::uint64_t (*count)(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
+  std::uint64_t (*count)(const nlohmann::ordered_json& design, const nlohmann::json& parameters,
+                         std::vector<Fault>& faults);
   /// Makes them, if count() has added no fault.
-  DesignPoints (*make)(const nlohmann::ordered_json& design, const nlohmann::json& parameters, std::vector<Fault>& faults);
+  DesignPoints (*make)(const nlohmann::ordered_json& design, const nlohmann::json& parameters,
+                       std::vector<Fault>& faults);
 };
 
 /// All of them, in the order in which they are shown.

@@ -65,20 +65,22 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
-/// Short form of a value in one line: of a worn bore the largest depth, of a described linkage its name, with a number where another linkage of
-/// the sweep has that name already.
+/// Short form of a value in one line: of a worn bore the largest depth, of a described linkage its name, with
+/// a number where another linkage of the sweep has that name already.
 class ShownValues {
  public:
   explicit ShownValues(const SweepRequest& sweep) {
     const std::string rpsup(kRpsupName);
-    std::map<json, std::string> names{{json(rpsup), rpsup}};  // by linkage as the cases give it: numbers inside it may be swept beside it
+    // By linkage as the cases give it: numbers inside it may be swept beside it
+    std::map<json, std::string> names{{json(rpsup), rpsup}};
     std::set<std::string> taken{rpsup};
     std::map<std::string, int> namesakes;
     for (const json& given : sweep.cases) {
       const json linkage = given.value(std::string(kLinkageKey), json(rpsup));
       const std::string name = linkage.is_object() ? linkage.value("name", std::string("described")) : rpsup;
       const auto [shown, is_new] = names.try_emplace(linkage, name);
-      while (is_new && !taken.insert(shown->second).second) shown->second = name + " #" + std::to_string(2 + namesakes[name]++);
+      while (is_new && !taken.insert(shown->second).second)
+        shown->second = name + " #" + std::to_string(2 + namesakes[name]++);
       linkages_.push_back(shown->second);
     }
   }
@@ -109,7 +111,8 @@ class PointFaults {
     if (entries_.empty()) return;
     std::vector<Fault> faults;
     for (const auto& [pointer, entry] : entries_) {
-      const std::string others = entry.points > 1 ? "; likewise at " + std::to_string(entry.points - 1) + " more points" : "";
+      const std::string others =
+          entry.points > 1 ? "; likewise at " + std::to_string(entry.points - 1) + " more points" : "";
       faults.push_back({pointer, entry.detail + others});
     }
     throw InvalidRequest(std::move(faults));
@@ -121,13 +124,16 @@ class PointFaults {
     std::size_t points = 0;
   };
 
-  /// The place that gave the parameter its value; defaults stand nowhere, so theirs is where they could be given.
+  /// The place that gave the parameter its value; defaults stand nowhere, so theirs is where they could be
+  /// given.
   [[nodiscard]] std::string pointer_in_request(const std::string& pointer, const Position& position) const {
     const std::string path = path_of_pointer(pointer);
     for (const Axis& axis : sweep_.axes) {
-      if (axis.path == path || pointer_of_path(axis.path) == pointer) return "/sweep" + pointer_token(axis.path);
+      if (axis.path == path || pointer_of_path(axis.path) == pointer)
+        return "/sweep" + pointer_token(axis.path);
     }
-    if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end()) return "/design/over" + pointer_token(path);
+    if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end())
+      return "/design/over" + pointer_token(path);
     if (!sweep_.cases.empty() && sweep_.cases[position.case_index].contains(json::json_pointer(pointer))) {
       return "/cases" + pointer_token(std::to_string(position.case_index)) + pointer;
     }
@@ -137,7 +143,8 @@ class PointFaults {
   [[nodiscard]] std::string point_text(const json& completed, const Position& position) const {
     std::string text;
     for (const std::string& path : sweep_.swept) {
-      text += (text.empty() ? " (at " : ", ") + path + " = " + shown_.at(completed, path, position.case_index).dump();
+      text += (text.empty() ? " (at " : ", ") + path + " = " +
+              shown_.at(completed, path, position.case_index).dump();
     }
     return text.empty() ? "" : text + ")";
   }
@@ -173,21 +180,29 @@ std::uint64_t count_replicates(const json& completed, const Replicates& replicat
   return replicates.count;
 }
 
-/// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the point's checks hold for them.
-/// @param swept  the point's values in all of them, the stiffness too where it is swept: their rows are told apart by `replicate` alone
+/// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the
+/// point's checks hold for them.
+/// @param swept  the point's values in all of them, the stiffness too where it is swept: their rows are told
+///     apart by `replicate` alone
 /// @throws InvalidRequest if there are more than max_jobs with them
-void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, std::size_t max_jobs, SweepPlan& plan) {
+void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, std::size_t max_jobs,
+              SweepPlan& plan) {
   json replicate = completed;
   const std::uint64_t count = count_replicates(completed, sweep.replicates);
   if (count > max_jobs || plan.jobs.size() > max_jobs - count)
-    throw InvalidRequest(std::vector<Fault>{{"/replicates/count", "the sweep would have more than " + std::to_string(max_jobs) + " jobs with its replicates"}});
+    throw InvalidRequest(std::vector<Fault>{
+        {"/replicates/count",
+         "the sweep would have more than " + std::to_string(max_jobs) + " jobs with its replicates"}});
   for (std::uint64_t k = 0; k < count; ++k) {
-    const double scale = completed.at(kStiffnessKey).get<double>() * replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
+    const double scale = completed.at(kStiffnessKey).get<double>() *
+                         replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
     replicate[kStiffnessKey] = scale;
     if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty()) {
-      throw InvalidRequest(std::vector<Fault>{{"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
+      throw InvalidRequest(std::vector<Fault>{
+          {"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
     }
-    plan.jobs.push_back(make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept.dump()));
+    plan.jobs.push_back(
+        make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept.dump()));
   }
 }
 
@@ -201,7 +216,8 @@ double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation
 
 SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs) {
   const SweepRequest sweep = parse_sweep_request(request, max_jobs);
-  SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested, .reuse = sweep.reuse,
+  SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested,
+                 .reuse = sweep.reuse,
                  .priority = sweep.priority, .executor = sweep.executor, .jobs = {}};
   const ShownValues shown(sweep);
   PointFaults faults(sweep, shown);
@@ -209,20 +225,27 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
   Position position{.values = std::vector<std::size_t>(sweep.axes.size(), 0)};
   do {
     const json completed = fill_in_defaults(parameters_at(sweep, position));
-    if (position.is_first_of_case()) budget.take(completed, points_of_a_case(sweep), sweep.replicates.only.empty() ? sweep.replicates.count : 1);
+    if (position.is_first_of_case())
+      budget.take(completed, points_of_a_case(sweep),
+                  sweep.replicates.only.empty() ? sweep.replicates.count : 1);
     const auto found = find_combination_faults(completed);
     for (const Fault& fault : found) faults.add(fault, position, completed);
     json swept = json::array();
-    for (const std::string& path : plan.swept) swept.push_back(shown.at(completed, path, position.case_index));
+    for (const std::string& path : plan.swept)
+      swept.push_back(shown.at(completed, path, position.case_index));
     if (found.empty()) add_jobs(completed, sweep, swept, max_jobs, plan);
   } while (position.advance(sweep));
   faults.throw_if_any();
-  const bool replicates_some = std::ranges::any_of(plan.jobs, [](const PlannedJob& job) { return job.replicate.value_or(0) > 0; });
+  const bool replicates_some =
+      std::ranges::any_of(plan.jobs, [](const PlannedJob& job) { return job.replicate.value_or(0) > 0; });
   if (!sweep.replicates.only.empty() && sweep.replicates.count > 1 && !replicates_some)
-    throw InvalidRequest(std::vector<Fault>{{"/replicates/only", "must name values that a set of the sweep has; none has all of these"}});
+    throw InvalidRequest(std::vector<Fault>{
+        {"/replicates/only", "must name values that a set of the sweep has; none has all of these"}});
   return plan;
 }
 
-PlannedJob plan_job(const json& parameters) { return make_job(complete_parameters(parameters, ""), std::nullopt, "[]"); }
+PlannedJob plan_job(const json& parameters) {
+  return make_job(complete_parameters(parameters, ""), std::nullopt, "[]");
+}
 
 }  // namespace jobs

@@ -32,16 +32,16 @@ struct SweepPlan {
   std::vector<PlannedJob> jobs;
 };
 
-/// All jobs of a sweep: cases outermost, then the points of the design, then the axes in their order, the last one fastest,
-/// replicates innermost.
+/// All jobs of a sweep: cases outermost, then the points of the design, then the axes in their order, the
+/// last one fastest, replicates innermost.
 /// @throws InvalidRequest with every fault; one that several points have is told once, with the first of them
 [[nodiscard]] SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs);
 
 /// @throws InvalidRequest with every fault
 [[nodiscard]] PlannedJob plan_job(const nlohmann::json& parameters);
 
-/// Factor of replicate k on contact_stiffness_scale: 1 for k = 0, else 1 + perturbation u, with u in [-1, 1) made
-/// of the upper 53 bits of the k-th number of the generator splitmix64 that starts from the seed.
+/// Factor of replicate k on contact_stiffness_scale: 1 for k = 0, else 1 + perturbation u, with u in [-1, 1)
+/// made of the upper 53 bits of the k-th number of the generator splitmix64 that starts from the seed.
 [[nodiscard]] double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation);
 
 }  // namespace jobs

@@ -46,15 +46,20 @@ class Union {
   }
 
  private:
-  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+  void fault(std::string pointer, std::string detail) {
+    faults_.push_back({std::move(pointer), std::move(detail)});
+  }
 
   void check_shape() {
     constexpr std::array<std::string_view, 2> kKeys{"sweep", "cases"};
-    if (!addition_.is_object() || addition_.empty()) return fault("", "must be an object with \"sweep\", \"cases\" or both");
+    if (!addition_.is_object() || addition_.empty())
+      return fault("", "must be an object with \"sweep\", \"cases\" or both");
     for (const auto& [key, value] : addition_.items()) {
-      if (std::ranges::find(kKeys, key) == kKeys.end()) fault(pointer_token(key), describe_unknown_key(key, kKeys));
+      if (std::ranges::find(kKeys, key) == kKeys.end())
+        fault(pointer_token(key), describe_unknown_key(key, kKeys));
     }
-    if (addition_.contains("sweep") && !addition_.at("sweep").is_object()) fault("/sweep", "must be an object of axes");
+    if (addition_.contains("sweep") && !addition_.at("sweep").is_object())
+      fault("/sweep", "must be an object of axes");
     if (!addition_.contains("cases")) return;
     const ordered_json& cases = addition_.at("cases");
     if (!cases.is_array() || cases.empty()) fault("/cases", "must be a list of one parameter object or more");
@@ -74,7 +79,9 @@ class Union {
       }
       const std::size_t before = faults_.size();
       const std::uint64_t count = count_axis_values(path, values, pointer, faults_);
-      if (count > max_jobs_) fault(pointer, "has " + std::to_string(count) + " values; at most " + std::to_string(max_jobs_) + " jobs are allowed");
+      if (count > max_jobs_)
+        fault(pointer, "has " + std::to_string(count) + " values; at most " + std::to_string(max_jobs_) +
+                           " jobs are allowed");
       if (faults_.size() == before) add_to_axis(path, make_axis(path, values, pointer, faults_));
     }
   }
@@ -96,7 +103,8 @@ class Union {
   [[nodiscard]] std::string axes_text() const {
     std::string text;
     if (former_.contains("sweep")) {
-      for (const auto& [path, values] : former_.at("sweep").items()) text += (text.empty() ? "it has " : ", ") + path;
+      for (const auto& [path, values] : former_.at("sweep").items())
+        text += (text.empty() ? "it has " : ", ") + path;
     }
     return text.empty() ? "it has none" : text;
   }
@@ -104,8 +112,11 @@ class Union {
   void add_cases() {
     const auto& added = addition_.at("cases");
     if (added.size() > max_jobs_)
-      return fault("/cases", "has " + std::to_string(added.size()) + " cases; at most " + std::to_string(max_jobs_) + " jobs are allowed");
-    if (!former_.contains("cases")) return fault("/cases", "this sweep has no cases, and an extension does not change what is swept; " + axes_text());
+      return fault("/cases", "has " + std::to_string(added.size()) + " cases; at most " +
+                                 std::to_string(max_jobs_) + " jobs are allowed");
+    if (!former_.contains("cases"))
+      return fault("/cases",
+                   "this sweep has no cases, and an extension does not change what is swept; " + axes_text());
     std::set<std::string> swept;
     for (const auto& given : former_.at("cases")) {
       for (const std::string& path : paths_of(given)) swept.insert(path);
@@ -120,7 +131,9 @@ class Union {
     for (const Fault& found : value_faults) fault(pointer + found.pointer, found.detail);
     if (!value_faults.empty()) return;
     for (const std::string& path : paths_of(given)) {
-      if (!swept.contains(path)) fault(pointer + pointer_of_path(path), "no case of this sweep has it, and an extension does not change what is swept");
+      if (!swept.contains(path))
+        fault(pointer + pointer_of_path(path),
+              "no case of this sweep has it, and an extension does not change what is swept");
     }
     if (!known_cases_.insert(given).second) return;
     request_["cases"].push_back(given);
@@ -154,7 +167,10 @@ std::vector<PlannedJob> without(std::vector<PlannedJob> jobs, const std::vector<
     return true;
   });
   if (missing > 0) {
-    throw InvalidRequest(std::vector<Fault>{{"", "this sweep's jobs would be others with it; only axes and cases that multiply can be extended. Submit another sweep"}});
+    throw InvalidRequest(std::vector<Fault>{
+        {"",
+         "this sweep's jobs would be others with it; only axes and cases that multiply can be extended. "
+         "Submit another sweep"}});
   }
   return jobs;
 }
@@ -167,7 +183,8 @@ Extension plan_extension(const ordered_json& former, const ordered_json& additio
   if (request == former) return {.request = std::move(request), .jobs = {}};
   try {
     SweepPlan plan = plan_sweep(request, max_jobs);
-    auto jobs = without(std::move(plan.jobs), plan_sweep(former, std::numeric_limits<std::size_t>::max()).jobs);
+    auto jobs =
+        without(std::move(plan.jobs), plan_sweep(former, std::numeric_limits<std::size_t>::max()).jobs);
     return {.request = std::move(request), .jobs = std::move(jobs)};
   } catch (const InvalidRequest& invalid) {
     throw InvalidRequest(both.in_addition(invalid.faults()));

@@ -16,10 +16,11 @@ struct Extension {
   std::vector<PlannedJob> jobs;    ///< those that the sweep does not have, in the order of the union
 };
 
-/// Adds values to the axes of a sweep, and cases to its cases: `{"sweep": {axis: values}, "cases": [...]}`. What is swept stays; values
-/// and cases that the sweep has already are left out.
+/// Adds values to the axes of a sweep, and cases to its cases: `{"sweep": {axis: values}, "cases": [...]}`.
+/// What is swept stays; values and cases that the sweep has already are left out.
 /// @param former  a request that has been planned before
 /// @throws InvalidRequest with every fault, with pointers into the addition
-[[nodiscard]] Extension plan_extension(const nlohmann::ordered_json& former, const nlohmann::ordered_json& addition, std::size_t max_jobs);
+[[nodiscard]] Extension plan_extension(const nlohmann::ordered_json& former,
+                                       const nlohmann::ordered_json& addition, std::size_t max_jobs);
 
 }  // namespace jobs

@@ -17,7 +17,8 @@ using nlohmann::ordered_json;
 
 std::vector<Axis> make_axes(const ordered_json& design, Repeats repeats, std::vector<Fault>& faults) {
   std::vector<Axis> axes;
-  for (const auto& [path, axis] : design.at("over").items()) axes.push_back(make_axis(path, axis, pointer_of_axis(path), faults, repeats));
+  for (const auto& [path, axis] : design.at("over").items())
+    axes.push_back(make_axis(path, axis, pointer_of_axis(path), faults, repeats));
   return axes;
 }
 
@@ -26,18 +27,22 @@ std::vector<json> centre_of(const ordered_json& design, const json& parameters) 
   const json defaults = fill_in_defaults(parameters);
   const json given = design.value("centre", ordered_json::object());
   std::vector<json> centre;
-  for (const auto& [path, axis] : design.at("over").items()) centre.push_back(given.contains(path) ? given.at(path) : value_at_path(defaults, path));
+  for (const auto& [path, axis] : design.at("over").items())
+    centre.push_back(given.contains(path) ? given.at(path) : value_at_path(defaults, path));
   return centre;
 }
 
 void check_centre(const ordered_json& design, std::vector<Fault>& faults) {
   if (!design.contains("centre")) return;
-  if (!design.at("centre").is_object()) return faults.push_back({"/design/centre", "must be an object with a value for parameters of over"});
+  if (!design.at("centre").is_object())
+    return faults.push_back({"/design/centre", "must be an object with a value for parameters of over"});
   for (const auto& [path, value] : design.at("centre").items()) {
     const std::string pointer = "/design/centre" + pointer_token(path);
     if (!is_known_path(path, pointer, faults)) continue;
     if (!design.at("over").contains(path)) {
-      faults.push_back({pointer, "is not in over; what all points have in common stands under \"parameters\" of the request"});
+      faults.push_back(
+          {pointer,
+           "is not in over; what all points have in common stands under \"parameters\" of the request"});
       continue;
     }
     for (const Fault& fault : find_path_faults(path, value)) faults.push_back({pointer, fault.detail});
@@ -54,7 +59,8 @@ std::uint64_t count_zip(const ordered_json& design, const json&, std::vector<Fau
     const std::uint64_t values = count_axis_values(path, axis, pointer_of_axis(path), faults);
     if (path == first) count = values;
     if (values == 0 || count == 0 || values == count) continue;
-    faults.push_back({pointer_of_axis(path), "has " + std::to_string(values) + " values, and " + first + " has " + std::to_string(count) +
+    faults.push_back({pointer_of_axis(path), "has " + std::to_string(values) + " values, and " + first +
+                                                 " has " + std::to_string(count) +
                                                  ": a zip needs as many of each"});
   }
   return faults.size() == before ? count : 0;
@@ -72,25 +78,31 @@ DesignPoints make_zip(const ordered_json& design, const json&, std::vector<Fault
       points[k].push_back(axis.values[k]);
       identity += value_identity(axis.path, axis.values[k]) + ' ';
     }
-    if (!seen.insert(identity).second) faults.push_back({axes.front().pointers[k], "this value and those beside it are one of the points already"});
+    if (!seen.insert(identity).second)
+      faults.push_back(
+          {axes.front().pointers[k], "this value and those beside it are one of the points already"});
   }
   return points;
 }
 
-std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parameters, std::vector<Fault>& faults) {
+std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parameters,
+                                  std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
   check_centre(design, faults);
   std::uint64_t count = 1;
-  for (const auto& [path, axis] : design.at("over").items()) count += count_axis_values(path, axis, pointer_of_axis(path), faults);
+  for (const auto& [path, axis] : design.at("over").items())
+    count += count_axis_values(path, axis, pointer_of_axis(path), faults);
   if (faults.size() != before) return 0;
   const auto centre = centre_of(design, parameters);
   // Nothing is known of parameters with faults.
-  const bool are_known = std::ranges::none_of(faults, [](const Fault& fault) { return fault.pointer.starts_with("/parameters"); });
+  const bool are_known = std::ranges::none_of(
+      faults, [](const Fault& fault) { return fault.pointer.starts_with("/parameters"); });
   std::size_t next = 0;
   for (const auto& [path, axis] : design.at("over").items()) {
     const json& value = centre[next++];
     if (value.is_null() || (is_linkage_path(path) && !value.is_number())) {
-      if (are_known) faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
+      if (are_known)
+        faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
     } else {
       count -= axis_contains(path, axis, value) ? 1 : 0;
     }
@@ -98,7 +110,8 @@ std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parame
   return faults.size() == before ? count : 0;
 }
 
-DesignPoints make_one_at_a_time(const ordered_json& design, const json& parameters, std::vector<Fault>& faults) {
+DesignPoints make_one_at_a_time(const ordered_json& design, const json& parameters,
+                                std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
   const auto axes = make_axes(design, Repeats::kRefused, faults);
   const std::vector<json> centre = centre_of(design, parameters);

@@ -19,15 +19,18 @@ std::string words_of(const ParameterInfo& info) {
   return text;
 }
 
-std::string line_of(std::string key, const std::string& value, std::string_view unit, const std::string& allowed, std::string_view help) {
+std::string line_of(std::string key, const std::string& value, std::string_view unit,
+                    const std::string& allowed, std::string_view help) {
   constexpr std::size_t kKeyWidth = 30;
   key.resize(std::max(key.size() + 1, kKeyWidth), ' ');
-  return "  " + key + value + (unit.empty() ? "" : " " + std::string(unit)) + ", " + allowed + ": " + std::string(help) + "\n";
+  return "  " + key + value + (unit.empty() ? "" : " " + std::string(unit)) + ", " + allowed + ": " +
+         std::string(help) + "\n";
 }
 
 std::string link_line(const std::string& path, const nlohmann::json& defaults) {
   const bool mass = path.ends_with(kMassKey);
-  return line_of(path, value_at_path(defaults, path).dump(), mass ? "kg" : "kg m^2", (mass ? kMassRange : kInertiaRange).text(),
+  return line_of(path, value_at_path(defaults, path).dump(), mass ? "kg" : "kg m^2",
+                 (mass ? kMassRange : kInertiaRange).text(),
                  mass ? "Mass of the link" : "Moments about the link's frame origin");
 }
 
@@ -38,10 +41,12 @@ std::string parameter_help() {
   for (const ParameterInfo& info : parameter_table()) {
     const nlohmann::json value = default_value(info);
     const bool choice = info.kind == ParameterKind::kChoice;
-    text += line_of(std::string(info.key), choice ? value.get<std::string>() : number_text(value.get<double>()), info.unit,
-                    choice ? words_of(info) : info.range.text(), info.help);
+    text +=
+        line_of(std::string(info.key), choice ? value.get<std::string>() : number_text(value.get<double>()),
+                info.unit, choice ? words_of(info) : info.range.text(), info.help);
   }
-  text += line_of(std::string(kLinkageKey), std::string(kRpsupName), "", "or an object", "The linkage; an object describes another one");
+  text += line_of(std::string(kLinkageKey), std::string(kRpsupName), "", "or an object",
+                  "The linkage; an object describes another one");
   text += line_of(std::string(kWearKey), "none", "", "lists", kWearHelp);
   const nlohmann::json defaults = complete_parameters(nlohmann::json::object(), "");
   for (const std::string& path : known_paths()) {

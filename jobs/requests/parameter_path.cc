@@ -18,7 +18,8 @@ std::vector<std::string> make_known_paths() {
   std::vector<std::string> paths;
   for (const ParameterInfo& info : parameter_table()) paths.emplace_back(info.key);
   for (const std::string_view link : kLinkNames) {
-    for (const std::string_view part : {kMassKey, kInertiaKey}) paths.push_back("links." + std::string(link) + "." + std::string(part));
+    for (const std::string_view part : {kMassKey, kInertiaKey})
+      paths.push_back("links." + std::string(link) + "." + std::string(part));
   }
   return paths;
 }
@@ -34,7 +35,8 @@ std::vector<std::string> parts_of(std::string_view path) {
   return parts;
 }
 
-/// The member or element of that name; null if there is none. Of a list only places that it has are known: JSON pointers would make others.
+/// The member or element of that name; null if there is none. Of a list only places that it has are known:
+/// JSON pointers would make others.
 const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& part) {
   if (whole.is_object()) {
     const auto found = whole.find(part);
@@ -42,7 +44,8 @@ const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& 
   }
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  const bool is_place = error == std::errc() && std::to_string(index) == part && whole.is_array() && index < whole.size();
+  const bool is_place =
+      error == std::errc() && std::to_string(index) == part && whole.is_array() && index < whole.size();
   return is_place ? &whole[index] : nullptr;
 }
 
@@ -81,7 +84,8 @@ std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
 bool is_linkage_path(std::string_view path) { return path.starts_with("linkage."); }
 
 std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path) {
-  if (const auto* const value = find_at(parameters, path)) return value->is_number() ? "" : "is no number of the linkage described";
+  if (const auto* const value = find_at(parameters, path))
+    return value->is_number() ? "" : "is no number of the linkage described";
   // A value that is left out has a default, and may be swept as well.
   const auto* const around = find_at(parameters, path.substr(0, path.rfind('.')));
   return around != nullptr && around->is_object() ? "" : "there is no such place in the linkage described";
@@ -103,7 +107,8 @@ std::string path_of_pointer(std::string_view pointer) {
 
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value) {
   nlohmann::json* place = &parameters;
-  for (const std::string& part : parts_of(path)) place = place->is_array() ? &place->at(std::stoul(part)) : &(*place)[part];
+  for (const std::string& part : parts_of(path))
+    place = place->is_array() ? &place->at(std::stoul(part)) : &(*place)[part];
   *place = value;
 }
 

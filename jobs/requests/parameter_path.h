@@ -21,15 +21,18 @@ namespace jobs {
 [[nodiscard]] bool is_linkage_path(std::string_view path);
 
 /// Fault of a path that names no number of the linkage in a parameter set; empty if there is none.
-[[nodiscard]] std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path);
+[[nodiscard]] std::string describe_linkage_path_fault(const nlohmann::json& parameters,
+                                                      std::string_view path);
 
 /// "links.1,3.mass_kg" -> "/links/1,3/mass_kg".
 [[nodiscard]] std::string pointer_of_path(std::string_view path);
 
-/// The path of the value at or around that pointer: "/links/1,3/inertia_kg_m2/0" -> "links.1,3.inertia_kg_m2".
+/// The path of the value at or around that pointer: "/links/1,3/inertia_kg_m2/0" ->
+/// "links.1,3.inertia_kg_m2".
 [[nodiscard]] std::string path_of_pointer(std::string_view pointer);
 
-/// Writes a value; objects around it are made where there are none. @param path  of lists only places that they have
+/// Writes a value; objects around it are made where there are none. @param path of lists only places that
+/// they have
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value);
 
 /// @param completed  all parameters  @returns null if the linkage of the set has no such value

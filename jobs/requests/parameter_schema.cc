@@ -17,7 +17,8 @@ void add_range(const Range& range, json& schema) {
 }
 
 json schema_of(const ParameterInfo& info) {
-  json schema{{"description", info.help}, {"default", default_value(info)}, {"x-default-source", source_name(info.source)}};
+  json schema{{"description", info.help}, {"default", default_value(info)},
+              {"x-default-source", source_name(info.source)}};
   if (!info.unit.empty()) schema["x-unit"] = info.unit;
   switch (info.kind) {
     case ParameterKind::kNumber: schema["type"] = "number"; break;
@@ -32,26 +33,37 @@ json schema_of(const ParameterInfo& info) {
   return schema;
 }
 
-/// @param moments  where the default moments come from: the paper's rows of links (2,1) and (2,2) are those of no body
+/// @param moments  where the default moments come from: the paper's rows of links (2,1) and (2,2) are those
+///     of no body
 json schema_of_link(const engine::LinkInertia& link, DefaultSource moments) {
   json mass{{"type", "number"}, {"description", "Mass of the link"}, {"default", link.mass}, {"x-unit", "kg"},
             {"x-default-source", source_name(DefaultSource::kPaper)}};
   add_range(kMassRange, mass);
   json moment{{"type", "number"}};
   add_range(kInertiaRange, moment);
-  const json inertia{{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", moment}, {"x-unit", "kg m^2"},
-                     {"description", "Moments (I_x, I_y, I_z) about the link's frame origin. A default scales with the link's mass, length and "
-                                     "diameter as a uniform rod's"},
-                     {"default", {link.inertia.x(), link.inertia.y(), link.inertia.z()}},
-                     {"x-default-source", source_name(moments)}};
-  return {{"type", "object"}, {"additionalProperties", false}, {"properties", {{kMassKey, mass}, {kInertiaKey, inertia}}}};
+  const json inertia{
+      {"type", "array"},
+      {"minItems", 3},
+      {"maxItems", 3},
+      {"items", moment},
+      {"x-unit", "kg m^2"},
+      {"description",
+       "Moments (I_x, I_y, I_z) about the link's frame origin. A default scales with the link's mass, length "
+       "and "
+       "diameter as a uniform rod's"},
+      {"default", {link.inertia.x(), link.inertia.y(), link.inertia.z()}},
+      {"x-default-source", source_name(moments)}};
+  return {{"type", "object"}, {"additionalProperties", false},
+          {"properties", {{kMassKey, mass}, {kInertiaKey, inertia}}}};
 }
 
 json schema_of_links() {
-  json links{{"type", "object"}, {"additionalProperties", false}, {"description", "Mass properties of the links"}, {"properties", json::object()}};
+  json links{{"type", "object"}, {"additionalProperties", false},
+             {"description", "Mass properties of the links"}, {"properties", json::object()}};
   const engine::RpsupParameters defaults;
   for (std::size_t i = 0; i < kLinkNames.size(); ++i) {
-    const DefaultSource moments = kLinkNames[i].starts_with("1") ? DefaultSource::kPaper : DefaultSource::kDeduced;
+    const DefaultSource moments =
+        kLinkNames[i].starts_with("1") ? DefaultSource::kPaper : DefaultSource::kDeduced;
     links["properties"][kLinkNames[i]] = schema_of_link(defaults.links[i], moments);
   }
   return links;

@@ -5,7 +5,8 @@
 
 namespace jobs {
 
-/// JSON Schema (2020-12) of the parameters of a job: type, unit, range, default, where the default comes from.
+/// JSON Schema (2020-12) of the parameters of a job: type, unit, range, default, where the default comes
+/// from.
 [[nodiscard]] nlohmann::json parameter_schema();
 
 }  // namespace jobs

@@ -32,28 +32,35 @@ std::vector<std::string_view> known_keys() {
   return keys;
 }
 
-/// The faults of what is given beside a described linkage, and of the description: by itself, with the values given and else the defaults.
+/// The faults of what is given beside a described linkage, and of the description: by itself, with the values
+/// given and else the defaults.
 void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
   const json& linkage = given.at(kLinkageKey);
   if (!linkage.is_object()) {
-    if (linkage != kRpsupName) faults.push_back({"/linkage", "must be \"rpsup\", or an object that describes a linkage"});
+    if (linkage != kRpsupName)
+      faults.push_back({"/linkage", "must be \"rpsup\", or an object that describes a linkage"});
     return;
   }
   for (const auto& [key, value] : given.items()) {
     const ParameterInfo* info = find_parameter(key);
     if (key == "links" || key == kWearKey || (info != nullptr && info->scope == ParameterScope::kRpsup))
-      faults.push_back({pointer_token(key), "belongs to the linkage \"rpsup\"; a described linkage says it in its description"});
+      faults.push_back({pointer_token(key),
+                        "belongs to the linkage \"rpsup\"; a described linkage says it in its description"});
   }
-  if (faults.empty()) (void)read_linkage(linkage, to_job_spec(fill_in_defaults({{"linkage", json::object()}})).parameters, faults);
+  if (faults.empty())
+    (void)read_linkage(linkage, to_job_spec(fill_in_defaults({{"linkage", json::object()}})).parameters,
+                       faults);
 }
 
 void add_clearance_faults(const json& completed, std::vector<Fault>& faults) {
   const double clearance = number_at(completed, "clearance_mm");
   const double bearing_radius = number_at(completed, "bearing_radius_mm");
   if (clearance >= bearing_radius) {
-    faults.push_back({"/clearance_mm", "must be less than bearing_radius_mm, which is " + readable_number(bearing_radius) + " mm"});
+    faults.push_back({"/clearance_mm", "must be less than bearing_radius_mm, which is " +
+                                           readable_number(bearing_radius) + " mm"});
   } else if (clearance > 0.0 && clearance < kLeastClearance_mm) {
-    faults.push_back({"/clearance_mm", "must be 0 (the ideal joint) or at least " + readable_number(kLeastClearance_mm) + " mm"});
+    faults.push_back({"/clearance_mm", "must be 0 (the ideal joint) or at least " +
+                                           readable_number(kLeastClearance_mm) + " mm"});
   }
 }
 
@@ -64,20 +71,26 @@ void add_link_faults(const json& completed, std::vector<Fault>& faults) {
   for (const std::string link : {"crank", "rod", "cross"}) {
     const double outer = number_at(completed, link + "_diameter_mm");
     if (number_at(completed, link + "_inner_diameter_mm") >= outer)
-      faults.push_back({"/" + link + "_inner_diameter_mm", "must be less than " + link + "_diameter_mm, which is " + readable_number(outer) + " mm"});
+      faults.push_back(
+          {"/" + link + "_inner_diameter_mm",
+           "must be less than " + link + "_diameter_mm, which is " + readable_number(outer) + " mm"});
   }
   const double length = number_at(completed, "cross_length_mm");
   if (length > 0.0 && length < kLeastArm_mm)
-    faults.push_back({"/cross_length_mm", "must be 0 (the joint is at the cross link's guide) or at least " + readable_number(kLeastArm_mm) + " mm"});
+    faults.push_back({"/cross_length_mm", "must be 0 (the joint is at the cross link's guide) or at least " +
+                                              readable_number(kLeastArm_mm) + " mm"});
   if (length == 0.0 && completed.at("cross") == "flexible")
-    faults.push_back({"/cross_length_mm", "must be at least " + readable_number(kLeastArm_mm) + " mm, as the cross link is flexible"});
+    faults.push_back({"/cross_length_mm", "must be at least " + readable_number(kLeastArm_mm) +
+                                              " mm, as the cross link is flexible"});
 }
 
 void add_material_faults(const json& completed, std::vector<Fault>& faults) {
   const double most = 3.0 * number_at(completed, "shear_modulus_pa");
   // Poisson's ratio E/(2G) - 1 of a stable isotropic material is at most 1/2.
   if (number_at(completed, "youngs_modulus_pa") > most) {
-    faults.push_back({"/youngs_modulus_pa", "must be at most 3 times shear_modulus_pa, " + readable_number(most) + " Pa: Poisson's ratio is at most 0.5"});
+    faults.push_back({"/youngs_modulus_pa", "must be at most 3 times shear_modulus_pa, " +
+                                                readable_number(most) +
+                                                " Pa: Poisson's ratio is at most 0.5"});
   }
 }
 
@@ -85,21 +98,26 @@ void add_size_faults(const json& completed, const JobSpec& spec, std::vector<Fau
   const double duration = spec.options.duration;
   const double samples = duration * spec.options.output_rate;
   if (samples > kMostSamples) {
-    faults.push_back({"/output_rate_hz", "duration_s times output_rate_hz is " + readable_number(std::floor(samples)) + " samples; at most " +
+    faults.push_back({"/output_rate_hz", "duration_s times output_rate_hz is " +
+                                             readable_number(std::floor(samples)) + " samples; at most " +
                                              readable_number(kMostSamples) + " are kept"});
   } else if (has_more_channels(spec, kMostStoredValues / samples)) {
     const double values = samples * static_cast<double>(channel_table(spec).size());
-    faults.push_back({"/output_rate_hz", "the trajectory would have " + readable_number(std::floor(values)) + " values; at most " +
-                                             readable_number(kMostStoredValues) + " are kept"});
+    faults.push_back({"/output_rate_hz", "the trajectory would have " + readable_number(std::floor(values)) +
+                                             " values; at most " + readable_number(kMostStoredValues) +
+                                             " are kept"});
   }
   const double steps = duration / number_at(completed, "step_s");
-  if (spec.options.integrator == engine::Integrator::kRk4 && steps > static_cast<double>(spec.options.step_limit)) {
-    faults.push_back({"/step_s", "duration_s over step_s is " + readable_number(std::floor(steps)) + " steps; at most " +
-                                     std::to_string(spec.options.step_limit) + " are taken"});
+  if (spec.options.integrator == engine::Integrator::kRk4 &&
+      steps > static_cast<double>(spec.options.step_limit)) {
+    faults.push_back({"/step_s", "duration_s over step_s is " + readable_number(std::floor(steps)) +
+                                     " steps; at most " + std::to_string(spec.options.step_limit) +
+                                     " are taken"});
   }
 }
 
-/// "c_r" -> "/clearance_mm", "links.1,3.inertia" -> "/links/1,3/inertia_kg_m2"; empty if the engine's name is no parameter.
+/// "c_r" -> "/clearance_mm", "links.1,3.inertia" -> "/links/1,3/inertia_kg_m2"; empty if the engine's name is
+/// no parameter.
 std::string pointer_of_member(const std::string& member) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.member == member) return pointer_token(info.key);
@@ -113,10 +131,13 @@ std::string pointer_of_member(const std::string& member) {
   return "";
 }
 
-/// The parameter to name for a linkage that cannot be assembled or locks: many decide it, and one that is not at its default is the likeliest cause.
+/// The parameter to name for a linkage that cannot be assembled or locks: many decide it, and one that is not
+/// at its default is the likeliest cause.
 std::string pointer_of_geometry(const json& completed, std::string_view otherwise) {
-  for (const std::string_view key : {"guide_offset_z_m", "guide_offset_y_m", "guide_angle_deg", "coupler_length_m", "rod_start_m", "rod_stroke_mm", "crank_start_rad"}) {
-    if (completed.at(key) != canonical_value(*find_parameter(key), default_value(*find_parameter(key)))) return pointer_token(key);
+  for (const std::string_view key : {"guide_offset_z_m", "guide_offset_y_m", "guide_angle_deg",
+                                     "coupler_length_m", "rod_start_m", "rod_stroke_mm", "crank_start_rad"}) {
+    if (completed.at(key) != canonical_value(*find_parameter(key), default_value(*find_parameter(key))))
+      return pointer_token(key);
   }
   return pointer_token(otherwise);
 }
@@ -137,16 +158,20 @@ void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fa
   }
 }
 
-/// As many channels as a job of "rpsup" has at most: that of links in as many parts and of as many worn rings as there may be.
+/// As many channels as a job of "rpsup" has at most: that of links in as many parts and of as many worn rings
+/// as there may be.
 std::size_t count_most_channels() {
-  JobSpec spec = to_job_spec(fill_in_defaults({{"coupler", "flexible"}, {"crank", "flexible"}, {"rod", "flexible"}, {"cross", "flexible"},
+  JobSpec spec = to_job_spec(fill_in_defaults({{"coupler", "flexible"}, {"crank", "flexible"},
+                                               {"rod", "flexible"}, {"cross", "flexible"},
                                                {"cross_length_mm", 100}}));
-  for (const std::string_view key : {"rigid_elements", "crank_elements", "rod_elements", "cross_elements", "radial_levels"}) {
+  for (const std::string_view key :
+       {"rigid_elements", "crank_elements", "rod_elements", "cross_elements", "radial_levels"}) {
     const ParameterInfo& info = *find_parameter(key);
     info.write(spec, static_cast<int>(info.range.maximum));
   }
   constexpr std::size_t kSectors = 8;
-  spec.parameters.wear_depth.assign(static_cast<std::size_t>(spec.parameters.radial_levels), std::vector<double>(kSectors, 0.0));
+  spec.parameters.wear_depth.assign(static_cast<std::size_t>(spec.parameters.radial_levels),
+                                    std::vector<double>(kSectors, 0.0));
   return channel_table(spec).size();
 }
 
@@ -160,8 +185,10 @@ json without_linkage(json completed) {
 std::string describe_misplaced(const std::string& key) {
   if (key == "parameters") return "unknown key; parameters stand in this object itself";
   if (key == "sweep" || key == "cases" || key == "design" || key == "replicates")
-    return "unknown key; in a sweep (POST /v1/sweeps, rpsup sweep) it stands beside \"parameters\", not among them";
-  if (key.starts_with("links.")) return "unknown key; here it is written as an object: {\"links\": {\"1,1\": {\"mass_kg\": 0.5}}}";
+    return "unknown key; in a sweep (POST /v1/sweeps, rpsup sweep) it stands beside \"parameters\", not "
+           "among them";
+  if (key.starts_with("links."))
+    return "unknown key; here it is written as an object: {\"links\": {\"1,1\": {\"mass_kg\": 0.5}}}";
   return "";
 }
 
@@ -177,10 +204,13 @@ std::vector<Fault> find_value_faults(const json& given) {
     } else if (key == kWearKey) {
       std::ranges::move(find_wear_faults(value), std::back_inserter(faults));
     } else if (const ParameterInfo* info = find_parameter(key)) {
-      if (std::string detail = describe_fault(*info, value); !detail.empty()) faults.push_back({pointer_token(key), std::move(detail)});
+      if (std::string detail = describe_fault(*info, value); !detail.empty())
+        faults.push_back({pointer_token(key), std::move(detail)});
     } else if (key != kLinkageKey) {
       const std::string misplaced = describe_misplaced(key);
-      faults.push_back({pointer_token(key), misplaced.empty() ? describe_unknown_key(key, known, "GET /v1/parameters") : misplaced});
+      faults.push_back({pointer_token(key), misplaced.empty()
+                                                ? describe_unknown_key(key, known, "GET /v1/parameters")
+                                                : misplaced});
     }
   }
   if (faults.empty() && given.contains(kLinkageKey)) collect_linkage_faults(given, faults);
@@ -188,7 +218,9 @@ std::vector<Fault> find_value_faults(const json& given) {
 }
 
 std::vector<Fault> find_path_faults(const std::string& path, const json& value) {
-  if (is_linkage_path(path)) return value.is_number() ? std::vector<Fault>{} : std::vector<Fault>{{pointer_of_path(path), "must be a number"}};
+  if (is_linkage_path(path))
+    return value.is_number() ? std::vector<Fault>{}
+                             : std::vector<Fault>{{pointer_of_path(path), "must be a number"}};
   json alone = json::object();
   set_at_path(alone, path, value);
   return find_value_faults(alone);
@@ -211,7 +243,8 @@ json fill_in_defaults(const json& given) {
 std::vector<Fault> find_combination_faults(const json& completed) {
   std::vector<Fault> faults;
   if (describes_linkage(completed)) {
-    if (!read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults)) return faults;
+    if (!read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults))
+      return faults;
   } else {
     add_link_faults(completed, faults);
     if (faults.empty()) faults = find_inertia_faults(completed);
@@ -241,11 +274,13 @@ JobSpec to_job_spec(const json& completed_parameters) {
   JobSpec spec;
   const bool described = describes_linkage(completed_parameters);
   for (const ParameterInfo& info : parameter_table()) {
-    if (!described || info.scope != ParameterScope::kRpsup) info.write(spec, completed_parameters.at(info.key));
+    if (!described || info.scope != ParameterScope::kRpsup)
+      info.write(spec, completed_parameters.at(info.key));
   }
   if (!described) {
     write_links(completed_parameters.at("links"), spec.parameters);
-    if (completed_parameters.contains(kWearKey)) spec.parameters.wear_depth = to_wear_depth(completed_parameters.at(kWearKey));
+    if (completed_parameters.contains(kWearKey))
+      spec.parameters.wear_depth = to_wear_depth(completed_parameters.at(kWearKey));
   } else if (const json& linkage = completed_parameters.at(kLinkageKey); !linkage.empty()) {
     std::vector<Fault> faults;
     spec.linkage = read_linkage(linkage, spec.parameters, faults);
@@ -255,7 +290,8 @@ JobSpec to_job_spec(const json& completed_parameters) {
 }
 
 std::vector<engine::QuantityInfo> channel_table(const JobSpec& spec) {
-  return spec.linkage ? engine::linkage_tables(*spec.linkage).channels : engine::channel_table(spec.parameters);
+  return spec.linkage ? engine::linkage_tables(*spec.linkage).channels
+                      : engine::channel_table(spec.parameters);
 }
 
 bool has_more_channels(const JobSpec& spec, double most) {

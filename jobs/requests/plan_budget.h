@@ -8,8 +8,8 @@
 
 namespace jobs {
 
-/// Keeps a sweep over described linkages from taking minutes to check, or gigabytes to hold: a large linkage has room for fewer jobs than
-/// a small one.
+/// Keeps a sweep over described linkages from taking minutes to check, or gigabytes to hold: a large linkage
+/// has room for fewer jobs than a small one.
 class PlanBudget {
  public:
   /// @param max_jobs  that a sweep of small linkages may have

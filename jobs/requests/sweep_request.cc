@@ -61,13 +61,16 @@ class SweepParser {
   }
 
  private:
-  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+  void fault(std::string pointer, std::string detail) {
+    faults_.push_back({std::move(pointer), std::move(detail)});
+  }
 
   void check_keys() {
     for (const auto& [key, value] : request_.items()) {
       if (std::ranges::find(kSweepRequestKeys, key) != kSweepRequestKeys.end()) continue;
       const bool is_parameter = std::ranges::find(known_paths(), key) != known_paths().end();
-      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\"" : describe_unknown_key(key, kSweepRequestKeys));
+      fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\""
+                                             : describe_unknown_key(key, kSweepRequestKeys));
     }
   }
 
@@ -104,15 +107,17 @@ class SweepParser {
   void read_replicates() {
     if (!request_.contains("replicates")) return;
     const json replicates = request_.at("replicates");
-    if (!replicates.is_object()) return fault("/replicates", "must be an object of count, perturbation, seed and only");
+    if (!replicates.is_object())
+      return fault("/replicates", "must be an object of count, perturbation, seed and only");
     constexpr std::array<std::string_view, 4> kKeys{"count", "perturbation", "seed", "only"};
     const std::size_t before = faults_.size();
     for (const auto& [key, value] : replicates.items()) {
-      const std::string detail = key == "count"          ? describe_integer_fault(kCountRange, value)
-                                 : key == "perturbation" ? describe_number_fault(kPerturbationRange, "", value)
-                                 : key == "seed"         ? describe_integer_fault(kSeedRange, value)
-                                 : key == "only"         ? check_replicated_values(value)
-                                                         : describe_unknown_key(key, kKeys);
+      const std::string detail = key == "count" ? describe_integer_fault(kCountRange, value)
+                                 : key == "perturbation"
+                                     ? describe_number_fault(kPerturbationRange, "", value)
+                                 : key == "seed" ? describe_integer_fault(kSeedRange, value)
+                                 : key == "only" ? check_replicated_values(value)
+                                                 : describe_unknown_key(key, kKeys);
       if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
     }
     if (!replicates.contains("count")) fault("/replicates/count", "is missing");
@@ -134,7 +139,8 @@ class SweepParser {
         continue;
       }
       for (std::size_t i = 0; i < values.size(); ++i)
-        for (const Fault& each : find_path_faults(path, values[i])) fault(pointer + pointer_token(std::to_string(i)), each.detail);
+        for (const Fault& each : find_path_faults(path, values[i]))
+          fault(pointer + pointer_token(std::to_string(i)), each.detail);
     }
     return "";
   }
@@ -142,7 +148,8 @@ class SweepParser {
   void read_parameters() {
     if (!request_.contains("parameters")) return;
     sweep_.parameters = request_.at("parameters");
-    if (!check_values(sweep_.parameters, "/parameters")) sweep_.parameters = json::object();  // what follows may rely on them
+    // What follows may rely on them
+    if (!check_values(sweep_.parameters, "/parameters")) sweep_.parameters = json::object();
   }
 
   /// Faults of the parameters at a pointer. Who gives one of them several values is told where those stand.
@@ -150,7 +157,8 @@ class SweepParser {
   bool check_values(const json& given, const std::string& pointer) {
     const std::vector<Fault> found = find_value_faults(given);
     for (const Fault& each : found) {
-      const bool several = takes_one_value(each.pointer) && given.at(json::json_pointer(each.pointer)).is_structured();
+      const bool several =
+          takes_one_value(each.pointer) && given.at(json::json_pointer(each.pointer)).is_structured();
       fault(pointer + each.pointer, each.detail + (several ? "; several values stand under \"sweep\"" : ""));
     }
     return found.empty();
@@ -159,7 +167,8 @@ class SweepParser {
   void check_cases_shape() {
     if (!request_.contains("cases")) return;
     const ordered_json& cases = request_.at("cases");
-    if (!cases.is_array() || cases.empty()) return fault("/cases", "must be a list of one parameter object or more");
+    if (!cases.is_array() || cases.empty())
+      return fault("/cases", "must be a list of one parameter object or more");
     case_count_ = cases.size();
   }
 
@@ -167,7 +176,8 @@ class SweepParser {
   void check_size() {
     std::uint64_t jobs = case_count_;
     // Replicates of some sets only are counted as they are made.
-    bool overflow = sweep_.replicates.only.empty() && __builtin_mul_overflow(jobs, sweep_.replicates.count, &jobs);
+    bool overflow =
+        sweep_.replicates.only.empty() && __builtin_mul_overflow(jobs, sweep_.replicates.count, &jobs);
     if (request_.contains("sweep")) {
       if (!request_.at("sweep").is_object()) return fault("/sweep", "must be an object of axes");
       for (const auto& [path, axis] : request_.at("sweep").items()) {
@@ -180,12 +190,15 @@ class SweepParser {
       overflow |= design_points_ > 0 && __builtin_mul_overflow(jobs, design_points_, &jobs);
     }
     if (!overflow && jobs <= max_jobs_) return;
-    const std::string size = overflow ? "more than " + std::to_string(std::numeric_limits<std::uint64_t>::max()) : std::to_string(jobs);
+    const std::string size = overflow
+                                 ? "more than " + std::to_string(std::numeric_limits<std::uint64_t>::max())
+                                 : std::to_string(jobs);
     const char* const pointer = request_.contains("sweep")    ? "/sweep"
                                 : request_.contains("design") ? "/design"
                                 : request_.contains("cases")  ? "/cases"
                                                               : "/replicates/count";
-    fault(pointer, "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed");
+    fault(pointer,
+          "the sweep would have " + size + " jobs; at most " + std::to_string(max_jobs_) + " are allowed");
     throw InvalidRequest(std::move(faults_));
   }
 
@@ -270,10 +283,13 @@ class SweepParser {
 
 }  // namespace
 
-SweepRequest parse_sweep_request(const ordered_json& request, std::size_t max_jobs) { return SweepParser(request, max_jobs).parse(); }
+SweepRequest parse_sweep_request(const ordered_json& request, std::size_t max_jobs) {
+  return SweepParser(request, max_jobs).parse();
+}
 
 std::string parse_move_request(const json& request) {
-  if (!request.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object with \"executor\""}});
+  if (!request.is_object())
+    throw InvalidRequest(std::vector<Fault>{{"", "must be an object with \"executor\""}});
   std::vector<Fault> faults;
   constexpr std::array<std::string_view, 1> kKeys{"executor"};
   for (const auto& [key, value] : request.items()) {

@@ -16,8 +16,8 @@
 namespace jobs {
 
 /// Keys of a request.
-inline constexpr std::array<std::string_view, 9> kSweepRequestKeys{"name",       "parameters", "sweep",    "design",  "cases",
-                                                                    "replicates", "reuse",      "priority", "executor"};
+inline constexpr std::array<std::string_view, 9> kSweepRequestKeys{
+    "name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority", "executor"};
 
 inline constexpr std::size_t kLongestName = 200;  ///< bytes
 inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
@@ -27,7 +27,8 @@ inline constexpr Range kPriorityRange{.minimum = -100, .maximum = 100};
 struct Replicates {
   bool requested = false;       ///< whether rows carry `replicate`
   std::uint64_t count = 1;
-  nlohmann::json only = nlohmann::json::object();  ///< lists of values by their paths: other points are run once; empty: none are
+  /// Lists of values by their paths: other points are run once; empty: none are
+  nlohmann::json only = nlohmann::json::object();
   double perturbation = 1e-6;   ///< relative, of contact_stiffness_scale
   std::uint64_t seed = 1;
 };
@@ -39,15 +40,16 @@ struct SweepRequest {
   std::vector<nlohmann::json> cases;                     ///< empty: none were given, which counts as one
   std::vector<Axis> axes;
   Design design;
-  std::vector<std::string> swept;                        ///< paths that differ from job to job: the design's, the axes', those of the cases
+  /// Paths that differ from job to job: the design's, the axes', those of the cases
+  std::vector<std::string> swept;
   Replicates replicates;
   bool reuse = true;
   std::int64_t priority = 0;
   std::string executor;                                  ///< empty: none was named
 };
 
-/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority", "executor"}; all are optional.
-/// The number of jobs is counted before anything of that size is made.
+/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority", "executor"};
+/// all are optional. The number of jobs is counted before anything of that size is made.
 /// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
 [[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);
 

@@ -35,10 +35,13 @@ void append_number_cell(std::string& csv, double x) {
 void append_cell(std::string& csv, const nlohmann::json& value) {
   if (value.is_null()) return;
   if (value.is_number_float()) return append_number_cell(csv, value.get<double>());
-  csv += value.is_string() ? text_cell(value.get<std::string>()) : value.is_structured() ? text_cell(value.dump()) : value.dump();
+  csv += value.is_string()       ? text_cell(value.get<std::string>())
+         : value.is_structured() ? text_cell(value.dump())
+                                 : value.dump();
 }
 
-constexpr std::array<const char*, 5> kReplicateColumns{"replicates_count", "replicates_mean", "replicates_spread", "replicates_min", "replicates_max"};
+constexpr std::array<const char*, 5> kReplicateColumns{
+    "replicates_count", "replicates_mean", "replicates_spread", "replicates_min", "replicates_max"};
 
 /// Their cells, each after a comma: other columns stand before them.
 void append_replicate_cells(std::string& csv, const ReplicateStatistics& set) {
@@ -53,7 +56,8 @@ void append_replicate_cells(std::string& csv, const ReplicateStatistics& set) {
 
 std::string to_csv(const ResultTable& table) {
   std::string csv;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) csv += (i > 0 ? "," : "") + text_cell(table.columns[i]);
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    csv += (i > 0 ? "," : "") + text_cell(table.columns[i]);
   if (!table.replicates.empty()) {
     for (const char* column : kReplicateColumns) csv += std::string(",") + column;
   }
@@ -72,7 +76,8 @@ std::string to_csv(const ResultTable& table) {
 
 std::string to_csv(const engine::Trajectory& trajectory) {
   std::string csv;
-  for (std::size_t i = 0; i < trajectory.channels.size(); ++i) csv += (i > 0 ? "," : "") + text_cell(trajectory.channels[i].key);
+  for (std::size_t i = 0; i < trajectory.channels.size(); ++i)
+    csv += (i > 0 ? "," : "") + text_cell(trajectory.channels[i].key);
   csv += kLineEnd;
   const std::size_t samples = trajectory.columns.empty() ? 0 : trajectory.columns.front().size();
   for (std::size_t k = 0; k < samples; ++k) {

@@ -8,8 +8,8 @@
 
 namespace jobs {
 
-/// CSV of a table or a trajectory: RFC 4180, a header line, numbers that read back exactly, empty cells for null.
-/// The statistics of replicates are the last columns: replicates_count, _mean, _spread, _min, _max.
+/// CSV of a table or a trajectory: RFC 4180, a header line, numbers that read back exactly, empty cells for
+/// null. The statistics of replicates are the last columns: replicates_count, _mean, _spread, _min, _max.
 [[nodiscard]] std::string to_csv(const ResultTable& table);
 [[nodiscard]] std::string to_csv(const engine::Trajectory& trajectory);
 

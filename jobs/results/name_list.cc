@@ -12,7 +12,8 @@ namespace {
 std::size_t name_size(std::string_view text, std::span<const std::string> known) {
   std::size_t size = std::min(text.find(','), text.size());
   for (const std::string& name : known) {
-    const bool stands_here = text.starts_with(name) && (text.size() == name.size() || text[name.size()] == ',');
+    const bool stands_here =
+        text.starts_with(name) && (text.size() == name.size() || text[name.size()] == ',');
     if (stands_here) size = std::max(size, name.size());
   }
   return size;
@@ -31,8 +32,9 @@ std::vector<std::string> split_names(std::string_view text, std::span<const std:
   }
 }
 
-std::vector<std::size_t> find_names(const std::vector<std::string>& names, std::span<const std::string> known, std::string_view listed,
-                                    const std::string& pointer, std::vector<Fault>& faults) {
+std::vector<std::size_t> find_names(const std::vector<std::string>& names, std::span<const std::string> known,
+                                    std::string_view listed, const std::string& pointer,
+                                    std::vector<Fault>& faults) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -9,18 +9,22 @@
 
 namespace jobs {
 
-PageChecker::PageChecker(const PageQuery& query, std::string_view id_prefix, std::span<const std::string> keys,
-    std::span<const std::string_view> states) {
+PageChecker::PageChecker(const PageQuery& query, std::string_view id_prefix,
+                         std::span<const std::string> keys, std::span<const std::string_view> states) {
   std::vector<Fault> faults;
-  if (query.limit < 1 || query.limit > PageQuery::kLargestLimit) faults.push_back({"/limit", "must be an integer in [1, " + std::to_string(PageQuery::kLargestLimit) + "]"});
-  if (!query.cursor.empty() && !is_id(query.cursor, id_prefix)) faults.push_back({"/cursor", "must be the next_cursor of another page"});
+  if (query.limit < 1 || query.limit > PageQuery::kLargestLimit)
+    faults.push_back(
+        {"/limit", "must be an integer in [1, " + std::to_string(PageQuery::kLargestLimit) + "]"});
+  if (!query.cursor.empty() && !is_id(query.cursor, id_prefix))
+    faults.push_back({"/cursor", "must be the next_cursor of another page"});
   if (!query.state.empty() && std::ranges::find(states, query.state) == states.end()) {
     std::string names;
     for (const std::string_view state : states) names += (names.empty() ? "" : ", ") + std::string(state);
     faults.push_back({"/state", "must be one of " + names});
   }
   if (!query.fields.empty()) {
-    for (const std::size_t place : find_names(split_names(query.fields, keys), keys, {}, "/fields", faults)) wanted_.push_back(keys[place]);
+    for (const std::size_t place : find_names(split_names(query.fields, keys), keys, {}, "/fields", faults))
+      wanted_.push_back(keys[place]);
   }
   if (!faults.empty()) throw InvalidRequest(std::move(faults));
 }

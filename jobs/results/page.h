@@ -39,7 +39,8 @@ class PageChecker {
 /// {"items": [...], "next_cursor": ...}.
 /// @param rows  one more than the page takes, if there are as many
 template <typename Row, typename ToJson>
-nlohmann::json make_page(const std::vector<Row>& rows, std::size_t limit, const PageChecker& checker, const ToJson& to_json) {
+nlohmann::json make_page(const std::vector<Row>& rows, std::size_t limit, const PageChecker& checker,
+                         const ToJson& to_json) {
   nlohmann::json items = nlohmann::json::array();
   for (std::size_t i = 0; i < std::min(limit, rows.size()); ++i) {
     items.push_back(to_json(rows[i]));

@@ -23,7 +23,9 @@ namespace {
 
 using nlohmann::json;
 
-json time_or_null(const std::optional<std::int64_t>& unix_ms) { return unix_ms ? json(time_text(*unix_ms)) : json(); }
+json time_or_null(const std::optional<std::int64_t>& unix_ms) {
+  return unix_ms ? json(time_text(*unix_ms)) : json();
+}
 
 json text_or_null(const std::string& text) { return text.empty() ? json() : json(text); }
 
@@ -32,15 +34,18 @@ json error_json(const std::string& reason, const std::string& detail, const std:
 }
 
 json run_json(const RunRow& run, std::int64_t attempts, bool reused) {
-  return {{"wall_time_s", run.wall_time_s}, {"cpu_time_s", run.cpu_time_s}, {"attempts", attempts}, {"host", run.host}, {"cpu", run.cpu},
+  return {{"wall_time_s", run.wall_time_s}, {"cpu_time_s", run.cpu_time_s}, {"attempts", attempts},
+          {"host", run.host}, {"cpu", run.cpu},
           {"libm", text_or_null(run.libm)}, {"numerics", text_or_null(run.numerics)},
-          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler}, {"engine", run.engine}}},
+          {"program", {{"version", run.version}, {"commit", run.commit}, {"compiler", run.compiler},
+                       {"engine", run.engine}}},
           {"reused", reused}};
 }
 
 json job_links(const JobRow& row) {
   const std::string self = "/v1/jobs/" + row.id;
-  return {{"self", self}, {"trajectory", self + "/trajectory"}, {"sweep", row.sweep_id ? json("/v1/sweeps/" + *row.sweep_id) : json()}};
+  return {{"self", self}, {"trajectory", self + "/trajectory"},
+          {"sweep", row.sweep_id ? json("/v1/sweeps/" + *row.sweep_id) : json()}};
 }
 
 json counts_json(const StateCounts& counts) {
@@ -52,7 +57,8 @@ json counts_json(const StateCounts& counts) {
 
 double progress(const StateCounts& counts) {
   const auto total = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-  const auto left = counts[static_cast<std::size_t>(JobState::kQueued)] + counts[static_cast<std::size_t>(JobState::kRunning)];
+  const auto left = counts[static_cast<std::size_t>(JobState::kQueued)] +
+                    counts[static_cast<std::size_t>(JobState::kRunning)];
   return static_cast<double>(total - left) / static_cast<double>(total);
 }
 
@@ -81,7 +87,8 @@ std::vector<std::string> metric_keys_of(const SweepRow& sweep) {
       if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
   };
   const auto add_of = [&](const json& given) {
-    if (describes_linkage(given)) add(engine::linkage_tables(*to_job_spec(fill_in_defaults(given)).linkage).metrics);
+    if (describes_linkage(given))
+      add(engine::linkage_tables(*to_job_spec(fill_in_defaults(given)).linkage).metrics);
     else add(engine::metric_table());
   };
   bool every_case = true;
@@ -89,11 +96,13 @@ std::vector<std::string> metric_keys_of(const SweepRow& sweep) {
     if (each.contains(kLinkageKey)) add_of({{kLinkageKey, each.at(kLinkageKey)}});
     else every_case = false;
   }
-  if (keys.empty() || !every_case) add_of(describes_linkage(common) ? json{{kLinkageKey, common.at(kLinkageKey)}} : json::object());
+  if (keys.empty() || !every_case)
+    add_of(describes_linkage(common) ? json{{kLinkageKey, common.at(kLinkageKey)}} : json::object());
   return keys;
 }
 
-/// Puts the metrics of a result into the cells of its row. False if the text is not as simple as it should be.
+/// Puts the metrics of a result into the cells of its row. False if the text is not as simple as it should
+/// be.
 bool put_flat_metrics(std::string_view text, const MetricColumns& columns, std::vector<json>& cells) {
   FlatJson flat(text);
   if (!flat.open('{')) return false;
@@ -131,15 +140,17 @@ void append_swept(const std::string& text, std::vector<json>& cells) {
 void append_others(const ResultRow& row, const std::vector<std::string>& others, std::vector<json>& cells) {
   const json completed = row.parameters.empty() ? json() : stored_json(row.parameters);
   for (const std::string& column : others) {
-    if (is_error_column(column)) cells.push_back(value_or_null(column == kErrorColumns.front() ? row.error_reason : row.error_detail));
+    if (is_error_column(column))
+      cells.push_back(value_or_null(column == kErrorColumns.front() ? row.error_reason : row.error_detail));
     else cells.push_back(value_at_path(completed, column));
   }
 }
 
-/// Value of a row in its set. Only jobs that succeeded have metrics, and a peak may be null: the run ended before its
-/// window.
+/// Value of a row in its set. Only jobs that succeeded have metrics, and a peak may be null: the run ended
+/// before its window.
 ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
-  return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)), .value = peak.is_number() ? std::optional(peak.get<double>()) : std::nullopt};
+  return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)),
+          .value = peak.is_number() ? std::optional(peak.get<double>()) : std::nullopt};
 }
 
 }  // namespace
@@ -160,7 +171,9 @@ json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& 
   put("id", [&] { return json(row.id); });
   put("sweep_id", [&] { return value_or_null(row.sweep_id); });
   put("state", [&] { return json(row.state); });
-  put("error", [&] { return row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json(); });
+  put("error", [&] {
+    return row.error_reason ? error_json(*row.error_reason, row.error_detail, row.error_t_s) : json();
+  });
   put("attempts", [&] { return json(row.attempts); });
   put("created_at", [&] { return json(time_text(row.created_ms)); });
   put("started_at", [&] { return time_or_null(row.started_ms); });
@@ -177,18 +190,22 @@ json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& 
 
 json sweep_json(const SweepRow& row, int threads, Detail detail) {
   const std::string self = "/v1/sweeps/" + row.id;
-  json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)},
+  json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)},
+             {"counts", counts_json(row.counts)},
              {"progress", progress(row.counts)}, {"priority", row.priority}, {"executor", row.executor},
-             {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)}, {"ended_at", time_or_null(row.ended_ms)},
+             {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)},
+             {"ended_at", time_or_null(row.ended_ms)},
              {"axes", stored_json(row.swept)},
-             {"links", {{"self", self}, {"results", self + "/results"}, {"events", self + "/events"}, {"cancel", self + "/cancel"},
+             {"links", {{"self", self}, {"results", self + "/results"}, {"events", self + "/events"},
+                        {"cancel", self + "/cancel"},
                         {"retry", self + "/retry"}, {"extend", self + "/extend"}, {"move", self + "/move"}}}};
   sweep.update(time_left_json(row, threads));
   if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
   return sweep;
 }
 
-json unstored_job_json(const json& parameters, const RunRecord& record, std::int64_t started_ms, std::int64_t ended_ms) {
+json unstored_job_json(const json& parameters, const RunRecord& record, std::int64_t started_ms,
+                       std::int64_t ended_ms) {
   JobState state = JobState::kSucceeded;
   json error;
   if (record.end == RunRecord::End::kStopped) state = JobState::kCancelled;
@@ -197,15 +214,20 @@ json unstored_job_json(const json& parameters, const RunRecord& record, std::int
     error = error_json(record.error_reason, record.error_detail, record.error_t_s);
   }
   const Provenance& own = own_provenance();
-  const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = own.host, .cpu = own.cpu, .version = own.version,
-                   .commit = own.commit, .compiler = own.compiler, .engine = own.engine, .libm = own.libm, .numerics = own.numerics};
-  return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics}, {"error", error},
-          {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)}, {"ended_at", time_text(ended_ms)},
+  const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = own.host,
+                   .cpu = own.cpu, .version = own.version,
+                   .commit = own.commit, .compiler = own.compiler, .engine = own.engine, .libm = own.libm,
+                   .numerics = own.numerics};
+  return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics},
+          {"error", error},
+          {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)},
+          {"ended_at", time_text(ended_ms)},
           {"run", run_json(run, 1, false)}};
 }
 
 json progress_json(const SweepRow& row, int threads) {
-  json progress_now{{"sweep_id", row.id}, {"state", sweep_state(row.counts)}, {"counts", counts_json(row.counts)}, {"progress", progress(row.counts)}};
+  json progress_now{{"sweep_id", row.id}, {"state", sweep_state(row.counts)},
+                    {"counts", counts_json(row.counts)}, {"progress", progress(row.counts)}};
   progress_now.update(time_left_json(row, threads));
   return progress_now;
 }
@@ -220,7 +242,9 @@ json study_json(const StudyRow& row, const std::string& route) {
                      {"sweep", "/v1/sweeps/" + row.sweep_id}}}};
 }
 
-std::vector<std::string> swept_of(const SweepRow& sweep) { return stored_json(sweep.swept).get<std::vector<std::string>>(); }
+std::vector<std::string> swept_of(const SweepRow& sweep) {
+  return stored_json(sweep.swept).get<std::vector<std::string>>();
+}
 
 std::vector<std::string> keys_of(const json& object) {
   std::vector<std::string> keys;
@@ -275,7 +299,8 @@ ResultTable result_table(const SweepResults& results, const std::vector<std::str
     peaks.push_back(replicate_value(row, cells[peak]));
     table.rows.push_back(std::move(cells));
   }
-  const bool repeated = std::ranges::any_of(peaks, [](const ReplicateValue& value) { return value.replicate > 0; });
+  const bool repeated =
+      std::ranges::any_of(peaks, [](const ReplicateValue& value) { return value.replicate > 0; });
   if (repeated) table.replicates = calc_statistics_by_row(peaks);
   return table;
 }

@@ -17,13 +17,15 @@ namespace jobs {
 enum class Detail { kFull, kListing };
 
 /// A listing leaves out parameters and metrics. @param wanted  keys; others need not be made. Empty: all
-[[nodiscard]] nlohmann::json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& wanted = {});
+[[nodiscard]] nlohmann::json job_json(const JobRow& row, Detail detail,
+                                      const std::vector<std::string>& wanted = {});
 
 /// A listing leaves out the request. @param threads  how many jobs are computed at a time, for the ETA
 [[nodiscard]] nlohmann::json sweep_json(const SweepRow& row, int threads, Detail detail);
 
 /// A job that was computed without a store: no id, no links.
-[[nodiscard]] nlohmann::json unstored_job_json(const nlohmann::json& parameters, const RunRecord& record, std::int64_t started_ms, std::int64_t ended_ms);
+[[nodiscard]] nlohmann::json unstored_job_json(const nlohmann::json& parameters, const RunRecord& record,
+                                               std::int64_t started_ms, std::int64_t ended_ms);
 
 /// Fields that the resources of all studies have. @param route  "/v1/searches/", say; the id follows it
 [[nodiscard]] nlohmann::json study_json(const StudyRow& row, const std::string& route);
@@ -47,7 +49,8 @@ enum class Detail { kFull, kListing };
 /// The parameters that a sweep varies.
 [[nodiscard]] std::vector<std::string> swept_of(const SweepRow& sweep);
 
-/// @param others  columns at the end: parameters that the sweep does not vary, and kErrorColumns; rows carry their parameters if needed_parameters(others)
+/// @param others  columns at the end: parameters that the sweep does not vary, and kErrorColumns; rows carry
+///     their parameters if needed_parameters(others)
 [[nodiscard]] ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others);
 
 }  // namespace jobs

@@ -22,9 +22,11 @@ using nlohmann::json;
 enum class Comparison { kEqual, kGreater, kLess, kGreaterOrEqual, kLessOrEqual };
 
 constexpr std::array<std::pair<std::string_view, Comparison>, 4> kSuffixes{
-    {{"_gt", Comparison::kGreater}, {"_lt", Comparison::kLess}, {"_ge", Comparison::kGreaterOrEqual}, {"_le", Comparison::kLessOrEqual}}};
+    {{"_gt", Comparison::kGreater}, {"_lt", Comparison::kLess}, {"_ge", Comparison::kGreaterOrEqual},
+     {"_le", Comparison::kLessOrEqual}}};
 
-/// A filter's key without its suffix, and what the suffix says. A column whose own name ends so is meant itself.
+/// A filter's key without its suffix, and what the suffix says. A column whose own name ends so is meant
+/// itself.
 std::pair<std::string, Comparison> split_key(const std::string& key, std::span<const std::string> known) {
   if (std::ranges::find(known, key) != known.end()) return {key, Comparison::kEqual};
   for (const auto& [suffix, comparison] : kSuffixes) {
@@ -42,7 +44,9 @@ struct TextColumn {
 TextColumn text_column(const std::string& column) {
   if (column == "job_id" || is_error_column(column)) return {.is_text = true, .words = {}};
   if (column == "state") return {.is_text = true, .words = {kJobStates.begin(), kJobStates.end()}};
-  if (column == "verdict" || column == "lost_reason" || column == "parameter" || column == "metric") return {.is_text = true, .words = {}};  // of a search
+  // Of a search
+  if (column == "verdict" || column == "lost_reason" || column == "parameter" || column == "metric")
+    return {.is_text = true, .words = {}};
   if (column == "monotonic") return {.is_text = true, .words = {"true", "false"}};
   const ParameterInfo* const info = find_parameter(column);
   if (info == nullptr || info->kind != ParameterKind::kChoice) return {};
@@ -63,7 +67,9 @@ struct Condition {
   std::string text;
 
   [[nodiscard]] bool holds(const json& cell) const {
-    if (!number) return cell.is_boolean() ? cell.dump() == text : cell.is_string() && cell.get_ref<const std::string&>() == text;
+    if (!number)
+      return cell.is_boolean() ? cell.dump() == text
+                               : cell.is_string() && cell.get_ref<const std::string&>() == text;
     if (!cell.is_number()) return false;  // null: the job has no such value
     const double x = cell.get<double>();
     switch (comparison) {
@@ -88,12 +94,14 @@ std::optional<double> read_number(const std::string& text) {
 /// Reads the names and values of a query against the columns of a table, and gathers what is wrong with them.
 class Reader {
  public:
-  Reader(const std::vector<std::string>& columns, std::string_view listed) : columns_(columns), listed_(listed) {}
+  Reader(const std::vector<std::string>& columns, std::string_view listed)
+      : columns_(columns), listed_(listed) {}
 
   Condition condition(const ResultFilter& filter) {
     const auto [name, comparison] = split_key(filter.key, columns_);
     const std::string pointer = pointer_token(filter.key);
-    Condition condition{.column = place_of(name, pointer), .comparison = comparison, .number = {}, .text = filter.value};
+    Condition condition{.column = place_of(name, pointer), .comparison = comparison, .number = {},
+                        .text = filter.value};
     const TextColumn text = text_column(name);
     if (!text.is_text) {
       condition.number = read_number(filter.value);
@@ -117,7 +125,8 @@ class Reader {
       if (descending.back()) name.erase(0, 1);
     }
     const auto places = find_names(names, columns_, listed_, "/order_by", faults_);
-    for (std::size_t i = 0; i < places.size() && faults_.empty(); ++i) order.emplace_back(places[i], descending[i]);
+    for (std::size_t i = 0; i < places.size() && faults_.empty(); ++i)
+      order.emplace_back(places[i], descending[i]);
     return order;
   }
 
@@ -133,13 +142,16 @@ class Reader {
   }
 
  private:
-  void fault(std::string pointer, std::string detail) { faults_.push_back({std::move(pointer), std::move(detail)}); }
+  void fault(std::string pointer, std::string detail) {
+    faults_.push_back({std::move(pointer), std::move(detail)});
+  }
 
   std::size_t place_of(const std::string& name, const std::string& pointer) {
     const auto found = std::ranges::find(columns_, name);
     if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
     const std::vector<std::string_view> known(columns_.begin(), columns_.end());
-    fault(pointer, describe_unknown_key(name, known, listed_) + "; a filter is a column of the results, or one with _gt, _lt, _ge or _le");
+    fault(pointer, describe_unknown_key(name, known, listed_) +
+                       "; a filter is a column of the results, or one with _gt, _lt, _ge or _le");
     return 0;
   }
 
@@ -159,7 +171,10 @@ std::vector<std::size_t> choose_rows(const ResultTable& table, const std::vector
                                      const std::vector<std::pair<std::size_t, bool>>& order) {
   std::vector<std::size_t> chosen;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    if (std::ranges::all_of(conditions, [&](const Condition& condition) { return condition.holds(table.rows[r][condition.column]); })) chosen.push_back(r);
+    if (std::ranges::all_of(conditions, [&](const Condition& condition) {
+          return condition.holds(table.rows[r][condition.column]);
+        }))
+      chosen.push_back(r);
   }
   if (order.empty()) return chosen;
   std::ranges::stable_sort(chosen, [&](std::size_t a, std::size_t b) {
@@ -206,11 +221,13 @@ std::vector<std::string> find_other_columns(const ResultQuery& query, const std:
   std::vector<std::string> names;
   for (const ResultFilter& filter : query.filters) names.push_back(split_key(filter.key, paths).first);
   for (const std::string& list : {query.fields, query.order_by}) {
-    for (const std::string& name : split_names(list, paths)) names.push_back(name.starts_with('-') ? name.substr(1) : name);
+    for (const std::string& name : split_names(list, paths))
+      names.push_back(name.starts_with('-') ? name.substr(1) : name);
   }
   std::vector<std::string> others;
   for (const std::string& path : paths) {
-    if (std::ranges::find(names, path) != names.end() && std::ranges::find(swept, path) == swept.end()) others.push_back(path);
+    if (std::ranges::find(names, path) != names.end() && std::ranges::find(swept, path) == swept.end())
+      others.push_back(path);
   }
   for (const std::string_view column : kErrorColumns) {
     if (std::ranges::find(names, column) != names.end()) others.emplace_back(column);
@@ -227,7 +244,8 @@ void apply(const ResultQuery& query, ResultTable& table, std::string_view listed
   std::vector<Condition> conditions;
   for (const ResultFilter& filter : query.filters) conditions.push_back(reader.condition(filter));
   const auto order = reader.order(query.order_by);
-  const auto wanted = query.fields.empty() ? std::vector<std::size_t>{} : reader.fields(query.fields, !table.replicates.empty());
+  const auto wanted = query.fields.empty() ? std::vector<std::size_t>{}
+                                           : reader.fields(query.fields, !table.replicates.empty());
   reader.check();
   auto chosen = choose_rows(table, conditions, order);
   if (query.limit && chosen.size() > *query.limit) chosen.resize(*query.limit);

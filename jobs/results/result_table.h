@@ -15,7 +15,8 @@ namespace jobs {
 struct ResultTable {
   std::vector<std::string> columns;
   std::vector<std::vector<nlohmann::json>> rows;  ///< null where a job has no value
-  std::vector<ReplicateStatistics> replicates{};  ///< of each row's set, one a row; empty unless sets were run more than once
+  /// Of each row's set, one a row; empty unless sets were run more than once
+  std::vector<ReplicateStatistics> replicates{};
   bool ended = false;  ///< whether the sweep had ended
 };
 

@@ -34,7 +34,8 @@ std::size_t find_column(const ResultTable& table, const std::string& name, const
   const auto found = std::ranges::find(table.columns, name);
   if (found != table.columns.end()) return static_cast<std::size_t>(found - table.columns.begin());
   const std::vector<std::string_view> known(table.columns.begin(), table.columns.end());
-  throw InvalidRequest(std::vector<Fault>{{pointer, "\"" + name + "\": " + describe_unknown_key(name, known)}});
+  throw InvalidRequest(
+      std::vector<Fault>{{pointer, "\"" + name + "\": " + describe_unknown_key(name, known)}});
 }
 
 std::vector<RowGroup> group_rows(const ResultTable& table, const std::vector<std::size_t>& columns) {
@@ -58,13 +59,18 @@ std::string choose_metric(const ResultTable& table, const std::string& wanted) {
   if (std::ranges::find(metrics, wanted) != metrics.end()) return wanted;
   std::string known;
   for (const std::string_view metric : metrics) known += (known.empty() ? "" : ", ") + std::string(metric);
-  throw InvalidRequest(std::vector<Fault>{{"/metric", "\"" + wanted + "\" is no metric of this sweep, which has " + known}});
+  throw InvalidRequest(
+      std::vector<Fault>{{"/metric", "\"" + wanted + "\" is no metric of this sweep, which has " + known}});
 }
 
 std::vector<std::string> choose_metrics(const ResultTable& table, std::span<const std::string_view> wanted) {
   const auto metrics = metrics_of(table);
-  const auto has = [&](std::string_view metric) { return std::ranges::find(metrics, metric) != metrics.end(); };
-  if (!has(wanted.front())) return {metrics.begin(), metrics.begin() + static_cast<std::ptrdiff_t>(std::min(metrics.size(), wanted.size()))};
+  const auto has = [&](std::string_view metric) {
+    return std::ranges::find(metrics, metric) != metrics.end();
+  };
+  if (!has(wanted.front()))
+    return {metrics.begin(),
+            metrics.begin() + static_cast<std::ptrdiff_t>(std::min(metrics.size(), wanted.size()))};
   std::vector<std::string> chosen;
   for (const std::string_view metric : wanted) {
     if (has(metric)) chosen.emplace_back(metric);
@@ -72,8 +78,12 @@ std::vector<std::string> choose_metrics(const ResultTable& table, std::span<cons
   return chosen;
 }
 
-std::size_t find_metric(const ResultTable& table, const std::string& metric) { return find_column(table, choose_metric(table, metric), "/metric"); }
+std::size_t find_metric(const ResultTable& table, const std::string& metric) {
+  return find_column(table, choose_metric(table, metric), "/metric");
+}
 
-std::optional<double> number_in(const nlohmann::json& cell) { return cell.is_number() ? std::optional(cell.get<double>()) : std::nullopt; }
+std::optional<double> number_in(const nlohmann::json& cell) {
+  return cell.is_number() ? std::optional(cell.get<double>()) : std::nullopt;
+}
 
 }  // namespace jobs

@@ -20,17 +20,23 @@ struct RowGroup {
 };
 
 /// Index of a column. @throws InvalidRequest with that pointer if there is none of that name
-[[nodiscard]] std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer);
+[[nodiscard]] std::size_t find_column(const ResultTable& table, const std::string& name,
+                                      const std::string& pointer);
 
 /// In the order of their first rows.
-[[nodiscard]] std::vector<RowGroup> group_rows(const ResultTable& table, const std::vector<std::size_t>& columns);
+[[nodiscard]] std::vector<RowGroup> group_rows(const ResultTable& table,
+                                               const std::vector<std::size_t>& columns);
 
-/// A metric of the table's linkages. @param wanted  its name; empty: the peak of the slider's acceleration, or the first one if there is none
-/// @throws InvalidRequest with the pointer "/metric", and the names that there are, if there is no such metric
+/// A metric of the table's linkages. @param wanted its name; empty: the peak of the slider's acceleration, or
+/// the first one if there is none
+/// @throws InvalidRequest with the pointer "/metric", and the names that there are, if there is no such
+///     metric
 [[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
 
-/// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own first ones, as many at most.
-[[nodiscard]] std::vector<std::string> choose_metrics(const ResultTable& table, std::span<const std::string_view> wanted);
+/// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own
+/// first ones, as many at most.
+[[nodiscard]] std::vector<std::string> choose_metrics(const ResultTable& table,
+                                                      std::span<const std::string_view> wanted);
 
 /// The metric's column. @throws InvalidRequest with the pointer "/metric" if there is no such metric
 [[nodiscard]] std::size_t find_metric(const ResultTable& table, const std::string& metric);

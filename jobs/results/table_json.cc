@@ -42,7 +42,8 @@ void append_json_optional(std::string& text, const std::optional<double>& value)
 /// The keys are the columns of the CSV.
 void append_replicates_to(std::string& text, const ReplicateStatistics& set) {
   text += "\"replicates_count\":" + std::to_string(set.count);
-  for (const auto& [key, value] : {std::pair{"mean", set.mean}, {"spread", set.spread}, {"min", set.min}, {"max", set.max}}) {
+  for (const auto& [key, value] : {std::pair{"mean", set.mean}, {"spread", set.spread}, {"min", set.min},
+                                   {"max", set.max}}) {
     text += std::string(",\"replicates_") + key + "\":";
     append_json_optional(text, value);
   }
@@ -78,7 +79,9 @@ std::string joined_rows(const ResultTable& table, const char* before_first, cons
 
 }  // namespace
 
-std::string to_json_rows(const ResultTable& table) { return table.rows.empty() ? "[\n]\n" : joined_rows(table, "[\n", ",\n") + "\n]\n"; }
+std::string to_json_rows(const ResultTable& table) {
+  return table.rows.empty() ? "[\n]\n" : joined_rows(table, "[\n", ",\n") + "\n]\n";
+}
 
 std::string to_json_lines(const ResultTable& table) {
   return table.rows.empty() ? "" : joined_rows(table, "", "\n") + "\n";

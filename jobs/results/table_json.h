@@ -8,8 +8,8 @@
 
 namespace jobs {
 
-/// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each has, after the
-/// metrics, replicates_count, _mean, _spread, _min and _max of its set.
+/// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each
+/// has, after the metrics, replicates_count, _mean, _spread, _min and _max of its set.
 [[nodiscard]] std::string to_json_rows(const ResultTable& table);
 
 /// The same objects, each on a line of its own and nothing between them: NDJSON.

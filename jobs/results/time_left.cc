@@ -32,7 +32,8 @@ std::optional<TimeLeft> estimate_time_left(const SweepRow& row, int threads) {
   }
   const double spread_s = 2.0 * std::sqrt(variance_s2) / threads;
   const double expected_s = std::max(longest_s, thread_time_s / threads);
-  return TimeLeft{.expected_s = expected_s, .low_s = std::max(0.0, expected_s - spread_s), .high_s = expected_s + spread_s};
+  return TimeLeft{.expected_s = expected_s, .low_s = std::max(0.0, expected_s - spread_s),
+                  .high_s = expected_s + spread_s};
 }
 
 }  // namespace jobs

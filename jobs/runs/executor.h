@@ -9,7 +9,8 @@
 
 namespace jobs {
 
-/// Takes jobs from the store, computes them, and leaves their results there. Nothing above it knows how. All members may be called from any thread.
+/// Takes jobs from the store, computes them, and leaves their results there. Nothing above it knows how. All
+/// members may be called from any thread.
 class Executor {
  public:
   Executor() = default;
@@ -23,8 +24,9 @@ class Executor {
   virtual void stop_job(const std::string& id) = 0;
   /// Ends the executor's own threads. Returns when that is done.
   virtual void stop() = 0;
-  /// {"name", "slots": how many jobs it can compute at a time, "tasks": {"pending", "running"}, "nodes": [...], "waiting": [...],
-  /// "problems": [...]}: what it does beside computing jobs, what its tasks wait for, and what a human should know.
+  /// {"name", "slots": how many jobs it can compute at a time, "tasks": {"pending", "running"}, "nodes":
+  /// [...], "waiting": [...], "problems": [...]}: what it does beside computing jobs, what its tasks wait
+  /// for, and what a human should know.
   [[nodiscard]] virtual nlohmann::json status() const = 0;
 };
 

@@ -20,11 +20,13 @@ JobSpec within_limits(JobSpec spec, const JobLimits& limits) {
   if (limits.steps > 0) spec.options.step_limit = std::min(spec.options.step_limit, limits.steps);
   if (limits.memory_bytes == 0) return spec;
   // Samples are kept in double precision until the job has ended.
-  const double channel_bytes = sizeof(double) * (std::floor(spec.options.duration * spec.options.output_rate) + 1.0);
+  const double channel_bytes =
+      sizeof(double) * (std::floor(spec.options.duration * spec.options.output_rate) + 1.0);
   if (has_more_channels(spec, static_cast<double>(limits.memory_bytes) / channel_bytes)) {
     const double needed = channel_bytes * static_cast<double>(channel_table(spec).size());
-    throw NeedsTooMuchMemory("the trajectory takes " + megabytes(needed) + " while the job runs; this service allows " +
-                             megabytes(static_cast<double>(limits.memory_bytes)) + ": lower output_rate_hz or duration_s");
+    throw NeedsTooMuchMemory(
+        "the trajectory takes " + megabytes(needed) + " while the job runs; this service allows " +
+        megabytes(static_cast<double>(limits.memory_bytes)) + ": lower output_rate_hz or duration_s");
   }
   return spec;
 }

@@ -32,7 +32,9 @@ json metric_value(const engine::QuantityInfo& info, double value) {
 }
 
 json metrics_json(const std::vector<double>& values, std::span<const engine::QuantityInfo> table) {
-  if (values.size() != table.size()) throw std::logic_error("the run has " + std::to_string(values.size()) + " metrics instead of " + std::to_string(table.size()));
+  if (values.size() != table.size())
+    throw std::logic_error("the run has " + std::to_string(values.size()) + " metrics instead of " +
+                           std::to_string(table.size()));
   json metrics = json::object();
   for (std::size_t i = 0; i < values.size(); ++i) metrics[table[i].key] = metric_value(table[i], values[i]);
   return metrics;
@@ -42,13 +44,16 @@ void take_result(engine::RunResult result, const JobSpec& spec, RunRecord& recor
   record.trajectory = std::move(result.trajectory);
   check_is_table(record.trajectory);
   // Single precision resolves a column to 6e-8 of itself; the metrics keep all their digits.
-  for (engine::QuantityInfo& channel : record.trajectory.channels) channel.single_precision = channel.key != "t_s";
+  for (engine::QuantityInfo& channel : record.trajectory.channels)
+    channel.single_precision = channel.key != "t_s";
   if (result.status == engine::RunStatus::kSucceeded) {
-    record.metrics = spec.linkage ? metrics_json(result.metrics, engine::linkage_tables(*spec.linkage).metrics)
-                                  : metrics_json(result.metrics, engine::metric_table());
+    record.metrics = spec.linkage
+                         ? metrics_json(result.metrics, engine::linkage_tables(*spec.linkage).metrics)
+                         : metrics_json(result.metrics, engine::metric_table());
     return;
   }
-  record.end = result.status == engine::RunStatus::kStopped ? RunRecord::End::kStopped : RunRecord::End::kFailed;
+  record.end =
+      result.status == engine::RunStatus::kStopped ? RunRecord::End::kStopped : RunRecord::End::kFailed;
   record.error_reason = engine::status_name(result.status);
   record.error_detail = std::move(result.detail);
   record.error_t_s = result.t_end;
@@ -65,7 +70,9 @@ void take_exception(const char* reason, const std::string& what, RunRecord& reco
 /// Wall time since its construction.
 class Stopwatch {
  public:
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -74,12 +81,14 @@ class Stopwatch {
 void fail_for_time(double most_s, RunRecord& record) {
   record.end = RunRecord::End::kFailed;
   record.error_reason = "time_limit";
-  record.error_detail = "the job was stopped after " + std::to_string(std::llround(most_s)) + " s of computing, the most that this service allows";
+  record.error_detail = "the job was stopped after " + std::to_string(std::llround(most_s)) +
+                        " s of computing, the most that this service allows";
 }
 
 }  // namespace
 
-RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine::StopQuery& stop_requested, double most_s) {
+RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine::StopQuery& stop_requested,
+                         double most_s) {
   RunRecord record;
   const Stopwatch watch;
   bool late = false;
@@ -108,7 +117,8 @@ RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine
 
 Runner engine_runner() {
   return [](const JobSpec& spec, const engine::StopQuery& stop_requested) {
-    if (spec.linkage) return engine::simulate_linkage(*spec.linkage, spec.options, spec.parameters.run_up, stop_requested);
+    if (spec.linkage)
+      return engine::simulate_linkage(*spec.linkage, spec.options, spec.parameters.run_up, stop_requested);
     return engine::simulate_rpsup(spec.parameters, spec.options, stop_requested);
   };
 }

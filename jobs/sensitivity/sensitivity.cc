@@ -18,17 +18,19 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// A sweep's design, its parameters in the order of the request: the resource has them in the order of the alphabet, but lists what is
-/// swept in that of the request.
+/// A sweep's design, its parameters in the order of the request: the resource has them in the order of the
+/// alphabet, but lists what is swept in that of the request.
 ordered_json design_of(const json& sweep) {
   const json given = sweep.at("request").value("design", json::object());
   const json type = given.value("type", json());
-  if (type != "morris" && type != "saltelli") throw WrongState("the sweep has no design of type morris or saltelli");
+  if (type != "morris" && type != "saltelli")
+    throw WrongState("the sweep has no design of type morris or saltelli");
   ordered_json design = ordered_json::object();
   for (const auto& [key, value] : given.items()) design[key] = value;
   design["over"] = ordered_json::object();
   for (const json& path : sweep.at("axes")) {
-    if (given.at("over").contains(path)) design["over"][path.get<std::string>()] = given.at("over").at(path.get<std::string>());
+    if (given.at("over").contains(path))
+      design["over"][path.get<std::string>()] = given.at("over").at(path.get<std::string>());
   }
   return design;
 }
@@ -39,13 +41,15 @@ struct Response {
   std::vector<double> spreads;               ///< standard deviations, of points with two values or more
 };
 
-Response response_of(const ResultTable& results, const RowGroup& group, std::size_t metric, std::size_t points) {
+Response response_of(const ResultTable& results, const RowGroup& group, std::size_t metric,
+                     std::size_t points) {
   const std::size_t replicates = group.rows.size() / points;
   Response response;
   for (std::size_t k = 0; k < points; ++k) {
     std::vector<double> values;
     for (std::size_t r = 0; r < replicates; ++r) {
-      if (const auto value = number_in(results.rows[group.rows[k * replicates + r]][metric])) values.push_back(*value);
+      if (const auto value = number_in(results.rows[group.rows[k * replicates + r]][metric]))
+        values.push_back(*value);
     }
     const ReplicateStatistics statistics = calc_replicate_statistics(values);
     response.means.push_back(statistics.mean);
@@ -65,7 +69,8 @@ WholeBlocks whole_blocks_of(const UnitPoints& points, const Response& response, 
   WholeBlocks whole;
   for (std::size_t first = 0; first < points.size(); first += width) {
     const auto begin = response.means.begin() + static_cast<std::ptrdiff_t>(first);
-    if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(width), [](const auto& value) { return !value.has_value(); })) {
+    if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(width),
+                    [](const auto& value) { return !value.has_value(); })) {
       ++whole.missing;
       continue;
     }
@@ -82,7 +87,8 @@ WholeBlocks whole_blocks_of(const UnitPoints& points, const Response& response, 
 json noise_of(const Response& response, const ReplicateStatistics& all) {
   if (response.spreads.empty() || !all.spread || *all.spread == 0.0) return nullptr;
   double within = 0.0;
-  for (const double spread : response.spreads) within += spread * spread / static_cast<double>(response.spreads.size());
+  for (const double spread : response.spreads)
+    within += spread * spread / static_cast<double>(response.spreads.size());
   return within / (within + *all.spread * *all.spread);
 }
 
@@ -129,9 +135,11 @@ ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, cons
   for (const char* const column : {"metric", "parameter", "blocks", "blocks_missing", "mean", "deviation",
       "noise"}) table.columns.emplace_back(column);
   if (morris) {
-    table.columns.insert(table.columns.end(), {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"});
+    table.columns.insert(table.columns.end(), {"effect_mean", "effect_size", "effect_size_low",
+                                               "effect_size_high", "effect_deviation"});
   } else {
-    table.columns.insert(table.columns.end(), {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"});
+    table.columns.insert(table.columns.end(), {"first_order", "first_order_low", "first_order_high", "total",
+                                               "total_low", "total_high"});
   }
   for (const RowGroup& group : group_rows(results, others)) {
     const Response response = response_of(results, group, metric_column, points.size());
@@ -141,8 +149,9 @@ ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, cons
     std::size_t input = 0;
     for (const auto& [path, range] : design.at("over").items()) {
       std::vector<json> cells = group.values;
-      cells.insert(cells.end(), {metric, path, whole.blocks, whole.missing, all.mean ? json(*all.mean) : json(), all.spread ? json(*all.spread)
-          : json(), noise_of(response, all)});
+      cells.insert(cells.end(),
+                   {metric, path, whole.blocks, whole.missing, all.mean ? json(*all.mean) : json(),
+                    all.spread ? json(*all.spread) : json(), noise_of(response, all)});
       cells.insert(cells.end(), measures[input].begin(), measures[input].end());
       table.rows.push_back(std::move(cells));
       ++input;

@@ -20,7 +20,9 @@ class Chance {
  public:
   explicit Chance(std::uint64_t seed) : seed_(seed) {}
   /// In [0, count); what a count of at most some thousands makes uneven cannot be seen.
-  std::size_t below(std::size_t count) { return static_cast<std::size_t>((splitmix64(seed_, ++drawn_) >> 11U) % count); }
+  std::size_t below(std::size_t count) {
+    return static_cast<std::size_t>((splitmix64(seed_, ++drawn_) >> 11U) % count);
+  }
 
  private:
   std::uint64_t seed_;
@@ -34,9 +36,12 @@ std::vector<std::size_t> random_order(std::size_t count, Chance& chance) {
   return order;
 }
 
-double mean_of(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); }
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
-/// The sums that both estimators are made of, block by block: A and B less the mean, and for each input the products.
+/// The sums that both estimators are made of, block by block: A and B less the mean, and for each input the
+/// products.
 struct BlockTerms {
   std::vector<double> square;                    ///< (a^2 + b^2) / 2
   std::vector<std::vector<double>> first, total;  ///< b (ab - a) and (a - ab)^2 / 2, by input
@@ -46,8 +51,10 @@ BlockTerms terms_of(std::span<const double> values, std::size_t dimensions) {
   const std::size_t width = dimensions + 2;
   const std::size_t blocks = values.size() / width;
   double mean = 0.0;
-  for (std::size_t k = 0; k < blocks; ++k) mean += 0.5 * (values[k * width] + values[k * width + 1]) / static_cast<double>(blocks);
-  BlockTerms terms{.square = {}, .first = std::vector<std::vector<double>>(dimensions), .total = std::vector<std::vector<double>>(dimensions)};
+  for (std::size_t k = 0; k < blocks; ++k)
+    mean += 0.5 * (values[k * width] + values[k * width + 1]) / static_cast<double>(blocks);
+  BlockTerms terms{.square = {}, .first = std::vector<std::vector<double>>(dimensions),
+                   .total = std::vector<std::vector<double>>(dimensions)};
   for (std::size_t k = 0; k < blocks; ++k) {
     const double a = values[k * width] - mean;
     const double b = values[k * width + 1] - mean;
@@ -70,7 +77,8 @@ class Bootstrap {
     Chance chance(kBootstrapSeed);
     samples_.resize(kBootstrapSamples);
     for (auto& sample : samples_) {
-      for (std::size_t k = 0; k < square.size(); ++k) sample.push_back(static_cast<std::uint32_t>(chance.below(square.size())));
+      for (std::size_t k = 0; k < square.size(); ++k)
+        sample.push_back(static_cast<std::uint32_t>(chance.below(square.size())));
     }
   }
 
@@ -86,8 +94,11 @@ class Bootstrap {
       ratios.push_back(ratio(part, whole));
     }
     std::ranges::sort(ratios);
-    const auto at = [&](double part) { return ratios[static_cast<std::size_t>(part * static_cast<double>(ratios.size() - 1))]; };
-    return {ratio(mean_of(term), mean_of(square_)), at(0.5 * (1.0 - kConfidence)), at(0.5 * (1.0 + kConfidence))};
+    const auto at = [&](double part) {
+      return ratios[static_cast<std::size_t>(part * static_cast<double>(ratios.size() - 1))];
+    };
+    return {ratio(mean_of(term), mean_of(square_)), at(0.5 * (1.0 - kConfidence)),
+            at(0.5 * (1.0 + kConfidence))};
   }
 
  private:
@@ -97,7 +108,8 @@ class Bootstrap {
 
 }  // namespace
 
-UnitPoints morris_points(std::size_t trajectories, std::size_t dimensions, std::size_t levels, std::uint64_t seed) {
+UnitPoints morris_points(std::size_t trajectories, std::size_t dimensions, std::size_t levels,
+                         std::uint64_t seed) {
   Chance chance(seed);
   const double spacing = 1.0 / static_cast<double>(levels - 1);
   const std::size_t jump = levels / 2;
@@ -132,7 +144,8 @@ UnitPoints saltelli_points(std::size_t blocks, std::size_t dimensions, std::uint
   return points;
 }
 
-std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points, std::span<const double> values) {
+std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points,
+                                                       std::span<const double> values) {
   const std::size_t dimensions = points.front().size();
   std::vector<std::vector<double>> effects(dimensions);
   for (std::size_t k = 1; k < values.size(); ++k) {
@@ -146,7 +159,8 @@ std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points,
   for (const auto& of_input : effects) {
     std::vector<double> sizes;
     for (const double effect : of_input) sizes.push_back(std::abs(effect));
-    measures.push_back({.mean = mean_of(of_input), .mean_size = estimate_mean(sizes), .deviation = *calc_replicate_statistics(of_input).spread});
+    measures.push_back({.mean = mean_of(of_input), .mean_size = estimate_mean(sizes),
+                        .deviation = *calc_replicate_statistics(of_input).spread});
   }
   return measures;
 }
@@ -155,8 +169,9 @@ std::vector<SobolIndices> calc_sobol_indices(std::span<const double> values, std
   const BlockTerms terms = terms_of(values, dimensions);
   const Bootstrap bootstrap(terms.square);
   std::vector<SobolIndices> indices;
-  for (std::size_t i = 0; i < dimensions; ++i) indices.push_back({.first_order = bootstrap.estimate(terms.first[i]),
-      .total = bootstrap.estimate(terms.total[i])});
+  for (std::size_t i = 0; i < dimensions; ++i)
+    indices.push_back(
+        {.first_order = bootstrap.estimate(terms.first[i]), .total = bootstrap.estimate(terms.total[i])});
   return indices;
 }
 

@@ -11,13 +11,16 @@
 
 namespace jobs {
 
-/// Trajectories of Morris (1991): each begins at a random place of a grid and changes one coordinate after the other, in random order, by
-/// levels / (2 (levels - 1)) up or down. Point t (dimensions + 1) + s is the s-th of trajectory t. The same arguments give the same points.
+/// Trajectories of Morris (1991): each begins at a random place of a grid and changes one coordinate after
+/// the other, in random order, by levels / (2 (levels - 1)) up or down. Point t (dimensions + 1) + s is the
+/// s-th of trajectory t. The same arguments give the same points.
 /// @param levels  of the grid, even
-[[nodiscard]] UnitPoints morris_points(std::size_t trajectories, std::size_t dimensions, std::size_t levels, std::uint64_t seed);
+[[nodiscard]] UnitPoints morris_points(std::size_t trajectories, std::size_t dimensions, std::size_t levels,
+                                       std::uint64_t seed);
 
-/// The points of Saltelli (2010): in blocks of dimensions + 2, the k-th of which has a point A, a point B, and A with each coordinate in
-/// turn taken from B. (A, B) is the k-th point of Sobol's sequence in twice as many dimensions, shifted at random by the seed.
+/// The points of Saltelli (2010): in blocks of dimensions + 2, the k-th of which has a point A, a point B,
+/// and A with each coordinate in turn taken from B. (A, B) is the k-th point of Sobol's sequence in twice as
+/// many dimensions, shifted at random by the seed.
 /// @param dimensions  at most kMostSobolDimensions / 2
 [[nodiscard]] UnitPoints saltelli_points(std::size_t blocks, std::size_t dimensions, std::uint64_t seed);
 
@@ -30,7 +33,8 @@ struct ElementaryEffects {
 
 /// @param points, values  of whole trajectories, two or more, as morris_points() gives them
 /// @returns one a dimension
-[[nodiscard]] std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points, std::span<const double> values);
+[[nodiscard]] std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points,
+                                                                     std::span<const double> values);
 
 /// Sobol's indices: part of a response's variance that an input makes.
 struct SobolIndices {
@@ -38,9 +42,10 @@ struct SobolIndices {
   Estimate total;        ///< with all that it does together with others
 };
 
-/// The estimators of Saltelli (2010) for the first order and of Jansen (1999) for the total, with intervals from 1000 bootstrap samples of
-/// the blocks. Where the response does not vary all are 0.
+/// The estimators of Saltelli (2010) for the first order and of Jansen (1999) for the total, with intervals
+/// from 1000 bootstrap samples of the blocks. Where the response does not vary all are 0.
 /// @param values  of whole blocks, two or more, as saltelli_points() orders them
-[[nodiscard]] std::vector<SobolIndices> calc_sobol_indices(std::span<const double> values, std::size_t dimensions);
+[[nodiscard]] std::vector<SobolIndices> calc_sobol_indices(std::span<const double> values,
+                                                           std::size_t dimensions);
 
 }  // namespace jobs

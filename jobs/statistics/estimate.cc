@@ -13,7 +13,8 @@ Estimate estimate_mean(std::span<const double> values) {
   constexpr double kConfidence = 0.95;
   const ReplicateStatistics statistics = calc_replicate_statistics(values);
   const auto n = static_cast<double>(statistics.count);
-  const double reach = boost::math::quantile(boost::math::students_t(n - 1.0), 0.5 * (1.0 + kConfidence)) * *statistics.spread / std::sqrt(n);
+  const double reach = boost::math::quantile(boost::math::students_t(n - 1.0), 0.5 * (1.0 + kConfidence)) *
+                       *statistics.spread / std::sqrt(n);
   return {*statistics.mean, *statistics.mean - reach, *statistics.mean + reach};
 }
 

@@ -30,7 +30,8 @@ std::vector<ReplicateStatistics> calc_statistics_by_row(std::span<const Replicat
   by_row.reserve(rows.size());
   std::vector<double> values;
   for (auto set = rows.begin(); set != rows.end();) {
-    const auto end = std::find_if(set + 1, rows.end(), [](const ReplicateValue& row) { return row.replicate == 0; });
+    const auto end =
+        std::find_if(set + 1, rows.end(), [](const ReplicateValue& row) { return row.replicate == 0; });
     values.clear();
     for (const ReplicateValue& row : std::span(set, end)) {
       if (row.value) values.push_back(*row.value);

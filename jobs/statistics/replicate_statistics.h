@@ -12,7 +12,8 @@ namespace jobs {
 /// The metric that replicates of a parameter set are compared by.
 inline constexpr std::string_view kReplicateMetric = "peak_slider_acceleration_m_s2";
 
-/// Statistics of kReplicateMetric over the replicates of one parameter set, in its unit; of a described linkage, of its first metric.
+/// Statistics of kReplicateMetric over the replicates of one parameter set, in its unit; of a described
+/// linkage, of its first metric.
 struct ReplicateStatistics {
   std::size_t count = 0;         ///< replicates that have a value: those that have succeeded
   std::optional<double> mean;    ///< empty if count is 0
@@ -21,7 +22,8 @@ struct ReplicateStatistics {
   std::optional<double> max;     ///< empty if count is 0
 };
 
-/// Two passes, the first over differences from the first value: equal values have themselves as mean, and spread 0.
+/// Two passes, the first over differences from the first value: equal values have themselves as mean, and
+/// spread 0.
 /// @param values  finite
 [[nodiscard]] ReplicateStatistics calc_replicate_statistics(std::span<const double> values);
 
@@ -31,8 +33,9 @@ struct ReplicateValue {
   std::optional<double> value;  ///< empty: failed, cancelled or not yet ended
 };
 
-/// Statistics of the set that each row belongs to, one a row. A set is a row of replicate 0 and those that follow it up
-/// to the next one, so that two equal sets (a case listed twice in two ways) are two samples, not one.
+/// Statistics of the set that each row belongs to, one a row. A set is a row of replicate 0 and those that
+/// follow it up to the next one, so that two equal sets (a case listed twice in two ways) are two samples,
+/// not one.
 /// @param rows  in the order in which the sweep was expanded: the replicates of a set together
 [[nodiscard]] std::vector<ReplicateStatistics> calc_statistics_by_row(std::span<const ReplicateValue> rows);
 

@@ -33,7 +33,8 @@ UnitPoints latin_hypercube(std::size_t count, std::size_t dimensions, std::uint6
     const std::uint64_t place_seed = splitmix64(seed, 2 * d + 2);
     const auto intervals = random_permutation(count, order_seed);
     for (std::size_t k = 0; k < count; ++k) {
-      // 24 bits of place and 29 of interval: the sum is exact, so that no point is rounded into the next interval.
+      // 24 bits of place and 29 of interval: the sum is exact, so that no point is rounded into the next
+      // interval.
       const double place = static_cast<double>(splitmix64(place_seed, k + 1) >> 40U) * 0x1p-24;
       points[k][d] = (static_cast<double>(intervals[k]) + place) / static_cast<double>(count);
     }
@@ -49,8 +50,10 @@ UnitPoints sobol_points(std::size_t count, std::size_t dimensions, std::optional
   boost::random::sobol sequence(dimensions);
   UnitPoints points(count, std::vector<double>(dimensions));
   for (std::size_t k = 0; k < count; ++k) {
-    // Boost leaves out the origin; without it the first 2^m points would not have one in each interval of 2^-m.
-    for (std::size_t d = 0; d < dimensions; ++d) points[k][d] = unit_number((k == 0 ? 0 : sequence()) ^ shift[d]);
+    // Boost leaves out the origin; without it the first 2^m points would not have one in each interval of
+    // 2^-m.
+    for (std::size_t d = 0; d < dimensions; ++d)
+      points[k][d] = unit_number((k == 0 ? 0 : sequence()) ^ shift[d]);
   }
   return points;
 }

@@ -17,16 +17,19 @@ std::string megabytes(std::int64_t bytes) { return std::to_string(bytes / 1'000'
 void check_store(SQLite::Statement& used, std::int64_t most_bytes) {
   used.executeStep();
   if (used.getColumn(0).getInt64() <= most_bytes) return;
-  throw StoreLimitReached("the store may hold " + megabytes(most_bytes) + " and has no room for this; delete sweeps that are not needed any more");
+  throw StoreLimitReached("the store may hold " + megabytes(most_bytes) +
+                          " and has no room for this; delete sweeps that are not needed any more");
 }
 
 void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes) {
   struct statvfs disk {};
-  if (::statvfs(file.c_str(), &disk) != 0) return;  // a disk that does not tell has no reserve; writing finds out what it has
+  // A disk that does not tell has no reserve; writing finds out what it has
+  if (::statvfs(file.c_str(), &disk) != 0) return;
   const auto left = static_cast<std::int64_t>(disk.f_bavail * disk.f_frsize);
   if (left >= reserve_bytes) return;
-  throw StoreLimitReached("the disk that holds the store has " + megabytes(left) + " left, and " + megabytes(reserve_bytes) +
-                          " of it are kept free; make room on it, or delete sweeps that are not needed any more");
+  throw StoreLimitReached(
+      "the disk that holds the store has " + megabytes(left) + " left, and " + megabytes(reserve_bytes) +
+      " of it are kept free; make room on it, or delete sweeps that are not needed any more");
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace jobs {
 
 /// Bytes of the file that hold something: pages that deletions have freed are filled again first.
 inline constexpr const char* kUsedBytesQuery =
-    "SELECT (page_count - freelist_count) * page_size FROM pragma_page_count(), pragma_freelist_count(), pragma_page_size()";
+    "SELECT (page_count - freelist_count) * page_size FROM pragma_page_count(), pragma_freelist_count(), "
+    "pragma_page_size()";
 
 /// Checks, inside the transaction that has added something, that it may stay.
 /// @param used  kUsedBytesQuery, prepared

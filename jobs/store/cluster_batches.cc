@@ -24,7 +24,8 @@ struct Candidate {
 /// The first queued jobs of a sweep that need not wait for others of the same content, nor for each other.
 std::vector<Candidate> find_candidates(Statements& statements, std::int64_t sweep, std::size_t most) {
   static const std::string query = std::string("SELECT j.seq, j.content, j.reuse FROM jobs j "
-                                               "WHERE j.state = 'queued' AND j.batch IS NULL AND j.sweep IS ?1 AND ") +
+                                               "WHERE j.state = 'queued' AND j.batch IS NULL AND j.sweep IS "
+                                               "?1 AND ") +
                                    kNobodyComputesIt + " ORDER BY j.seq LIMIT ?2";
   const auto list = statements.use(query.c_str());
   if (sweep != kSingleJobs) list->bind(1, sweep);
@@ -32,7 +33,8 @@ std::vector<Candidate> find_candidates(Statements& statements, std::int64_t swee
   std::vector<Candidate> candidates;
   std::set<std::int64_t> contents;
   while (list->executeStep()) {
-    const Candidate next{.seq = list->getColumn(0).getInt64(), .content = list->getColumn(1).getInt64(), .reuse = list->getColumn(2).getInt() != 0};
+    const Candidate next{.seq = list->getColumn(0).getInt64(), .content = list->getColumn(1).getInt64(),
+                         .reuse = list->getColumn(2).getInt() != 0};
     if (contents.insert(next.content).second || !next.reuse) candidates.push_back(next);
   }
   return candidates;
@@ -45,7 +47,8 @@ std::string find_sweep_id(Statements& statements, std::int64_t sweep) {
 }
 
 BatchRow insert_batch(Statements& statements, std::string id, std::string sweep_id, std::int64_t now_ms) {
-  const auto add = statements.use("INSERT INTO batches (id, sweep_id, engine_version, created_ms) VALUES (?, ?, ?, ?) RETURNING seq");
+  const auto add = statements.use(
+      "INSERT INTO batches (id, sweep_id, engine_version, created_ms) VALUES (?, ?, ?, ?) RETURNING seq");
   add->bind(1, id);
   if (!sweep_id.empty()) add->bind(2, sweep_id);
   add->bind(3, engine_version());
@@ -69,19 +72,24 @@ struct Found {
   std::int64_t seq = 0, content = 0;
 };
 
-std::optional<Found> find_batch_job(Statements& statements, std::int64_t batch, std::uint32_t batch_index, const std::string& engine) {
+std::optional<Found> find_batch_job(Statements& statements, std::int64_t batch, std::uint32_t batch_index,
+                                    const std::string& engine) {
   const auto find = statements.use(
-      "SELECT j.seq, j.content, c.engine_version FROM jobs j JOIN contents c ON c.seq = j.content WHERE j.batch = ? AND j.place = ?");
+      "SELECT j.seq, j.content, c.engine_version FROM jobs j JOIN contents c ON c.seq = j.content WHERE "
+      "j.batch = ? AND j.place = ?");
   find->bind(1, batch);
   find->bind(2, static_cast<std::int64_t>(batch_index));
   if (!find->executeStep() || find->getColumn(2).getString() != engine) return std::nullopt;
   return Found{.seq = find->getColumn(0).getInt64(), .content = find->getColumn(1).getInt64()};
 }
 
-void end_batch_job(Statements& statements, std::int64_t job, JobState state, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
+void end_batch_job(Statements& statements, std::int64_t job, JobState state, std::int64_t result,
+                   std::int64_t now_ms, std::int64_t change) {
   const auto end = statements.use(
-      "UPDATE jobs SET state = ?1, result = ?2, attempt = max(attempt, 1), started_ms = coalesce(started_ms, max(?3, created_ms)), "
-      "ended_ms = max(?3, coalesce(started_ms, created_ms)), change = ?4, batch = NULL, place = NULL WHERE seq = ?5");
+      "UPDATE jobs SET state = ?1, result = ?2, attempt = max(attempt, 1), started_ms = coalesce(started_ms, "
+      "max(?3, created_ms)), "
+      "ended_ms = max(?3, coalesce(started_ms, created_ms)), change = ?4, batch = NULL, place = NULL WHERE "
+      "seq = ?5");
   end->bind(1, std::string(state_name(state)));
   end->bind(2, result);
   end->bind(3, now_ms);
@@ -101,18 +109,21 @@ void release_batches_of_other_engines(SQLite::Database& database) {
 }
 
 std::optional<BatchRow> ClusterBatches::claim(const ExecutorFilter& filter, std::size_t most_jobs) {
-  return core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
-    for (const std::int64_t sweep : order_of_sweeps(statements, filter, core_.served)) {
-      const auto candidates = find_candidates(statements, sweep, most_jobs);
-      if (candidates.empty()) continue;
-      const std::int64_t now_ms = now_unix_ms();
-      const BatchRow batch = insert_batch(statements, core_.ids.make(kBatchPrefix, now_ms), find_sweep_id(statements, sweep), now_ms);
-      for (std::size_t k = 0; k < candidates.size(); ++k) set_batch_index(statements, candidates[k].seq, batch.seq, k);
-      core_.served[sweep] = ++core_.claims;
-      return batch;
-    }
-    return std::nullopt;
-  });
+  return core_.writer.write_often(
+      Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
+        for (const std::int64_t sweep : order_of_sweeps(statements, filter, core_.served)) {
+          const auto candidates = find_candidates(statements, sweep, most_jobs);
+          if (candidates.empty()) continue;
+          const std::int64_t now_ms = now_unix_ms();
+          const BatchRow batch = insert_batch(statements, core_.ids.make(kBatchPrefix, now_ms),
+                                              find_sweep_id(statements, sweep), now_ms);
+          for (std::size_t k = 0; k < candidates.size(); ++k)
+            set_batch_index(statements, candidates[k].seq, batch.seq, k);
+          core_.served[sweep] = ++core_.claims;
+          return batch;
+        }
+        return std::nullopt;
+      });
 }
 
 std::vector<BatchRow> ClusterBatches::list() const {
@@ -120,7 +131,8 @@ std::vector<BatchRow> ClusterBatches::list() const {
     SQLite::Statement list(database, "SELECT seq, id, coalesce(sweep_id, '') FROM batches ORDER BY seq");
     std::vector<BatchRow> batches;
     while (list.executeStep()) {
-      batches.push_back({.seq = list.getColumn(0).getInt64(), .id = list.getColumn(1).getString(), .sweep_id = list.getColumn(2).getString()});
+      batches.push_back({.seq = list.getColumn(0).getInt64(), .id = list.getColumn(1).getString(),
+                         .sweep_id = list.getColumn(2).getString()});
     }
     return batches;
   });
@@ -139,19 +151,22 @@ std::vector<std::uint32_t> ClusterBatches::find_open_indices(std::int64_t batch)
 std::vector<BatchJob> ClusterBatches::find_open_jobs(std::int64_t batch) const {
   return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
-                           "SELECT j.place, c.parameters, j.kind, json_extract(c.parameters, '$.duration_s') FROM jobs j "
+                           "SELECT j.place, c.parameters, j.kind, json_extract(c.parameters, '$.duration_s') "
+                           "FROM jobs j "
                            "JOIN contents c ON c.seq = j.content WHERE j.batch = ? ORDER BY j.place");
     list.bind(1, batch);
     std::vector<BatchJob> jobs;
     while (list.executeStep()) {
-      jobs.push_back({.batch_index = list.getColumn(0).getUInt(), .parameters = list.getColumn(1).getString(), .kind = list.getColumn(2).getString(),
+      jobs.push_back({.batch_index = list.getColumn(0).getUInt(), .parameters = list.getColumn(1).getString(),
+                      .kind = list.getColumn(2).getString(),
                         .duration_s = list.getColumn(3).getDouble()});
     }
     return jobs;
   });
 }
 
-std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provenance, const std::vector<BatchRecord>& records) {
+std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provenance,
+                                   const std::vector<BatchRecord>& records) {
   return core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
     const std::int64_t now_ms = now_unix_ms();
     std::size_t stored = 0;
@@ -161,9 +176,11 @@ std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provena
       if (!found) continue;
       const bool succeeded = each.record->end == RunRecord::End::kSucceeded;
       const std::string metrics = succeeded ? each.record->metrics.dump() : "";
-      const std::int64_t result = insert_result(statements, found->content, *each.record, metrics, provenance);
+      const std::int64_t result =
+          insert_result(statements, found->content, *each.record, metrics, provenance);
       if (!each.packed_trajectory->empty()) insert_trajectory(statements, result, *each.packed_trajectory);
-      end_batch_job(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, core_.changes);
+      end_batch_job(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result,
+                    now_ms, core_.changes);
       if (succeeded) complete_duplicates(statements, found->content, result, now_ms, core_.changes);
       ++stored;
     }
@@ -172,7 +189,8 @@ std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provena
   });
 }
 
-void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint32_t>& running, const std::vector<std::uint32_t>& waiting) {
+void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint32_t>& running,
+                                 const std::vector<std::uint32_t>& waiting) {
   core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     for (const std::uint32_t batch_index : running) {
       const auto begin = statements.use(
@@ -184,7 +202,9 @@ void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint
       begin->exec();
     }
     for (const std::uint32_t batch_index : waiting) {
-      const auto wait = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE batch = ? AND place = ? AND state = 'running'");
+      const auto wait = statements.use(
+          "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE batch = ? AND place = ? AND state = "
+          "'running'");
       wait->bind(1, batch);
       wait->bind(2, static_cast<std::int64_t>(batch_index));
       wait->exec();
@@ -194,7 +214,8 @@ void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint
 
 void ClusterBatches::end(std::int64_t batch) {
   core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
-    const auto release = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL, batch = NULL, place = NULL WHERE batch = ?");
+    const auto release = statements.use(
+        "UPDATE jobs SET state = 'queued', started_ms = NULL, batch = NULL, place = NULL WHERE batch = ?");
     release->bind(1, batch);
     release->exec();
     const auto forget = statements.use("DELETE FROM batches WHERE seq = ?");
@@ -207,8 +228,10 @@ std::map<std::string, double> ClusterBatches::find_cost_rates() const {
   return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
                            "SELECT j.kind, avg(r.wall_time_s / json_extract(c.parameters, '$.duration_s')) "
-                           "FROM (SELECT seq, content, wall_time_s FROM results WHERE error_reason IS NULL ORDER BY seq DESC LIMIT 500) r "
-                           "JOIN contents c ON c.seq = r.content JOIN jobs j ON j.result = r.seq AND j.reused = 0 GROUP BY j.kind");
+                           "FROM (SELECT seq, content, wall_time_s FROM results WHERE error_reason IS NULL "
+                           "ORDER BY seq DESC LIMIT 500) r "
+                           "JOIN contents c ON c.seq = r.content JOIN jobs j ON j.result = r.seq AND "
+                           "j.reused = 0 GROUP BY j.kind");
     std::map<std::string, double> rates;
     while (list.executeStep()) rates.emplace(list.getColumn(0).getString(), list.getColumn(1).getDouble());
     return rates;

@@ -6,8 +6,8 @@
 
 namespace jobs {
 
-/// Response that is stored with the row that a request makes, so that the same request sent again gets it again: the
-/// Idempotency-Key header field of the IETF draft of that name.
+/// Response that is stored with the row that a request makes, so that the same request sent again gets it
+/// again: the Idempotency-Key header field of the IETF draft of that name.
 template <typename Row>
 struct IdempotencyRecord {
   std::string key;          ///< chosen by the client; empty: nothing is stored

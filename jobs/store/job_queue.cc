@@ -12,26 +12,35 @@ namespace {
 
 /// The first queued job of a sweep that need not wait for another one of the same content.
 std::optional<ClaimedJob> find_claimable(Statements& statements, std::int64_t sweep) {
-  static const std::string query = std::string("SELECT j.seq, j.id, j.attempt, c.parameters FROM jobs j JOIN contents c ON c.seq = j.content "
-                                               "WHERE j.state = 'queued' AND j.batch IS NULL AND j.sweep IS ?1 AND ") + kNobodyComputesIt + " ORDER BY j.seq LIMIT 1";
+  static const std::string query =
+      std::string(
+          "SELECT j.seq, j.id, j.attempt, c.parameters FROM jobs j JOIN contents c ON c.seq = j.content "
+          "WHERE j.state = 'queued' AND j.batch IS NULL AND j.sweep IS ?1 AND ") +
+      kNobodyComputesIt + " ORDER BY j.seq LIMIT 1";
   const auto first = statements.use(query.c_str());
   if (sweep != kSingleJobs) first->bind(1, sweep);
   if (!first->executeStep()) return std::nullopt;
-  return ClaimedJob{.seq = first->getColumn(0).getInt64(), .id = first->getColumn(1).getString(),
-                    .attempt = first->getColumn(2).getInt64() + 1, .parameters = first->getColumn(3).getString()};
+  return ClaimedJob{.seq = first->getColumn(0).getInt64(),
+                    .id = first->getColumn(1).getString(),
+                    .attempt = first->getColumn(2).getInt64() + 1,
+                    .parameters = first->getColumn(3).getString()};
 }
 
 /// The content of a job; empty if the job no longer is what the worker took.
 std::optional<std::int64_t> content_if_current(Statements& statements, const ClaimedJob& job) {
-  const auto find = statements.use("SELECT content FROM jobs WHERE seq = ? AND id = ? AND attempt = ? AND state = 'running'");
+  const auto find = statements.use(
+      "SELECT content FROM jobs WHERE seq = ? AND id = ? AND attempt = ? AND state = 'running'");
   find->bind(1, job.seq);
   find->bindNoCopy(2, job.id);
   find->bind(3, job.attempt);
   return find->executeStep() ? std::optional(find->getColumn(0).getInt64()) : std::nullopt;
 }
 
-void end_job(Statements& statements, const ClaimedJob& job, JobState state, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
-  const auto end = statements.use("UPDATE jobs SET state = ?, result = ?, ended_ms = max(?, started_ms), change = ? WHERE seq = ? AND attempt = ? AND state = 'running'");
+void end_job(Statements& statements, const ClaimedJob& job, JobState state, std::int64_t result,
+             std::int64_t now_ms, std::int64_t change) {
+  const auto end = statements.use(
+      "UPDATE jobs SET state = ?, result = ?, ended_ms = max(?, started_ms), change = ? WHERE seq = ? AND "
+      "attempt = ? AND state = 'running'");
   end->bind(1, std::string(state_name(state)));
   end->bind(2, result);
   end->bind(3, now_ms);
@@ -57,15 +66,20 @@ struct JobQueue::Outcome {
 };
 
 std::optional<ClaimedJob> JobQueue::claim(const ExecutorFilter& filter, const OnClaim& on_claim) {
-  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return claim(statements, filter, on_claim); });
+  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+    return claim(statements, filter, on_claim);
+  });
 }
 
 bool JobQueue::record(const ClaimedJob& job, const RunRecord& record) {
   const Outcome outcome(record);  // outside of the lock: other threads compute in the meantime
-  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) { return this->record(statements, job, outcome); });
+  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+    return this->record(statements, job, outcome);
+  });
 }
 
-std::optional<ClaimedJob> JobQueue::record_and_claim(const ClaimedJob& job, const RunRecord& record, const ExecutorFilter& filter, const OnClaim& on_claim) {
+std::optional<ClaimedJob> JobQueue::record_and_claim(const ClaimedJob& job, const RunRecord& record,
+                                                     const ExecutorFilter& filter, const OnClaim& on_claim) {
   const Outcome outcome(record);
   return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     this->record(statements, job, outcome);
@@ -73,11 +87,13 @@ std::optional<ClaimedJob> JobQueue::record_and_claim(const ClaimedJob& job, cons
   });
 }
 
-std::optional<ClaimedJob> JobQueue::claim(Statements& statements, const ExecutorFilter& filter, const OnClaim& on_claim) {
+std::optional<ClaimedJob> JobQueue::claim(Statements& statements, const ExecutorFilter& filter,
+                                          const OnClaim& on_claim) {
   for (const std::int64_t sweep : order_of_sweeps(statements, filter, core_.served)) {
     auto job = find_claimable(statements, sweep);
     if (!job) continue;
-    const auto take = statements.use("UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
+    const auto take = statements.use(
+        "UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
     take->bind(1, job->attempt);
     take->bind(2, now_unix_ms());
     take->bind(3, job->seq);
@@ -93,9 +109,11 @@ bool JobQueue::record(Statements& statements, const ClaimedJob& job, const Outco
   const auto content = content_if_current(statements, job);
   if (!content) return false;
   const std::int64_t now_ms = now_unix_ms();
-  const std::int64_t result = insert_result(statements, *content, outcome.record, outcome.metrics, own_provenance());
+  const std::int64_t result =
+      insert_result(statements, *content, outcome.record, outcome.metrics, own_provenance());
   if (outcome.sampled) insert_trajectory(statements, result, outcome.trajectory);
-  end_job(statements, job, outcome.succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms, ++core_.changes);
+  end_job(statements, job, outcome.succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms,
+          ++core_.changes);
   if (outcome.succeeded) complete_duplicates(statements, *content, result, now_ms, core_.changes);
   check_quota(*statements.use(kUsedBytesQuery).operator->(), core_.quota, core_.file);
   return true;
@@ -103,7 +121,9 @@ bool JobQueue::record(Statements& statements, const ClaimedJob& job, const Outco
 
 void JobQueue::requeue(const ClaimedJob& job) {
   core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
-    const auto put_back = statements.use("UPDATE jobs SET state = 'queued', started_ms = NULL WHERE seq = ? AND id = ? AND attempt = ? AND state = 'running'");
+    const auto put_back = statements.use(
+        "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE seq = ? AND id = ? AND attempt = ? AND "
+        "state = 'running'");
     put_back->bind(1, job.seq);
     put_back->bind(2, job.id);
     put_back->bind(3, job.attempt);

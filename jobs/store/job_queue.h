@@ -26,7 +26,8 @@ struct Cancellation {
 
 enum class DeleteOutcome { kMissing, kDone, kNotEnded };
 
-/// Queue of the jobs: adds, claims, records, cancels and deletes them. May be called from any thread. Throws StorageError.
+/// Queue of the jobs: adds, claims, records, cancels and deletes them. May be called from any thread. Throws
+/// StorageError.
 class JobQueue {
  public:
   explicit JobQueue(StoreCore& core) : core_(core) {}
@@ -37,30 +38,33 @@ class JobQueue {
                         const IdempotencyRecord<SweepRow>& idempotency = {});
   std::string add_job(const PlannedJob& job, std::size_t max_queued,
                       const IdempotencyRecord<JobRow>& idempotency = {});
-  /// Adds jobs to a sweep and replaces its request. False, and nothing is stored, if the request is not `former` any
-  /// more.
+  /// Adds jobs to a sweep and replaces its request. False, and nothing is stored, if the request is not
+  /// `former` any more.
   bool extend_sweep(const std::string& id, const std::string& former, const std::string& request,
                     const std::vector<PlannedJob>& jobs, std::size_t max_queued);
-  /// Adds cases to the request of a sweep that has some, and their jobs. False, and nothing is stored, if there is no
-  /// such sweep.
-  bool add_cases(const std::string& id, const nlohmann::ordered_json& cases, const std::vector<PlannedJob>& jobs);
-  /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at once. The
-  /// sweep's study, if there is one, goes on. False if there is no such sweep.
+  /// Adds cases to the request of a sweep that has some, and their jobs. False, and nothing is stored, if
+  /// there is no such sweep.
+  bool add_cases(const std::string& id, const nlohmann::ordered_json& cases,
+                 const std::vector<PlannedJob>& jobs);
+  /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at
+  /// once. The sweep's study, if there is one, goes on. False if there is no such sweep.
   bool retry_sweep(const std::string& id, std::size_t max_queued);
-  /// Gives the queued jobs of a sweep to another executor, also those that wait in a cluster's queue. False if there
-  /// is no such sweep. @throws WrongState if the sweep has ended
+  /// Gives the queued jobs of a sweep to another executor, also those that wait in a cluster's queue. False
+  /// if there is no such sweep. @throws WrongState if the sweep has ended
   bool move_sweep(const std::string& id, const std::string& executor);
 
-  /// Claims a job: of the sweeps of the highest priority the one that was served least recently, of that sweep the first
-  /// job whose content nobody is computing.
+  /// Claims a job: of the sweeps of the highest priority the one that was served least recently, of that
+  /// sweep the first job whose content nobody is computing.
   /// @param on_claim  called before anybody can see the job as running; if it throws, no job is claimed
-  [[nodiscard]] std::optional<ClaimedJob> claim(const ExecutorFilter& filter = {}, const OnClaim& on_claim = {});
-  /// Stores the result of a run, and completes queued jobs of the same content. False, and nothing is stored, if the
-  /// job is no longer this attempt's, as after a cancellation.
+  [[nodiscard]] std::optional<ClaimedJob> claim(const ExecutorFilter& filter = {},
+                                                const OnClaim& on_claim = {});
+  /// Stores the result of a run, and completes queued jobs of the same content. False, and nothing is stored,
+  /// if the job is no longer this attempt's, as after a cancellation.
   bool record(const ClaimedJob& job, const RunRecord& record);
   /// record() and then claim() in one transaction, which costs less.
   [[nodiscard]] std::optional<ClaimedJob> record_and_claim(const ClaimedJob& job, const RunRecord& record,
-                                                           const ExecutorFilter& filter, const OnClaim& on_claim);
+                                                           const ExecutorFilter& filter,
+                                                           const OnClaim& on_claim);
   /// Queues a job again that was not computed to its end. Nothing happens if it is no longer this attempt's.
   void requeue(const ClaimedJob& job);
 

@@ -11,7 +11,11 @@ namespace jobs {
 namespace {
 
 std::vector<std::string> find_running(SQLite::Database& database, const char* column, const std::string& id) {
-  SQLite::Statement find(database, std::string("SELECT j.id FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep WHERE j.state = 'running' AND ") + column + " = ?");
+  SQLite::Statement find(
+      database,
+      std::string(
+          "SELECT j.id FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep WHERE j.state = 'running' AND ") +
+          column + " = ?");
   find.bind(1, id);
   std::vector<std::string> running;
   while (find.executeStep()) running.push_back(find.getColumn(0).getString());
@@ -19,9 +23,14 @@ std::vector<std::string> find_running(SQLite::Database& database, const char* co
 }
 
 /// @param whose  SQL condition on the jobs, with one parameter
-int cancel_where(SQLite::Database& database, const std::string& whose, const std::string& id, std::int64_t change) {
-  SQLite::Statement cancel(database, "UPDATE jobs SET state = 'cancelled', ended_ms = max(?, coalesce(started_ms, created_ms)), change = ?, batch = NULL, place = NULL "
-                             "WHERE state IN ('queued', 'running') AND " + whose);
+int cancel_where(SQLite::Database& database, const std::string& whose, const std::string& id,
+                 std::int64_t change) {
+  SQLite::Statement cancel(
+      database,
+      "UPDATE jobs SET state = 'cancelled', ended_ms = max(?, coalesce(started_ms, created_ms)), change = ?, "
+      "batch = NULL, place = NULL "
+      "WHERE state IN ('queued', 'running') AND " +
+          whose);
   cancel.bind(1, now_unix_ms());
   cancel.bind(2, change);
   cancel.bind(3, id);
@@ -53,10 +62,13 @@ void run_for_each(SQLite::Database& database, const char* query, const std::vect
 
 void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
   const auto contents = find_numbers(database, "SELECT DISTINCT content FROM jobs WHERE sweep = ?", sweep);
-  const auto results = find_numbers(database, "SELECT seq FROM results WHERE content IN (SELECT content FROM jobs WHERE sweep = ?)", sweep);
+  const auto results = find_numbers(
+      database, "SELECT seq FROM results WHERE content IN (SELECT content FROM jobs WHERE sweep = ?)", sweep);
   run_for_each(database, "DELETE FROM jobs WHERE sweep = ?", {sweep});
   run_for_each(database, "DELETE FROM sweeps WHERE seq = ?", {sweep});
-  run_for_each(database, "DELETE FROM results WHERE seq = ?1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE result = ?1)", results);
+  run_for_each(database,
+               "DELETE FROM results WHERE seq = ?1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE result = ?1)",
+               results);
   run_for_each(database,
                "DELETE FROM contents WHERE seq = ?1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE content = ?1) "
                "AND NOT EXISTS (SELECT 1 FROM results WHERE content = ?1)",
@@ -70,7 +82,8 @@ Cancellation JobQueue::cancel_sweep(const std::string& id) {
     if (!find_sweep_seq(database, id)) return {};
     std::vector<std::string> running = find_running(database, "s.id", id);
     const std::string of_sweep = "sweep = (SELECT seq FROM sweeps WHERE id = ?)";
-    const bool done = cancel_where(database, of_sweep, id, ++core_.changes) > 0 || any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
+    const bool done = cancel_where(database, of_sweep, id, ++core_.changes) > 0 ||
+                      any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
     return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
   });
 }
@@ -79,7 +92,8 @@ Cancellation JobQueue::cancel_job(const std::string& id) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
     if (!any_in_state(database, "id = ?", id)) return {};
     std::vector<std::string> running = find_running(database, "j.id", id);
-    const bool done = cancel_where(database, "id = ?", id, ++core_.changes) > 0 || any_in_state(database, "state = 'cancelled' AND id = ?", id);
+    const bool done = cancel_where(database, "id = ?", id, ++core_.changes) > 0 ||
+                      any_in_state(database, "state = 'cancelled' AND id = ?", id);
     return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
   });
 }
@@ -88,19 +102,25 @@ bool JobQueue::retry_sweep(const std::string& id, std::size_t max_queued) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return false;
-    run_for_each(database, "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = ?", {*sweep});
+    run_for_each(database,
+                 "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = ?",
+                 {*sweep});
     // The number of the former end is kept below 0: there it is none of an end, but never given again.
     SQLite::Statement queue(database,
-                            "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = -change, started_ms = NULL, ended_ms = NULL "
+                            "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = -change, "
+                            "started_ms = NULL, ended_ms = NULL "
                             "WHERE sweep = ? AND state IN ('failed', 'cancelled')");
     queue.bind(1, *sweep);
     if (queue.exec() == 0) return true;
     rekey_queued_jobs(database);
     SQLite::Statement settle(database,
-                             "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = max(?3, created_ms), ended_ms = max(?3, created_ms), "
-                             "result = (SELECT max(seq) FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL) "
+                             "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = "
+                             "max(?3, created_ms), ended_ms = max(?3, created_ms), "
+                             "result = (SELECT max(seq) FROM results r WHERE r.content = jobs.content AND "
+                             "r.error_reason IS NULL) "
                              "WHERE sweep = ?1 AND state = 'queued' AND reuse = 1 "
-                             "AND EXISTS (SELECT 1 FROM results r WHERE r.content = jobs.content AND r.error_reason IS NULL)");
+                             "AND EXISTS (SELECT 1 FROM results r WHERE r.content = jobs.content AND "
+                             "r.error_reason IS NULL)");
     settle.bind(1, *sweep);
     settle.bind(2, ++core_.changes);
     settle.bind(3, now_unix_ms());
@@ -115,7 +135,8 @@ bool JobQueue::move_sweep(const std::string& id, const std::string& executor) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return false;
-    SQLite::Statement left(database, "SELECT 1 FROM jobs WHERE sweep = ? AND state IN ('queued', 'running') LIMIT 1");
+    SQLite::Statement left(database,
+                           "SELECT 1 FROM jobs WHERE sweep = ? AND state IN ('queued', 'running') LIMIT 1");
     left.bind(1, *sweep);
     if (!left.executeStep()) throw WrongState("the sweep has ended");
     left.reset();
@@ -123,7 +144,10 @@ bool JobQueue::move_sweep(const std::string& id, const std::string& executor) {
     move.bind(1, executor);
     move.bind(2, *sweep);
     move.exec();
-    SQLite::Statement release(database, "UPDATE jobs SET batch = NULL, place = NULL WHERE sweep = ? AND state = 'queued' AND batch IS NOT NULL");
+    SQLite::Statement release(
+        database,
+        "UPDATE jobs SET batch = NULL, place = NULL WHERE sweep = ? AND state = 'queued' AND batch IS NOT "
+        "NULL");
     release.bind(1, *sweep);
     release.exec();
     return true;
@@ -134,7 +158,9 @@ DeleteOutcome JobQueue::delete_sweep(const std::string& id) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return DeleteOutcome::kMissing;
-    if (any_in_state(database, "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id)) return DeleteOutcome::kNotEnded;
+    if (any_in_state(database,
+                     "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id))
+      return DeleteOutcome::kNotEnded;
     delete_sweep_rows(database, *sweep);
     core_.served.erase(*sweep);
     return DeleteOutcome::kDone;

@@ -12,10 +12,11 @@
 namespace jobs {
 namespace {
 
-/// Adds cases to the request of a sweep. The database appends to the text, so that the cases that it has already are not read here, and
-/// numbers stay as they were written.
+/// Adds cases to the request of a sweep. The database appends to the text, so that the cases that it has
+/// already are not read here, and numbers stay as they were written.
 void append_cases(SQLite::Database& database, const std::string& id, const nlohmann::ordered_json& cases) {
-  constexpr std::size_t kMostAtOnce = 20;  // calls inside one another, of which SQLite's parser bears no more than some
+  // Calls inside one another, of which SQLite's parser bears no more than some
+  constexpr std::size_t kMostAtOnce = 20;
   for (std::size_t first = 0; first < cases.size(); first += kMostAtOnce) {
     const std::size_t end = std::min(cases.size(), first + kMostAtOnce);
     std::string request = "request";
@@ -30,7 +31,8 @@ void append_cases(SQLite::Database& database, const std::string& id, const nlohm
 
 }  // namespace
 
-std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued, const IdempotencyRecord<SweepRow>& idempotency) {
+std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued,
+                                const IdempotencyRecord<SweepRow>& idempotency) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     std::string id = core_.ids.make(kSweepPrefix, now_ms);
@@ -38,24 +40,29 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
     JobInserter inserter(database, core_.ids, now_ms, ++core_.changes);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
     check_queue_limit(database, max_queued);
-    if (!idempotency.key.empty()) store_response(database, idempotency.key, idempotency.fingerprint, idempotency.make_response(read_sweep(database, id).value()));
+    if (!idempotency.key.empty())
+      store_response(database, idempotency.key, idempotency.fingerprint,
+                     idempotency.make_response(read_sweep(database, id).value()));
     core_.check_quota(database);
     return id;
   });
 }
 
-std::string JobQueue::add_job(const PlannedJob& job, std::size_t max_queued, const IdempotencyRecord<JobRow>& idempotency) {
+std::string JobQueue::add_job(const PlannedJob& job, std::size_t max_queued,
+                              const IdempotencyRecord<JobRow>& idempotency) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     std::string id = JobInserter(database, core_.ids, now_unix_ms(), ++core_.changes).insert(job, {});
     check_queue_limit(database, max_queued);
-    if (!idempotency.key.empty()) store_response(database, idempotency.key, idempotency.fingerprint, idempotency.make_response(read_job(database, id).value()));
+    if (!idempotency.key.empty())
+      store_response(database, idempotency.key, idempotency.fingerprint,
+                     idempotency.make_response(read_job(database, id).value()));
     core_.check_quota(database);
     return id;
   });
 }
 
-bool JobQueue::extend_sweep(const std::string& id, const std::string& former, const std::string& request, const std::vector<PlannedJob>& jobs,
-                         std::size_t max_queued) {
+bool JobQueue::extend_sweep(const std::string& id, const std::string& former, const std::string& request,
+                            const std::vector<PlannedJob>& jobs, std::size_t max_queued) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     SQLite::Statement change(database, "UPDATE sweeps SET request = ? WHERE id = ? AND request = ?");
     change.bind(1, request);
@@ -65,15 +72,20 @@ bool JobQueue::extend_sweep(const std::string& id, const std::string& former, co
   });
 }
 
-bool JobQueue::add_cases(const std::string& id, const nlohmann::ordered_json& cases, const std::vector<PlannedJob>& jobs) {
+bool JobQueue::add_cases(const std::string& id, const nlohmann::ordered_json& cases,
+                         const std::vector<PlannedJob>& jobs) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     append_cases(database, id, cases);
     return add_jobs(database, id, jobs, std::numeric_limits<std::size_t>::max());
   });
 }
 
-bool JobQueue::add_jobs(SQLite::Database& database, const std::string& id, const std::vector<PlannedJob>& jobs, std::size_t max_queued) {
-  SQLite::Statement find(database, "SELECT seq, created_ms, (SELECT reuse FROM jobs WHERE sweep = s.seq LIMIT 1) FROM sweeps s WHERE id = ?");
+bool JobQueue::add_jobs(SQLite::Database& database, const std::string& id,
+                        const std::vector<PlannedJob>& jobs, std::size_t max_queued) {
+  SQLite::Statement find(
+      database,
+      "SELECT seq, created_ms, (SELECT reuse FROM jobs WHERE sweep = s.seq LIMIT 1) FROM sweeps s WHERE id = "
+      "?");
   find.bind(1, id);
   if (!find.executeStep()) return false;
   const std::int64_t now_ms = std::max(now_unix_ms(), find.getColumn(1).getInt64());

@@ -14,8 +14,8 @@ namespace jobs {
 
 [[nodiscard]] std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id);
 [[nodiscard]] std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id);
-[[nodiscard]] std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id,
-                                                       RowParameters parameters);
+[[nodiscard]] std::optional<SweepResults> read_results(const SQLite::Database& database,
+                                                       const std::string& sweep_id, RowParameters parameters);
 [[nodiscard]] std::optional<StudyRow> read_study(const SQLite::Database& database, const std::string& id);
 
 }  // namespace jobs

@@ -40,7 +40,8 @@ struct SweepRow {
   std::int64_t priority = 0;
   std::string executor;                              ///< empty: it named none
   std::int64_t created_ms = 0;
-  std::optional<std::int64_t> started_ms, ended_ms;  ///< of its first job, and of its last one if all have ended
+  /// Of its first job, and of its last one if all have ended
+  std::optional<std::int64_t> started_ms, ended_ms;
   StateCounts counts{};
   std::map<std::string, CostOfKind> costs;           ///< only of sweeps that have not ended
 };
@@ -92,7 +93,8 @@ struct ResultRow {
 /// All jobs of a sweep in one snapshot of the store.
 struct SweepResults {
   SweepRow sweep;
-  std::vector<ResultRow> rows;  ///< in the order in which the sweep was expanded, what was added to it later last
+  /// In the order in which the sweep was expanded, what was added to it later last
+  std::vector<ResultRow> rows;
 };
 
 /// Study with its jobs, in one snapshot of the store.

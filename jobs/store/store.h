@@ -13,18 +13,21 @@
 
 namespace jobs {
 
-/// Store of everything that is kept on disk, and all the SQL, in four interfaces. May be called from any thread. Throws
-/// StorageError. No time that is stored is before one that it follows, even if the clock is set back in between.
+/// Store of everything that is kept on disk, and all the SQL, in four interfaces. May be called from any
+/// thread. Throws StorageError. No time that is stored is before one that it follows, even if the clock is
+/// set back in between.
 class Store {
  public:
   /// Opens or makes the file, and queues again what a former process left running.
-  /// @param quota  what would add to more is a StoreLimitReached, while reading, cancelling and deleting go on
+  /// @param quota  what would add to more is a StoreLimitReached, while reading, cancelling and deleting go
+  ///     on
   explicit Store(const std::filesystem::path& file, const StoreQuota& quota = {});
 
-  /// Engine for which the newest job was planned when the store was opened; this program's own in a new store.
+  /// Engine for which the newest job was planned when the store was opened; this program's own in a new
+  /// store.
   [[nodiscard]] const std::string& engine_before() const { return engine_before_; }
-  /// Makes the file smaller by what deleting has freed, which needs room on the disk for a while. What has not been
-  /// released is used again.
+  /// Makes the file smaller by what deleting has freed, which needs room on the disk for a while. What has
+  /// not been released is used again.
   void release_free_pages() { core_.writer.release_free_pages(); }
 
  private:
@@ -41,8 +44,8 @@ class Store {
   SweepReader reader{core_};
 };
 
-/// Writes a consistent copy of a store, a store itself, to a file that does not exist. The store may be in use by any
-/// process, which goes on.
+/// Writes a consistent copy of a store, a store itself, to a file that does not exist. The store may be in
+/// use by any process, which goes on.
 /// @param stop  asked now and then; true ends the copying, and there is no file
 /// @returns whether there is a copy
 bool copy_store(const std::filesystem::path& store, const std::filesystem::path& file,

@@ -25,7 +25,8 @@ StorageError system_error(const std::string& what) {
 
 /// Settings of both kinds of connection: nothing in the file may run code of its own.
 void harden(SQLite::Database& database) {
-  for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+  for (const auto& [option, value] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                                      {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
                                       {SQLITE_DBCONFIG_DQS_DML, 0}, {SQLITE_DBCONFIG_DQS_DDL, 0}}) {
     sqlite3_db_config(database.getHandle(), option, value, nullptr);
   }
@@ -37,7 +38,8 @@ int last_error_of_log(const SQLite::Database& database) {
   sqlite3_file* log = nullptr;
   int system_error = 0;
   sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_JOURNAL_POINTER, &log);
-  if (log != nullptr && log->pMethods != nullptr) log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &system_error);
+  if (log != nullptr && log->pMethods != nullptr)
+    log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &system_error);
   return system_error;
 }
 
@@ -47,12 +49,14 @@ bool has_content(const std::filesystem::path& file) {
   return !missing && size > 0;
 }
 
-/// SQLite would delete a log that lies beside no store, and with it what had not been moved into the store yet.
+/// SQLite would delete a log that lies beside no store, and with it what had not been moved into the store
+/// yet.
 void check_log_has_store(const std::filesystem::path& store) {
   const std::string log = store.string() + "-wal";
   if (has_content(store) || !has_content(log)) return;
   throw StorageError("the store " + store.string() + " is missing or empty, but its log " + log +
-                         " is there and may hold results: put the store back beside it, or move the log away; it has been left as it is",
+                         " is there and may hold results: put the store back beside it, or move the log "
+                         "away; it has been left as it is",
                      SQLITE_CORRUPT);
 }
 
@@ -61,7 +65,8 @@ void keep_from_others(const std::string& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || (status.st_mode & 077U) == 0) return;
   if (::chmod(file.c_str(), kOwnerOnly) == 0) return;
-  throw system_error("others than its owner may read or write " + file + ", and its mode cannot be changed to 0600");
+  throw system_error("others than its owner may read or write " + file +
+                     ", and its mode cannot be changed to 0600");
 }
 
 /// SQLite would make the file readable for all; its log and index files copy the file's mode.
@@ -74,13 +79,15 @@ SQLite::Database open_for_writing(const std::filesystem::path& store) {
     throw system_error("cannot make the store " + store.string());
   }
   for (const char* suffix : {"", "-wal", "-shm"}) keep_from_others(store.string() + suffix);
-  return with_storage_errors([&] { return SQLite::Database(store.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms); });
+  return with_storage_errors(
+      [&] { return SQLite::Database(store.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms); });
 }
 
 }  // namespace
 
 Disk disk_state(int system_error) {
-  return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG ? Disk::kFull : Disk::kHasRoom;
+  return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG ? Disk::kFull
+                                                                                   : Disk::kHasRoom;
 }
 
 bool is_damage(int sqlite_code) {
@@ -101,8 +108,9 @@ StoreLock::StoreLock(const std::filesystem::path& store) {
   if (file_ < 0) throw system_error("cannot open " + path);
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const bool held = errno == EWOULDBLOCK;
-    const StorageError error = held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY)
-                                    : system_error("cannot lock " + path);
+    const StorageError error =
+        held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY)
+             : system_error("cannot lock " + path);
     ::close(file_);
     throw error;
   }
@@ -117,12 +125,15 @@ void roll_back_unfinished(SQLite::Database& database) noexcept {
 Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {
   with_storage_errors([&] {
     harden(database_);
-    // A store that is refused stays as it is: nothing is added to its log before all is known to go well, and closing must not move it into the file.
+    // A store that is refused stays as it is: nothing is added to its log before all is known to go well, and
+    // closing must not move it into the file.
     database_.exec("PRAGMA cache_spill = OFF");
     sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     prepare_schema(database_, store);
     // Freed pages are not wiped: results are no secrets, and wiping makes deleting slow.
-    database_.exec("PRAGMA foreign_keys = ON; PRAGMA secure_delete = OFF; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 67108864");
+    database_.exec(
+        "PRAGMA foreign_keys = ON; PRAGMA secure_delete = OFF; PRAGMA synchronous = FULL; PRAGMA "
+        "journal_size_limit = 67108864");
   });
 }
 
@@ -139,7 +150,8 @@ void Writer::accept() {
 
 void Writer::set_durability(Durability durability) {
   if (durability == durability_) return;
-  database_.exec(durability == Durability::kSurvivesPowerLoss ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+  database_.exec(durability == Durability::kSurvivesPowerLoss ? "PRAGMA synchronous = FULL"
+                                                              : "PRAGMA synchronous = NORMAL");
   durability_ = durability;
 }
 
@@ -154,7 +166,8 @@ void Writer::release_free_pages() {
   }
 }
 
-ReaderPool::Connection::Connection(const std::filesystem::path& store) : database(store.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms) {
+ReaderPool::Connection::Connection(const std::filesystem::path& store)
+    : database(store.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms) {
   harden(database);
   database.exec("PRAGMA query_only = ON");
 }

@@ -16,7 +16,8 @@
 
 namespace jobs {
 
-/// The lock that a process holds as long as it has a store open: <store>.lock. The kernel drops it when the process dies.
+/// The lock that a process holds as long as it has a store open: <store>.lock. The kernel drops it when the
+/// process dies.
 class StoreLock {
  public:
   /// @throws StorageError if another process (or another store of this one) holds it
@@ -62,8 +63,8 @@ class Statements {
  public:
   explicit Statements(SQLite::Database& database) : database_(database) {}
 
-  /// A statement that is being run, with null for every parameter at first. Done with at the end of its scope: one that waits
-  /// for its next row would keep the log from being moved into the file.
+  /// A statement that is being run, with null for every parameter at first. Done with at the end of its
+  /// scope: one that waits for its next row would keep the log from being moved into the file.
   class Use {
    public:
     explicit Use(SQLite::Statement& statement) : statement_(statement) { statement_.clearBindings(); }
@@ -77,15 +78,17 @@ class Statements {
   };
 
   /// @param sql  a literal: it is told from others by its address
-  [[nodiscard]] Use use(const char* sql) { return Use(prepared_.try_emplace(sql, database_, sql).first->second); }
+  [[nodiscard]] Use use(const char* sql) {
+    return Use(prepared_.try_emplace(sql, database_, sql).first->second);
+  }
 
  private:
   SQLite::Database& database_;
   std::map<const char*, SQLite::Statement> prepared_;
 };
 
-/// Rolls back a transaction that has not been committed, if there is one. SQLite itself has done it after some failures; without memory even this
-/// may fail, and is then for whoever uses the connection next.
+/// Rolls back a transaction that has not been committed, if there is one. SQLite itself has done it after
+/// some failures; without memory even this may fail, and is then for whoever uses the connection next.
 void roll_back_unfinished(SQLite::Database& database) noexcept;
 
 /// Like SQLite::Transaction, for connections that must go on whatever fails.
@@ -106,8 +109,9 @@ class Transaction {
   SQLite::Database& database_;
 };
 
-/// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before 3.51.3 a
-/// checkpoint beside another connection's commit can damage a store, so no second connection may do either.
+/// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before
+/// 3.51.3 a checkpoint beside another connection's commit can damage a store, so no second connection may do
+/// either.
 class Writer {
  public:
   explicit Writer(const std::filesystem::path& store);
@@ -130,7 +134,8 @@ class Writer {
   /// Says that the store has shown no damage. Until then its file is left as it is, however this ends.
   void accept();
 
-  /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their turn.
+  /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their
+  /// turn.
   void release_free_pages();
 
  private:

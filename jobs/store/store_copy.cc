@@ -14,7 +14,8 @@ namespace {
 /// Makes the file, for its owner only: SQLite would make it readable for all.
 void make_empty_file(const std::filesystem::path& file) {
   const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (made < 0) throw StorageError("cannot make " + file.string() + ": " + std::strerror(errno), 0, disk_state(errno));
+  if (made < 0)
+    throw StorageError("cannot make " + file.string() + ": " + std::strerror(errno), 0, disk_state(errno));
   ::close(made);
 }
 
@@ -22,7 +23,8 @@ int ask_whether_to_stop(void* stop) { return (*static_cast<const std::function<b
 
 }  // namespace
 
-bool copy_store(const std::filesystem::path& store, const std::filesystem::path& file, const std::function<bool()>& stop) {
+bool copy_store(const std::filesystem::path& store, const std::filesystem::path& file,
+                const std::function<bool()>& stop) {
   constexpr int kBusyTimeout_ms = 5000;
   constexpr int kStepsBetweenQuestions = 1000;
   make_empty_file(file);

@@ -30,7 +30,8 @@ struct StoreCore {
   ReaderPool readers;
   IdMaker ids;
   // The rest is guarded by the writer's lock.
-  std::map<std::int64_t, std::uint64_t> served;  ///< number of the claim that last served a sweep; see kSingleJobs
+  /// Number of the claim that last served a sweep; see kSingleJobs
+  std::map<std::int64_t, std::uint64_t> served;
   std::uint64_t claims = 0;
   std::int64_t changes = 0;  ///< the last EndedJob::change
 };

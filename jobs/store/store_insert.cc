@@ -15,12 +15,17 @@ JobInserter::JobInserter(SQLite::Database& database, IdMaker& ids, std::int64_t 
     : ids_(ids),
       now_ms_(now_ms),
       change_(change),
-      add_content_(database, "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING"),
+      add_content_(
+          database,
+          "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO "
+          "NOTHING"),
       find_content_(database, "SELECT seq FROM contents WHERE content_id = ?"),
       find_result_(database, "SELECT max(seq) FROM results WHERE content = ? AND error_reason IS NULL"),
-      add_job_(database,
-               "INSERT INTO jobs (id, sweep, replicate, swept, content, kind, reuse, created_ms, state, result, reused, started_ms, ended_ms, change) "
-               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
+      add_job_(
+          database,
+          "INSERT INTO jobs (id, sweep, replicate, swept, content, kind, reuse, created_ms, state, result, "
+          "reused, started_ms, ended_ms, change) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
 
 std::string JobInserter::insert(const PlannedJob& job, const JobOwner& owner) {
   const std::int64_t content = content_of(job);
@@ -68,8 +73,12 @@ std::optional<std::int64_t> JobInserter::known_result(std::int64_t content) {
   return result.isNull() ? std::nullopt : std::optional(result.getInt64());
 }
 
-std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms) {
-  SQLite::Statement add(database, "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms, executor) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan,
+                          const std::string& request, std::int64_t now_ms) {
+  SQLite::Statement add(
+      database,
+      "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms, executor) VALUES (?, "
+      "?, ?, ?, ?, ?, ?, ?)");
   add.bind(1, id);
   add.bind(2, plan.name);
   add.bind(3, request);
@@ -85,25 +94,33 @@ std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, con
 void check_queue_limit(SQLite::Database& database, std::size_t max_queued) {
   const auto queued = database.execAndGet(kQueuedCount).getInt64();
   if (static_cast<std::size_t>(queued) > max_queued) {
-    throw QueueFull("with these, " + std::to_string(queued) + " jobs would be waiting; at most " + std::to_string(max_queued) + " may");
+    throw QueueFull("with these, " + std::to_string(queued) + " jobs would be waiting; at most " +
+                    std::to_string(max_queued) + " may");
   }
 }
 
 void rekey_queued_jobs(SQLite::Database& database) {
   SQLite::Statement old(database,
-                        "SELECT DISTINCT c.seq, c.parameters FROM jobs j JOIN contents c ON c.seq = j.content "
+                        "SELECT DISTINCT c.seq, c.parameters FROM jobs j JOIN contents c ON c.seq = "
+                        "j.content "
                         "WHERE j.state = 'queued' AND c.engine_version <> ?");
   old.bind(1, engine_version());
   std::vector<std::pair<std::int64_t, std::string>> contents;
   while (old.executeStep()) contents.emplace_back(old.getColumn(0).getInt64(), old.getColumn(1).getString());
   for (const auto& [seq, parameters] : contents) {
     const std::string name = content_id(parameters, engine_version());
-    SQLite::Statement add(database, "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING");
+    SQLite::Statement add(
+        database,
+        "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO "
+        "NOTHING");
     add.bind(1, name);
     add.bind(2, engine_version());
     add.bind(3, parameters);
     add.exec();
-    SQLite::Statement move(database, "UPDATE jobs SET content = (SELECT seq FROM contents WHERE content_id = ?) WHERE content = ? AND state = 'queued'");
+    SQLite::Statement move(
+        database,
+        "UPDATE jobs SET content = (SELECT seq FROM contents WHERE content_id = ?) WHERE content = ? AND "
+        "state = 'queued'");
     move.bind(1, name);
     move.bind(2, seq);
     move.exec();

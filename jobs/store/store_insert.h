@@ -38,8 +38,10 @@ class JobInserter {
 };
 
 /// Stores a sweep without its jobs. Returns its number.
-std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan, const std::string& request, std::int64_t now_ms);
-/// Number of jobs that wait, here or in the queue of a cluster: both counts walk an index that holds little else.
+std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan,
+                          const std::string& request, std::int64_t now_ms);
+/// Number of jobs that wait, here or in the queue of a cluster: both counts walk an index that holds little
+/// else.
 inline constexpr const char* kQueuedCount =
     "SELECT (SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NULL) + "
     "(SELECT count(*) FROM jobs WHERE state = 'queued' AND batch IS NOT NULL)";
@@ -54,6 +56,7 @@ void rekey_queued_jobs(SQLite::Database& database);
 void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
                     const std::string& response);
 
-[[nodiscard]] std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database, const std::string& id);
+[[nodiscard]] std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database,
+                                                         const std::string& id);
 
 }  // namespace jobs

@@ -3,11 +3,13 @@
 
 namespace jobs {
 
-std::int64_t insert_result(Statements& statements, std::int64_t content, const RunRecord& record, const std::string& metrics,
-                           const Provenance& provenance) {
+std::int64_t insert_result(Statements& statements, std::int64_t content, const RunRecord& record,
+                           const std::string& metrics, const Provenance& provenance) {
   const auto add = statements.use(
-      "INSERT INTO results (content, metrics, error_reason, error_detail, error_t_s, wall_time_s, cpu_time_s, host, cpu, version, "
-      "\"commit\", compiler, libm, numerics) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?) RETURNING seq");
+      "INSERT INTO results (content, metrics, error_reason, error_detail, error_t_s, wall_time_s, "
+      "cpu_time_s, host, cpu, version, "
+      "\"commit\", compiler, libm, numerics) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?) RETURNING "
+      "seq");
   add->bind(1, content);
   if (record.end == RunRecord::End::kSucceeded) {
     add->bindNoCopy(2, metrics);
@@ -19,8 +21,8 @@ std::int64_t insert_result(Statements& statements, std::int64_t content, const R
   add->bind(6, record.wall_time_s);
   add->bind(7, record.cpu_time_s);
   int column = 8;
-  for (const std::string* text : {&provenance.host, &provenance.cpu, &provenance.version, &provenance.commit, &provenance.compiler, &provenance.libm,
-                                  &provenance.numerics}) {
+  for (const std::string* text : {&provenance.host, &provenance.cpu, &provenance.version, &provenance.commit,
+                                  &provenance.compiler, &provenance.libm, &provenance.numerics}) {
     add->bindNoCopy(column++, *text);
   }
   add->executeStep();
@@ -36,9 +38,11 @@ void insert_trajectory(Statements& statements, std::int64_t result, const std::s
   add->exec();
 }
 
-void complete_duplicates(Statements& statements, std::int64_t content, std::int64_t result, std::int64_t now_ms, std::int64_t change) {
+void complete_duplicates(Statements& statements, std::int64_t content, std::int64_t result,
+                         std::int64_t now_ms, std::int64_t change) {
   const auto settle = statements.use(
-      "UPDATE jobs SET state = 'succeeded', result = ?, reused = 1, started_ms = max(?, created_ms), ended_ms = max(?, created_ms), change = ?, "
+      "UPDATE jobs SET state = 'succeeded', result = ?, reused = 1, started_ms = max(?, created_ms), "
+      "ended_ms = max(?, created_ms), change = ?, "
       "batch = NULL, place = NULL "
       "WHERE content = ? AND state = 'queued' AND reuse = 1");
   settle->bind(1, result);

@@ -79,7 +79,7 @@ constexpr std::array<const char*, 4> kMigrations{R"sql(
   CREATE INDEX queued_jobs ON jobs (sweep) WHERE state = 'queued';
   CREATE INDEX running_jobs ON jobs (content) WHERE state = 'running';
 )sql",
-                                                     R"sql(
+                                                 R"sql(
   ALTER TABLE sweeps ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;
 
   -- What its cost depends on most.
@@ -101,7 +101,7 @@ constexpr std::array<const char*, 4> kMigrations{R"sql(
   ) STRICT;
   CREATE INDEX answers_by_age ON answers (created_ms);
 )sql",
-                                                     R"sql(
+                                                 R"sql(
   -- What a sweep's cases are added for, one after the other.
   CREATE TABLE searches (
     sweep INTEGER PRIMARY KEY REFERENCES sweeps ON DELETE CASCADE,
@@ -113,7 +113,7 @@ constexpr std::array<const char*, 4> kMigrations{R"sql(
   ) STRICT;
   CREATE INDEX running_searches ON searches (sweep) WHERE state = 'running';
 )sql",
-                                                      R"sql(
+                                                 R"sql(
   -- Which executor a sweep asks for; null: whichever the service computes with.
   ALTER TABLE sweeps ADD COLUMN executor TEXT;
 
@@ -141,9 +141,13 @@ constexpr std::array<const char*, 4> kMigrations{R"sql(
 )sql"};
 constexpr int kNewestVersion = static_cast<int>(kMigrations.size());
 
-int pragma(SQLite::Database& database, const std::string& name) { return database.execAndGet("PRAGMA " + name).getInt(); }
+int pragma(SQLite::Database& database, const std::string& name) {
+  return database.execAndGet("PRAGMA " + name).getInt();
+}
 
-bool is_empty(SQLite::Database& database) { return database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0; }
+bool is_empty(SQLite::Database& database) {
+  return database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
+}
 
 /// The beginning, on one line: SQLite names up to a hundred damaged pages.
 std::string shortened(std::string text) {
@@ -152,24 +156,32 @@ std::string shortened(std::string text) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
 }
 
-/// Looks at all but the trajectories: they are nearly all of a large store, and each carries its own checksum.
+/// Looks at all but the trajectories: they are nearly all of a large store, and each carries its own
+/// checksum.
 void check_health(SQLite::Database& database, const std::string& name) {
-  SQLite::Statement tables(database, "SELECT name FROM sqlite_schema WHERE type = 'table' AND name <> 'trajectories' AND name NOT LIKE 'sqlite_%'");
+  SQLite::Statement tables(database,
+                           "SELECT name FROM sqlite_schema WHERE type = 'table' AND name <> 'trajectories' "
+                           "AND name NOT LIKE 'sqlite_%'");
   while (tables.executeStep()) {
     const std::string table = tables.getColumn(0).getString();
     const std::string verdict = database.execAndGet("PRAGMA quick_check(" + table + ")").getString();
-    if (verdict != "ok") throw StorageError("the store " + name + " is damaged (" + shortened(verdict) + "); it has been left as it is", SQLITE_CORRUPT);
+    if (verdict != "ok")
+      throw StorageError(
+          "the store " + name + " is damaged (" + shortened(verdict) + "); it has been left as it is",
+          SQLITE_CORRUPT);
   }
 }
 
 void check_identity(SQLite::Database& database, const std::string& name) {
   const int version = pragma(database, "user_version");
   if (pragma(database, "application_id") != kApplicationId && !(version == 0 && is_empty(database))) {
-    throw StorageError(name + " is a database, but not a store of this program; it has been left as it is", SQLITE_NOTADB);
+    throw StorageError(name + " is a database, but not a store of this program; it has been left as it is",
+                       SQLITE_NOTADB);
   }
   if (version > kNewestVersion) {
-    throw StorageError("the store " + name + " is of a newer program (form " + std::to_string(version) + ", this one knows " +
-                           std::to_string(kNewestVersion) + "); it has been left as it is",
+    throw StorageError("the store " + name + " is of a newer program (form " + std::to_string(version) +
+                           ", this one knows " + std::to_string(kNewestVersion) +
+                           "); it has been left as it is",
                        SQLITE_MISMATCH);
   }
 }
@@ -191,16 +203,21 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& sto
   try {
     check_identity(database, name);
     if (pragma(database, "user_version") > 0) check_health(database, name);
-    // Large pages suit large trajectories. Neither takes effect in a file that has tables, but the second is written all the same.
+    // Large pages suit large trajectories. Neither takes effect in a file that has tables, but the second is
+    // written all the same.
     if (is_empty(database)) database.exec("PRAGMA page_size = 8192; PRAGMA auto_vacuum = INCREMENTAL");
     if (database.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
-      throw StorageError("the store " + name + " lies on a file system that does not share memory, as a network's", SQLITE_CANTOPEN);
+      throw StorageError(
+          "the store " + name + " lies on a file system that does not share memory, as a network's",
+          SQLITE_CANTOPEN);
     }
     migrate(database);
   } catch (const SQLite::Exception& error) {
     const int code = error.getErrorCode();
     if (!is_damage(code)) throw;
-    throw StorageError("the store " + name + " is damaged or no database (" + error.what() + "); it has been left as it is", code);
+    throw StorageError(
+        "the store " + name + " is damaged or no database (" + error.what() + "); it has been left as it is",
+        code);
   }
 }
 

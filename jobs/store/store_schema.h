@@ -8,7 +8,8 @@
 namespace jobs {
 
 /// Makes a new file a store, or brings an older one to the newest form; each step is one transaction.
-/// @throws StorageError if the file is not ours, is of a newer program, or is damaged. Such a file stays as it is; its log does if closing the database leaves it alone.
+/// @throws StorageError if the file is not ours, is of a newer program, or is damaged. Such a file stays as
+///     it is; its log does if closing the database leaves it alone.
 void prepare_schema(SQLite::Database& database, const std::filesystem::path& store);
 
 }  // namespace jobs

@@ -10,12 +10,14 @@ constexpr std::int64_t kResponsesAreKept_ms = 7LL * 24 * 3600 * 1000;
 
 }  // namespace
 
-void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint, const std::string& response) {
+void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
+                    const std::string& response) {
   const std::int64_t now_ms = now_unix_ms();
   SQLite::Statement forget(database, "DELETE FROM answers WHERE created_ms < ?");
   forget.bind(1, now_ms - kResponsesAreKept_ms);
   forget.exec();
-  SQLite::Statement add(database, "INSERT INTO answers (key, request, answer, created_ms) VALUES (?, ?, ?, ?)");
+  SQLite::Statement add(database,
+                        "INSERT INTO answers (key, request, answer, created_ms) VALUES (?, ?, ?, ?)");
   add.bind(1, key);
   add.bind(2, fingerprint);
   add.bind(3, response);
@@ -29,7 +31,8 @@ std::optional<StoredResponse> SweepReader::find_response(const std::string& key)
     find.bind(1, key);
     find.bind(2, now_unix_ms() - kResponsesAreKept_ms);
     if (!find.executeStep()) return std::nullopt;
-    return StoredResponse{.fingerprint = find.getColumn(0).getString(), .text = find.getColumn(1).getString()};
+    return StoredResponse{.fingerprint = find.getColumn(0).getString(),
+                          .text = find.getColumn(1).getString()};
   });
 }
 

@@ -10,10 +10,11 @@
 namespace jobs {
 namespace {
 
-/// Each study belongs to the sweep of its evaluations, and is deleted with it. The table has the name of the searches,
-/// which were the first type of study.
+/// Each study belongs to the sweep of its evaluations, and is deleted with it. The table has the name of the
+/// searches, which were the first type of study.
 constexpr const char* kStudyQuery =
-    "SELECT c.id, s.id, s.name, c.request, c.state, c.error, s.created_ms, c.ended_ms FROM searches c JOIN sweeps s ON s.seq = c.sweep";
+    "SELECT c.id, s.id, s.name, c.request, c.state, c.error, s.created_ms, c.ended_ms FROM searches c JOIN "
+    "sweeps s ON s.seq = c.sweep";
 
 StudyRow study_row(SQLite::Statement& found) {
   StudyRow row;
@@ -30,8 +31,9 @@ StudyRow study_row(SQLite::Statement& found) {
 
 }  // namespace
 
-std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request, const std::string& request,
-                              std::size_t max_queued, const IdempotencyRecord<StudySnapshot>& idempotency) {
+std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request,
+                            const std::string& request, std::size_t max_queued,
+                            const IdempotencyRecord<StudySnapshot>& idempotency) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     const std::string sweep_id = core_.ids.make(kSweepPrefix, now_ms);
@@ -47,7 +49,9 @@ std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, cons
     add.exec();
     if (!idempotency.key.empty()) {
       store_response(database, idempotency.key, idempotency.fingerprint,
-                  idempotency.make_response({.study = read_study(database, id).value(), .results = read_results(database, sweep_id, RowParameters::kNone).value()}));
+                     idempotency.make_response(
+                         {.study = read_study(database, id).value(),
+                          .results = read_results(database, sweep_id, RowParameters::kNone).value()}));
     }
     core_.check_quota(database);
     return id;
@@ -64,11 +68,13 @@ std::optional<StudyRow> StudyTable::find(const std::string& id) const {
   return core_.readers.read([&](const SQLite::Database& database) { return read_study(database, id); });
 }
 
-std::vector<StudyRow> StudyTable::list(std::string_view prefix, const std::string& state, const std::string& before, std::size_t limit) const {
+std::vector<StudyRow> StudyTable::list(std::string_view prefix, const std::string& state,
+                                       const std::string& before, std::size_t limit) const {
   return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database,
         std::string(kStudyQuery) +
-            " WHERE (?1 = '' OR c.id < ?1) AND (?2 = '' OR c.state = ?2) AND substr(c.id, 1, length(?4)) = ?4 ORDER BY c.id DESC LIMIT ?3");
+            " WHERE (?1 = '' OR c.id < ?1) AND (?2 = '' OR c.state = ?2) AND substr(c.id, 1, length(?4)) = "
+            "?4 ORDER BY c.id DESC LIMIT ?3");
     list.bind(1, before);
     list.bind(2, state);
     list.bind(3, static_cast<std::int64_t>(limit));
@@ -79,10 +85,12 @@ std::vector<StudyRow> StudyTable::list(std::string_view prefix, const std::strin
   });
 }
 
-bool StudyTable::set_state(const std::string& id, const std::string& former, const std::string& state, const std::optional<std::string>& error) {
+bool StudyTable::set_state(const std::string& id, const std::string& former, const std::string& state,
+                           const std::optional<std::string>& error) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     SQLite::Statement set(database,
-        "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE ?3 END WHERE id = ?4 AND state = ?5");
+        "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE ?3 END "
+        "WHERE id = ?4 AND state = ?5");
     set.bind(1, state);
     if (error) set.bind(2, *error);
     set.bind(3, now_unix_ms());

@@ -14,12 +14,14 @@
 
 namespace jobs {
 
-/// Studies of all types; the prefix of an id tells the type. May be called from any thread. Throws StorageError.
+/// Studies of all types; the prefix of an id tells the type. May be called from any thread. Throws
+/// StorageError.
 class StudyTable {
  public:
   explicit StudyTable(StoreCore& core) : core_(core) {}
 
-  /// Stores a study with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep() does
+  /// Stores a study with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep()
+  /// does
   std::string add(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request,
                   const std::string& request, std::size_t max_queued,
                   const IdempotencyRecord<StudySnapshot>& idempotency = {});

@@ -10,9 +10,15 @@
 namespace jobs {
 namespace {
 
-std::optional<std::int64_t> optional_int(const SQLite::Column& column) { return column.isNull() ? std::nullopt : std::optional(column.getInt64()); }
-std::optional<double> optional_double(const SQLite::Column& column) { return column.isNull() ? std::nullopt : std::optional(column.getDouble()); }
-std::optional<std::string> optional_text(const SQLite::Column& column) { return column.isNull() ? std::nullopt : std::optional(column.getString()); }
+std::optional<std::int64_t> optional_int(const SQLite::Column& column) {
+  return column.isNull() ? std::nullopt : std::optional(column.getInt64());
+}
+std::optional<double> optional_double(const SQLite::Column& column) {
+  return column.isNull() ? std::nullopt : std::optional(column.getDouble());
+}
+std::optional<std::string> optional_text(const SQLite::Column& column) {
+  return column.isNull() ? std::nullopt : std::optional(column.getString());
+}
 
 std::size_t state_index(const std::string& state) {
   for (std::size_t i = 0; i < kJobStates.size(); ++i) {
@@ -22,7 +28,9 @@ std::size_t state_index(const std::string& state) {
 }
 
 void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
-  SQLite::Statement count(database, "SELECT state, count(*), min(started_ms), max(ended_ms) FROM jobs WHERE sweep = ? GROUP BY state");
+  SQLite::Statement count(
+      database,
+      "SELECT state, count(*), min(started_ms), max(ended_ms) FROM jobs WHERE sweep = ? GROUP BY state");
   count.bind(1, sweep);
   while (count.executeStep()) {
     row.counts[state_index(count.getColumn(0).getString())] = count.getColumn(1).getInt64();
@@ -36,20 +44,25 @@ void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow&
 
 void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
   SQLite::Statement cost(database,
-                         "SELECT j.kind, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT NULL), total(r.wall_time_s), "
-                         "total(r.wall_time_s * r.wall_time_s) FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
+                         "SELECT j.kind, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT "
+                         "NULL), total(r.wall_time_s), "
+                         "total(r.wall_time_s * r.wall_time_s) FROM jobs j LEFT JOIN results r ON r.seq = "
+                         "j.result AND j.reused = 0 "
                          "WHERE j.sweep = ? GROUP BY j.kind");
   cost.bind(1, sweep);
   while (cost.executeStep()) {
-    row.costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(), .running = cost.getColumn(2).getInt64(),
-                                                .computed = cost.getColumn(3).getInt64(), .wall_time_s = cost.getColumn(4).getDouble(),
+    row.costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(),
+                                                .running = cost.getColumn(2).getInt64(),
+                                                .computed = cost.getColumn(3).getInt64(),
+                                                .wall_time_s = cost.getColumn(4).getDouble(),
                                                 .wall_time_squares_s2 = cost.getColumn(5).getDouble()};
   }
 }
 
 /// @param request  SQL of what stands in its column
 std::string sweep_columns(const std::string& request) {
-  return "SELECT seq, id, name, " + request + ", swept, replicated, priority, created_ms, coalesce(executor, '') FROM sweeps";
+  return "SELECT seq, id, name, " + request +
+         ", swept, replicated, priority, created_ms, coalesce(executor, '') FROM sweeps";
 }
 
 SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
@@ -68,7 +81,8 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   return row;
 }
 
-std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id, const std::string& request) {
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id,
+                                   const std::string& request) {
   SQLite::Statement find(database, sweep_columns(request) + " WHERE id = ?");
   find.bind(1, id);
   return find.executeStep() ? std::optional(sweep_row(database, find)) : std::nullopt;
@@ -76,17 +90,22 @@ std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::
 
 /// @param parameters, metrics  SQL of what stands in their columns
 std::string job_columns(const std::string& parameters, const std::string& metrics) {
-  return "SELECT j.id, s.id, j.replicate, j.state, j.created_ms, j.started_ms, j.ended_ms, j.attempt, j.reused, r.error_reason, r.error_detail, "
-         "r.error_t_s, r.seq, r.wall_time_s, r.cpu_time_s, r.host, r.cpu, r.version, r.\"commit\", r.compiler, c.engine_version, r.libm, r.numerics, " +
+  return "SELECT j.id, s.id, j.replicate, j.state, j.created_ms, j.started_ms, j.ended_ms, j.attempt, "
+         "j.reused, r.error_reason, r.error_detail, "
+         "r.error_t_s, r.seq, r.wall_time_s, r.cpu_time_s, r.host, r.cpu, r.version, r.\"commit\", "
+         "r.compiler, c.engine_version, r.libm, r.numerics, " +
          parameters + ", " + metrics +
-         " FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep LEFT JOIN results r ON r.seq = j.result JOIN contents c ON c.seq = j.content";
+         " FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep LEFT JOIN results r ON r.seq = j.result JOIN "
+         "contents c ON c.seq = j.content";
 }
 
 RunRow read_run(SQLite::Statement& found) {
   return {.wall_time_s = found.getColumn(13).getDouble(), .cpu_time_s = found.getColumn(14).getDouble(),
-          .host = found.getColumn(15).getString(), .cpu = found.getColumn(16).getString(), .version = found.getColumn(17).getString(),
+          .host = found.getColumn(15).getString(), .cpu = found.getColumn(16).getString(),
+          .version = found.getColumn(17).getString(),
           .commit = found.getColumn(18).getString(), .compiler = found.getColumn(19).getString(),
-          .engine = found.getColumn(20).getString(), .libm = found.getColumn(21).getString(), .numerics = found.getColumn(22).getString()};
+          .engine = found.getColumn(20).getString(), .libm = found.getColumn(21).getString(),
+          .numerics = found.getColumn(22).getString()};
 }
 
 JobRow job_row(SQLite::Statement& found) {
@@ -112,16 +131,22 @@ JobRow job_row(SQLite::Statement& found) {
 /// @param parameters  SQL of what stands in their column
 std::string result_columns(const std::string& parameters) {
   return "SELECT j.id, j.state, j.swept, j.replicate, r.metrics, " + parameters +
-         ", max(coalesce(j.change, 0), 0), r.error_reason, r.error_detail FROM jobs j LEFT JOIN results r ON r.seq = j.result";
+         ", max(coalesce(j.change, 0), 0), r.error_reason, r.error_detail FROM jobs j LEFT JOIN results r ON "
+         "r.seq = j.result";
 }
 
 constexpr const char* kOfSweep = " WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?)";
 
 ResultRow result_row(SQLite::Statement& found) {
-  return {.job_id = found.getColumn(0).getString(), .state = found.getColumn(1).getString(), .swept = found.getColumn(2).getString(),
-          .replicate = optional_int(found.getColumn(3)), .metrics = optional_text(found.getColumn(4)),
-          .parameters = found.getColumn(5).getString(), .change = found.getColumn(6).getInt64(),
-          .error_reason = optional_text(found.getColumn(7)), .error_detail = optional_text(found.getColumn(8))};
+  return {.job_id = found.getColumn(0).getString(),
+          .state = found.getColumn(1).getString(),
+          .swept = found.getColumn(2).getString(),
+          .replicate = optional_int(found.getColumn(3)),
+          .metrics = optional_text(found.getColumn(4)),
+          .parameters = found.getColumn(5).getString(),
+          .change = found.getColumn(6).getInt64(),
+          .error_reason = optional_text(found.getColumn(7)),
+          .error_detail = optional_text(found.getColumn(8))};
 }
 
 /// By its name alone: to open and close a file takes away SQLite's locks on it.
@@ -133,7 +158,9 @@ std::int64_t size_or_zero(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) { return read_sweep(database, id, "request"); }
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) {
+  return read_sweep(database, id, "request");
+}
 
 std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id) {
   SQLite::Statement find(database, job_columns("c.parameters", "r.metrics") + " WHERE j.id = ?");
@@ -147,19 +174,23 @@ std::optional<SweepRow> SweepReader::find_sweep(const std::string& id) const {
 
 std::optional<bool> SweepReader::has_sweep_ended(const std::string& id) const {
   return core_.readers.read_often([&](Statements& statements) -> std::optional<bool> {
-    const auto find = statements.use("SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') "
-                                     "OR EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') FROM sweeps s WHERE s.id = ?");
+    const auto find = statements.use(
+        "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') "
+        "OR EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') FROM sweeps s WHERE s.id = "
+        "?");
     find->bindNoCopy(1, id);
     return find->executeStep() ? std::optional(find->getColumn(0).getInt() == 0) : std::nullopt;
   });
 }
 
-std::vector<SweepRow> SweepReader::list_sweeps(const std::string& state, const std::string& before, std::size_t limit) const {
+std::vector<SweepRow> SweepReader::list_sweeps(const std::string& state, const std::string& before,
+                                               std::size_t limit) const {
   return core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement list(database, sweep_columns("''") + " WHERE ?1 = '' OR id < ?1 ORDER BY id DESC");
     list.bind(1, before);
     std::vector<SweepRow> rows;
-    // A sweep's state is made of its jobs', so it cannot be asked for in SQL without counting them for every sweep.
+    // A sweep's state is made of its jobs', so it cannot be asked for in SQL without counting them for every
+    // sweep.
     while (rows.size() < limit && list.executeStep()) {
       SweepRow row = sweep_row(database, list);
       if (state.empty() || sweep_state(row.counts) == state) rows.push_back(std::move(row));
@@ -180,9 +211,13 @@ std::optional<bool> SweepReader::has_job_ended(const std::string& id) const {
   });
 }
 
-std::vector<JobRow> SweepReader::list_jobs(const std::string& state, const std::string& before, std::size_t limit) const {
+std::vector<JobRow> SweepReader::list_jobs(const std::string& state, const std::string& before,
+                                           std::size_t limit) const {
   return core_.readers.read([&](const SQLite::Database& database) {
-    SQLite::Statement list(database, job_columns("''", "NULL") + " WHERE (?1 = '' OR j.id < ?1) AND (?2 = '' OR j.state = ?2) ORDER BY j.id DESC LIMIT ?3");
+    SQLite::Statement list(
+        database,
+        job_columns("''", "NULL") +
+            " WHERE (?1 = '' OR j.id < ?1) AND (?2 = '' OR j.state = ?2) ORDER BY j.id DESC LIMIT ?3");
     list.bind(1, before);
     list.bind(2, state);
     list.bind(3, static_cast<std::int64_t>(limit));
@@ -192,25 +227,30 @@ std::vector<JobRow> SweepReader::list_jobs(const std::string& state, const std::
   });
 }
 
-std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id, RowParameters parameters) {
+std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id,
+                                         RowParameters parameters) {
   auto sweep = read_sweep(database, sweep_id);
   if (!sweep) return std::nullopt;
   SweepResults results{.sweep = std::move(*sweep), .rows = {}};
   const bool all = parameters == RowParameters::kAll;
   const std::string contents = all ? " JOIN contents c ON c.seq = j.content" : "";
-  SQLite::Statement list(database, result_columns(all ? "c.parameters" : "''") + contents + kOfSweep + " ORDER BY j.seq");
+  SQLite::Statement list(
+      database, result_columns(all ? "c.parameters" : "''") + contents + kOfSweep + " ORDER BY j.seq");
   list.bind(1, sweep_id);
   while (list.executeStep()) results.rows.push_back(result_row(list));
   return results;
 }
 
-std::optional<SweepResults> SweepReader::find_results(const std::string& sweep_id, RowParameters parameters) const {
-  return core_.readers.read([&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
+std::optional<SweepResults> SweepReader::find_results(const std::string& sweep_id,
+                                                      RowParameters parameters) const {
+  return core_.readers.read(
+      [&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
 }
 
 std::vector<ResultRow> SweepReader::find_ended(const std::string& sweep_id, std::int64_t after) const {
   return core_.readers.read([&](const SQLite::Database& database) {
-    SQLite::Statement list(database, result_columns("''") + kOfSweep + " AND j.change > ? ORDER BY j.change, j.seq");
+    SQLite::Statement list(database,
+                           result_columns("''") + kOfSweep + " AND j.change > ? ORDER BY j.change, j.seq");
     list.bind(1, sweep_id);
     list.bind(2, after);
     std::vector<ResultRow> rows;
@@ -225,13 +265,18 @@ std::optional<SweepChanges> SweepReader::find_changes(const std::string& sweep_i
     if (!sweep) return std::nullopt;
     SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
     SQLite::Statement list(database,
-                           "SELECT j.change, j.id, j.state, r.error_reason, j.ended_ms, j.reused FROM jobs j LEFT JOIN results r ON r.seq = j.result "
-                           "WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) AND j.change > ? ORDER BY j.change, j.seq");
+                           "SELECT j.change, j.id, j.state, r.error_reason, j.ended_ms, j.reused FROM jobs j "
+                           "LEFT JOIN results r ON r.seq = j.result "
+                           "WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) AND j.change > ? ORDER BY "
+                           "j.change, j.seq");
     list.bind(1, sweep_id);
     list.bind(2, after);
     while (list.executeStep()) {
-      changes.ended.push_back({.change = list.getColumn(0).getInt64(), .id = list.getColumn(1).getString(), .state = list.getColumn(2).getString(),
-                               .error_reason = optional_text(list.getColumn(3)), .ended_ms = list.getColumn(4).getInt64(),
+      changes.ended.push_back({.change = list.getColumn(0).getInt64(),
+                               .id = list.getColumn(1).getString(),
+                               .state = list.getColumn(2).getString(),
+                               .error_reason = optional_text(list.getColumn(3)),
+                               .ended_ms = list.getColumn(4).getInt64(),
                                .reused = list.getColumn(5).getInt() != 0});
     }
     return changes;
@@ -240,7 +285,8 @@ std::optional<SweepChanges> SweepReader::find_changes(const std::string& sweep_i
 
 std::optional<std::string> SweepReader::find_trajectory(const std::string& job_id) const {
   return core_.readers.read([&](const SQLite::Database& database) -> std::optional<std::string> {
-    SQLite::Statement find(database, "SELECT t.data FROM jobs j JOIN trajectories t ON t.result = j.result WHERE j.id = ?");
+    SQLite::Statement find(
+        database, "SELECT t.data FROM jobs j JOIN trajectories t ON t.result = j.result WHERE j.id = ?");
     find.bind(1, job_id);
     if (!find.executeStep()) return std::nullopt;
     const SQLite::Column data = find.getColumn(0);
@@ -250,7 +296,8 @@ std::optional<std::string> SweepReader::find_trajectory(const std::string& job_i
 
 QueueStats SweepReader::read_queue_stats() const {
   return core_.readers.read([&](const SQLite::Database& database) {
-    SQLite::Statement count(database, std::string("SELECT (") + kQueuedCount + "), (SELECT count(*) FROM jobs WHERE state = 'running')");
+    SQLite::Statement count(database, std::string("SELECT (") + kQueuedCount +
+                                          "), (SELECT count(*) FROM jobs WHERE state = 'running')");
     count.executeStep();
     const std::filesystem::path file = database.getFilename();
     return QueueStats{.queued = count.getColumn(0).getInt64(), .running = count.getColumn(1).getInt64(),

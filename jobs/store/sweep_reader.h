@@ -20,22 +20,24 @@ class SweepReader {
   explicit SweepReader(StoreCore& core) : core_(core) {}
 
   [[nodiscard]] std::optional<SweepRow> find_sweep(const std::string& id) const;
-  /// Whether no job of the sweep is left to compute; empty if there is no such sweep. Costs the same for sweeps of any
-  /// size.
+  /// Whether no job of the sweep is left to compute; empty if there is no such sweep. Costs the same for
+  /// sweeps of any size.
   [[nodiscard]] std::optional<bool> has_sweep_ended(const std::string& id) const;
   [[nodiscard]] std::optional<JobRow> find_job(const std::string& id) const;
-  [[nodiscard]] std::optional<bool> has_job_ended(const std::string& id) const;  ///< empty if there is no such job
+  /// Empty if there is no such job
+  [[nodiscard]] std::optional<bool> has_job_ended(const std::string& id) const;
   /// Newest first. @param state empty: all  @param before  an id; empty: the newest
   [[nodiscard]] std::vector<SweepRow> list_sweeps(const std::string& state, const std::string& before,
                                                   std::size_t limit) const;
   [[nodiscard]] std::vector<JobRow> list_jobs(const std::string& state, const std::string& before,
                                               std::size_t limit) const;
-  [[nodiscard]] std::optional<SweepResults> find_results(const std::string& sweep_id,
-                                                         RowParameters parameters = RowParameters::kNone) const;
+  [[nodiscard]] std::optional<SweepResults> find_results(
+      const std::string& sweep_id, RowParameters parameters = RowParameters::kNone) const;
   /// The jobs of a sweep that have ended after that change, by change.
   [[nodiscard]] std::vector<ResultRow> find_ended(const std::string& sweep_id, std::int64_t after) const;
   /// The same of all that a listener is told; 0: since the beginning.
-  [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id, std::int64_t after) const;
+  [[nodiscard]] std::optional<SweepChanges> find_changes(const std::string& sweep_id,
+                                                         std::int64_t after) const;
   /// The packed trajectory of a job that has one.
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
   /// Response that is stored under an idempotency key, for a week.

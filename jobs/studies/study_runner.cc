@@ -28,10 +28,12 @@ std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
 json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& idempotency) {
   const FirstSweep first = type_->plan_first(request, limits_.max_sweep_jobs);
   const IdempotencyRecord<StudySnapshot> record{
-      .key = idempotency.key, .fingerprint = idempotency.fingerprint, .make_response = [&](StudySnapshot begun) {
+      .key = idempotency.key, .fingerprint = idempotency.fingerprint,
+      .make_response = [&](StudySnapshot begun) {
         // As the study begins: results that are known already have not been told.
         for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
-        return *idempotency.response = text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
+        return *idempotency.response =
+                   text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
       }};
   const std::string id = store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(),
                                           request.dump(), limits_.max_queued_jobs, record);

@@ -15,7 +15,8 @@ constexpr double kPointsPerTerm = 2.0;
 constexpr double kMostTerms = 300.0;  // what can be fitted while a user waits
 
 /// All lists of degrees whose sum is at most the degree.
-void add_exponents(std::size_t inputs, int degree, std::vector<int>& begun, std::vector<std::vector<int>>& exponents) {
+void add_exponents(std::size_t inputs, int degree, std::vector<int>& begun,
+                   std::vector<std::vector<int>>& exponents) {
   if (begun.size() == inputs) return exponents.push_back(begun);
   for (int d = 0; d <= degree; ++d) {
     begun.push_back(d);
@@ -42,13 +43,15 @@ std::vector<double> legendre(double x, int degree) {
   return p;
 }
 
-Eigen::RowVectorXd terms_at(std::span<const double> input, const std::vector<std::vector<int>>& exponents, int degree) {
+Eigen::RowVectorXd terms_at(std::span<const double> input, const std::vector<std::vector<int>>& exponents,
+                            int degree) {
   std::vector<std::vector<double>> polynomials;
   for (const double x : input) polynomials.push_back(legendre(x, degree));
   Eigen::RowVectorXd terms(static_cast<Eigen::Index>(exponents.size()));
   for (std::size_t t = 0; t < exponents.size(); ++t) {
     double product = 1.0;
-    for (std::size_t i = 0; i < input.size(); ++i) product *= polynomials[i][static_cast<std::size_t>(exponents[t][i])];
+    for (std::size_t i = 0; i < input.size(); ++i)
+      product *= polynomials[i][static_cast<std::size_t>(exponents[t][i])];
     terms[static_cast<Eigen::Index>(t)] = product;
   }
   return terms;
@@ -62,14 +65,16 @@ struct PolynomialChaos::Fit {
   double error = std::numeric_limits<double>::infinity();
 };
 
-PolynomialChaos::Fit PolynomialChaos::fit(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& response, int degree) {
+PolynomialChaos::Fit PolynomialChaos::fit(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& response,
+                                          int degree) {
   Fit made;
   std::vector<int> begun;
   add_exponents(static_cast<std::size_t>(inputs.cols()), degree, begun, made.exponents);
   Eigen::MatrixXd design(inputs.rows(), static_cast<Eigen::Index>(made.exponents.size()));
   for (Eigen::Index k = 0; k < inputs.rows(); ++k) {
     const Eigen::VectorXd point = inputs.row(k);
-    design.row(k) = terms_at(std::span(point.data(), static_cast<std::size_t>(point.size())), made.exponents, degree);
+    design.row(k) =
+        terms_at(std::span(point.data(), static_cast<std::size_t>(point.size())), made.exponents, degree);
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
   if (qr.rank() < design.cols()) return made;  // on a grid of few values high degrees are not told apart
@@ -84,7 +89,8 @@ PolynomialChaos::Fit PolynomialChaos::fit(const Eigen::MatrixXd& inputs, const E
 }
 
 PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& given) {
-  // Squares of large values would be infinite, and no degree better than none. By a power of two, so that no digit changes.
+  // Squares of large values would be infinite, and no degree better than none. By a power of two, so that no
+  // digit changes.
   const double largest = given.cwiseAbs().maxCoeff();
   const double scale = largest > 0.0 ? std::exp2(std::ilogb(largest)) : 1.0;
   const Eigen::VectorXd response = given / scale;
@@ -105,6 +111,8 @@ PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::Vec
   predicted_part_ = variance > 0.0 ? 1.0 - best.error * best.error / variance : 1.0;
 }
 
-double PolynomialChaos::predict(std::span<const double> input) const { return terms_at(input, exponents_, degree_).dot(coefficients_); }
+double PolynomialChaos::predict(std::span<const double> input) const {
+  return terms_at(input, exponents_, degree_).dot(coefficients_);
+}
 
 }  // namespace jobs

@@ -9,10 +9,12 @@
 
 namespace jobs {
 
-/// A response as a sum of products of Legendre polynomials of inputs that are uniform in [-1, 1], fitted by least squares.
+/// A response as a sum of products of Legendre polynomials of inputs that are uniform in [-1, 1], fitted by
+/// least squares.
 ///
-/// The total degree is the one with the least error of cross-validation among those with at most half as many terms as there are points, and 300:
-/// each point is predicted from all others, e_k = (y_k - f(x_k)) / (1 - h_k) with h the diagonal of the projection on the terms.
+/// The total degree is the one with the least error of cross-validation among those with at most half as many
+/// terms as there are points, and 300: each point is predicted from all others, e_k = (y_k - f(x_k)) / (1 -
+/// h_k) with h the diagonal of the projection on the terms.
 class PolynomialChaos {
  public:
   /// @param inputs    a row a point, a column an input, in [-1, 1]
@@ -25,8 +27,8 @@ class PolynomialChaos {
   [[nodiscard]] std::size_t terms() const { return exponents_.size(); }
   /// Root of the mean square of the errors of cross-validation, in the response's unit.
   [[nodiscard]] double cross_validation_error() const { return error_; }
-  /// The part of the response's variance that is predicted: 1 - error^2 / variance. Negative where the mean alone would do better; 1 if nothing
-  /// varies.
+  /// The part of the response's variance that is predicted: 1 - error^2 / variance. Negative where the mean
+  /// alone would do better; 1 if nothing varies.
   [[nodiscard]] double predicted_part() const { return predicted_part_; }
   /// Prediction of each point from all others.
   [[nodiscard]] const Eigen::VectorXd& left_out_predictions() const { return left_out_; }

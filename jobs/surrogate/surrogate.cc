@@ -32,17 +32,23 @@ struct Input {
   bool logarithmic = false;
 
   [[nodiscard]] double to_unit(double value) const {
-    const double part = logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
+    const double part =
+        logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
     return 2.0 * part - 1.0;
   }
-  [[nodiscard]] double at(double part) const { return logarithmic ? from * std::pow(to / from, part) : std::lerp(from, to, part); }
+  [[nodiscard]] double at(double part) const {
+    return logarithmic ? from * std::pow(to / from, part) : std::lerp(from, to, part);
+  }
 };
 
-/// A range that the request gives is the input's; otherwise its values span it. Jobs of another linkage may have none.
+/// A range that the request gives is the input's; otherwise its values span it. Jobs of another linkage may
+/// have none.
 Input input_of(const json& request, const ResultTable& results, const std::string& parameter) {
   Input input{.parameter = parameter, .column = find_column(results, parameter, "")};
   const json over = request.value("design", json::object()).value("over", json::object());
-  const json& place = over.contains(parameter) ? over : request.contains("sweep") ? request.at("sweep") : over;
+  const json& place = over.contains(parameter)    ? over
+                      : request.contains("sweep") ? request.at("sweep")
+                                                  : over;
   const json given = place.value(parameter, json());
   input.logarithmic = given.is_object() && given.value("scale", "linear") == "log";
   std::vector<double> values;
@@ -73,7 +79,8 @@ std::optional<std::vector<double>> place_of(const std::vector<json>& row, const 
   return place;
 }
 
-std::vector<Point> points_of(const ResultTable& results, const std::vector<std::size_t>& rows, const std::vector<Input>& inputs, std::size_t metric) {
+std::vector<Point> points_of(const ResultTable& results, const std::vector<std::size_t>& rows,
+                             const std::vector<Input>& inputs, std::size_t metric) {
   std::map<std::vector<double>, std::pair<double, int>> sums;
   for (const std::size_t r : rows) {
     const auto value = number_in(results.rows[r][metric]);
@@ -107,7 +114,8 @@ std::vector<double> grid_of(const Input& input) {
 }
 
 /// A row of values for each value along y; one row if there is no y.
-json surface_of(const PolynomialChaos& surrogate, std::size_t inputs, std::size_t x, std::optional<std::size_t> y) {
+json surface_of(const PolynomialChaos& surrogate, std::size_t inputs, std::size_t x,
+                std::optional<std::size_t> y) {
   json rows = json::array();
   std::vector<double> place(inputs, 0.0);
   for (int j = 0; j < (y ? kGrid : 1); ++j) {
@@ -122,17 +130,22 @@ json surface_of(const PolynomialChaos& surrogate, std::size_t inputs, std::size_
   return rows;
 }
 
-std::size_t find_input(const std::vector<Input>& inputs, const std::string& name, const std::string& pointer) {
+std::size_t find_input(const std::vector<Input>& inputs, const std::string& name,
+                       const std::string& pointer) {
   const auto found = std::ranges::find(inputs, name, &Input::parameter);
   if (found != inputs.end()) return static_cast<std::size_t>(found - inputs.begin());
   std::vector<std::string_view> known;
   for (const Input& input : inputs) known.push_back(input.parameter);
-  throw InvalidRequest(std::vector<Fault>{{pointer, "\"" + name + "\": " + describe_unknown_key(name, known)}});
+  throw InvalidRequest(
+      std::vector<Fault>{{pointer, "\"" + name + "\": " + describe_unknown_key(name, known)}});
 }
 
-json surface_json(const std::vector<Point>& points, const std::vector<Input>& inputs, std::size_t x, std::optional<std::size_t> y) {
-  json made{{"points", points.size()}, {"degree", nullptr}, {"terms", nullptr}, {"cross_validation_error", nullptr}, {"predicted_part", nullptr},
-            {"x_values", grid_of(inputs[x])}, {"y_values", y ? json(grid_of(inputs[*y])) : json::array()}, {"values", nullptr},
+json surface_json(const std::vector<Point>& points, const std::vector<Input>& inputs, std::size_t x,
+                  std::optional<std::size_t> y) {
+  json made{{"points", points.size()}, {"degree", nullptr}, {"terms", nullptr},
+            {"cross_validation_error", nullptr}, {"predicted_part", nullptr},
+            {"x_values", grid_of(inputs[x])}, {"y_values", y ? json(grid_of(inputs[*y])) : json::array()},
+            {"values", nullptr},
             {"at", json::array()}};
   for (const Point& point : points) {
     json at{{"value", point.value}, {"left_out_prediction", nullptr}};
@@ -141,10 +154,13 @@ json surface_json(const std::vector<Point>& points, const std::vector<Input>& in
   }
   if (points.size() < kFewestPoints) return made;
   const PolynomialChaos surrogate = fit(points, inputs);
-  made.update({{"degree", surrogate.degree()}, {"terms", surrogate.terms()}, {"cross_validation_error", surrogate.cross_validation_error()},
-               {"predicted_part", surrogate.predicted_part()}, {"values", surface_of(surrogate, inputs.size(), x, y)}});
+  made.update({{"degree", surrogate.degree()}, {"terms", surrogate.terms()},
+               {"cross_validation_error", surrogate.cross_validation_error()},
+               {"predicted_part", surrogate.predicted_part()},
+               {"values", surface_of(surrogate, inputs.size(), x, y)}});
   const Eigen::VectorXd& predictions = surrogate.left_out_predictions();
-  for (std::size_t k = 0; k < points.size(); ++k) made["at"][k]["left_out_prediction"] = predictions[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < points.size(); ++k)
+    made["at"][k]["left_out_prediction"] = predictions[static_cast<Eigen::Index>(k)];
   return made;
 }
 
@@ -166,14 +182,16 @@ json make_surrogate(const json& sweep, const ResultTable& results, const Surroga
     }
   }
   if (inputs.empty()) throw WrongState("the sweep varies no number, over which a surrogate could be made");
-  if (inputs.size() > kMostInputs) throw WrongState("the sweep varies " + std::to_string(inputs.size()) + " numbers; a surrogate is made over " +
-      std::to_string(kMostInputs) + " at most");
+  if (inputs.size() > kMostInputs)
+    throw WrongState("the sweep varies " + std::to_string(inputs.size()) +
+                     " numbers; a surrogate is made over " + std::to_string(kMostInputs) + " at most");
   const std::size_t x = query.x.empty() ? 0 : find_input(inputs, query.x, "/x");
   std::optional<std::size_t> y;
   if (!query.y.empty()) y = find_input(inputs, query.y, "/y");
   else if (inputs.size() > 1) y = x == 0 ? 1 : 0;
   if (y == x) throw InvalidRequest(std::vector<Fault>{{"/y", "must be another input than x"}});
-  json made{{"metric", query.metric}, {"x", inputs[x].parameter}, {"y", y ? json(inputs[*y].parameter) : json()}, {"inputs", json::array()},
+  json made{{"metric", query.metric}, {"x", inputs[x].parameter},
+            {"y", y ? json(inputs[*y].parameter) : json()}, {"inputs", json::array()},
       {"surfaces", json::array()}};
   for (const Input& input : inputs) {
     made["inputs"].push_back({{"parameter", input.parameter}, {"from", input.from}, {"to", input.to},

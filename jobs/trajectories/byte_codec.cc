@@ -14,7 +14,8 @@
 namespace jobs {
 
 void ByteWriter::text(std::string_view text) {
-  if (text.size() > std::numeric_limits<std::uint16_t>::max()) throw std::invalid_argument("a text of a trajectory is too long");
+  if (text.size() > std::numeric_limits<std::uint16_t>::max())
+    throw std::invalid_argument("a text of a trajectory is too long");
   number(static_cast<std::uint16_t>(text.size()));
   bytes_.append(text);
 }
@@ -42,7 +43,8 @@ std::size_t Compressor::append_frame(std::string_view bytes, Effort effort, std:
   // Negative levels are zstd's fast ones: the lower, the faster.
   ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, effort == Effort::kFull ? 1 : -100);
   frame_.resize(std::max(frame_.size(), ZSTD_compressBound(bytes.size())));
-  const std::size_t size = ZSTD_compress2(context_.get(), frame_.data(), frame_.size(), bytes.data(), bytes.size());
+  const std::size_t size =
+      ZSTD_compress2(context_.get(), frame_.data(), frame_.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(size) != 0) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
   to.append(frame_, 0, size);
   return size;
@@ -54,7 +56,8 @@ std::string decompress(std::span<const std::byte> frame, std::size_t at_most) {
   if (size > at_most) throw DamagedTrajectory("a block of the trajectory has a wrong size");
   std::string bytes(static_cast<std::size_t>(size), '\0');
   const std::size_t done = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
-  if (ZSTD_isError(done) != 0 || done != bytes.size()) throw DamagedTrajectory("a block of the trajectory is damaged");
+  if (ZSTD_isError(done) != 0 || done != bytes.size())
+    throw DamagedTrajectory("a block of the trajectory is damaged");
   return bytes;
 }
 

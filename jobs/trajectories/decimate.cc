@@ -8,7 +8,8 @@ namespace jobs {
 namespace {
 
 /// Marks the samples in [begin, end) in which a channel has its extremes. What is no number is no extreme.
-void mark_extremes(std::span<const double> column, std::size_t begin, std::size_t end, std::vector<bool>& kept) {
+void mark_extremes(std::span<const double> column, std::size_t begin, std::size_t end,
+                   std::vector<bool>& kept) {
   std::size_t least = end;
   std::size_t largest = end;
   for (std::size_t k = begin; k < end; ++k) {

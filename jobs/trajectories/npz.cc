@@ -27,7 +27,8 @@ void append_u32(std::string& bytes, std::uint32_t value) {
 
 /// The head of a .npy file of version 1.0: its size, with the 10 bytes before it, is a multiple of 64.
 std::string npy_head(std::size_t values) {
-  std::string dictionary = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(values) + ",), }";
+  std::string dictionary =
+      "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(values) + ",), }";
   while ((10 + dictionary.size() + 1) % 64 != 0) dictionary += ' ';
   dictionary += '\n';
   std::string head = "\x93NUMPY";
@@ -94,10 +95,12 @@ void append_end(std::string& bytes, std::size_t entries, std::size_t directory_o
 }
 
 void check_size(const engine::Trajectory& trajectory) {
-  constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max() - (std::size_t{1} << 20U);  // the rest is for names
+  // The rest is for names
+  constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max() - (std::size_t{1} << 20U);
   std::size_t values = 0;
   for (const auto& column : trajectory.columns) values += column.size();
-  if (values > kLargest / sizeof(double)) throw std::length_error("the trajectory is too large for an .npz file; take fewer channels or samples");
+  if (values > kLargest / sizeof(double))
+    throw std::length_error("the trajectory is too large for an .npz file; take fewer channels or samples");
 }
 
 }  // namespace
@@ -110,8 +113,10 @@ std::string to_npz(const engine::Trajectory& trajectory) {
     const std::span column(trajectory.columns[c]);
     const std::string head = npy_head(column.size());
     const std::string_view data(reinterpret_cast<const char*>(column.data()), column.size_bytes());
-    entries.push_back({.name = trajectory.channels[c].key + ".npy", .crc = crc_of(head, data),
-                       .size = static_cast<std::uint32_t>(head.size() + data.size()), .offset = static_cast<std::uint32_t>(bytes.size())});
+    entries.push_back({.name = trajectory.channels[c].key + ".npy",
+                       .crc = crc_of(head, data),
+                       .size = static_cast<std::uint32_t>(head.size() + data.size()),
+                       .offset = static_cast<std::uint32_t>(bytes.size())});
     bytes += "PK\x03\x04";
     append_description(bytes, entries.back());
     bytes += entries.back().name;

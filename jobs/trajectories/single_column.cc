@@ -26,7 +26,9 @@ constexpr std::uint32_t ordered(std::uint32_t bits) {
 }
 
 /// Small numbers of both signs as small numbers without.
-constexpr std::uint32_t fold(std::uint32_t x) { return (x << 1U) ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(x) >> 31); }
+constexpr std::uint32_t fold(std::uint32_t x) {
+  return (x << 1U) ^ static_cast<std::uint32_t>(static_cast<std::int32_t>(x) >> 31);
+}
 constexpr std::uint32_t unfold(std::uint32_t x) { return (x >> 1U) ^ (0U - (x & 1U)); }
 
 /// The folded difference of that order, all of it modulo 2^32.
@@ -47,7 +49,10 @@ void take_differences(const std::uint32_t* x, Block& block) {
 
 constexpr auto kTakeDifferences = [] {
   std::array<void (*)(const std::uint32_t*, Block&), kOrders> table{};
-  [&]<std::size_t... order>(std::index_sequence<order...>) { ((table[order] = &take_differences<order>), ...); }(std::make_index_sequence<kOrders>{});
+  [&]<std::size_t... order>(std::index_sequence<order...>) {
+    ((table[order] = &take_differences<order>), ...);
+  }
+  (std::make_index_sequence<kOrders>{});
   return table;
 }();
 
@@ -57,7 +62,8 @@ std::size_t width_of(const Block& block) {
   return static_cast<std::size_t>(std::bit_width(all));
 }
 
-/// Writes the lowest `width` bits of each value: 2 width bytes. With the width known, the compiler makes a straight line of it.
+/// Writes the lowest `width` bits of each value: 2 width bytes. With the width known, the compiler makes a
+/// straight line of it.
 template <std::size_t width>
 void put_bits(const Block& block, char* to) {
   std::uint64_t word = 0;
@@ -89,24 +95,28 @@ void get_bits(const char* from, Block& block) {
 
 constexpr auto kPutBits = [] {
   std::array<void (*)(const Block&, char*), kWidths> table{};
-  [&]<std::size_t... width>(std::index_sequence<width...>) { ((table[width] = &put_bits<width>), ...); }(std::make_index_sequence<kWidths>{});
+  [&]<std::size_t... width>(std::index_sequence<width...>) { ((table[width] = &put_bits<width>), ...); }
+  (std::make_index_sequence<kWidths>{});
   return table;
 }();
 
 constexpr auto kGetBits = [] {
   std::array<void (*)(const char*, Block&), kWidths> table{};
-  [&]<std::size_t... width>(std::index_sequence<width...>) { ((table[width] = &get_bits<width>), ...); }(std::make_index_sequence<kWidths>{});
+  [&]<std::size_t... width>(std::index_sequence<width...>) { ((table[width] = &get_bits<width>), ...); }
+  (std::make_index_sequence<kWidths>{});
   return table;
 }();
 
 std::size_t count_blocks(std::size_t samples) { return (samples + kBlock - 1) / kBlock; }
 
-/// Writes the ordered integers after kLead times the first of them; then as many times the last as fill the last block.
+/// Writes the ordered integers after kLead times the first of them; then as many times the last as fill the
+/// last block.
 void put_ordered(std::span<const double> column, std::vector<std::uint32_t>& values) {
   const std::size_t samples = column.size();
   values.resize(kLead + count_blocks(samples) * kBlock);
   std::uint32_t* const to = values.data() + kLead;
-  for (std::size_t k = 0; k < samples; ++k) to[k] = ordered(std::bit_cast<std::uint32_t>(static_cast<float>(column[k])));
+  for (std::size_t k = 0; k < samples; ++k)
+    to[k] = ordered(std::bit_cast<std::uint32_t>(static_cast<float>(column[k])));
   std::fill_n(values.begin(), kLead, to[0]);
   std::fill(to + samples, values.data() + values.size(), to[samples - 1]);
 }
@@ -140,7 +150,8 @@ void add_up(const Block& block, std::uint32_t* x) {
 
 constexpr auto kAddUp = [] {
   std::array<void (*)(const Block&, std::uint32_t*), kOrders> table{};
-  [&]<std::size_t... order>(std::index_sequence<order...>) { ((table[order] = &add_up<order>), ...); }(std::make_index_sequence<kOrders>{});
+  [&]<std::size_t... order>(std::index_sequence<order...>) { ((table[order] = &add_up<order>), ...); }
+  (std::make_index_sequence<kOrders>{});
   return table;
 }();
 
@@ -160,7 +171,8 @@ char* pack_blocks(const std::uint32_t* x, std::size_t blocks, char* widths, char
 
 constexpr auto kPack = [] {
   std::array<char* (*)(const std::uint32_t*, std::size_t, char*, char*), kOrders> table{};
-  [&]<std::size_t... order>(std::index_sequence<order...>) { ((table[order] = &pack_blocks<order>), ...); }(std::make_index_sequence<kOrders>{});
+  [&]<std::size_t... order>(std::index_sequence<order...>) { ((table[order] = &pack_blocks<order>), ...); }
+  (std::make_index_sequence<kOrders>{});
   return table;
 }();
 
@@ -175,12 +187,15 @@ void pack_constant(double value, std::size_t blocks, std::string& packed) {
 }
 
 bool is_constant(std::span<const double> column) {
-  return std::memcmp(column.data(), column.data() + 1, (column.size() - 1) * sizeof(double)) == 0;  // each equals the next
+  // Each equals the next
+  return std::memcmp(column.data(), column.data() + 1, (column.size() - 1) * sizeof(double)) == 0;
 }
 
 }  // namespace
 
-std::size_t largest_packed_size(std::size_t samples) { return kHeadSize + count_blocks(samples) * (1 + sizeof(Block)); }
+std::size_t largest_packed_size(std::size_t samples) {
+  return kHeadSize + count_blocks(samples) * (1 + sizeof(Block));
+}
 
 std::string_view SinglePacker::pack(std::span<const double> column) {
   if (column.empty()) return {};
@@ -202,7 +217,8 @@ std::string_view SinglePacker::pack(std::span<const double> column) {
 std::vector<double> unpack_singles(std::string_view packed, std::size_t samples) {
   if (samples == 0 && packed.empty()) return {};
   const std::size_t blocks = count_blocks(samples);
-  if (samples == 0 || packed.size() < kHeadSize + blocks) throw DamagedTrajectory("a column of the trajectory has a wrong length");
+  if (samples == 0 || packed.size() < kHeadSize + blocks)
+    throw DamagedTrajectory("a column of the trajectory has a wrong length");
   const auto order = static_cast<unsigned char>(packed[0]);
   if (order >= kOrders) throw DamagedTrajectory("a column of the trajectory is packed in an unknown way");
   std::vector<std::uint32_t> values(kLead + blocks * kBlock);
@@ -213,14 +229,16 @@ std::vector<double> unpack_singles(std::string_view packed, std::size_t samples)
   Block block;
   for (std::size_t b = 0; b < blocks; ++b) {
     const auto width = static_cast<unsigned char>(packed[kHeadSize + b]);
-    if (width >= kWidths || bits.size() < 2U * width) throw DamagedTrajectory("a column of the trajectory has a wrong length");
+    if (width >= kWidths || bits.size() < 2U * width)
+      throw DamagedTrajectory("a column of the trajectory has a wrong length");
     kGetBits[width](bits.data(), block);
     bits.remove_prefix(2U * width);
     kAddUp[order](block, values.data() + kLead + b * kBlock);
   }
   if (!bits.empty()) throw DamagedTrajectory("a column of the trajectory has a wrong length");
   std::vector<double> column(samples);
-  for (std::size_t k = 0; k < samples; ++k) column[k] = static_cast<double>(std::bit_cast<float>(ordered(values[kLead + k])));
+  for (std::size_t k = 0; k < samples; ++k)
+    column[k] = static_cast<double>(std::bit_cast<float>(ordered(values[kLead + k])));
   return column;
 }
 

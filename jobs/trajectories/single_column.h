@@ -14,10 +14,11 @@ namespace jobs {
 ///
 ///     order byte | first value, 4 bytes | width byte of each block | bits of each block
 ///
-/// The bits of a float, read as an integer whose order is that of the numbers, change little from sample to sample, and its
-/// differences of the third order less still. A block is 16 of these differences, each with as many bits as the largest of them
-/// takes. The order, 0 to 4, is the one that is best on a part of the blocks; before the first value stands the first value.
-/// Unpacking gives static_cast<float>(x) for every x, bit by bit.
+/// The bits of a float, read as an integer whose order is that of the numbers, change little from sample to
+/// sample, and its differences of the third order less still. A block is 16 of these differences, each with
+/// as many bits as the largest of them takes. The order, 0 to 4, is the one that is best on a part of the
+/// blocks; before the first value stands the first value. Unpacking gives static_cast<float>(x) for every x,
+/// bit by bit.
 class SinglePacker {
  public:
   /// @returns bytes that are good until the next call

@@ -37,7 +37,8 @@ std::vector<double> times_of(const UniformTime& time, std::size_t samples) {
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 std::optional<UniformTime> find_uniform_time(const std::vector<double>& column) {
@@ -49,7 +50,9 @@ std::optional<UniformTime> find_uniform_time(const std::vector<double>& column) 
   return std::nullopt;
 }
 
-std::size_t count_samples(const engine::Trajectory& trajectory) { return trajectory.columns.empty() ? 0 : trajectory.columns.front().size(); }
+std::size_t count_samples(const engine::Trajectory& trajectory) {
+  return trajectory.columns.empty() ? 0 : trajectory.columns.front().size();
+}
 
 template <typename T>
 std::string_view bytes_of(const std::vector<T>& items) {
@@ -63,7 +66,8 @@ struct EncodedColumn {
   std::size_t copied = 0;  ///< kCopy: the channel that has the same column
 };
 
-EncodedColumn encode_column(const engine::QuantityInfo& channel, const std::vector<double>& column, SinglePacker& packer) {
+EncodedColumn encode_column(const engine::QuantityInfo& channel, const std::vector<double>& column,
+                            SinglePacker& packer) {
   if (channel.single_precision) return {Encoding::kPackedSingle, std::string(packer.pack(column))};
   if (const auto time = channel.key == "t_s" ? find_uniform_time(column) : std::nullopt) {
     ByteWriter writer;
@@ -84,8 +88,8 @@ std::size_t find_original(const engine::Trajectory& trajectory, std::size_t i) {
   return k;
 }
 
-/// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a copy of it; numbers that
-/// are the same when rounded are seen by their bytes.
+/// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a
+/// copy of it; numbers that are the same when rounded are seen by their bytes.
 std::vector<EncodedColumn> encode_columns(const engine::Trajectory& trajectory) {
   SinglePacker packer;
   std::vector<EncodedColumn> blocks;
@@ -97,7 +101,9 @@ std::vector<EncodedColumn> encode_columns(const engine::Trajectory& trajectory) 
       continue;
     }
     EncodedColumn block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
-    const auto is_same = [&](const EncodedColumn& other) { return other.encoding == block.encoding && other.bytes == block.bytes; };
+    const auto is_same = [&](const EncodedColumn& other) {
+      return other.encoding == block.encoding && other.bytes == block.bytes;
+    };
     const auto same = std::ranges::find_if(blocks, is_same);
     if (same != blocks.end()) block = copy_of(static_cast<std::size_t>(same - blocks.begin()));
     blocks.push_back(std::move(block));
@@ -126,7 +132,8 @@ StoredChannel read_entry(ByteReader& header, ByteReader& blob, std::span<const S
   entry.info.integer = (flags & kInteger) != 0;
   entry.info.single_precision = (flags & kSinglePrecision) != 0;
   const auto encoding = header.number<std::uint8_t>();
-  if (encoding > static_cast<std::uint8_t>(Encoding::kCopy)) throw DamagedTrajectory("the trajectory has a block of an unknown kind");
+  if (encoding > static_cast<std::uint8_t>(Encoding::kCopy))
+    throw DamagedTrajectory("the trajectory has a block of an unknown kind");
   entry.encoding = static_cast<Encoding>(encoding);
   const auto number = header.number<std::uint32_t>();
   if (entry.encoding != Encoding::kCopy) {
@@ -143,14 +150,16 @@ StoredChannel read_entry(ByteReader& header, ByteReader& blob, std::span<const S
 Contents read_contents(std::span<const std::byte> bytes) {
   ByteReader blob(bytes);
   const auto version = blob.number<std::uint8_t>();
-  if (version < kOldestVersion || version > kVersion) throw DamagedTrajectory("the trajectory is of an unknown version");
+  if (version < kOldestVersion || version > kVersion)
+    throw DamagedTrajectory("the trajectory is of an unknown version");
   const std::string header_bytes = decompress(blob.take(blob.number<std::uint32_t>()), kLargestHeader);
   ByteReader header(std::as_bytes(std::span(header_bytes)));
   const auto samples = header.number<std::uint64_t>();
   if (samples > kMostSamples) throw DamagedTrajectory("the trajectory is too long");
   Contents contents{.samples = static_cast<std::size_t>(samples), .entries = {}};
   const auto channels = header.number<std::uint32_t>();
-  for (std::uint32_t i = 0; i < channels; ++i) contents.entries.push_back(read_entry(header, blob, contents.entries));
+  for (std::uint32_t i = 0; i < channels; ++i)
+    contents.entries.push_back(read_entry(header, blob, contents.entries));
   if (!blob.at_end() || !header.at_end()) throw DamagedTrajectory("the trajectory has bytes after its end");
   return contents;
 }
@@ -158,7 +167,8 @@ Contents read_contents(std::span<const std::byte> bytes) {
 template <typename T>
 std::vector<double> decode_items(std::span<const std::byte> block, std::size_t samples) {
   const std::string bytes = unshuffle(decompress(block, samples * sizeof(T)), sizeof(T));
-  if (bytes.size() != samples * sizeof(T)) throw DamagedTrajectory("a column of the trajectory has a wrong length");
+  if (bytes.size() != samples * sizeof(T))
+    throw DamagedTrajectory("a column of the trajectory has a wrong length");
   std::vector<T> items(samples);
   if (samples > 0) std::memcpy(items.data(), bytes.data(), bytes.size());
   return {items.begin(), items.end()};
@@ -168,7 +178,8 @@ std::vector<double> decode_column(const StoredChannel& entry, std::size_t sample
   switch (entry.encoding) {
     case Encoding::kSingle: return decode_items<float>(entry.block, samples);
     case Encoding::kDouble: return decode_items<double>(entry.block, samples);
-    case Encoding::kPackedSingle: return unpack_singles(decompress(entry.block, largest_packed_size(samples)), samples);
+    case Encoding::kPackedSingle:
+      return unpack_singles(decompress(entry.block, largest_packed_size(samples)), samples);
     case Encoding::kUniformTime:
     case Encoding::kCopy: break;  // an entry has the encoding of what it copies
   }
@@ -183,9 +194,11 @@ std::vector<double> decode_column(const StoredChannel& entry, std::size_t sample
 
 void check_is_table(const engine::Trajectory& trajectory) {
   const std::size_t samples = count_samples(trajectory);
-  const bool is_table = trajectory.columns.size() == trajectory.channels.size() &&
-                        std::ranges::all_of(trajectory.columns, [&](const auto& column) { return column.size() == samples; });
-  if (!is_table) throw std::invalid_argument("a trajectory must have one column for each channel, all of one length");
+  const bool is_table =
+      trajectory.columns.size() == trajectory.channels.size() &&
+      std::ranges::all_of(trajectory.columns, [&](const auto& column) { return column.size() == samples; });
+  if (!is_table)
+    throw std::invalid_argument("a trajectory must have one column for each channel, all of one length");
 }
 
 engine::Trajectory rounded_to_stored(engine::Trajectory trajectory) {
@@ -205,17 +218,21 @@ std::string encode_trajectory(const engine::Trajectory& trajectory) {
   header.number(static_cast<std::uint32_t>(trajectory.channels.size()));
   const std::vector<EncodedColumn> blocks = encode_columns(trajectory);
   std::string frames;
-  const auto add_room = [](std::size_t sum, const EncodedColumn& block) { return sum + block.bytes.size() + 32; };
+  const auto add_room = [](std::size_t sum, const EncodedColumn& block) {
+    return sum + block.bytes.size() + 32;
+  };
   frames.reserve(std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, add_room));
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const engine::QuantityInfo& channel = trajectory.channels[i];
     const Effort effort = blocks[i].encoding == Encoding::kPackedSingle ? Effort::kLittle : Effort::kFull;
     header.text(channel.key);
     header.text(channel.help);
-    header.number(static_cast<std::uint8_t>((channel.integer ? kInteger : 0) | (channel.single_precision ? kSinglePrecision : 0)));
+    header.number(static_cast<std::uint8_t>((channel.integer ? kInteger : 0) |
+                                            (channel.single_precision ? kSinglePrecision : 0)));
     header.number(static_cast<std::uint8_t>(blocks[i].encoding));
-    header.number(static_cast<std::uint32_t>(blocks[i].encoding == Encoding::kCopy ? blocks[i].copied
-                                                                                  : compressor.append_frame(blocks[i].bytes, effort, frames)));
+    header.number(static_cast<std::uint32_t>(blocks[i].encoding == Encoding::kCopy
+                                                 ? blocks[i].copied
+                                                 : compressor.append_frame(blocks[i].bytes, effort, frames)));
   }
   std::string packed_header;
   compressor.append_frame(header.bytes(), Effort::kFull, packed_header);
@@ -236,7 +253,8 @@ engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<
   };
   if (keys.empty()) std::ranges::for_each(contents.entries, add);
   for (const std::string& key : keys) {
-    const auto found = std::ranges::find(contents.entries, key, [](const StoredChannel& entry) { return entry.info.key; });
+    const auto found =
+        std::ranges::find(contents.entries, key, [](const StoredChannel& entry) { return entry.info.key; });
     if (found != contents.entries.end()) add(*found);
   }
   return trajectory;

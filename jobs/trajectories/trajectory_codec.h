@@ -28,18 +28,20 @@ void check_is_table(const engine::Trajectory& trajectory);
 ///
 ///     version byte | size of header | header | one block a channel
 ///
-/// The header and each block are zstd frames with a checksum. Channels of single precision are packed by SinglePacker. A block of
-/// doubles holds the bytes of its column shuffled (all first bytes, all second bytes, ...): neighbours differ in their low bytes
-/// only, so that the others compress well. A time axis k / rate is stored as its rate and last value, if that reads back to the
-/// same bits. A channel whose column is another one's has no block of its own. Blobs of version 1 are read, too.
-/// Decoding gives rounded_to_stored(trajectory), bit by bit.
+/// The header and each block are zstd frames with a checksum. Channels of single precision are packed by
+/// SinglePacker. A block of doubles holds the bytes of its column shuffled (all first bytes, all second
+/// bytes, ...): neighbours differ in their low bytes only, so that the others compress well. A time axis k /
+/// rate is stored as its rate and last value, if that reads back to the same bits. A channel whose column is
+/// another one's has no block of its own. Blobs of version 1 are read, too. Decoding gives
+/// rounded_to_stored(trajectory), bit by bit.
 /// @throws std::invalid_argument as check_is_table does
 [[nodiscard]] std::string encode_trajectory(const engine::Trajectory& trajectory);
 
 /// Unpacks the channels that are wanted, in that order.
 /// @param keys  empty: all. A key that is not there is left out
 /// @throws DamagedTrajectory; sizes are checked against limits before memory is taken
-[[nodiscard]] engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<const std::string> keys);
+[[nodiscard]] engine::Trajectory decode_trajectory(std::span<const std::byte> blob,
+                                                   std::span<const std::string> keys);
 
 /// Contents of a blob, without its columns.
 [[nodiscard]] std::vector<engine::QuantityInfo> decode_channels(std::span<const std::byte> blob);

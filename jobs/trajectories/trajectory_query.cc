@@ -29,8 +29,9 @@ std::vector<std::string> wanted_channels(const std::vector<std::string>& asked) 
 void check_points(std::size_t points, std::size_t wanted, std::vector<Fault>& faults) {
   const std::size_t channels = wanted == 0 ? 0 : wanted - 1;
   if (points >= fewest_points(channels)) return;
-  faults.push_back({"/points", "must be at least " + std::to_string(fewest_points(channels)) + ", the ends and two for each of the " +
-                                   std::to_string(channels) + " channels"});
+  faults.push_back({"/points", "must be at least " + std::to_string(fewest_points(channels)) +
+                                   ", the ends and two for each of the " + std::to_string(channels) +
+                                   " channels"});
 }
 
 void check(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>& channels) {
@@ -40,12 +41,16 @@ void check(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>
   for (std::size_t i = 0; i < query.channels.size(); ++i) {
     if (std::ranges::find(known, query.channels[i]) != known.end()) continue;
     faults.push_back({"/channels/" + std::to_string(i),
-                      "\"" + query.channels[i] + "\": " + describe_unknown_key(query.channels[i], known, "GET /v1/jobs/{id}/trajectory")});
+                      "\"" + query.channels[i] + "\": " +
+                          describe_unknown_key(query.channels[i], known, "GET /v1/jobs/{id}/trajectory")});
   }
   if (query.from && std::isnan(*query.from)) faults.push_back({"/from", "must be a number"});
   if (query.to && std::isnan(*query.to)) faults.push_back({"/to", "must be a number"});
-  if (query.from && query.to && *query.from > *query.to) faults.push_back({"/to", "must not be less than from"});
-  if (query.points) check_points(*query.points, query.channels.empty() ? known.size() : wanted_channels(query.channels).size(), faults);
+  if (query.from && query.to && *query.from > *query.to)
+    faults.push_back({"/to", "must not be less than from"});
+  if (query.points)
+    check_points(*query.points,
+                 query.channels.empty() ? known.size() : wanted_channels(query.channels).size(), faults);
   if (!faults.empty()) throw InvalidRequest(std::move(faults));
 }
 
@@ -55,7 +60,8 @@ void cut(const TrajectoryQuery& query, engine::Trajectory& trajectory) {
   const std::vector<double>& t = trajectory.columns.front();
   const auto begin = query.from ? std::ranges::lower_bound(t, *query.from) - t.begin() : std::ptrdiff_t{0};
   const auto end = query.to ? std::ranges::upper_bound(t, *query.to) - t.begin() : std::ssize(t);
-  for (std::vector<double>& column : trajectory.columns) column = std::vector<double>(column.begin() + begin, column.begin() + std::max(begin, end));
+  for (std::vector<double>& column : trajectory.columns)
+    column = std::vector<double>(column.begin() + begin, column.begin() + std::max(begin, end));
 }
 
 }  // namespace

@@ -193,6 +193,8 @@ class WearStudy final : public StudyType {
 
 }  // namespace
 
-std::unique_ptr<StudyType> make_wear_study(const SweepReader& reader) { return std::make_unique<WearStudy>(reader); }
+std::unique_ptr<StudyType> make_wear_study(const SweepReader& reader) {
+  return std::make_unique<WearStudy>(reader);
+}
 
 }  // namespace jobs
