@@ -66,8 +66,8 @@ GuardedServer::GuardedServer(const HttpLimits& limits, std::function<Response(in
       make_refusal_(std::move(make_refusal)),
       no_memory_answer_(text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
       pool_(kThreads),
-      reception_({.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
-                 [this](Arrival arrival) { hand_over(std::move(arrival)); },
+      acceptor_({.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
+                 [this](PendingConnection arrival) { queue_connection(std::move(arrival)); },
                  [this](const std::string& received) {
                    return refusal_text(408, "the head of the request did not come in time", received.starts_with("HEAD "));
                  }) {
@@ -89,15 +89,15 @@ int GuardedServer::bind(const std::string& address, int port) {
 }
 
 bool GuardedServer::accept_connections() {
-  const bool good = reception_.run(svr_sock_);
+  const bool good = acceptor_.run(svr_sock_);
   svr_sock_ = INVALID_SOCKET;
   pool_.finish();
   return good;
 }
 
-void GuardedServer::stop_accepting() { reception_.stop(); }
+void GuardedServer::stop_accepting() { acceptor_.stop(); }
 
-void GuardedServer::hand_over(Arrival arrival) noexcept {
+void GuardedServer::queue_connection(PendingConnection arrival) noexcept {
   const int socket = arrival.socket;
   ++waiting_;
   try {
@@ -109,7 +109,7 @@ void GuardedServer::hand_over(Arrival arrival) noexcept {
   }
 }
 
-void GuardedServer::serve_and_close(Arrival arrival) noexcept {
+void GuardedServer::serve_and_close(PendingConnection arrival) noexcept {
   --waiting_;
   const int socket = arrival.socket;
   HttpStream stream(std::move(arrival), limits_, draining_, waiting_);

@@ -8,7 +8,7 @@
 
 #include "server/http/event_hub.h"
 #include "server/http/http_stream.h"
-#include "server/http/reception.h"
+#include "server/http/connection_acceptor.h"
 #include "server/http/worker_pool.h"
 #include "server/messages/message.h"
 
@@ -52,8 +52,8 @@ class GuardedServer final : public httplib::Server {
   static void follow_with(std::shared_ptr<EventSource> events);
 
  private:
-  void hand_over(Arrival arrival) noexcept;
-  void serve_and_close(Arrival arrival) noexcept;
+  void queue_connection(PendingConnection arrival) noexcept;
+  void serve_and_close(PendingConnection arrival) noexcept;
   /// Answers, whatever goes wrong.
   void serve_guarded(HttpStream& stream) noexcept;
   void serve(HttpStream& stream);
@@ -69,7 +69,7 @@ class GuardedServer final : public httplib::Server {
   std::atomic<int> waiting_ = 0;  ///< connections that no thread has taken yet
   EventHub hub_;
   WorkerPool pool_;  // its tasks use what stands above
-  Reception reception_;
+  ConnectionAcceptor acceptor_;
 };
 
 }  // namespace server

@@ -45,7 +45,7 @@ void read_address(NameOf name_of, int socket, std::string& ip, int& port) {
 
 }  // namespace
 
-HttpStream::HttpStream(Arrival arrival, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting)
+HttpStream::HttpStream(PendingConnection arrival, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting)
     : socket_(arrival.socket),
       limits_(limits),
       draining_(draining),

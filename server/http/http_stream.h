@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/http/reception.h"
+#include "server/http/connection_acceptor.h"
 
 namespace server {
 
@@ -38,7 +38,7 @@ class HttpStream final : public httplib::Stream {
   /// @param arrival   whose socket stays the caller's
   /// @param draining  set once the server is ending; outlives this
   /// @param waiting   connections that no thread has taken yet; outlives this
-  HttpStream(Arrival arrival, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting);
+  HttpStream(PendingConnection arrival, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting);
 
   /// Reads up to the empty line that ends the head; what follows it is kept for read().
   Head read_head();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http/reception.h"
+#include "server/http/connection_acceptor.h"
 
 #include <fcntl.h>
 #include <sys/epoll.h>
@@ -40,28 +40,28 @@ bool watch(int epoll, int socket, void* what) {
 
 }  // namespace
 
-Reception::Reception(const Limits& limits, std::function<void(Arrival)> hand_over, std::function<std::string(const std::string&)> late_answer)
-    : limits_(limits), hand_over_(std::move(hand_over)), late_answer_(std::move(late_answer)) {
-  epoll_ = ::epoll_create1(EPOLL_CLOEXEC);
-  bell_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (epoll_ >= 0 && bell_ >= 0 && watch(epoll_, bell_, this)) return;
+ConnectionAcceptor::ConnectionAcceptor(const Limits& limits, std::function<void(PendingConnection)> on_head, std::function<std::string(const std::string&)> make_timeout_answer)
+    : limits_(limits), on_head_(std::move(on_head)), make_timeout_answer_(std::move(make_timeout_answer)) {
+  epoll_fd_ = ::epoll_create1(EPOLL_CLOEXEC);
+  wakeup_fd_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (epoll_fd_ >= 0 && wakeup_fd_ >= 0 && watch(epoll_fd_, wakeup_fd_, this)) return;
   throw std::runtime_error("the system gives no files to wait for clients with (ulimit -n)");
 }
 
-Reception::~Reception() {
-  ::close(epoll_);
-  ::close(bell_);
+ConnectionAcceptor::~ConnectionAcceptor() {
+  ::close(epoll_fd_);
+  ::close(wakeup_fd_);
 }
 
-void Reception::stop() {
+void ConnectionAcceptor::stop() {
   stopping_ = true;
   const std::uint64_t one = 1;
-  static_cast<void>(!::write(bell_, &one, sizeof one));
+  static_cast<void>(!::write(wakeup_fd_, &one, sizeof one));
 }
 
-bool Reception::run(int listening) {
+bool ConnectionAcceptor::run(int listening) {
   // A client that is gone before it is accepted is not to be waited for.
-  bool good = ::fcntl(listening, F_SETFL, O_NONBLOCK) == 0 && watch(epoll_, listening, nullptr);
+  bool good = ::fcntl(listening, F_SETFL, O_NONBLOCK) == 0 && watch(epoll_fd_, listening, nullptr);
   while (good && !stopping_) {
     good = serve_events(listening);
     drop_late();
@@ -72,21 +72,21 @@ bool Reception::run(int listening) {
   return good;
 }
 
-bool Reception::serve_events(int listening) {
+bool ConnectionAcceptor::serve_events(int listening) {
   std::array<epoll_event, 64> events{};
-  const int ready = ::epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), patience_ms());
+  const int ready = ::epoll_wait(epoll_fd_, events.data(), static_cast<int>(events.size()), poll_timeout_ms());
   if (ready < 0) return errno == EINTR;
   bool new_one = false;
   for (int i = 0; i < ready; ++i) {
     void* const what = events[static_cast<std::size_t>(i)].data.ptr;
     if (what == nullptr) new_one = true;
-    else if (what != this) read_ready(static_cast<Arrival*>(what));
+    else if (what != this) read_ready(static_cast<PendingConnection*>(what));
   }
   // After the others, since it may take the place of one of them.
   return !new_one || accept_next(listening);
 }
 
-bool Reception::accept_next(int listening) {
+bool ConnectionAcceptor::accept_next(int listening) {
   const int socket = ::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC);
   if (socket < 0) {
     if (is_final(errno)) return false;
@@ -96,7 +96,7 @@ bool Reception::accept_next(int listening) {
     else drop(waiting_.begin());
     return true;
   }
-  if (waiting_.size() >= limits_.most_waiting) drop(waiting_.begin());
+  if (waiting_.size() >= limits_.max_pending) drop(waiting_.begin());
   try {
     waiting_.push_back({.socket = socket, .received = {}});
   } catch (const std::bad_alloc&) {
@@ -104,16 +104,16 @@ bool Reception::accept_next(int listening) {
     return true;
   }
   // Most have sent their head by now.
-  if (read_some(waiting_.back()) || !watch(epoll_, socket, &waiting_.back())) drop(std::prev(waiting_.end()));
+  if (read_some(waiting_.back()) || !watch(epoll_fd_, socket, &waiting_.back())) drop(std::prev(waiting_.end()));
   return true;
 }
 
-void Reception::read_ready(const Arrival* ready) {
-  const auto arrival = std::ranges::find_if(waiting_, [&](const Arrival& one) { return &one == ready; });
+void ConnectionAcceptor::read_ready(const PendingConnection* ready) {
+  const auto arrival = std::ranges::find_if(waiting_, [&](const PendingConnection& one) { return &one == ready; });
   if (read_some(*arrival)) drop(arrival);
 }
 
-bool Reception::read_some(Arrival& arrival) {
+bool ConnectionAcceptor::read_some(PendingConnection& arrival) {
   std::array<char, kBytesAtATime> bytes;
   const ssize_t got = ::recv(arrival.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (got < 0) return errno != EAGAIN && errno != EINTR;
@@ -127,14 +127,14 @@ bool Reception::read_some(Arrival& arrival) {
   } catch (const std::bad_alloc&) {
     return true;
   }
-  ::epoll_ctl(epoll_, EPOLL_CTL_DEL, arrival.socket, nullptr);
-  hand_over_({.socket = std::exchange(arrival.socket, -1), .received = std::move(arrival.received), .since = arrival.since});
+  ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, arrival.socket, nullptr);
+  on_head_({.socket = std::exchange(arrival.socket, -1), .received = std::move(arrival.received), .since = arrival.since});
   return true;
 }
 
-void Reception::stop_accepting(int listening) {
-  ::epoll_ctl(epoll_, EPOLL_CTL_DEL, listening, nullptr);
-  ::epoll_ctl(epoll_, EPOLL_CTL_DEL, bell_, nullptr);
+void ConnectionAcceptor::stop_accepting(int listening) {
+  ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, listening, nullptr);
+  ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, wakeup_fd_, nullptr);
   ::close(listening);
   for (auto arrival = waiting_.begin(); arrival != waiting_.end();) {
     const auto next = std::next(arrival);
@@ -144,11 +144,11 @@ void Reception::stop_accepting(int listening) {
 }
 
 /// Who has begun is told why, as far as it takes that without waiting; there is nothing to answer to the others.
-void Reception::drop_late() {
+void ConnectionAcceptor::drop_late() {
   while (!waiting_.empty() && waiting_.front().since + limits_.head_time <= Clock::now()) {
-    const Arrival& late = waiting_.front();
+    const PendingConnection& late = waiting_.front();
     try {
-      const std::string answer = late.received.empty() ? "" : late_answer_(late.received);
+      const std::string answer = late.received.empty() ? "" : make_timeout_answer_(late.received);
       static_cast<void>(::send(late.socket, answer.data(), answer.size(), MSG_DONTWAIT | MSG_NOSIGNAL));
       ::shutdown(late.socket, SHUT_WR);
     } catch (const std::bad_alloc&) {  // then without a word
@@ -157,13 +157,13 @@ void Reception::drop_late() {
   }
 }
 
-void Reception::drop(std::list<Arrival>::iterator arrival) {
+void ConnectionAcceptor::drop(std::list<PendingConnection>::iterator arrival) {
   // Closing it takes it from epoll, too.
   if (arrival->socket >= 0) ::close(arrival->socket);
   waiting_.erase(arrival);
 }
 
-int Reception::patience_ms() const {
+int ConnectionAcceptor::poll_timeout_ms() const {
   constexpr int kAtMost = 100;
   if (waiting_.empty()) return -1;
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(waiting_.front().since + limits_.head_time - Clock::now());
