@@ -15,18 +15,18 @@ namespace server {
 
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{200};
-constexpr std::chrono::seconds kBetweenSigns{15};      // proxies and browsers give up what stays silent
-constexpr std::size_t kMostUnsent = 16 * 1024 * 1024;  // of a client that does not read
+constexpr std::chrono::milliseconds kPollInterval{200};
+constexpr std::chrono::seconds kKeepAliveInterval{15};      // proxies and browsers close silent connections
+constexpr std::size_t kMaxUnsentBytes = 16 * 1024 * 1024;  // of a client that does not read
 
-/// Whether the client has closed its end. What it sends is not read: it has nothing to say.
+/// Whether the client has closed its end. Bytes that the client sends are not looked at.
 bool is_closed(int socket) {
   char byte = 0;
   const ssize_t got = ::recv(socket, &byte, 1, MSG_DONTWAIT);
   return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
 }
 
-/// Sends what the socket takes at once. False if the client is gone.
+/// Sends as much as the socket takes at once. False if the client is gone.
 bool send_some(int socket, std::string& text) {
   while (!text.empty()) {
     const ssize_t sent = ::send(socket, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
@@ -42,15 +42,15 @@ EventHub::EventHub() : thread_([this](const std::stop_token& stop) { work(stop);
 
 EventHub::~EventHub() { stop(); }
 
-bool EventHub::admit(const std::shared_ptr<EventSource>& events) {
+bool EventHub::reserve(const std::shared_ptr<EventSource>& events) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(admitted_, [](const auto& one) { return one.expired(); });
-  if (stopped_ || admitted_.size() >= kPlaces) return false;
-  admitted_.push_back(events);
+  std::erase_if(reserved_, [](const auto& each) { return each.expired(); });
+  if (stopped_ || reserved_.size() >= kMaxStreams) return false;
+  reserved_.push_back(events);
   return true;
 }
 
-bool EventHub::take(int socket, std::shared_ptr<EventSource> events) try {
+bool EventHub::adopt(int socket, std::shared_ptr<EventSource> events) try {
   const std::lock_guard lock(mutex_);
   if (stopped_) return false;
   streams_.push_back({.socket = socket, .events = std::move(events)});
@@ -73,7 +73,7 @@ void EventHub::work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     changed_.wait(lock, stop, [this] { return !streams_.empty(); });
-    // New ones are only added at the end, and only this thread takes any away.
+    // Other threads only append streams; only this thread removes them.
     for (auto stream = streams_.begin(); stream != streams_.end() && !stop.stop_requested();) {
       lock.unlock();
       const bool goes_on = serve(*stream);
@@ -81,7 +81,7 @@ void EventHub::work(const std::stop_token& stop) {
       lock.lock();
       stream = goes_on ? std::next(stream) : streams_.erase(stream);
     }
-    changed_.wait_for(lock, stop, kBetweenLooks, [] { return false; });
+    changed_.wait_for(lock, stop, kPollInterval, [] { return false; });
   }
   for (const Stream& stream : streams_) ::close(stream.socket);
   streams_.clear();
@@ -91,12 +91,12 @@ bool EventHub::serve(Stream& stream) {
   try {
     if (is_closed(stream.socket)) return false;
     if (!stream.events->has_ended()) stream.unsent += stream.events->next();
-  } catch (const std::exception& error) {  // the store's; the client asks again, from where it stands
+  } catch (const std::exception& error) {  // of the store; the client reconnects with its Last-Event-ID
     log_error("events end early: {}", error.what());
     return false;
   }
-  if (stream.unsent.empty() && Clock::now() - stream.last_sent > kBetweenSigns) stream.unsent = ":\n\n";
-  if (stream.unsent.size() > kMostUnsent) return false;
+  if (stream.unsent.empty() && Clock::now() - stream.last_sent > kKeepAliveInterval) stream.unsent = ":\n\n";
+  if (stream.unsent.size() > kMaxUnsentBytes) return false;
   if (!stream.unsent.empty()) stream.last_sent = Clock::now();
   return send_some(stream.socket, stream.unsent) && !(stream.unsent.empty() && stream.events->has_ended());
 }

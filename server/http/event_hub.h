@@ -15,24 +15,25 @@
 
 namespace server {
 
-/// Carries all connections that stay open for events on one thread of its own, so that they take none from those who ask and go.
+/// Serves all event streams on one thread of its own: connections that stay open occupy no worker thread.
 class EventHub {
  public:
-  static constexpr std::size_t kPlaces = 64;
+  static constexpr std::size_t kMaxStreams = 64;
 
   EventHub();
   ~EventHub();  ///< closes every connection
   EventHub(const EventHub&) = delete;
   EventHub& operator=(const EventHub&) = delete;
 
-  /// Gives these events a place, which is theirs for as long as they exist. False if there is none.
-  [[nodiscard]] bool admit(const std::shared_ptr<EventSource>& events);
+  /// Reserves one of kMaxStreams streams for these events, for as long as they exist. False if all are reserved.
+  [[nodiscard]] bool reserve(const std::shared_ptr<EventSource>& events);
 
-  /// Takes the connection of admitted events over, whose head has been sent, and closes it at the end.
-  /// @returns false if there is no memory for it, or no connection is taken any more; it stays the caller's
-  [[nodiscard]] bool take(int socket, std::shared_ptr<EventSource> events);
+  /// Takes over the connection of events with a reservation; the head of the answer has been sent. Closes the
+  /// connection at its end.
+  /// @returns false without memory, or after stop(): the connection stays the caller's
+  [[nodiscard]] bool adopt(int socket, std::shared_ptr<EventSource> events);
 
-  /// Closes every connection, and those that come from now on.
+  /// Closes every connection; none is adopted afterwards.
   void stop();
 
  private:
@@ -46,13 +47,13 @@ class EventHub {
   };
 
   void work(const std::stop_token& stop);
-  /// False when the connection is done with.
+  /// False when the connection is to be closed.
   static bool serve(Stream& stream);
 
   std::mutex mutex_;  // guards all but the thread
   std::condition_variable_any changed_;
   std::list<Stream> streams_;
-  std::vector<std::weak_ptr<EventSource>> admitted_;
+  std::vector<std::weak_ptr<EventSource>> reserved_;
   bool stopped_ = false;
   std::jthread thread_;  // last: uses the rest
 };

@@ -50,7 +50,7 @@ void set_events(httplib::Response& to, const std::string& content_type, std::sha
     sink.done();
     return true;
   });
-  GuardedServer::follow_with(std::move(events));
+  GuardedServer::stream_events(std::move(events));
 }
 
 void copy_to(httplib::Response& to, Response from) {
@@ -244,7 +244,7 @@ class HttpServer::Impl {
     request.body = std::move(body);
     request.id = request_ids_.next();
     Response response = routes_.answer(request);
-    if (response.events && !guard.admit(response.events)) response = make_retry_later(503, "too many clients follow events");
+    if (response.events && !guard.reserve_event_stream(response.events)) response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();
     copy_to(to, std::move(response));
     to.set_header("X-Request-Id", request.id);

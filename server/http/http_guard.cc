@@ -31,8 +31,8 @@ void set_reuse_address(socket_t socket) {
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// Has a request say what its client has sent, but no ranges: the library would answer any number of them, and refuse
-/// those that it does not understand; whoever does not serve ranges ignores them.
+/// Copies the head that the client has sent to the library's request, without Range: the library would answer any
+/// number of ranges, and refuse those that it does not understand; a server without ranges ignores the header.
 void fill(httplib::Request& request, RequestHead head) {
   head.headers.erase("range");
   if (auto encoding = head.headers.extract("accept-encoding")) {
@@ -44,11 +44,11 @@ void fill(httplib::Request& request, RequestHead head) {
   request.headers = {head.headers.begin(), head.headers.end()};
 }
 
-/// What the handler wants to follow the head of the answer. The library calls a handler on the thread that serves the connection,
-/// and tells it nothing of the connection.
+/// Event stream that follows the head of the answer, set by the handler. The library calls a handler on the thread
+/// that serves the connection, and does not tell the handler which connection that is.
 thread_local std::shared_ptr<EventSource> events_of_this_connection;
 
-/// All before the body, in the form of HTTP.
+/// Head of the answer as HTTP/1.1 text: status line, headers, empty line.
 std::string head_of(const Response& response) {
   std::string text = "HTTP/1.1 " + std::to_string(response.status) + " " + std::string(status_phrase(response.status)) +
                      "\r\nConnection: close\r\nContent-Type: " + response.content_type +
@@ -67,7 +67,7 @@ GuardedServer::GuardedServer(const HttpLimits& limits, std::function<Response(in
       no_memory_answer_(text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
       pool_(kThreads),
       acceptor_({.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
-                 [this](PendingConnection arrival) { queue_connection(std::move(arrival)); },
+                 [this](PendingConnection connection) { queue_connection(std::move(connection)); },
                  [this](const std::string& received) {
                    return refusal_text(408, "the head of the request did not come in time", received.starts_with("HEAD "));
                  }) {
@@ -97,29 +97,29 @@ bool GuardedServer::accept_connections() {
 
 void GuardedServer::stop_accepting() { acceptor_.stop(); }
 
-void GuardedServer::queue_connection(PendingConnection arrival) noexcept {
-  const int socket = arrival.socket;
-  ++waiting_;
+void GuardedServer::queue_connection(PendingConnection connection) noexcept {
+  const int socket = connection.socket;
+  ++queued_;
   try {
-    pool_.add([this, arrival = std::move(arrival)]() mutable { serve_and_close(std::move(arrival)); });
+    pool_.add([this, connection = std::move(connection)]() mutable { serve_and_close(std::move(connection)); });
   } catch (const std::bad_alloc&) {
-    --waiting_;
+    --queued_;
     log_error("a connection is closed: no memory");
     ::close(socket);
   }
 }
 
-void GuardedServer::serve_and_close(PendingConnection arrival) noexcept {
-  --waiting_;
-  const int socket = arrival.socket;
-  HttpStream stream(std::move(arrival), limits_, draining_, waiting_);
+void GuardedServer::serve_and_close(PendingConnection connection) noexcept {
+  --queued_;
+  const int socket = connection.socket;
+  HttpStream stream(std::move(connection), limits_, draining_, queued_);
   events_of_this_connection.reset();
   serve_guarded(stream);
   if (auto events = std::exchange(events_of_this_connection, nullptr)) {
-    if (!hub_.take(socket, std::move(events))) ::close(socket);
+    if (!event_hub_.adopt(socket, std::move(events))) ::close(socket);
     return;
   }
-  stream.close_gently();
+  stream.lingering_close();
   ::close(socket);
 }
 
@@ -135,7 +135,7 @@ void GuardedServer::serve_guarded(HttpStream& stream) noexcept {
   }
 }
 
-void GuardedServer::follow_with(std::shared_ptr<EventSource> events) { events_of_this_connection = std::move(events); }
+void GuardedServer::stream_events(std::shared_ptr<EventSource> events) { events_of_this_connection = std::move(events); }
 
 void GuardedServer::serve(HttpStream& stream) {
   switch (stream.read_head()) {
@@ -151,17 +151,18 @@ void GuardedServer::serve(HttpStream& stream) {
   if (const auto fault = find_fault_in_head(stream.head(), limits_.body_bytes)) {
     return refuse(stream, fault->status, fault->detail);
   }
-  // Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or refuse, and
-  // in how they take a query apart: the library is shown method and version alone, and told what the rest says.
+  // Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or refuse
+  // and in how they parse a query. The library therefore parses method and version alone; fill() sets the rest.
   RequestHead head = read_head(stream.head());
   stream.replace_head(head.request_line + "\r\n\r\n");
-  have_processed(*this, stream, [&head](httplib::Request& request) { fill(request, std::move(head)); });
+  process_with_library(*this, stream, [&head](httplib::Request& request) { fill(request, std::move(head)); });
 }
 
-/// Has the library serve a request. Older versions ask a stream for the addresses of its ends; newer ones are told.
-/// @param self  this object, as a template's argument: what it cannot do is then no error
+/// Lets the library serve a request. Older versions ask the stream for the addresses of its ends; newer versions
+/// take them as arguments.
+/// @param self  this object, as a template's argument: the overload that the library lacks is then no error
 template <typename Self, typename Fill>
-void GuardedServer::have_processed(Self& self, HttpStream& stream, const Fill& fill_request) {
+void GuardedServer::process_with_library(Self& self, HttpStream& stream, const Fill& fill_request) {
   bool connection_closed = true;
   if constexpr (requires { self.process_request(stream, true, connection_closed, fill_request); }) {
     self.process_request(stream, true, connection_closed, fill_request);

@@ -6,21 +6,23 @@
 #include <memory>
 #include <string>
 
-#include "server/http/event_hub.h"
-#include "server/http/http_stream.h"
 #include "server/http/connection_acceptor.h"
+#include "server/http/event_hub.h"
+#include "server/http/http_limits.h"
+#include "server/http/http_stream.h"
 #include "server/http/worker_pool.h"
 #include "server/messages/message.h"
 
 namespace server {
 
-/// Name of Accept-Encoding in the requests that GuardedServer hands on: under its own name it would make the library
-/// compress, with brotli at its slowest setting. No client can send a name with blanks.
+/// Name of the Accept-Encoding header in the requests that GuardedServer gives to the library: under its own name
+/// the header would make the library compress, with brotli at its slowest setting. No client can send a name
+/// with blanks.
 inline constexpr const char* kAcceptEncoding = "Accept-Encoding of the client";
 
-/// The library's server behind a guard. As it stands, the library reads heads without end, waits without end, believes
-/// Range headers to the last one, keeps its few threads for clients that do nothing, and ends when it cannot accept a
-/// connection or has no memory for one; here a connection carries one request, within HttpLimits, and is closed.
+/// cpp-httplib's server with limits. The library by itself reads heads of any length, waits without end, serves any
+/// number of Range headers, keeps its few threads for clients that do nothing, and ends when it cannot accept a
+/// connection or has no memory for one. Here a connection carries one request, within HttpLimits, and is closed.
 class GuardedServer final : public httplib::Server {
  public:
   /// @param limits        of every connection
@@ -39,35 +41,38 @@ class GuardedServer final : public httplib::Server {
   /// From any thread, also before accept_connections(); bind() came before.
   void stop_accepting();
 
-  /// From now on every connection has HttpLimits::drain_time left, and those with events none.
+  /// From now on every connection has HttpLimits::drain_time left; event streams end at once.
   void start_draining() {
     draining_ = true;
-    hub_.stop();
+    event_hub_.stop();
   }
 
-  /// Whether one more connection may stay open, for these events.
-  [[nodiscard]] bool admit(const std::shared_ptr<EventSource>& events) { return hub_.admit(events); }
+  /// Reserves one of the connections that may stay open, for an event stream. False if all are reserved.
+  [[nodiscard]] bool reserve_event_stream(const std::shared_ptr<EventSource>& events) {
+    return event_hub_.reserve(events);
+  }
 
-  /// Called by the handler of a request: once its answer's head has been sent, the connection stays open for these events.
-  static void follow_with(std::shared_ptr<EventSource> events);
+  /// Makes the answer of the request that this thread handles an event stream: once its head has been sent, the
+  /// connection stays open and carries the events. For handlers of requests.
+  static void stream_events(std::shared_ptr<EventSource> events);
 
  private:
-  void queue_connection(PendingConnection arrival) noexcept;
-  void serve_and_close(PendingConnection arrival) noexcept;
-  /// Answers, whatever goes wrong.
+  void queue_connection(PendingConnection connection) noexcept;
+  void serve_and_close(PendingConnection connection) noexcept;
+  /// Serves the request; an exception is logged, and answered if nothing has been sent.
   void serve_guarded(HttpStream& stream) noexcept;
   void serve(HttpStream& stream);
   template <typename Self, typename Fill>
-  static void have_processed(Self& self, HttpStream& stream, const Fill& fill_request);
+  static void process_with_library(Self& self, HttpStream& stream, const Fill& fill_request);
   void refuse(HttpStream& stream, int status, const std::string& detail);
   [[nodiscard]] std::string refusal_text(int status, const std::string& detail, bool head_alone) const;
 
   HttpLimits limits_;
   std::function<Response(int, const std::string&)> make_refusal_;
-  const std::string no_memory_answer_;  ///< made while there is memory
+  const std::string no_memory_answer_;  ///< made in advance, while there is memory
   std::atomic<bool> draining_ = false;
-  std::atomic<int> waiting_ = 0;  ///< connections that no thread has taken yet
-  EventHub hub_;
+  std::atomic<int> queued_ = 0;  ///< connections that no thread has taken yet
+  EventHub event_hub_;
   WorkerPool pool_;  // its tasks use what stands above
   ConnectionAcceptor acceptor_;
 };

@@ -45,13 +45,14 @@ void read_address(NameOf name_of, int socket, std::string& ip, int& port) {
 
 }  // namespace
 
-HttpStream::HttpStream(PendingConnection arrival, const HttpLimits& limits, const std::atomic<bool>& draining, const std::atomic<int>& waiting)
-    : socket_(arrival.socket),
+HttpStream::HttpStream(PendingConnection connection, const HttpLimits& limits, const std::atomic<bool>& draining,
+                       const std::atomic<int>& queued)
+    : socket_(connection.socket),
       limits_(limits),
       draining_(draining),
-      waiting_(waiting),
-      buffer_(std::move(arrival.received)),
-      read_deadline_(arrival.since + limits.head_time),
+      queued_(queued),
+      buffer_(std::move(connection.received)),
+      read_deadline_(connection.accepted + limits.head_time),
       crowded_deadline_(Clock::now() + limits.crowded_time) {}
 
 HttpStream::Head HttpStream::read_head() {
@@ -89,7 +90,7 @@ bool HttpStream::send_all(std::string_view text) {
   return true;
 }
 
-void HttpStream::close_gently() {
+void HttpStream::lingering_close() {
   ::shutdown(socket_, SHUT_WR);
   const auto deadline = Clock::now() + limits_.linger_time;
   crowded_deadline_ = Clock::now() + limits_.crowded_time;
@@ -150,8 +151,8 @@ bool HttpStream::wait_for(short events, Clock::time_point deadline) const {
     const auto now = Clock::now();
     if (draining_ && !drain_deadline_) drain_deadline_ = now + limits_.drain_time;
     auto end = drain_deadline_ ? std::min(deadline, *drain_deadline_) : deadline;
-    // A few clients that send or take slowly may do so; many of them are not to hold every thread.
-    if (waiting_ > 0) end = std::min(end, events == POLLIN ? crowded_deadline_ : start + limits_.crowded_time);
+    // A few slow clients are tolerated; while connections queue, no slow client keeps its thread.
+    if (queued_ > 0) end = std::min(end, events == POLLIN ? crowded_deadline_ : start + limits_.crowded_time);
     if (now >= end) return false;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
     pollfd entry{socket_, events, 0};

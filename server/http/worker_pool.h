@@ -12,22 +12,22 @@
 
 namespace server {
 
-/// Threads that run tasks in the order in which they came. A machine without memory makes tasks wait; it does not end the process.
+/// Threads that run tasks in the order of add(). Without memory for a task, add() waits; the process does not end.
 class WorkerPool {
  public:
   using Task = std::function<void()>;
 
   /// @throws std::runtime_error if the system does not allow so many threads
   explicit WorkerPool(std::size_t threads);
-  ~WorkerPool();  ///< after the tasks that have been taken
+  ~WorkerPool();  ///< finish()
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Returns when the task has its place: at once, unless there is no memory for it.
+  /// Returns when the task is queued: at once, unless there is no memory for it.
   /// @param task  must not throw
   void add(Task task);
 
-  /// Runs the tasks that are there and ends the threads.
+  /// Runs the queued tasks and ends the threads.
   void finish();
 
  private:

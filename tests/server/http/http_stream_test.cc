@@ -145,7 +145,7 @@ TEST(HttpStream, HurriesAClientOnceOthersWait) {
   EXPECT_GE(Clock::now() - start, 590ms) << "hurried although nobody waited";
   EXPECT_LT(Clock::now() - start, 3s);
   const auto closing = Clock::now();
-  stream.close_gently();
+  stream.lingering_close();
   EXPECT_GE(Clock::now() - closing, 190ms);
   EXPECT_LT(Clock::now() - closing, 3s);
 }

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "server/http/http_stream.h"
+#include "server/http/http_limits.h"
 #include "server/messages/gzip.h"
 #include "server/routes/route_table.h"
 #include "tests/server/http/raw_client.h"

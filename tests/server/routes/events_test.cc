@@ -12,7 +12,7 @@
 
 #include "server/http/event_hub.h"
 #include "server/http/http.h"
-#include "server/http/http_stream.h"
+#include "server/http/http_limits.h"
 #include "tests/server/http/raw_client.h"
 #include "tests/server/service_fixture.h"
 
@@ -207,7 +207,7 @@ TEST_F(EventsOverHttp, GoOnForLongerThanAnAnswerMayTake) {
 
 TEST_F(EventsOverHttp, TakeNoThreadFromOthersAndHaveABound) {
   std::list<RawClient> clients;
-  for (std::size_t k = 0; k < server::EventHub::kPlaces; ++k) {
+  for (std::size_t k = 0; k < server::EventHub::kMaxStreams; ++k) {
     send_request(clients.emplace_back(port_));
     ASSERT_TRUE(clients.back().answered_within(5s)) << k;
   }
