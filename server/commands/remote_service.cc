@@ -8,8 +8,8 @@
 
 #include "jobs/base/errors.h"
 #include "server/commands/command.h"
+#include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
-#include "server/routing/call.h"
 
 namespace server::commands {
 
@@ -60,7 +60,7 @@ std::vector<jobs::Fault> faults_of(const Json& problem) {
 
 const char* path_of(RemoteService::Kind kind) { return kind == RemoteService::Kind::kSweep ? "/v1/sweeps" : "/v1/jobs"; }
 
-/// What is no id is no part of a path either.
+/// The id, which is then safe as a segment of a path.
 const std::string& checked_id(const std::string& id) {
   if (!is_id(id)) throw BadInput("\"" + id + "\" is no id of a sweep or a job");
   return id;

@@ -20,12 +20,12 @@
 #include "server/commands/log.h"
 #include "server/commands/service_token.h"
 #include "server/commands/signals.h"
+#include "server/context/metrics.h"
 #include "server/http/http.h"
 #include "server/http/http_client.h"
 #include "server/http/memory_reserve.h"
 #include "server/http/request_head.h"
 #include "server/routes/routes.h"
-#include "server/routing/metrics.h"
 
 namespace server::commands {
 

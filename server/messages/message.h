@@ -59,7 +59,7 @@ class EventSource {
   [[nodiscard]] virtual bool has_ended() const = 0;
 };
 
-/// What goes back.
+/// An answer to a request.
 struct Response {
   int status = 200;
   std::string content_type;                                 ///< empty: there is no body
@@ -68,5 +68,10 @@ struct Response {
   std::shared_ptr<FileBody> file{};                         ///< stands for the body, if there is one
   std::shared_ptr<EventSource> events{};                    ///< follow the head, if there are any
 };
+
+/// Answer with a JSON text as its body.
+[[nodiscard]] inline Response json_response(int status, std::string text) {
+  return {.status = status, .content_type = "application/json", .body = std::move(text) + "\n", .headers = {}};
+}
 
 }  // namespace server

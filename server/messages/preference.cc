@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <string>
 
 #include "server/messages/trimmed.h"
 
@@ -14,23 +13,10 @@ namespace {
 
 constexpr std::chrono::seconds kLongest{60};
 
-/// Names of preferences are the same in capitals (RFC 7240).
+/// Whether an item is the preference `wait`; names of preferences ignore case (RFC 7240).
 bool names_wait(std::string_view item) {
   return std::ranges::equal(item.substr(0, 4), std::string_view("wait"), [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
-
-/// Held by a client for as long as it waits, whatever ends that.
-struct Place {
-  explicit Place(std::atomic<int>& taken) : number(++taken), taken_(taken) {}
-  ~Place() { --taken_; }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-
-  const int number;
-
- private:
-  std::atomic<int>& taken_;
-};
 
 }  // namespace
 
@@ -48,16 +34,6 @@ std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
     if (error == std::errc{} && end == item.data() + item.size()) return std::min(kLongest, std::chrono::seconds(seconds));
   }
   return std::nullopt;
-}
-
-bool WaitingRoom::wait(const Request& request, Response& response, const std::function<void(std::chrono::seconds)>& wait_for) {
-  const auto time = find_wait(request.prefer);
-  if (!time) return false;
-  const Place place(waiting_);
-  if (place.number > kPlaces) return false;
-  wait_for(*time);
-  response.headers.emplace_back("Preference-Applied", "wait=" + std::to_string(time->count()));
-  return true;
 }
 
 }  // namespace server

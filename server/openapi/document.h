@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/routing/route.h"
+#include "server/context/route.h"
 
 namespace server::openapi {
 

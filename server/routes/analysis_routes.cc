@@ -39,65 +39,65 @@ struct StudiedSweep {
   jobs::ResultTable results;
 };
 
-std::optional<StudiedSweep> find_study(const Call& call, const jobs::ResultQuery& query = {}) {
-  auto sweep = call.service.find_sweep(call.id);
-  auto results = sweep ? call.service.find_results(call.id, query) : std::nullopt;
+std::optional<StudiedSweep> find_study(const RequestContext& context, const jobs::ResultQuery& query = {}) {
+  auto sweep = context.service.find_sweep(context.id);
+  auto results = sweep ? context.service.find_results(context.id, query) : std::nullopt;
   return results ? std::optional(StudiedSweep{std::move(*sweep), std::move(*results)}) : std::nullopt;
 }
 
 /// job_id, what is swept, and the end of the run-up.
-std::optional<StudiedSweep> find_study_with_run_up(const Call& call) {
-  const auto sweep = call.service.find_sweep(call.id);
+std::optional<StudiedSweep> find_study_with_run_up(const RequestContext& context) {
+  const auto sweep = context.service.find_sweep(context.id);
   if (!sweep) return std::nullopt;
   jobs::ResultQuery query;
   query.fields = "job_id,run_up_s";
   for (const auto& path : sweep->at("axes")) {
     if (path != "run_up_s") query.fields += "," + path.get<std::string>();
   }
-  return find_study(call, query);
+  return find_study(context, query);
 }
 
 /// What is worked out of a study, with the faults of the query beside those that the work finds.
 template <typename Work>
-auto work_out(const Call& call, Query& query, std::optional<StudiedSweep> (*find)(const Call&), const Work& work) {
+auto work_out(const RequestContext& context, Query& query, std::optional<StudiedSweep> (*find)(const RequestContext&), const Work& work) {
   auto made = query.check_and([&] {
-    const auto study = find(call);
+    const auto study = find(context);
     return study ? std::optional(work(*study)) : std::nullopt;
   });
-  if (!made) throw HttpError(404, "there is no sweep " + call.id);
+  if (!made) throw HttpError(404, "there is no sweep " + context.id);
   return std::move(*made);
 }
 
-std::optional<StudiedSweep> find_whole_study(const Call& call) { return find_study(call); }
+std::optional<StudiedSweep> find_whole_study(const RequestContext& context) { return find_study(context); }
 
-Response make_rows(const Call& call, TableFormat format, const jobs::ResultTable& table, const std::string& name) {
-  return with_etag_if(table.ended, call.request, make_table(format, to_text(table, format), name + "-" + call.id));
+Response make_rows(const RequestContext& context, TableFormat format, const jobs::ResultTable& table, const std::string& name) {
+  return with_etag_if(table.ended, context.request, make_table(format, to_text(table, format), name + "-" + context.id));
 }
 
 /// The metric that a query asks for, of those that the study's linkages have.
 std::string metric_of(const Query& query, const StudiedSweep& study) { return jobs::choose_metric(study.results, query.text("metric").value_or("")); }
 
 /// A part of the trajectory of a job, for what is worked out of RPSUP's own channels. @param what  that jobs of RPSUP have
-std::optional<engine::Trajectory> find_rpsup_run(const Call& call, const std::string& id, const jobs::TrajectoryQuery& part, const char* what) {
+std::optional<engine::Trajectory> find_rpsup_run(const RequestContext& context, const std::string& id, const jobs::TrajectoryQuery& part, const char* what) {
   try {
-    return call.service.find_trajectory(id, part);
+    return context.service.find_trajectory(id, part);
   } catch (const jobs::InvalidRequest& invalid) {
     const bool known = !invalid.faults().front().pointer.starts_with("/channels");
-    const auto job = known ? std::nullopt : call.service.find_job(id);
+    const auto job = known ? std::nullopt : context.service.find_job(id);
     if (!job || !jobs::describes_linkage(job->at("parameters"))) throw;
     throw jobs::WrongState(std::string("only jobs of the RPSUP linkage have ") + what + "; job " + id + " describes its own linkage");
   }
 }
 
-jobs::FindTrajectory finder(const Call& call, const char* what) {
-  return [&call, what](const std::string& job, const jobs::TrajectoryQuery& query) { return find_rpsup_run(call, job, query, what); };
+jobs::FindTrajectory finder(const RequestContext& context, const char* what) {
+  return [&context, what](const std::string& job, const jobs::TrajectoryQuery& query) { return find_rpsup_run(context, job, query, what); };
 }
 
 constexpr const char* kSection = "crank_angle_rad, whose turns are counted here";
 
 /// Why a job has no columns to work with.
-HttpError no_columns(const Call& call) {
-  return {404, call.service.find_job(call.id) ? "job " + call.id + " has no trajectory" : "there is no job " + call.id};
+HttpError no_columns(const RequestContext& context) {
+  return {404, context.service.find_job(context.id) ? "job " + context.id + " has no trajectory" : "there is no job " + context.id};
 }
 
 /// Asks with the one channel of a query; a fault of it stands at its key.
@@ -115,9 +115,9 @@ auto with_one_channel(const Ask& ask) {
 }
 
 /// What a wear map is made of; a job of a program that kept less has not all of it.
-std::optional<engine::Trajectory> find_wear_run(const Call& call, const jobs::TrajectoryQuery& part) {
+std::optional<engine::Trajectory> find_wear_run(const RequestContext& context, const jobs::TrajectoryQuery& part) {
   try {
-    return find_rpsup_run(call, call.id, part, "a map of the bore's wear");
+    return find_rpsup_run(context, context.id, part, "a map of the bore's wear");
   } catch (const jobs::InvalidRequest& invalid) {
     const bool kept = !invalid.faults().front().pointer.starts_with("/channels");
     if (!kept) throw jobs::WrongState("the job was computed by a program that did not keep its sliding work");
@@ -125,19 +125,19 @@ std::optional<engine::Trajectory> find_wear_run(const Call& call, const jobs::Tr
   }
 }
 
-Response make_columns(const Call& call, TableFormat format, const engine::Trajectory& table, const std::string& name) {
-  std::string text = format == TableFormat::kCsv ? jobs::to_csv(table) : format == TableFormat::kNpz ? jobs::to_npz(table) : jobs::to_json_columns(table);
-  return with_etag(call.request, make_table(format, std::move(text), name + "-" + call.id));  // only what has ended has a trajectory
+Response make_columns(const RequestContext& context, TableFormat format, const engine::Trajectory& table, const std::string& name) {
+  std::string text = format == TableFormat::kCsv ? jobs::to_csv(table) : format == TableFormat::kNpz ? jobs::to_npz(table) : to_json_columns(table);
+  return with_etag(context.request, make_table(format, std::move(text), name + "-" + context.id));  // only what has ended has a trajectory
 }
 
 /// How the first jobs of a sweep were run.
-report::Provenance find_provenance(const Call& call, const jobs::ResultTable& results) {
+report::Provenance find_provenance(const RequestContext& context, const jobs::ResultTable& results) {
   constexpr std::size_t kMostJobs = 1000;
   report::Provenance provenance;
   for (const auto& row : results.rows) {
     if (provenance.looked_at == kMostJobs) break;
     ++provenance.looked_at;
-    const auto job = call.service.find_job(row.front().get<std::string>());
+    const auto job = context.service.find_job(row.front().get<std::string>());
     if (!job || job->at("run").is_null()) continue;
     nlohmann::json way = job->at("run").at("program");
     for (const char* const key : {"host", "cpu"}) way[key] = job->at("run").at(key);
@@ -156,91 +156,91 @@ report::Provenance find_provenance(const Call& call, const jobs::ResultTable& re
 
 }  // namespace
 
-Response get_sensitivity(const Call& call) {
-  Query query(call.request, {"metric", "format"});
-  const TableFormat format = find_row_format(call.request, query);
-  const auto table = work_out(call, query, find_whole_study,
+Response get_sensitivity(const RequestContext& context) {
+  Query query(context.request, {"metric", "format"});
+  const TableFormat format = find_row_format(context.request, query);
+  const auto table = work_out(context, query, find_whole_study,
                               [&](const StudiedSweep& study) { return jobs::calc_sensitivity(study.sweep, study.results, metric_of(query, study)); });
-  return make_rows(call, format, table, "sensitivity");
+  return make_rows(context, format, table, "sensitivity");
 }
 
-Response get_surrogate(const Call& call) {
-  Query query(call.request, {"metric", "x", "y"});
+Response get_surrogate(const RequestContext& context) {
+  Query query(context.request, {"metric", "x", "y"});
   bool ended = false;
-  const auto surrogate = work_out(call, query, find_whole_study, [&](const StudiedSweep& study) {
+  const auto surrogate = work_out(context, query, find_whole_study, [&](const StudiedSweep& study) {
     const jobs::SurrogateQuery wanted{.metric = metric_of(query, study), .x = query.text("x").value_or(""), .y = query.text("y").value_or("")};
     ended = study.results.ended;
     return make_surrogate(study.sweep, study.results, wanted);
   });
-  return with_etag_if(ended, call.request, make_json(200, to_text(surrogate)));
+  return with_etag_if(ended, context.request, json_response(200, to_text(surrogate)));
 }
 
-Response get_flexibility(const Call& call) {
-  Query query(call.request, {"metric", "format"});
-  const TableFormat format = find_row_format(call.request, query);
-  const auto table = work_out(call, query, find_whole_study,
+Response get_flexibility(const RequestContext& context) {
+  Query query(context.request, {"metric", "format"});
+  const TableFormat format = find_row_format(context.request, query);
+  const auto table = work_out(context, query, find_whole_study,
                               [&](const StudiedSweep& study) { return jobs::compare_couplers(study.sweep, study.results, metric_of(query, study)); });
-  return make_rows(call, format, table, "flexibility");
+  return make_rows(context, format, table, "flexibility");
 }
 
-Response get_paper(const Call& call) {
-  Query query(call.request, {"format"});
-  const TableFormat format = find_row_format(call.request, query);
-  const auto table = work_out(call, query, find_whole_study, [](const StudiedSweep& study) { return jobs::hold_against_paper(study.results); });
-  return make_rows(call, format, table, "paper");
+Response get_paper(const RequestContext& context) {
+  Query query(context.request, {"format"});
+  const TableFormat format = find_row_format(context.request, query);
+  const auto table = work_out(context, query, find_whole_study, [](const StudiedSweep& study) { return jobs::hold_against_paper(study.results); });
+  return make_rows(context, format, table, "paper");
 }
 
-Response get_bifurcation(const Call& call) {
-  Query query(call.request, {"channel", "phase_rad", "from", "format"});
-  const TableFormat format = find_row_format(call.request, query);
+Response get_bifurcation(const RequestContext& context) {
+  Query query(context.request, {"channel", "phase_rad", "from", "format"});
+  const TableFormat format = find_row_format(context.request, query);
   jobs::BifurcationQuery wanted;
   wanted.channel = query.text("channel").value_or(wanted.channel);
   wanted.phase = query.number("phase_rad").value_or(wanted.phase);
   wanted.from = query.number("from");
-  const auto table = work_out(call, query, find_study_with_run_up, [&](const StudiedSweep& study) {
-    return with_one_channel([&] { return make_bifurcation(study.sweep.at("axes"), study.results, wanted, finder(call, kSection)); });
+  const auto table = work_out(context, query, find_study_with_run_up, [&](const StudiedSweep& study) {
+    return with_one_channel([&] { return make_bifurcation(study.sweep.at("axes"), study.results, wanted, finder(context, kSection)); });
   });
-  return make_rows(call, format, table, "bifurcation");
+  return make_rows(context, format, table, "bifurcation");
 }
 
-Response get_lyapunov(const Call& call) {
-  Query query(call.request, {"format"});
-  const TableFormat format = find_row_format(call.request, query);
-  const auto table = work_out(call, query, find_whole_study, [&](const StudiedSweep& study) {
-    return make_lyapunov(study.sweep.at("axes"), study.results, finder(call, "the journal that this is measured by"));
+Response get_lyapunov(const RequestContext& context) {
+  Query query(context.request, {"format"});
+  const TableFormat format = find_row_format(context.request, query);
+  const auto table = work_out(context, query, find_whole_study, [&](const StudiedSweep& study) {
+    return make_lyapunov(study.sweep.at("axes"), study.results, finder(context, "the journal that this is measured by"));
   });
-  return make_rows(call, format, table, "lyapunov");
+  return make_rows(context, format, table, "lyapunov");
 }
 
-Response get_report(const Call& call) {
-  Query query(call.request, {});
+Response get_report(const RequestContext& context) {
+  Query query(context.request, {});
   bool ended = false;
-  std::string page = work_out(call, query, find_whole_study, [&](const StudiedSweep& study) {
+  std::string page = work_out(context, query, find_whole_study, [&](const StudiedSweep& study) {
     ended = study.results.ended;
-    return report::make_report(study.sweep, study.results, find_provenance(call, study.results));
+    return report::make_report(study.sweep, study.results, find_provenance(context, study.results));
   });
-  return with_etag_if(ended, call.request,
+  return with_etag_if(ended, context.request,
                       {.status = 200, .content_type = "text/html; charset=utf-8", .body = std::move(page),
                        .headers = {{"Content-Security-Policy", report::page_policy()}}});
 }
 
-Response get_spectrum(const Call& call) {
-  Query query(call.request, {"channel", "window", "from", "to", "format"});
-  const TableFormat format = find_column_format(call.request, query);
+Response get_spectrum(const RequestContext& context) {
+  Query query(context.request, {"channel", "window", "from", "to", "format"});
+  const TableFormat format = find_column_format(context.request, query);
   const std::string channel = query.text("channel").value_or("slider_acceleration_m_s2");
   const jobs::TrajectoryQuery wanted{.channels = {channel}, .from = query.number("from"), .to = query.number("to")};
   const auto window = query.word("window", {jobs::kWindowNames[0], jobs::kWindowNames[1], jobs::kWindowNames[2]});
   const auto run = query.check_and([&] {
     if (channel == "t_s") throw jobs::InvalidRequest(std::vector<jobs::Fault>{{"/channel", "must be another one than t_s"}});
-    return with_one_channel([&] { return call.service.find_trajectory(call.id, wanted); });
+    return with_one_channel([&] { return context.service.find_trajectory(context.id, wanted); });
   });
-  if (!run) throw no_columns(call);
-  return make_columns(call, format, jobs::make_spectrum(*run, jobs::find_window(window.value_or("hann")).value()), "spectrum");
+  if (!run) throw no_columns(context);
+  return make_columns(context, format, jobs::make_spectrum(*run, jobs::find_window(window.value_or("hann")).value()), "spectrum");
 }
 
-Response get_poincare(const Call& call) {
-  Query query(call.request, {"channels", "phase_rad", "from", "to", "format"});
-  const TableFormat format = find_column_format(call.request, query);
+Response get_poincare(const RequestContext& context) {
+  Query query(context.request, {"channels", "phase_rad", "from", "to", "format"});
+  const TableFormat format = find_column_format(context.request, query);
   jobs::TrajectoryQuery wanted;
   wanted.channels = query.list("channels");
   if (wanted.channels.empty()) wanted.channels = {"journal_x_mm", "journal_y_mm"};
@@ -248,26 +248,26 @@ Response get_poincare(const Call& call) {
   wanted.from = query.number("from");
   wanted.to = query.number("to");
   const double phase = query.number("phase_rad").value_or(0.0);
-  const auto run = query.check_and([&] { return find_rpsup_run(call, call.id, wanted, kSection); });
-  if (!run) throw no_columns(call);
-  return make_columns(call, format, jobs::take_section(*run, phase), "poincare");
+  const auto run = query.check_and([&] { return find_rpsup_run(context, context.id, wanted, kSection); });
+  if (!run) throw no_columns(context);
+  return make_columns(context, format, jobs::take_section(*run, phase), "poincare");
 }
 
-Response get_wear(const Call& call) {
-  Query query(call.request, {"wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "format"});
-  const TableFormat format = find_row_format(call.request, query);
+Response get_wear(const RequestContext& context) {
+  Query query(context.request, {"wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "format"});
+  const TableFormat format = find_row_format(context.request, query);
   jobs::WearQuery wanted;
   wanted.wear_coefficient = query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
   wanted.sectors = query.count_in("sectors", jobs::kSectorsRange).value_or(wanted.sectors);
   wanted.worn_clearance = query.number("worn_clearance_mm");
   jobs::TrajectoryQuery part{.channels = {}, .from = query.number("from"), .to = query.number("to")};
   query.check();
-  const auto job = call.service.find_job(call.id);
-  if (!job) throw HttpError(404, "there is no job " + call.id);
+  const auto job = context.service.find_job(context.id);
+  if (!job) throw HttpError(404, "there is no job " + context.id);
   part.channels = jobs::wear_channels(job->at("parameters"));
-  const auto run = find_wear_run(call, part);
-  if (!run) throw no_columns(call);
-  return make_rows(call, format, make_wear_map(job->at("parameters"), *run, wanted), "wear");
+  const auto run = find_wear_run(context, part);
+  if (!run) throw no_columns(context);
+  return make_rows(context, format, make_wear_map(job->at("parameters"), *run, wanted), "wear");
 }
 
 }  // namespace server

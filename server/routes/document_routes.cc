@@ -12,17 +12,17 @@
 
 namespace server {
 
-Response get_openapi(const Call& call) {
-  Query(call.request, {}).check();
+Response get_openapi(const RequestContext& context) {
+  Query(context.request, {}).check();
   static const std::string text = openapi::make_document(route_table()).dump();
-  return make_json(200, text);
+  return json_response(200, text);
 }
 
-Response get_docs(const Call& call) {
+Response get_docs(const RequestContext& context) {
   if (find_web_file("/docs/swagger-ui-bundle.js") == nullptr) {
     throw HttpError(404, "this program was built without the page to try the interface with; GET /v1/openapi.json describes the interface");
   }
-  return make_file_answer(call.request, call.request.path == "/docs" ? "/docs/index.html" : call.request.path);
+  return make_file_answer(context.request, context.request.path == "/docs" ? "/docs/index.html" : context.request.path);
 }
 
 }  // namespace server

@@ -78,14 +78,14 @@ class Events final : public EventSource {
 
 }  // namespace
 
-Response answer_events(const Call& call, FindNews find_news, const HttpError& missing) {
-  Query(call.request, {}).check();
-  const LastEvent place = read_place(call.request.last_event_id);
+Response answer_events(const RequestContext& context, FindNews find_news, const HttpError& missing) {
+  Query(context.request, {}).check();
+  const LastEvent place = read_place(context.request.last_event_id);
   const auto news = find_news(place.change);
   if (!news) throw missing;
   if (place.done && news->ended && news->jobs.empty()) return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
   Response response{.status = 200, .content_type = "text/event-stream", .body = {}, .headers = {{"Cache-Control", "no-store"}}};
-  response.events = std::make_shared<Events>(call.service, std::move(find_news), place.change);
+  response.events = std::make_shared<Events>(context.service, std::move(find_news), place.change);
   return response;
 }
 

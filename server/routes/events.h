@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "jobs/service.h"
+#include "server/context/request_context.h"
 #include "server/messages/message.h"
 #include "server/messages/problem.h"
-#include "server/routing/call.h"
 
 namespace server {
 
@@ -24,6 +24,6 @@ using FindNews = std::function<std::optional<jobs::SweepNews>(std::int64_t after
 /// The ids of `job` and `done` are what Last-Event-ID resumes from. Who has had `done`, and asks again, gets 204, which tells a
 /// browser's EventSource to ask no more.
 /// @param missing  thrown if there is nothing to follow
-[[nodiscard]] Response answer_events(const Call& call, FindNews find_news, const HttpError& missing);
+[[nodiscard]] Response answer_events(const RequestContext& context, FindNews find_news, const HttpError& missing);
 
 }  // namespace server

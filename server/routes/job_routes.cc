@@ -10,6 +10,7 @@
 #include "jobs/results/table_json.h"
 #include "jobs/trajectories/npz.h"
 #include "server/messages/conditional.h"
+#include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
 #include "server/messages/problem.h"
 #include "server/messages/query.h"
@@ -25,8 +26,8 @@ HttpError no_such_job(const std::string& id) { return {404, "there is no job " +
 
 bool has_ended(const nlohmann::json& job) { return job.at("state") != "queued" && job.at("state") != "running"; }
 
-Resource job_resource(const Call& call) {
-  jobs::Service& service = call.service;
+Resource job_resource(const RequestContext& context) {
+  jobs::Service& service = context.service;
   return {.path = "/v1/jobs/",
           .find = [&service](const std::string& id) { return service.find_job(id); },
           .wait_for = [&service](const std::string& id, std::chrono::seconds at_most) { service.wait_for_job(id, at_most); },
@@ -41,47 +42,47 @@ std::string trajectory_text(const engine::Trajectory& trajectory, TableFormat fo
 
 }  // namespace
 
-Response post_job(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_made(call, job_resource(call), call.service.submit_job(parse_json(call.request.body), find_key(call.request)));
+Response post_job(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_created(context, job_resource(context), context.service.submit_job(parse_json(context.request.body), find_idempotency_key(context.request)));
 }
 
-Response get_jobs(const Call& call) {
-  return make_json(200, to_text(list_page(call.request, [&](const jobs::PageQuery& page) { return call.service.list_jobs(page); })));
+Response get_jobs(const RequestContext& context) {
+  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) { return context.service.list_jobs(page); })));
 }
 
-Response get_job(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_found(call, job_resource(call));
+Response get_job(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_found(context, job_resource(context));
 }
 
-Response cancel_job(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_changed(call, job_resource(call), call.service.cancel_job(call.id));
+Response cancel_job(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_updated(context, job_resource(context), context.service.cancel_job(context.id));
 }
 
-Response get_trajectory(const Call& call) {
-  Query query(call.request, {"channels", "from", "to", "points", "format"});
-  const TableFormat format = find_column_format(call.request, query);
+Response get_trajectory(const RequestContext& context) {
+  Query query(context.request, {"channels", "from", "to", "points", "format"});
+  const TableFormat format = find_column_format(context.request, query);
   jobs::TrajectoryQuery wanted;
   wanted.channels = query.list("channels");
   wanted.from = query.number("from");
   wanted.to = query.number("to");
   wanted.points = query.count("points");
-  const auto trajectory = query.check_and([&] { return call.service.find_trajectory(call.id, wanted); });
+  const auto trajectory = query.check_and([&] { return context.service.find_trajectory(context.id, wanted); });
   if (!trajectory) {
-    const auto job = call.service.find_job(call.id);
-    if (!job) throw no_such_job(call.id);
-    throw HttpError(404, "job " + call.id + " is " + job->at("state").template get<std::string>() +
+    const auto job = context.service.find_job(context.id);
+    if (!job) throw no_such_job(context.id);
+    throw HttpError(404, "job " + context.id + " is " + job->at("state").template get<std::string>() +
                              " and has no trajectory");
   }
   // Only what has ended has a trajectory.
-  return with_etag(call.request, make_table(format, trajectory_text(*trajectory, format), "job-" + call.id));
+  return with_etag(context.request, make_table(format, trajectory_text(*trajectory, format), "job-" + context.id));
 }
 
-Response get_parameters(const Call& call) {
-  Query(call.request, {}).check();
-  return make_json(200, to_text(jobs::parameter_schema()));
+Response get_parameters(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return json_response(200, to_text(jobs::parameter_schema()));
 }
 
 }  // namespace server

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "server/context/request_context.h"
 #include "server/messages/message.h"
-#include "server/routing/call.h"
 
 namespace server {
 
-Response post_job(const Call& call);
-Response get_jobs(const Call& call);
-Response get_job(const Call& call);
-Response cancel_job(const Call& call);
-Response get_trajectory(const Call& call);
-Response get_parameters(const Call& call);
+Response post_job(const RequestContext& context);
+Response get_jobs(const RequestContext& context);
+Response get_job(const RequestContext& context);
+Response cancel_job(const RequestContext& context);
+Response get_trajectory(const RequestContext& context);
+Response get_parameters(const RequestContext& context);
 
 }  // namespace server

@@ -31,22 +31,22 @@ Response make_file_answer(const Request& request, std::string_view path) {
 
 bool is_page_file(std::string_view path) { return find_web_file(path) != nullptr; }
 
-Response get_page_file(const Call& call) { return make_file_answer(call.request, call.request.path == "/" ? "/index.html" : call.request.path); }
+Response get_page_file(const RequestContext& context) { return make_file_answer(context.request, context.request.path == "/" ? "/index.html" : context.request.path); }
 
-Response get_health(const Call&) { return make_json(200, R"({"status":"ok"})"); }
+Response get_health(const RequestContext&) { return json_response(200, R"({"status":"ok"})"); }
 
-Response get_readiness(const Call& call) {
-  if (call.draining) return make_retry_later(503, "the service is shutting down");
+Response get_readiness(const RequestContext& context) {
+  if (context.draining) return make_retry_later(503, "the service is shutting down");
   // Throws if the store cannot be read.
-  static_cast<void>(call.service.list_sweeps({.state = {}, .limit = 1, .cursor = {}}));
-  return make_json(200, R"({"status":"ready"})");
+  static_cast<void>(context.service.list_sweeps({.state = {}, .limit = 1, .cursor = {}}));
+  return json_response(200, R"({"status":"ready"})");
 }
 
-Response get_metrics(const Call& call) {
-  Query(call.request, {}).check();
+Response get_metrics(const RequestContext& context) {
+  Query(context.request, {}).check();
   return {.status = 200,
           .content_type = "text/plain; version=0.0.4; charset=utf-8",
-          .body = call.metrics.text(call.service.read_queue_stats(), call.service.list_executors()),
+          .body = context.metrics.text(context.service.find_load(), context.service.list_executors()),
           .headers = {{"Cache-Control", "no-store"}}};
 }
 

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
+#include "server/context/request_context.h"
 #include "server/messages/message.h"
-#include "server/routing/call.h"
 
 namespace server {
 
@@ -15,9 +15,9 @@ namespace server {
 /// Whether there is a file of web/ of that path.
 [[nodiscard]] bool is_page_file(std::string_view path);
 
-Response get_page_file(const Call& call);  ///< a file of the page, by its path; it is part of the program
-Response get_health(const Call& call);     ///< 200 as long as the program answers at all
-Response get_readiness(const Call& call);  ///< 200 if requests can be served: the store reads, and the service is not ending
-Response get_metrics(const Call& call);    ///< what Metrics has counted, for Prometheus
+Response get_page_file(const RequestContext& context);  ///< a file of the page, by its path; it is part of the program
+Response get_health(const RequestContext& context);     ///< 200 as long as the program answers at all
+Response get_readiness(const RequestContext& context);  ///< 200 if requests can be served: the store reads, and the service is not ending
+Response get_metrics(const RequestContext& context);    ///< what Metrics has counted, for Prometheus
 
 }  // namespace server

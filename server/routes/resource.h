@@ -8,32 +8,33 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/context/request_context.h"
 #include "server/messages/message.h"
 #include "server/messages/problem.h"
-#include "server/routing/call.h"
 
 namespace server {
 
-/// Something that is made, computed and then stays as it is: a job, a sweep, a study.
+/// Kind of resource that is created, computed and then final: job, sweep, study.
 struct Resource {
-  std::string path;  ///< of all of them, with a '/' at its end
+  std::string path;  ///< of the collection, with a '/' at its end
   std::function<std::optional<nlohmann::json>(const std::string& id)> find;
   std::function<void(const std::string& id, std::chrono::seconds at_most)> wait_for;
   std::function<bool(const nlohmann::json&)> has_ended;
   std::function<HttpError(const std::string& id)> missing;
 };
 
-/// 201 and where it is; as it is at its end, if the client prefers to wait and it ends by then.
-/// @param made  as it was made
-[[nodiscard]] Response answer_made(const Call& call, const Resource& resource, nlohmann::json made);
+/// Answers 201 with the Location; with the state at the end, if the client prefers to wait and the end comes by then.
+/// @param created  state at its creation
+[[nodiscard]] Response respond_created(const RequestContext& context, const Resource& resource, nlohmann::json created);
 
-/// The one that the path names, with an ETag once it has ended; at its end, if the client prefers to wait and it ends by then.
+/// Answers with the resource that the path names, with an ETag once it has ended; waits for its end if the client
+/// prefers to wait.
 /// @throws HttpError 404 if there is none
-[[nodiscard]] Response answer_found(const Call& call, const Resource& resource);
+[[nodiscard]] Response respond_found(const RequestContext& context, const Resource& resource);
 
-/// The one that the path names, as a request has changed it.
-/// @param changed  empty: there is none
+/// Answers with the resource that the path names, as the request has changed it.
+/// @param updated  empty: there is none
 /// @throws HttpError 404 if there is none
-[[nodiscard]] Response answer_changed(const Call& call, const Resource& resource, const std::optional<nlohmann::json>& changed);
+[[nodiscard]] Response respond_updated(const RequestContext& context, const Resource& resource, const std::optional<nlohmann::json>& updated);
 
 }  // namespace server

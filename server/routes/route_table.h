@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "server/routing/route.h"
+#include "server/context/route.h"
 
 namespace server {
 

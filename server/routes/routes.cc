@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/messages/error_answer.h"
+#include "server/messages/identifiers.h"
 #include "server/messages/problem.h"
 #include "server/messages/safe_log.h"
 #include "server/routes/page_routes.h"
@@ -73,7 +74,7 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
     pattern = route.pattern;
     if (route.method == method) {
       if (draining_ && changes_something(method)) return make_retry_later(503, "the service is shutting down");
-      return route.handler({service_, request, std::move(*id), draining_, *metrics_, waiting_room_, copy_room_});
+      return route.handler({service_, request, std::move(*id), draining_, *metrics_, long_poll_limit_, store_copy_limit_});
     }
     allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }

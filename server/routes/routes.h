@@ -7,15 +7,14 @@
 #include <string_view>
 
 #include "jobs/service.h"
+#include "server/context/long_poll_limit.h"
+#include "server/context/metrics.h"
+#include "server/context/store_copy_limit.h"
 #include "server/messages/message.h"
-#include "server/messages/preference.h"
-#include "server/routing/copy_room.h"
-#include "server/routing/metrics.h"
 
 namespace server {
 
-/// Answers requests: finds the route, calls it, and turns what it throws into an answer.
-/// May be called from any thread.
+/// Answers requests: finds the route, calls its handler, and turns exceptions into answers. Thread-safe.
 class Routes {
  public:
   /// @param metrics  counts the requests
@@ -35,8 +34,8 @@ class Routes {
   jobs::Service& service_;
   std::shared_ptr<Metrics> metrics_;
   std::atomic<bool> draining_ = false;
-  mutable WaitingRoom waiting_room_;
-  mutable CopyRoom copy_room_;
+  mutable LongPollLimit long_poll_limit_;
+  mutable StoreCopyLimit store_copy_limit_;
 };
 
 }  // namespace server

@@ -35,13 +35,13 @@ void remove_left_over_copy(const std::filesystem::path& store) {
   std::filesystem::remove(copy_of(store), ignored);
 }
 
-Response get_store(const Call& call) {
-  Query(call.request, {}).check();
-  auto permit = call.copy_room.enter();
+Response get_store(const RequestContext& context) {
+  Query(context.request, {}).check();
+  auto permit = context.store_copy_limit.acquire();
   if (!permit) return make_retry_later(503, "a copy of the store is being made or sent for another request");
-  remove_left_over_copy(call.service.store_file());
-  const std::filesystem::path copy = copy_of(call.service.store_file());
-  if (!call.service.copy_store_to(copy)) return make_retry_later(503, "the service is shutting down");
+  remove_left_over_copy(context.service.store_file());
+  const std::filesystem::path copy = copy_of(context.service.store_file());
+  if (!context.service.copy_store_to(copy)) return make_retry_later(503, "the service is shutting down");
   Response response{.status = 200, .content_type = "application/vnd.sqlite3", .body = {}, .headers = {}};
   response.file = open_nameless(copy, std::move(permit));
   response.headers.emplace_back("Content-Disposition", "attachment; filename=\"rpsup-store.db\"");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/messages/conditional.h"
+#include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
 #include "server/messages/problem.h"
 #include "server/messages/query.h"
@@ -26,8 +27,8 @@ bool have_all_ended(const nlohmann::json& sweep) {
   return counts.at("queued") == 0 && counts.at("running") == 0;
 }
 
-Resource sweep_resource(const Call& call) {
-  jobs::Service& service = call.service;
+Resource sweep_resource(const RequestContext& context) {
+  jobs::Service& service = context.service;
   return {.path = "/v1/sweeps/",
           .find = [&service](const std::string& id) { return service.find_sweep(id); },
           .wait_for = [&service](const std::string& id, std::chrono::seconds at_most) { service.wait_for_sweep(id, at_most); },
@@ -37,63 +38,63 @@ Resource sweep_resource(const Call& call) {
 
 }  // namespace
 
-Response post_sweep(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_made(call, sweep_resource(call), call.service.submit_sweep(parse_json(call.request.body), find_key(call.request)));
+Response post_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_created(context, sweep_resource(context), context.service.submit_sweep(parse_json(context.request.body), find_idempotency_key(context.request)));
 }
 
-Response get_sweeps(const Call& call) {
-  return make_json(200, to_text(list_page(call.request, [&](const jobs::PageQuery& page) { return call.service.list_sweeps(page); })));
+Response get_sweeps(const RequestContext& context) {
+  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) { return context.service.list_sweeps(page); })));
 }
 
-Response get_sweep(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_found(call, sweep_resource(call));
+Response get_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_found(context, sweep_resource(context));
 }
 
-Response delete_sweep(const Call& call) {
-  Query(call.request, {}).check();
-  if (!call.service.delete_sweep(call.id)) throw no_such_sweep(call.id);
+Response delete_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  if (!context.service.delete_sweep(context.id)) throw no_such_sweep(context.id);
   return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
 }
 
-Response get_results(const Call& call) {
-  Query query(call.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
-  const TableFormat format = find_row_format(call.request, query);
+Response get_results(const RequestContext& context) {
+  Query query(context.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
+  const TableFormat format = find_row_format(context.request, query);
   const jobs::ResultQuery wanted = read_result_query(query);
-  const auto table = query.check_and([&] { return call.service.find_results(call.id, wanted); });
-  if (!table) throw no_such_sweep(call.id);
-  return with_etag_if(table->ended, call.request, make_table(format, to_text(*table, format), "sweep-" + call.id));
+  const auto table = query.check_and([&] { return context.service.find_results(context.id, wanted); });
+  if (!table) throw no_such_sweep(context.id);
+  return with_etag_if(table->ended, context.request, make_table(format, to_text(*table, format), "sweep-" + context.id));
 }
 
-Response get_events(const Call& call) {
-  const auto find_news = [&service = call.service, id = call.id](std::int64_t after) { return service.find_news(id, after); };
-  return answer_events(call, find_news, no_such_sweep(call.id));
+Response get_events(const RequestContext& context) {
+  const auto find_news = [&service = context.service, id = context.id](std::int64_t after) { return service.find_news(id, after); };
+  return answer_events(context, find_news, no_such_sweep(context.id));
 }
 
-Response cancel_sweep(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_changed(call, sweep_resource(call), call.service.cancel_sweep(call.id));
+Response cancel_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_updated(context, sweep_resource(context), context.service.cancel_sweep(context.id));
 }
 
-Response retry_sweep(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_changed(call, sweep_resource(call), call.service.retry_sweep(call.id));
+Response retry_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_updated(context, sweep_resource(context), context.service.retry_sweep(context.id));
 }
 
-Response extend_sweep(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_changed(call, sweep_resource(call), call.service.extend_sweep(call.id, parse_json(call.request.body)));
+Response extend_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_updated(context, sweep_resource(context), context.service.extend_sweep(context.id, parse_json(context.request.body)));
 }
 
-Response move_sweep(const Call& call) {
-  Query(call.request, {}).check();
-  return answer_changed(call, sweep_resource(call), call.service.move_sweep(call.id, parse_json(call.request.body)));
+Response move_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_updated(context, sweep_resource(context), context.service.move_sweep(context.id, parse_json(context.request.body)));
 }
 
-Response get_executors(const Call& call) {
-  Query(call.request, {}).check();
-  return make_json(200, to_text(call.service.list_executors()));
+Response get_executors(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return json_response(200, to_text(context.service.list_executors()));
 }
 
 }  // namespace server

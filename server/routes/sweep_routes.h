@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "server/context/request_context.h"
 #include "server/messages/message.h"
-#include "server/routing/call.h"
 
 namespace server {
 
-Response post_sweep(const Call& call);
-Response get_sweeps(const Call& call);
-Response get_sweep(const Call& call);
-Response delete_sweep(const Call& call);
-Response get_results(const Call& call);
-Response get_events(const Call& call);
-Response cancel_sweep(const Call& call);
-Response retry_sweep(const Call& call);
-Response extend_sweep(const Call& call);
-Response move_sweep(const Call& call);
-Response get_executors(const Call& call);
+Response post_sweep(const RequestContext& context);
+Response get_sweeps(const RequestContext& context);
+Response get_sweep(const RequestContext& context);
+Response delete_sweep(const RequestContext& context);
+Response get_results(const RequestContext& context);
+Response get_events(const RequestContext& context);
+Response cancel_sweep(const RequestContext& context);
+Response retry_sweep(const RequestContext& context);
+Response extend_sweep(const RequestContext& context);
+Response move_sweep(const RequestContext& context);
+Response get_executors(const RequestContext& context);
 
 }  // namespace server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "server/routing/metrics.h"
+#include "server/context/metrics.h"
 #include "tests/server/service_fixture.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "server/routing/call.h"
+#include "server/messages/identifiers.h"
 #include "tests/server/service_fixture.h"
 
 namespace {

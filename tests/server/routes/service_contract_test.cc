@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "server/context/long_poll_limit.h"
 #include "server/messages/preference.h"
 #include "tests/server/service_fixture.h"
 
@@ -139,7 +140,7 @@ TEST(Prefer, WaitsNoLongerThanItIsTold) {
 TEST(Prefer, LeavesThreadsToOthers) {
   Bench bench(endless_run);
   const std::string id = bench.submit(kContractSweep);
-  server::WaitingRoom room;
+  server::LongPollLimit room;
   server::Request request{};
   request.prefer = "wait=60";
   const auto wait = [&] {
@@ -156,7 +157,7 @@ TEST(Prefer, LeavesThreadsToOthers) {
 }
 
 TEST(Prefer, FreesThePlaceOfAWaitThatFailed) {
-  server::WaitingRoom room;
+  server::LongPollLimit room;
   server::Request request{};
   request.prefer = "wait=60";
   server::Response response{};

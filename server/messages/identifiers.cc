@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/routing/call.h"
+#include "server/messages/identifiers.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <string_view>
-#include <utility>
 
 #include "server/messages/problem.h"
 
@@ -17,7 +16,7 @@ bool is_id(const std::string& text) {
   });
 }
 
-std::string find_key(const Request& request) {
+std::string find_idempotency_key(const Request& request) {
   constexpr std::size_t kLongest = 255;
   if (!request.idempotency_key) return "";
   std::string_view key = *request.idempotency_key;
@@ -27,10 +26,6 @@ std::string find_key(const Request& request) {
     throw HttpError(400, "Idempotency-Key must be 1 to " + std::to_string(kLongest) + " visible ASCII characters");
   }
   return std::string(key);
-}
-
-Response make_json(int status, std::string text) {
-  return {.status = status, .content_type = "application/json", .body = std::move(text) + "\n", .headers = {}};
 }
 
 }  // namespace server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/routing/metrics.h"
+#include "server/context/metrics.h"
 
 #include <chrono>
 #include <new>
