@@ -87,10 +87,10 @@ std::string make_analyses(const json& sweep, const jobs::ResultTable& results) {
 
 std::string make_provenance(const Provenance& provenance, std::size_t jobs) {
   std::vector<std::vector<json>> rows;
-  for (const json& way : provenance.ways) {
+  for (const json& way : provenance.setups) {
     rows.push_back({way.at("jobs"), way.at("version"), way.at("commit"), way.at("engine"), way.at("compiler"), way.at("host"), way.at("cpu")});
   }
-  const std::string some = provenance.looked_at < jobs ? "<p class=\"quiet\">Of the first " + std::to_string(provenance.looked_at) + " of " +
+  const std::string some = provenance.jobs_examined < jobs ? "<p class=\"quiet\">Of the first " + std::to_string(provenance.jobs_examined) + " of " +
       std::to_string(jobs) + " jobs.</p>\n" : "";
   return make_table({"jobs", "version", "commit", "engine", "compiler", "host", "processor"}, rows) + some;
 }

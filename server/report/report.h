@@ -10,13 +10,13 @@
 
 namespace server::report {
 
-/// How jobs of a sweep were run, each way once.
+/// Programs and machines that computed the jobs of a sweep.
 struct Provenance {
-  std::vector<nlohmann::json> ways;  ///< {"version", "commit", "compiler", "engine", "host", "cpu", "jobs"}
-  std::size_t looked_at = 0;         ///< jobs; of large sweeps not all
+  std::vector<nlohmann::json> setups;  ///< {"version", "commit", "compiler", "engine", "host", "cpu", "jobs"}
+  std::size_t jobs_examined = 0;       ///< fewer than all, of large sweeps
 };
 
-/// A study on one page that stands by itself: what was asked for, figures, tables, how it was computed, and the one command that does it again.
+/// Report of a sweep as one self-contained page: request, figures, tables, provenance, and the command that repeats it.
 /// @param sweep    its resource
 /// @param results  all its rows
 [[nodiscard]] std::string make_report(const nlohmann::json& sweep, const jobs::ResultTable& results, const Provenance& provenance);

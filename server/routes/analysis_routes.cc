@@ -33,20 +33,20 @@ namespace server {
 
 namespace {
 
-/// A sweep and its rows.
-struct StudiedSweep {
+/// A sweep and its table of results.
+struct SweepAndResults {
   nlohmann::json sweep;
   jobs::ResultTable results;
 };
 
-std::optional<StudiedSweep> find_study(const RequestContext& context, const jobs::ResultQuery& query = {}) {
+std::optional<SweepAndResults> find_sweep_and_results(const RequestContext& context, const jobs::ResultQuery& query = {}) {
   auto sweep = context.service.find_sweep(context.id);
   auto results = sweep ? context.service.find_results(context.id, query) : std::nullopt;
-  return results ? std::optional(StudiedSweep{std::move(*sweep), std::move(*results)}) : std::nullopt;
+  return results ? std::optional(SweepAndResults{std::move(*sweep), std::move(*results)}) : std::nullopt;
 }
 
-/// job_id, what is swept, and the end of the run-up.
-std::optional<StudiedSweep> find_study_with_run_up(const RequestContext& context) {
+/// The sweep with job_id, the values of its axes, and run_up_s.
+std::optional<SweepAndResults> find_with_run_up(const RequestContext& context) {
   const auto sweep = context.service.find_sweep(context.id);
   if (!sweep) return std::nullopt;
   jobs::ResultQuery query;
@@ -54,31 +54,33 @@ std::optional<StudiedSweep> find_study_with_run_up(const RequestContext& context
   for (const auto& path : sweep->at("axes")) {
     if (path != "run_up_s") query.fields += "," + path.get<std::string>();
   }
-  return find_study(context, query);
+  return find_sweep_and_results(context, query);
 }
 
-/// What is worked out of a study, with the faults of the query beside those that the work finds.
-template <typename Work>
-auto work_out(const RequestContext& context, Query& query, std::optional<StudiedSweep> (*find)(const RequestContext&), const Work& work) {
-  auto made = query.check_and([&] {
-    const auto study = find(context);
-    return study ? std::optional(work(*study)) : std::nullopt;
+/// Runs an analysis of a sweep. Its faults are reported together with those of the query.
+template <typename Analysis>
+auto run_analysis(const RequestContext& context, Query& query,
+                  std::optional<SweepAndResults> (*find)(const RequestContext&), const Analysis& analysis) {
+  auto outcome = query.check_and([&] {
+    const auto found = find(context);
+    return found ? std::optional(analysis(*found)) : std::nullopt;
   });
-  if (!made) throw HttpError(404, "there is no sweep " + context.id);
-  return std::move(*made);
+  if (!outcome) throw HttpError(404, "there is no sweep " + context.id);
+  return std::move(*outcome);
 }
 
-std::optional<StudiedSweep> find_whole_study(const RequestContext& context) { return find_study(context); }
+std::optional<SweepAndResults> find_with_all_columns(const RequestContext& context) { return find_sweep_and_results(context); }
 
 Response make_rows(const RequestContext& context, TableFormat format, const jobs::ResultTable& table, const std::string& name) {
   return with_etag_if(table.ended, context.request, make_table(format, to_text(table, format), name + "-" + context.id));
 }
 
-/// The metric that a query asks for, of those that the study's linkages have.
-std::string metric_of(const Query& query, const StudiedSweep& study) { return jobs::choose_metric(study.results, query.text("metric").value_or("")); }
+/// The metric that a query asks for, of those that the sweep's linkages have.
+std::string metric_of(const Query& query, const SweepAndResults& found) { return jobs::choose_metric(found.results, query.text("metric").value_or("")); }
 
-/// A part of the trajectory of a job, for what is worked out of RPSUP's own channels. @param what  that jobs of RPSUP have
-std::optional<engine::Trajectory> find_rpsup_run(const RequestContext& context, const std::string& id, const jobs::TrajectoryQuery& part, const char* what) {
+/// Channels of a job's trajectory, for an analysis of channels that only jobs of the RPSUP linkage have.
+/// @param what  name of the quantity in the error for a job of another linkage
+std::optional<engine::Trajectory> find_rpsup_trajectory(const RequestContext& context, const std::string& id, const jobs::TrajectoryQuery& part, const char* what) {
   try {
     return context.service.find_trajectory(id, part);
   } catch (const jobs::InvalidRequest& invalid) {
@@ -89,18 +91,18 @@ std::optional<engine::Trajectory> find_rpsup_run(const RequestContext& context, 
   }
 }
 
-jobs::FindTrajectory finder(const RequestContext& context, const char* what) {
-  return [&context, what](const std::string& job, const jobs::TrajectoryQuery& query) { return find_rpsup_run(context, job, query, what); };
+jobs::FindTrajectory trajectory_finder(const RequestContext& context, const char* what) {
+  return [&context, what](const std::string& job, const jobs::TrajectoryQuery& query) { return find_rpsup_trajectory(context, job, query, what); };
 }
 
-constexpr const char* kSection = "crank_angle_rad, whose turns are counted here";
+constexpr const char* kSection = "crank_angle_rad, which Poincare sections need";
 
-/// Why a job has no columns to work with.
-HttpError no_columns(const RequestContext& context) {
+/// The error for a job without a trajectory, or for no job.
+HttpError no_trajectory(const RequestContext& context) {
   return {404, context.service.find_job(context.id) ? "job " + context.id + " has no trajectory" : "there is no job " + context.id};
 }
 
-/// Asks with the one channel of a query; a fault of it stands at its key.
+/// Runs a query of a single channel. A fault of /channels/0 becomes one of /channel, the key of the query.
 template <typename Ask>
 auto with_one_channel(const Ask& ask) {
   try {
@@ -114,10 +116,10 @@ auto with_one_channel(const Ask& ask) {
   }
 }
 
-/// What a wear map is made of; a job of a program that kept less has not all of it.
-std::optional<engine::Trajectory> find_wear_run(const RequestContext& context, const jobs::TrajectoryQuery& part) {
+/// Channels of a wear map. Older programs did not keep all of them.
+std::optional<engine::Trajectory> find_wear_trajectory(const RequestContext& context, const jobs::TrajectoryQuery& part) {
   try {
-    return find_rpsup_run(context, context.id, part, "a map of the bore's wear");
+    return find_rpsup_trajectory(context, context.id, part, "a map of the bore's wear");
   } catch (const jobs::InvalidRequest& invalid) {
     const bool kept = !invalid.faults().front().pointer.starts_with("/channels");
     if (!kept) throw jobs::WrongState("the job was computed by a program that did not keep its sliding work");
@@ -130,24 +132,24 @@ Response make_columns(const RequestContext& context, TableFormat format, const e
   return with_etag(context.request, make_table(format, std::move(text), name + "-" + context.id));  // only what has ended has a trajectory
 }
 
-/// How the first jobs of a sweep were run.
+/// Programs and machines of the first jobs of a sweep.
 report::Provenance find_provenance(const RequestContext& context, const jobs::ResultTable& results) {
-  constexpr std::size_t kMostJobs = 1000;
+  constexpr std::size_t kMaxJobs = 1000;
   report::Provenance provenance;
   for (const auto& row : results.rows) {
-    if (provenance.looked_at == kMostJobs) break;
-    ++provenance.looked_at;
+    if (provenance.jobs_examined == kMaxJobs) break;
+    ++provenance.jobs_examined;
     const auto job = context.service.find_job(row.front().get<std::string>());
     if (!job || job->at("run").is_null()) continue;
-    nlohmann::json way = job->at("run").at("program");
-    for (const char* const key : {"host", "cpu"}) way[key] = job->at("run").at(key);
-    auto found = std::ranges::find_if(provenance.ways, [&](nlohmann::json known) {
+    nlohmann::json setup = job->at("run").at("program");
+    for (const char* const key : {"host", "cpu"}) setup[key] = job->at("run").at(key);
+    auto found = std::ranges::find_if(provenance.setups, [&](nlohmann::json known) {
       known.erase("jobs");
-      return known == way;
+      return known == setup;
     });
-    if (found == provenance.ways.end()) {
-      way["jobs"] = 0;
-      found = provenance.ways.insert(found, way);
+    if (found == provenance.setups.end()) {
+      setup["jobs"] = 0;
+      found = provenance.setups.insert(found, setup);
     }
     (*found)["jobs"] = found->at("jobs").get<int>() + 1;
   }
@@ -159,18 +161,18 @@ report::Provenance find_provenance(const RequestContext& context, const jobs::Re
 Response get_sensitivity(const RequestContext& context) {
   Query query(context.request, {"metric", "format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = work_out(context, query, find_whole_study,
-                              [&](const StudiedSweep& study) { return jobs::calc_sensitivity(study.sweep, study.results, metric_of(query, study)); });
+  const auto table = run_analysis(context, query, find_with_all_columns,
+                              [&](const SweepAndResults& found) { return jobs::calc_sensitivity(found.sweep, found.results, metric_of(query, found)); });
   return make_rows(context, format, table, "sensitivity");
 }
 
 Response get_surrogate(const RequestContext& context) {
   Query query(context.request, {"metric", "x", "y"});
   bool ended = false;
-  const auto surrogate = work_out(context, query, find_whole_study, [&](const StudiedSweep& study) {
-    const jobs::SurrogateQuery wanted{.metric = metric_of(query, study), .x = query.text("x").value_or(""), .y = query.text("y").value_or("")};
-    ended = study.results.ended;
-    return make_surrogate(study.sweep, study.results, wanted);
+  const auto surrogate = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
+    const jobs::SurrogateQuery wanted{.metric = metric_of(query, found), .x = query.text("x").value_or(""), .y = query.text("y").value_or("")};
+    ended = found.results.ended;
+    return make_surrogate(found.sweep, found.results, wanted);
   });
   return with_etag_if(ended, context.request, json_response(200, to_text(surrogate)));
 }
@@ -178,15 +180,15 @@ Response get_surrogate(const RequestContext& context) {
 Response get_flexibility(const RequestContext& context) {
   Query query(context.request, {"metric", "format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = work_out(context, query, find_whole_study,
-                              [&](const StudiedSweep& study) { return jobs::compare_couplers(study.sweep, study.results, metric_of(query, study)); });
+  const auto table = run_analysis(context, query, find_with_all_columns,
+                              [&](const SweepAndResults& found) { return jobs::compare_couplers(found.sweep, found.results, metric_of(query, found)); });
   return make_rows(context, format, table, "flexibility");
 }
 
 Response get_paper(const RequestContext& context) {
   Query query(context.request, {"format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = work_out(context, query, find_whole_study, [](const StudiedSweep& study) { return jobs::hold_against_paper(study.results); });
+  const auto table = run_analysis(context, query, find_with_all_columns, [](const SweepAndResults& found) { return jobs::hold_against_paper(found.results); });
   return make_rows(context, format, table, "paper");
 }
 
@@ -197,8 +199,8 @@ Response get_bifurcation(const RequestContext& context) {
   wanted.channel = query.text("channel").value_or(wanted.channel);
   wanted.phase = query.number("phase_rad").value_or(wanted.phase);
   wanted.from = query.number("from");
-  const auto table = work_out(context, query, find_study_with_run_up, [&](const StudiedSweep& study) {
-    return with_one_channel([&] { return make_bifurcation(study.sweep.at("axes"), study.results, wanted, finder(context, kSection)); });
+  const auto table = run_analysis(context, query, find_with_run_up, [&](const SweepAndResults& found) {
+    return with_one_channel([&] { return make_bifurcation(found.sweep.at("axes"), found.results, wanted, trajectory_finder(context, kSection)); });
   });
   return make_rows(context, format, table, "bifurcation");
 }
@@ -206,8 +208,8 @@ Response get_bifurcation(const RequestContext& context) {
 Response get_lyapunov(const RequestContext& context) {
   Query query(context.request, {"format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = work_out(context, query, find_whole_study, [&](const StudiedSweep& study) {
-    return make_lyapunov(study.sweep.at("axes"), study.results, finder(context, "the journal that this is measured by"));
+  const auto table = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
+    return make_lyapunov(found.sweep.at("axes"), found.results, trajectory_finder(context, "a journal, whose positions this analysis compares"));
   });
   return make_rows(context, format, table, "lyapunov");
 }
@@ -215,9 +217,9 @@ Response get_lyapunov(const RequestContext& context) {
 Response get_report(const RequestContext& context) {
   Query query(context.request, {});
   bool ended = false;
-  std::string page = work_out(context, query, find_whole_study, [&](const StudiedSweep& study) {
-    ended = study.results.ended;
-    return report::make_report(study.sweep, study.results, find_provenance(context, study.results));
+  std::string page = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
+    ended = found.results.ended;
+    return report::make_report(found.sweep, found.results, find_provenance(context, found.results));
   });
   return with_etag_if(ended, context.request,
                       {.status = 200, .content_type = "text/html; charset=utf-8", .body = std::move(page),
@@ -231,10 +233,10 @@ Response get_spectrum(const RequestContext& context) {
   const jobs::TrajectoryQuery wanted{.channels = {channel}, .from = query.number("from"), .to = query.number("to")};
   const auto window = query.word("window", {jobs::kWindowNames[0], jobs::kWindowNames[1], jobs::kWindowNames[2]});
   const auto run = query.check_and([&] {
-    if (channel == "t_s") throw jobs::InvalidRequest(std::vector<jobs::Fault>{{"/channel", "must be another one than t_s"}});
+    if (channel == "t_s") throw jobs::InvalidRequest(std::vector<jobs::Fault>{{"/channel", "must be a channel other than t_s"}});
     return with_one_channel([&] { return context.service.find_trajectory(context.id, wanted); });
   });
-  if (!run) throw no_columns(context);
+  if (!run) throw no_trajectory(context);
   return make_columns(context, format, jobs::make_spectrum(*run, jobs::find_window(window.value_or("hann")).value()), "spectrum");
 }
 
@@ -248,8 +250,8 @@ Response get_poincare(const RequestContext& context) {
   wanted.from = query.number("from");
   wanted.to = query.number("to");
   const double phase = query.number("phase_rad").value_or(0.0);
-  const auto run = query.check_and([&] { return find_rpsup_run(context, context.id, wanted, kSection); });
-  if (!run) throw no_columns(context);
+  const auto run = query.check_and([&] { return find_rpsup_trajectory(context, context.id, wanted, kSection); });
+  if (!run) throw no_trajectory(context);
   return make_columns(context, format, jobs::take_section(*run, phase), "poincare");
 }
 
@@ -265,8 +267,8 @@ Response get_wear(const RequestContext& context) {
   const auto job = context.service.find_job(context.id);
   if (!job) throw HttpError(404, "there is no job " + context.id);
   part.channels = jobs::wear_channels(job->at("parameters"));
-  const auto run = find_wear_run(context, part);
-  if (!run) throw no_columns(context);
+  const auto run = find_wear_trajectory(context, part);
+  if (!run) throw no_trajectory(context);
   return make_rows(context, format, make_wear_map(job->at("parameters"), *run, wanted), "wear");
 }
 

@@ -5,7 +5,7 @@
 
 namespace server {
 
-// What is worked out of the results of sweeps and the trajectories of jobs when it is asked for.
+// Analyses of the results of sweeps and of the trajectories of jobs, run for each request.
 
 [[nodiscard]] Response get_sensitivity(const RequestContext& context);
 [[nodiscard]] Response get_surrogate(const RequestContext& context);

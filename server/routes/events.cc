@@ -18,21 +18,21 @@ namespace {
 
 constexpr std::string_view kDoneSuffix = "-done";
 
-/// Where a client stands: the last change that it knows of, and whether it has had `done` after it.
+/// Last event that a client has received: number of its change, and whether `done` followed.
 struct LastEvent {
   std::int64_t change = 0;
   bool done = false;
 };
 
-LastEvent read_place(std::string_view last_event_id) {
-  LastEvent place;
-  if (last_event_id.empty()) return place;
-  place.done = last_event_id.ends_with(kDoneSuffix);
-  if (place.done) last_event_id.remove_suffix(kDoneSuffix.size());
+LastEvent read_last_event(std::string_view last_event_id) {
+  LastEvent last;
+  if (last_event_id.empty()) return last;
+  last.done = last_event_id.ends_with(kDoneSuffix);
+  if (last.done) last_event_id.remove_suffix(kDoneSuffix.size());
   const char* const end = last_event_id.data() + last_event_id.size();
-  const auto [stop, error] = std::from_chars(last_event_id.data(), end, place.change);
-  if (error != std::errc{} || stop != end || place.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this one");
-  return place;
+  const auto [stop, error] = std::from_chars(last_event_id.data(), end, last.change);
+  if (error != std::errc{} || stop != end || last.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this one");
+  return last;
 }
 
 std::string event_text(const char* name, const nlohmann::json& data, const std::string& id) {
@@ -48,15 +48,16 @@ class Events final : public EventSource {
     if (seen_ && *seen_ == activity) return "";
     seen_ = activity;
     const auto news = find_news_(after_);
-    if (!news) {  // it has been deleted
+    if (!news) {  // the sweep or study has been deleted
       ended_ = true;
       return "";
     }
     std::string text;
     for (std::size_t i = 0; i < news->jobs.size(); ++i) {
-      // An id stands at the last of those that ended together: who resumes from it has had them all.
-      const bool last = i + 1 == news->jobs.size() || news->jobs[i + 1].change != news->jobs[i].change;
-      text += event_text("job", news->jobs[i].job, last ? std::to_string(news->jobs[i].change) : "");
+      // Jobs that ended in one change share its number: only the last of them carries it as its id, so that a client
+      // that resumes from it has received all of them.
+      const bool last_of_change = i + 1 == news->jobs.size() || news->jobs[i + 1].change != news->jobs[i].change;
+      text += event_text("job", news->jobs[i].job, last_of_change ? std::to_string(news->jobs[i].change) : "");
       after_ = news->jobs[i].change;
     }
     if (news->progress != progress_) text += event_text("progress", progress_ = news->progress, "");
@@ -71,8 +72,8 @@ class Events final : public EventSource {
   const jobs::Service& service_;
   const FindNews find_news_;
   std::int64_t after_;
-  std::optional<std::uint64_t> seen_;  ///< the service's activity at the last look
-  nlohmann::json progress_;            ///< as it was last told
+  std::optional<std::uint64_t> seen_;  ///< the service's activity counter at the last query
+  nlohmann::json progress_;            ///< last progress sent
   bool ended_ = false;
 };
 
@@ -80,12 +81,12 @@ class Events final : public EventSource {
 
 Response answer_events(const RequestContext& context, FindNews find_news, const HttpError& missing) {
   Query(context.request, {}).check();
-  const LastEvent place = read_place(context.request.last_event_id);
-  const auto news = find_news(place.change);
+  const LastEvent last = read_last_event(context.request.last_event_id);
+  const auto news = find_news(last.change);
   if (!news) throw missing;
-  if (place.done && news->ended && news->jobs.empty()) return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
+  if (last.done && news->ended && news->jobs.empty()) return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
   Response response{.status = 200, .content_type = "text/event-stream", .body = {}, .headers = {{"Cache-Control", "no-store"}}};
-  response.events = std::make_shared<Events>(context.service, std::move(find_news), place.change);
+  response.events = std::make_shared<Events>(context.service, std::move(find_news), last.change);
   return response;
 }
 

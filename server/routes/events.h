@@ -12,18 +12,18 @@
 
 namespace server {
 
-/// What has happened to what is followed since a change; empty if it is not there (any more).
+/// Finds the news of a sweep or study since a change; empty if it does not exist (any more).
 using FindNews = std::function<std::optional<jobs::SweepNews>(std::int64_t after)>;
 
-/// Server-sent events of a sweep or a study:
+/// Answers with the server-sent events of a sweep or a study:
 ///
-///     progress   how far it is, at the beginning and whenever that changes
-///     job        a job that has ended; first those that had ended before
-///     done       how far it is at its end; the last one
+///     progress   counts of jobs, at the beginning and after every change
+///     job        a job that has ended; at first those that had ended before
+///     done       progress at the end; the last event
 ///
-/// The ids of `job` and `done` are what Last-Event-ID resumes from. Who has had `done`, and asks again, gets 204, which tells a
-/// browser's EventSource to ask no more.
-/// @param missing  thrown if there is nothing to follow
+/// Last-Event-ID resumes after the id of a `job` or of `done`. A client that resumes after `done` gets 204, which makes
+/// a browser's EventSource stop.
+/// @param missing  thrown if there is no such sweep or study
 [[nodiscard]] Response answer_events(const RequestContext& context, FindNews find_news, const HttpError& missing);
 
 }  // namespace server
