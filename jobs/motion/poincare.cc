@@ -49,7 +49,7 @@ ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& resu
   }
   if (query.channel == "t_s" || query.channel == "crank_angle_rad") {
     throw InvalidRequest(std::vector<Fault>{
-        {"/channel", "must be another one than t_s and crank_angle_rad, which say when the crank passes"}});
+        {"/channel", "must be a channel other than t_s and crank_angle_rad, which define the section"}});
   }
   ResultTable table{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended};
   std::vector<std::size_t> swept;

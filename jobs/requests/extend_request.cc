@@ -168,9 +168,8 @@ std::vector<PlannedJob> without(std::vector<PlannedJob> jobs, const std::vector<
   });
   if (missing > 0) {
     throw InvalidRequest(std::vector<Fault>{
-        {"",
-         "this sweep's jobs would be others with it; only axes and cases that multiply can be extended. "
-         "Submit another sweep"}});
+        {"", "this extension would change jobs that the sweep already has; only values of existing axes, and new cases, "
+             "can be added. Submit a new sweep instead"}});
   }
   return jobs;
 }

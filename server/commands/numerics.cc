@@ -18,9 +18,8 @@ namespace server::commands {
 void add_numerics_option(CLI::App& command, std::string& numerics) {
   command
       .add_option("--numerics", numerics,
-                  "native: the mathematical functions that suit this processor best; portable: those that every x86-64 processor has, so that "
-                  "results "
-                  "are the same bytes on all of them")
+                  "Mathematical functions. native: those that suit this processor best; portable: those that every x86-64 "
+                  "processor has, so that results are the same bytes on all of them")
       ->check(CLI::IsMember({"native", "portable"}))
       ->capture_default_str()
       ->envname("RPSUP_NUMERICS");

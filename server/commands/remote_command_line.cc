@@ -12,8 +12,9 @@ namespace server::commands {
 namespace {
 
 void add_remote_options(CLI::App& command, RemoteOptions& options) {
-  command.add_option("--url", options.url, "Where the service is")->type_name("URL")->capture_default_str()->envname("RPSUP_URL");
-  command.add_option("--token", options.token, "Sent as Authorization: Bearer; safer in the environment or in the file with options, since others see command lines")
+  command.add_option("--url", options.url, "URL of the service")->type_name("URL")->capture_default_str()->envname("RPSUP_URL");
+  command.add_option("--token", options.token, "Token, sent as Authorization: Bearer; safer in the environment or in the configuration file, since other users see "
+                     "command lines")
       ->envname("RPSUP_TOKEN");
 }
 
@@ -25,7 +26,7 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* help, Options
   return command;
 }
 
-/// @param options  shared, since they live as long as what runs with them
+/// @param options  shared with the command that they belong to
 template <typename Options>
 Command make_command(CLI::App* line, std::shared_ptr<Options> options, int (*run)(const Options&)) {
   return {line, [options = std::move(options), run] { return run(*options); }};
@@ -35,32 +36,32 @@ Command add_submit(CLI::App& app) {
   const auto options = std::make_shared<SubmitOptions>();
   CLI::App* const command = add_command(app, "submit", "Submit a sweep to a running service and print its id", *options);
   command->add_option("file", options->file, "JSON file with the sweep request; - reads standard input")->required()->type_name("FILE");
-  command->add_flag("--job", options->job, "The file holds the parameters of one job instead");
+  command->add_flag("--job", options->job, "Job instead of a sweep: the file holds the parameters of one job");
   command->add_flag("--watch", options->watch, "Wait for the end, as rpsup watch does");
   return make_command(command, options, submit);
 }
 
 Command add_status(CLI::App& app) {
   const auto options = std::make_shared<StatusOptions>();
-  CLI::App* const command = add_command(app, "status", "Print how far a sweep or a job is, or list the newest sweeps", *options);
-  command->add_option("id", options->id, "Of a sweep or a job; if left out, the newest sweeps are listed");
-  command->add_flag("--json", options->json, "As the service gives it");
+  CLI::App* const command = add_command(app, "status", "Print the progress of a sweep or a job, or list the newest sweeps", *options);
+  command->add_option("id", options->id, "Id of a sweep or a job; if left out, the newest sweeps are listed");
+  command->add_flag("--json", options->json, "JSON of the service instead of text");
   return make_command(command, options, status);
 }
 
 Command add_watch(CLI::App& app) {
   const auto options = std::make_shared<WatchOptions>();
-  CLI::App* const command = add_command(app, "watch", "Show how far a sweep or a job is until it has ended", *options);
-  command->add_option("id", options->id, "Of a sweep or a job")->required();
+  CLI::App* const command = add_command(app, "watch", "Show the progress of a sweep or a job until it has ended", *options);
+  command->add_option("id", options->id, "Id of a sweep or a job")->required();
   return make_command(command, options, watch);
 }
 
 Command add_results(CLI::App& app) {
   const auto options = std::make_shared<ResultsOptions>();
-  CLI::App* const command = add_command(app, "results", "Print the table of results of a sweep, as far as it has come", *options);
-  command->add_option("id", options->sweep, "Of a sweep")->required();
-  command->add_option("--format", options->format, "Form of the table")->check(CLI::IsMember({"csv", "json", "ndjson"}))->capture_default_str()->envname("RPSUP_FORMAT");
-  command->add_option("--output", options->output, "File for the table; - writes standard output")
+  CLI::App* const command = add_command(app, "results", "Print the table of results of a sweep, also while it runs", *options);
+  command->add_option("id", options->sweep, "Id of a sweep")->required();
+  command->add_option("--format", options->format, "Format of the table")->check(CLI::IsMember({"csv", "json", "ndjson"}))->capture_default_str()->envname("RPSUP_FORMAT");
+  command->add_option("--output", options->output, "Output file; - writes standard output")
       ->type_name("FILE")
       ->capture_default_str()
       ->envname("RPSUP_OUTPUT");
@@ -69,8 +70,8 @@ Command add_results(CLI::App& app) {
 
 Command add_cancel(CLI::App& app) {
   const auto options = std::make_shared<CancelOptions>();
-  CLI::App* const command = add_command(app, "cancel", "Cancel what has not ended of sweeps or jobs", *options);
-  command->add_option("id", options->ids, "Of sweeps or jobs")->required();
+  CLI::App* const command = add_command(app, "cancel", "Cancel sweeps or jobs that have not ended", *options);
+  command->add_option("id", options->ids, "Ids of sweeps or jobs")->required();
   return make_command(command, options, cancel);
 }
 

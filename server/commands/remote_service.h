@@ -9,7 +9,7 @@
 
 namespace server::commands {
 
-/// Where the service is that a command speaks to.
+/// Address of the service that a command talks to, and token.
 struct RemoteOptions {
   std::string url = "http://127.0.0.1:8080";
   std::string token;  ///< empty: none is sent

@@ -23,7 +23,7 @@ void check_mode(const std::string& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) throw BadInput("--token-file " + file + ": " + std::strerror(errno));
   const mode_t forbidden = status.st_uid == ::geteuid() ? 0077 : 0037;
-  if ((status.st_mode & forbidden) != 0) throw BadInput("--token-file " + file + ": others may read or write it; chmod 600 keeps it from them");
+  if ((status.st_mode & forbidden) != 0) throw BadInput("--token-file " + file + ": other users can read or write the file; restrict it with chmod 600");
 }
 
 std::string read_line(const std::string& file) {

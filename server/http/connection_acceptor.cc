@@ -48,7 +48,7 @@ ConnectionAcceptor::ConnectionAcceptor(const Limits& limits, std::function<void(
   epoll_fd_ = ::epoll_create1(EPOLL_CLOEXEC);
   wakeup_fd_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (epoll_fd_ >= 0 && wakeup_fd_ >= 0 && add_to_epoll(epoll_fd_, wakeup_fd_, this)) return;
-  throw std::runtime_error("the system gives no files to wait for clients with (ulimit -n)");
+  throw std::runtime_error("the system has no file descriptors left to wait for clients with: raise its limit (ulimit -n)");
 }
 
 ConnectionAcceptor::~ConnectionAcceptor() {

@@ -86,7 +86,7 @@ std::optional<Refusal> find_media_fault(const httplib::Request& request) {
   }
   const std::string encoding = request.get_header_value("Content-Encoding");
   if (encoding.empty() || encoding == "identity" || encoding == "gzip" || encoding == "deflate") return std::nullopt;
-  return Refusal{415, "of the content encodings, gzip and deflate are understood"};
+  return Refusal{415, "the Content-Encoding is not supported; gzip and deflate are"};
 }
 
 bool has_body(const httplib::Request& request) {

@@ -74,10 +74,10 @@ std::optional<Refusal> find_fault_in_length(const std::string& text, std::size_t
 }
 
 std::optional<Refusal> find_fault_in_framing(const Framing& framing, std::size_t body_bytes) {
-  if (framing.host_count != 1) return Refusal{400, "a request names its host once"};
+  if (framing.host_count != 1) return Refusal{400, "a request must have exactly one Host header"};
   if (framing.length_count + framing.encoding_count > 1) return Refusal{400, "the length of the body is given twice"};
   if (framing.encoding_count == 1 && framing.encoding != "chunked") {
-    return Refusal{501, "the only transfer encoding understood is chunked"};
+    return Refusal{501, "the Transfer-Encoding is not supported; chunked is"};
   }
   if (framing.length_count == 1) return find_fault_in_length(framing.length, body_bytes);
   return std::nullopt;

@@ -65,7 +65,7 @@ std::vector<std::string> Query::list(std::string_view key) const {
 
 std::string Query::names(std::string_view key) {
   const auto value = text(key);
-  if (value && value->empty()) add_fault(key, "must be a list of names with commas between");
+  if (value && value->empty()) add_fault(key, "must be a list of names separated by commas");
   return value.value_or("");
 }
 

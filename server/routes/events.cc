@@ -31,7 +31,7 @@ LastEvent read_last_event(std::string_view last_event_id) {
   if (last.done) last_event_id.remove_suffix(kDoneSuffix.size());
   const char* const end = last_event_id.data() + last_event_id.size();
   const auto [stop, error] = std::from_chars(last_event_id.data(), end, last.change);
-  if (error != std::errc{} || stop != end || last.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this one");
+  if (error != std::errc{} || stop != end || last.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this stream");
   return last;
 }
 

@@ -37,7 +37,7 @@ expect_code 2 "$rpsup" serve
 expect_code 2 "$rpsup" serve --db a.db --executor slurm
 expect_text err 'needs --slurm-folder'
 expect_code 2 "$rpsup" serve --db a.db --slurm-folder nowhere
-expect_text err 'must begin with /'
+expect_text err 'must be an absolute path'
 expect_code 2 "$rpsup" check-cluster --slurm-folder "$folder/nowhere"
 expect_text err 'there is no such folder'
 expect_code 2 "$rpsup" run-task . 0
