@@ -33,7 +33,7 @@ function markNavigation(kind) {
 
 /// The module of a view.
 async function load(kind, signal) {
-  if (!Object.hasOwn(pages, kind)) throw new Error("There is no such view.");
+  if (!Object.hasOwn(pages, kind)) throw new Error("There is no such page.");
   return loadModule(pages[kind], signal);
 }
 
@@ -45,7 +45,7 @@ async function whenBack(signal) {
 
 /// Says why a view is not shown. @param more  what can be done about it
 function say(told, ...more) {
-  main.replaceChildren(h("h1", {}, "This view cannot be shown"), h("p", { class: "trouble", role: "alert" }, told), ...more, h("p", {}, h("a", { href: "#/" }, "To the sweeps")));
+  main.replaceChildren(h("h1", {}, "This page cannot be shown"), h("p", { class: "trouble", role: "alert" }, told), ...more, h("p", {}, h("a", { href: "#/" }, "Sweeps")));
 }
 
 function sayMissing(error, signal) {

@@ -77,18 +77,18 @@ std::string make_analyses(const json& sweep, const jobs::ResultTable& results) {
     try {
       const jobs::ResultTable table = calc(sweep, results, metric);
       html += heading(title) + make_table(table.columns, table.rows);
-    } catch (const jobs::WrongState&) {  // it does not apply to this sweep
+    } catch (const jobs::WrongState&) {  // the analysis does not apply to this sweep
     }
   };
-  add("Does flexibility help?", jobs::compare_couplers);
+  add("Effect of flexibility", jobs::compare_couplers);
   add("Sensitivity", jobs::calc_sensitivity);
   return html;
 }
 
 std::string make_provenance(const Provenance& provenance, std::size_t jobs) {
   std::vector<std::vector<json>> rows;
-  for (const json& way : provenance.setups) {
-    rows.push_back({way.at("jobs"), way.at("version"), way.at("commit"), way.at("engine"), way.at("compiler"), way.at("host"), way.at("cpu")});
+  for (const json& setup : provenance.setups) {
+    rows.push_back({setup.at("jobs"), setup.at("version"), setup.at("commit"), setup.at("engine"), setup.at("compiler"), setup.at("host"), setup.at("cpu")});
   }
   const std::string some = provenance.jobs_examined < jobs ? "<p class=\"quiet\">Of the first " + std::to_string(provenance.jobs_examined) + " of " +
       std::to_string(jobs) + " jobs.</p>\n" : "";
@@ -126,10 +126,10 @@ std::string make_report(const json& sweep, const jobs::ResultTable& results, con
   std::string body = "<h1>" + escape(title) + "</h1>\n" + make_summary(sweep);
   if (!figures.empty()) body += heading("Figures") + figures;
   body += heading("Results") + make_sets(sweep, results) + make_analyses(sweep, results);
-  body += heading("What was asked for") + "<pre>" + escape(to_text(request, 1)) + "</pre>\n";
-  body += heading("How it was computed") + make_provenance(provenance, results.rows.size());
-  body += heading("How to do it again") +
-      "<p>Against the service on this machine, or the one that RPSUP_URL names; the same engine gives the same bytes.</p>\n<pre id=\"command\">" +
+  body += heading("Request") + "<pre>" + escape(to_text(request, 1)) + "</pre>\n";
+  body += heading("Provenance") + make_provenance(provenance, results.rows.size());
+  body += heading("Reproduction") +
+      "<p>The command submits the sweep to the service at RPSUP_URL, by default on this machine; the same engine gives the same bytes.</p>\n<pre id=\"command\">" +
           escape(make_command(request)) + "</pre>\n";
   return make_page(title, body);
 }

@@ -82,7 +82,7 @@ test("the least span of an axis leaves other values alone", async () => {
 
 test("no line is as dark as the dark page", async () => {
   const page = await visitRows(["clearance_mm"], [0.1, 0.2].map((clearance, k) => row(k, { clearance_mm: clearance, [metric]: k + 1 })));
-  await page.getByLabel("Colours").selectOption("dark");
+  await page.getByLabel("Theme").selectOption("dark");
   for (const name of ["viridis", "cividis"]) {
     await page.getByLabel("Palette").selectOption(name);
     const contrasts = await page.locator(".chart").nth(2).evaluate(async (element) => {
@@ -103,15 +103,15 @@ test("axes are logarithmic where values lie decades apart, and as they were wher
   const values = [1e-8, 1e-6, 1e-4];
   const page = await visitRows(["relative_tolerance"], values.map((tolerance, k) => row(k, { relative_tolerance: tolerance, [metric]: 10 ** k, [force]: k - 1 })));
   assert.deepEqual([(await drawn(page, 1)).x[0].type, (await drawn(page, 1)).y[0].type], ["log", "value"]);
-  await page.getByLabel("logarithmic peak slider acceleration").check();
-  await page.getByLabel("logarithmic relative tolerance").uncheck();
+  await page.getByLabel("log scale: peak slider acceleration").check();
+  await page.getByLabel("log scale: relative tolerance").uncheck();
   await page.waitForURL(/x_scale=linear&metric_scale=log/);
   assert.deepEqual([(await drawn(page, 1)).x[0].type, (await drawn(page, 1)).y[0].type], ["value", "log"]);
   await expectAccessible(page);
   await picture(page, "logarithmic");
   // A metric that is not positive everywhere cannot be so.
   await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
-  await page.getByLabel("logarithmic peak contact force").waitFor({ state: "hidden" });
+  await page.getByLabel("log scale: peak contact force").waitFor({ state: "hidden" });
   assert.equal((await drawn(page, 1)).y[0].type, "value");
   await leave(page);
 });
@@ -122,7 +122,7 @@ test("a scale is forgotten with its axis or metric", async () => {
   const page = await visitRows(["relative_tolerance", "absolute_tolerance"], rows, { query: "?x=relative_tolerance&x_scale=linear&metric_scale=log" });
   const types = async () => [(await drawn(page, 1)).x[0].type, (await drawn(page, 1)).y[0].type];
   assert.deepEqual(await types(), ["value", "log"]);
-  await page.getByRole("combobox", { name: "Across" }).selectOption("absolute_tolerance");
+  await page.getByRole("combobox", { name: "x axis" }).selectOption("absolute_tolerance");
   assert.deepEqual(await types(), ["log", "log"]);
   await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
   assert.deepEqual(await types(), ["log", "value"]);
@@ -134,10 +134,10 @@ test("what a chart averages over, and of which metric, stands in it", async () =
   const rows = [0.1, 0.2].flatMap((clearance) => ["rigid", "flexible"].map((coupler, k) => row(`${clearance}${k}`, { clearance_mm: clearance, coupler, [metric]: clearance + k })));
   const page = await visitRows(["clearance_mm", "coupler"], rows, { query: "?x=clearance_mm" });
   assert.equal((await drawn(page, 0)).titles[0], "Peak slider acceleration [m/s²]\nmean over coupler");
-  assert.deepEqual((await drawn(page, 1)).titles, ["Mean over coupler; bars from the least to the largest."]);
+  assert.deepEqual((await drawn(page, 1)).titles, ["Mean over coupler; bars: range."]);
   const svg = await textOf(page, () => page.getByRole("button", { name: "SVG" }).first().click());
   assert.match(svg.text, /Peak slider acceleration \[m\/s²\][\s\S]*mean over coupler/);
-  await page.getByRole("combobox", { name: "Up, or a line each" }).selectOption("coupler");
+  await page.getByRole("combobox", { name: "y axis / series" }).selectOption("coupler");
   assert.equal((await drawn(page, 0)).titles[0], "Peak slider acceleration [m/s²]");
   // A title that is not shown would still be told to those who do not see it.
   const { titles, said } = await drawn(page, 1);
@@ -182,13 +182,13 @@ test("the paper's statements over many settings tell in how many they hold, and 
   const many = "in 43 % of 1,000 settings";
   assert.deepEqual(await cells("The paper's statements"), [["1", "Ratio 1", "below 1", "1", many], ["2", "Ratio 2", "8.5", "2", many], ["3", "Ratio 3", "below 1", "3", many], ["4", "Ratio 4", "below 1", "4", many],
     ["5", "Ratio 5", "below 1", "–", "–"], ["6", "Ratio 6", "below 1", "6 to 6.5", many], ["7", "Ratio 7", "below 1", "7", many]]);
-  assert.deepEqual(await cells("The same at other velocities"), [["Ratio null", "below 1", "8", many]]);
+  assert.deepEqual(await cells("Other velocities"), [["Ratio null", "below 1", "8", many]]);
   // From 0.02 on, largest first.
   const decided = await cells("First-order sensitivity indices");
   assert.deepEqual([decided.length, decided[0], decided[1]], [7, ["1", "Restitution0.02"], ["2", "Restitution0.6Coupler damping ratio0.25"]]);
   await expectAccessible(page);
   await picture(page, "paper_settings", { fullPage: true });
-  await page.getByRole("link", { name: "The sweep", exact: true }).click();
+  await page.getByRole("link", { name: "Sweep", exact: true }).click();
   await page.getByText("The paper's statements: each holds in 43 % of the settings").waitFor();
   await leave(page, /409/);
 });
@@ -196,7 +196,7 @@ test("the paper's statements over many settings tell in how many they hold, and 
 test("more lines than are drawn are counted", async () => {
   const rows = Array.from({ length: 40 }, (_, k) => [0, 1].map((x) => row(`${k}_${x}`, { x_mm: x, kind: `kind ${k}`, [metric]: k + x }))).flat();
   const page = await visitRows(["x_mm", "kind"], rows, { query: "?x=x_mm&y=kind" });
-  assert.deepEqual((await drawn(page, 1)).titles, ["The first 30 of 40 lines: choose fewer values, or another axis for them."]);
+  assert.deepEqual((await drawn(page, 1)).titles, ["The first 30 of 40 series: choose fewer values, or another axis."]);
   await leave(page);
 });
 

@@ -36,7 +36,7 @@ test("a job that is waited for says how it stands, outlives a service that was a
   await page.goto(`${url}/#/jobs/job_given`);
   const row = (name) => page.getByRole("row").filter({ has: page.getByRole("rowheader", { name, exact: true }) });
   await row("State").getByText("queued").waitFor();
-  await row("Its sweep").getByText("0 of 2 jobs have ended, about 1 min 30 s left for all of them").waitFor();
+  await row("Sweep").getByText("0 of 2 jobs have ended, about 1 min 30 s left for all of them").waitFor();
   await page.getByRole("heading", { name: "Parameters" }).waitFor();
   await page.getByRole("button", { name: "Cancel" }).focus();
   await row("Submitted").getByRole("cell").evaluate((cell) => getSelection().selectAllChildren(cell));
@@ -45,8 +45,8 @@ test("a job that is waited for says how it stands, outlives a service that was a
   told.job = given("running", { started_at: new Date(Date.now() - 5000).toISOString() });
   await row("State").getByText("running").waitFor();
   await page.getByText("Job job_given, running").waitFor();
-  await row("Computing for").getByText(/^\d+(\.\d)? s$/).waitFor();
-  await row("Computing for").getByText(/^1\d s$/).waitFor();
+  await row("Computing time").getByText(/^\d+(\.\d)? s$/).waitFor();
+  await row("Computing time").getByText(/^1\d s$/).waitFor();
   // Only texts change meanwhile.
   assert.equal(await page.evaluate(() => getSelection().toString()), selected);
   assert.equal(await page.evaluate(() => document.activeElement.textContent), "Cancel");
@@ -58,9 +58,9 @@ test("a job that is waited for says how it stands, outlives a service that was a
     sweep: sweepOf({ succeeded: 1, failed: 1 }) });
   await page.getByText("step_limit: the run needs more than 10 steps").waitFor();
   await page.getByText("The service does not answer.").waitFor({ state: "hidden" });
-  await row("The run came to").getByText("1.25 s of 5 s").waitFor();
-  await row("Computed for").getByText("30 s").waitFor();
-  await row("Its sweep").getByText("2 of 2 jobs have ended").waitFor();
+  await row("Simulated time").getByText("1.25 s of 5 s").waitFor();
+  await row("Computing time").getByText("30 s").waitFor();
+  await row("Sweep").getByText("2 of 2 jobs have ended").waitFor();
   assert.equal(await page.getByRole("button", { name: "Cancel" }).count(), 0);
   await expectAccessible(page);
   await picture(page, "failed_job");
@@ -74,7 +74,7 @@ test("a view that could not be shown is shown when the service is back", async (
   await page.goto(`${url}/#/jobs/job_given`);
   await page.getByText("The service does not answer. Trying again …").waitFor();
   told.job = given("cancelled");
-  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await page.getByRole("heading", { name: "Progress" }).waitFor();
   await leave(page, away);
 });
 
@@ -88,7 +88,7 @@ test("a view whose module could not be loaded is shown when the service is back"
   await page.waitForTimeout(3000);
   assert.ok(await page.getByText("The service does not answer. Trying again …").isVisible());
   told.job = given("cancelled");
-  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await page.getByRole("heading", { name: "Progress" }).waitFor();
   await leave(page, away);
 });
 
@@ -120,7 +120,7 @@ test("a module that stays missing is asked for ever more seldom, and then no mor
   await picture(page, "missing_module");
   await page.unroute("**/pages/job.js");
   await page.getByRole("button", { name: "Try again" }).click();
-  await page.getByRole("heading", { name: "Where it stands" }).waitFor();
+  await page.getByRole("heading", { name: "Progress" }).waitFor();
   await leave(page, away);
 });
 
@@ -156,8 +156,8 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   const { id, metrics } = await computedJob();
   const page = await visit(`#/jobs/${id}`);
   const peak = (key) => String(Number(metrics[key].toPrecision(5)));
-  await page.getByText(`Largest magnitude: ${peak("peak_contact_force_n")} N. It is sought between the samples, too, which the curve joins at 1000 Hz.`).waitFor();
-  await page.getByText(`Largest magnitude: Crank torque ${peak("peak_crank_torque_n_m")} N m; Rod force ${peak("peak_rod_force_n")} N.`).waitFor();
+  await page.getByText(`Peak magnitude: ${peak("peak_contact_force_n")} N. Peaks include values between the samples, which the curve joins at 1000 Hz.`).waitFor();
+  await page.getByText(`Peak magnitude: Crank torque ${peak("peak_crank_torque_n_m")} N m; Rod force ${peak("peak_rod_force_n")} N.`).waitFor();
   await page.getByText(`${peak("peak_slider_acceleration_whole_run_m_s2")} m/s² in the whole run.`).waitFor();
   const card = page.locator(".card", { has: page.getByRole("heading", { name: "Drive torque and force" }) });
   const canvas = card.locator(".uplot canvas");
@@ -249,10 +249,10 @@ test("an answer to what was asked before covers no newer one", async () => {
   await page.unroute(/\/v1\/sweeps\?/);
   await page.route(/\/v1\/sweeps\?.*state=failed/, (route) => route.fulfill({ json: { items: [], next_cursor: "" } }));
   await page.getByLabel("State", { exact: false }).selectOption("failed");
-  await page.getByText("No sweep is like that.").waitFor();
+  await page.getByText("No matching sweeps.").waitFor();
   await all.letGo();
   await page.waitForTimeout(1000);
-  assert.ok(await page.getByText("No sweep is like that.").isVisible());
+  assert.ok(await page.getByText("No matching sweeps.").isVisible());
   await leave(page, /422/);
 });
 
@@ -261,7 +261,7 @@ test("a run without a steady part has a peak all the same", async () => {
   assert.equal(metrics.peak_slider_acceleration_m_s2, null);
   const page = await visit(`#/jobs/${id}`);
   const whole = String(Number(metrics.peak_slider_acceleration_whole_run_m_s2.toPrecision(5)));
-  await page.getByText(`Largest magnitude: ${whole} m/s² in the whole run. It is sought`).waitFor();
+  await page.getByText(`Peak magnitude: ${whole} m/s² in the whole run. Peaks include`).waitFor();
   await leave(page);
 });
 
@@ -296,7 +296,7 @@ test("a job of an older program is drawn as it was computed", async () => {
   const scene = page.locator("canvas.scene[data-up]");
   await scene.waitFor();
   assert.equal(await scene.getAttribute("data-up"), "0 1 0");
-  await page.getByLabel("Look at").selectOption("joint");
+  await page.getByRole("combobox", { name: /^View/ }).selectOption("joint");
   await leave(page);
 });
 

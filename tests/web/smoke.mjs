@@ -10,11 +10,11 @@ const short = { duration_s: 0.4, run_up_s: 0.1 };
 
 test("an empty service leads to the form", async () => {
   const page = await visit("");
-  await page.getByRole("heading", { name: "There is no sweep here yet" }).waitFor();
-  assert.equal(await page.getByRole("link", { name: "the interface is described" }).getAttribute("href"), "/docs");
+  await page.getByRole("heading", { name: "No sweeps yet" }).waitFor();
+  assert.equal(await page.getByRole("link", { name: "the REST interface is documented" }).getAttribute("href"), "/docs");
   await expectAccessible(page);
   await picture(page, "empty");
-  await page.getByRole("link", { name: "Take the paper's study" }).click();
+  await page.getByRole("link", { name: "Load the paper's sweep" }).click();
   await page.getByText("40 jobs").waitFor();
   await leave(page);
 });
@@ -92,7 +92,7 @@ test("a request is used again whole", async () => {
   const page = await visit(`#/new?from=${sweep.id}`);
   await page.getByText("24 jobs").waitFor();
   assert.deepEqual(JSON.parse(await page.locator("aside pre").first().textContent()), sweep.request);
-  await page.getByLabel(/^Design:/).fill('{"type": "sobol", "count": 0, "over": {"clearance_mm": {"from": 0.1, "to": 0.5}}}');
+  await page.getByLabel(/^Design of experiments/).fill('{"type": "sobol", "count": 0, "over": {"clearance_mm": {"from": 0.1, "to": 0.5}}}');
   await page.getByRole("button", { name: "Submit" }).click();
   await page.getByRole("alert").getByText("/design/count").waitFor();
   await page.goto(`${url}/#/sweeps/${sweep.id}`);
@@ -108,12 +108,12 @@ test("a refusal stays when what earlier jobs have cost is told after it", async 
   await page.goto(`${url}/#/new`);
   const costs = await asked;
   await page.locator('[data-path="clearance_mm"]').getByRole("textbox").fill("6");
-  await page.getByText("No time is known yet").waitFor();
+  await page.getByText("No computing time known yet").waitFor();
   await page.getByRole("button", { name: "Submit" }).click();
   const refusal = page.getByRole("alert").getByText("/parameters/clearance_mm:");
   await refusal.waitFor();
   await costs.continue();
-  await page.getByText("of computing on one core").waitFor();
+  await page.getByText("on one core").waitFor();
   assert.ok(await refusal.isVisible());
   await leave(page, /422/);
 });
@@ -129,11 +129,11 @@ test("the form counts the jobs that the service makes", async () => {
     [{ type: "zip", over: { clearance_mm: [0.1, 0.2], restitution: [0.7, 0.8] } }, 2],
     [{ type: "one_at_a_time", over: { clearance_mm: [0.1, 0.2], restitution: [0.75] } }, 1 + 2 + 1],
   ]) {
-    await page.getByText("Replicates, cases, designs and order").click();
-    await page.getByLabel(/^Design:/).fill(JSON.stringify(design));
+    await page.getByText("Replicates, cases, design and priority").click();
+    await page.getByLabel(/^Design of experiments/).fill(JSON.stringify(design));
     await page.getByText(`${jobs} jobs`, { exact: true }).waitFor({ timeout: 5000 });
     assert.equal((await runSweep({ parameters: short, design })).counts.total, jobs, design.type);
-    await page.getByText("Replicates, cases, designs and order").click();
+    await page.getByText("Replicates, cases, design and priority").click();
   }
   await leave(page);
 });
@@ -150,7 +150,7 @@ test("a sweep shows its metrics, and what is selected in its table is selected e
   const csv = await textOf(page, () => page.getByRole("link", { name: "CSV", exact: true }).click());
   assert.equal(csv.name, `sweep-${sweep.id}.csv`);
   assert.equal(csv.text.trim().split("\n").length, 7);
-  await page.getByRole("link", { name: "Open it" }).click();
+  await page.getByRole("link", { name: "Open", exact: true }).click();
   await page.waitForURL(new RegExp(first.job_id));
   await leave(page);
 });
@@ -181,10 +181,10 @@ test("a job shows its acceleration, its orbit and its linkage at one instant", a
   await page.locator("details .chart canvas").nth(1).waitFor();
   await page.getByLabel("Window").selectOption("flat_top");
   await page.getByText("Wear of the bearing").click();
-  await page.getByText(/^Deepest: /).waitFor();
-  await page.getByLabel(/^Until a clearance of/).fill("0.3");
+  await page.getByText(/^Maximum depth: /).waitFor();
+  await page.getByLabel(/^Worn clearance/).fill("0.3");
   await page.keyboard.press("Tab");
-  await page.getByText(/reached after/).waitFor();
+  await page.getByText(/mm after .* h of this motion/).waitFor();
   await expectAccessible(page);
   await picture(page, "small_job", { fullPage: true });
   await leave(page);
@@ -192,10 +192,10 @@ test("a job shows its acceleration, its orbit and its linkage at one instant", a
 
 test("another linkage is taken, swept over a number inside it, and seen in motion", async () => {
   const page = await visit("#/new");
-  await page.getByLabel("Take another linkage").selectOption("slider_crank");
+  await page.getByLabel("Example linkage").selectOption("slider_crank");
   await page.waitForURL(/linkage=slider_crank/);
   await page.locator('[data-path="duration_s"]').getByRole("textbox").fill("0.03");
-  await page.getByLabel(/^Axes over numbers inside it/).fill('{"linkage.joints.crank_pin.clearance.clearance_mm": [0.05, 0.1]}');
+  await page.getByLabel(/^Axes inside the linkage/).fill('{"linkage.joints.crank_pin.clearance.clearance_mm": [0.05, 0.1]}');
   await page.getByText("2 jobs").waitFor();
   await expectAccessible(page);
   await page.getByRole("button", { name: "Submit" }).click();
@@ -213,7 +213,7 @@ test("another linkage is taken, swept over a number inside it, and seen in motio
   await expectAccessible(page);
   await picture(page, "described", { fullPage: true });
   await page.goto(`${url}/#/analyses/${sweep.id}`);
-  await page.getByText(/points are too few for a surrogate/).waitFor();
+  await page.getByText(/No surrogate: it needs 6 points/).waitFor();
   assert.equal(await page.getByRole("heading", { name: "Bifurcation diagram" }).count(), 0);
   await page.goto(`${url}/#/new?linkage=bricard`);
   await page.getByText("1 job").waitFor();
@@ -241,14 +241,14 @@ test("the list follows, searches, and deletes after asking", async () => {
   await expectAccessible(page);
   const later = await ask("/v1/sweeps", { name: "later", parameters: short, sweep: { clearance_mm: [0.15, 0.35] } });
   await page.getByRole("row").filter({ hasText: "later" }).getByText("100 %").waitFor();
-  await page.getByLabel("Search by name, id or axis").fill("later");
+  await page.getByLabel("Search (name, id, axis)").fill("later");
   await row.waitFor({ state: "detached" });
   await page.getByRole("button", { name: "Delete later" }).click();
   await page.getByRole("button", { name: "Keep it" }).click();
   assert.equal((await ask(`/v1/sweeps/${later.id}`)).state, "succeeded");
   await page.getByRole("button", { name: "Delete later" }).click();
   await page.getByRole("button", { name: "Delete", exact: true }).click();
-  await page.getByText("No sweep is like that").waitFor();
+  await page.getByText("No matching sweeps").waitFor();
   assert.equal((await fetch(`${url}/v1/sweeps/${later.id}`)).status, 404);
   await leave(page);
 });
@@ -276,7 +276,7 @@ test("a sweep is cancelled and retried in the list", async () => {
   const long = await ask("/v1/sweeps", { name: "long", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
   const row = page.getByRole("row").filter({ hasText: "long" });
   await page.getByRole("button", { name: "Retry long" }).waitFor({ state: "hidden" });
-  const again = page.getByRole("link", { name: "Use again: long" });
+  const again = page.getByRole("link", { name: "Duplicate long" });
   const before = await again.boundingBox();
   await page.getByRole("button", { name: "Cancel long" }).click();
   await row.getByText("3 cancelled").waitFor();
@@ -303,7 +303,7 @@ test("a sweep is followed once, however often its jobs are retried", async () =>
     await page.getByRole("button", { name: "Retry" }).waitFor({ state: "detached" });
   }
   assert.equal(followed, 1);
-  const again = page.getByRole("link", { name: "Use again" });
+  const again = page.getByRole("link", { name: "Duplicate" });
   const before = await again.boundingBox();
   await page.getByRole("button", { name: "Cancel" }).click();
   await page.getByText("cancelled: 3 cancelled of 3 jobs").waitFor();
@@ -316,19 +316,19 @@ test("a sweep is followed once, however often its jobs are retried", async () =>
 
 test("a search is begun in its form, draws its limits and is deleted", async () => {
   const page = await visit("#/searches");
-  await page.getByText("No search has been begun yet").waitFor();
+  await page.getByText("No searches yet").waitFor();
   await page.getByRole("link", { name: "New search" }).click();
   await page.getByText("3 limits to find").waitFor();
   await picture(page, "search_form", { fullPage: true });
   await expectAccessible(page);
-  await page.getByRole("link", { name: "Start empty" }).click();
+  await page.getByRole("link", { name: "Empty form" }).click();
   await page.getByText("1 limit to find").waitFor();
   const shown = async () => JSON.parse(await page.locator("aside pre").first().textContent());
   assert.deepEqual(await shown(), { over: { clearance_mm: {} }, metric: "peak_slider_acceleration_m_s2" });
   // By the keyboard alone, as far as that goes.
   await page.getByLabel("Name", { exact: true }).focus();
   await page.keyboard.type("how far");
-  for (const [label, text] of [["From [mm]", "0.05"], ["To [mm]", "0.5"], ["Tolerance [mm]", "0.1"], ["Values at first", "3"], ["Bound [m/s²]", "low"]]) {
+  for (const [label, text] of [["From [mm]", "0.05"], ["To [mm]", "0.5"], ["Tolerance [mm]", "0.1"], ["Initial values", "3"], ["Bound [m/s²]", "low"]]) {
     await page.getByLabel(label, { exact: true }).focus();
     await page.keyboard.type(text);
   }
@@ -339,10 +339,10 @@ test("a search is begun in its form, draws its limits and is deleted", async () 
   await page.getByLabel("Bound [µm]", { exact: true }).fill("4");
   await page.getByLabel("Quantile", { exact: true }).fill("2");
   for (const [key, value] of Object.entries(short)) await page.locator(`[data-path="${key}"] input[type="text"]`).fill(String(value));
-  await page.getByLabel("Crank velocity: how it is given").selectOption("list");
+  await page.getByLabel("Crank velocity: kind of value").selectOption("list");
   await page.getByLabel("Crank velocity", { exact: true }).fill("8, 10");
-  await page.getByText("Replicates and order").click();
-  await page.getByLabel("Runs of each set").fill("2");
+  await page.getByText("Replicates and priority").click();
+  await page.getByLabel("Replicates", { exact: true }).fill("2");
   await page.getByText("2 limits to find").waitFor();
   await page.getByRole("button", { name: "Submit" }).focus();
   await page.keyboard.press("Enter");
@@ -372,27 +372,27 @@ test("a search is begun in its form, draws its limits and is deleted", async () 
   await leave(form);
   await page.getByRole("button", { name: "Delete" }).click();
   await page.getByRole("button", { name: "Delete", exact: true }).last().click();
-  await page.getByText("No search has been begun yet").waitFor();
+  await page.getByText("No searches yet").waitFor();
   assert.equal((await fetch(`${url}/v1/sweeps/${search.sweep_id}`)).status, 404);
   await leave(page, /422/);
 });
 
 test("a wear study is begun in its form, draws the bore and is deleted", async () => {
   const page = await visit("#/wear");
-  await page.getByText("No wear study has been begun yet").waitFor();
+  await page.getByText("No wear studies yet").waitFor();
   await page.getByRole("link", { name: "New wear study" }).click();
   await page.getByText("Until 0.26 mm").waitFor();
   await picture(page, "wear_form", { fullPage: true });
-  await page.getByRole("link", { name: "Start empty" }).click();
-  await page.getByText("It has no end yet").waitFor();
+  await page.getByRole("link", { name: "Empty form" }).click();
+  await page.getByText("No end given").waitFor();
   await page.getByLabel("Name", { exact: true }).fill("worn");
   await page.getByLabel("Worn clearance [mm]", { exact: true }).fill("0.254");
   await page.getByLabel("Max depth step [µm]", { exact: true }).fill("2");
   await page.getByLabel("Sectors", { exact: true }).fill("3");
   for (const [key, value] of Object.entries(short)) await page.locator(`[data-path="${key}"] input[type="text"]`).fill(String(value));
-  await page.getByLabel("Restitution: how it is given").selectOption("list");
+  await page.getByLabel("Restitution: kind of value").selectOption("list");
   await page.getByLabel("Restitution", { exact: true }).fill("0.8, 0.9");
-  await page.locator("[data-path='restitution']").getByText("has one value in a wear study").waitFor();
+  await page.locator("[data-path='restitution']").getByText("must have a single value in a wear study").waitFor();
   await page.getByLabel("Restitution", { exact: true }).fill("");
   await page.getByRole("button", { name: "Submit" }).click();
   await page.getByRole("alert").getByText("/sectors: must be an integer").waitFor();
@@ -410,7 +410,7 @@ test("a wear study is begun in its form, draws the bore and is deleted", async (
   await picture(page, "wear", { fullPage: true });
   await page.getByRole("button", { name: "Delete" }).click();
   await page.getByRole("button", { name: "Delete", exact: true }).last().click();
-  await page.getByText("No wear study has been begun yet").waitFor();
+  await page.getByText("No wear studies yet").waitFor();
   await leave(page, /422/);
 });
 
@@ -434,8 +434,8 @@ test("a sweep is held against the paper's statements", async () => {
   const peaks = (await resultsOf(sweep)).filter((row) => row.clearance_mm === 0.25 && row.coupler === "rigid")
     .sort((a, b) => a.crank_velocity_rad_s - b.crank_velocity_rad_s).map((row) => row.peak_slider_acceleration_m_s2);
   assert.ok(Math.abs(Number(shown[1][3]) / (peaks[1] / peaks[0]) - 1) < 0.01, `${shown[1][3]} of ${peaks}`);
-  assert.equal((await cells("The same at other velocities")).length, 2);
-  const csv = await textOf(page, () => page.getByRole("region", { name: "The same at other velocities" }).locator("xpath=following::a[text()='CSV']").first().click());
+  assert.equal((await cells("Other velocities")).length, 2);
+  const csv = await textOf(page, () => page.getByRole("region", { name: "Other velocities" }).locator("xpath=following::a[text()='CSV']").first().click());
   assert.equal(csv.text.trim().split("\n").length, 1 + rows.length);
   await page.locator(".chart:not([hidden]) canvas").first().waitFor();
   await expectAccessible(page);
@@ -456,22 +456,22 @@ test("a sweep says what its results mean", async () => {
   const designed = await runSweep({ name: "indices", parameters: short, design: { type: "saltelli", count: 4, over } });
   const compared = await runSweep({ name: "pairs", parameters: { ...short, run_up_s: 0 }, sweep: { crank_velocity_rad_s: [10, 20, 30], coupler: ["rigid", "flexible"] }, replicates: { count: 2 } });
   const page = await visit(`#/sweeps/${compared.id}`);
-  await page.getByRole("link", { name: "What it says" }).click();
-  for (const title of ["Does flexibility help?", "Surrogate", "Bifurcation diagram", "Largest Lyapunov exponent"]) await page.getByRole("heading", { name: title }).waitFor();
+  await page.getByRole("link", { name: "Analysis" }).click();
+  for (const title of ["Effect of flexibility", "Surrogate", "Bifurcation diagram", "Largest Lyapunov exponent"]) await page.getByRole("heading", { name: title }).waitFor();
   await page.getByRole("region", { name: "Rigid and flexible" }).waitFor();
   await page.getByRole("region", { name: "Lyapunov exponents" }).waitFor();
   await page.locator(".chart:not([hidden]) canvas").nth(1).waitFor();
   await expectAccessible(page);
   await picture(page, "analyses", { fullPage: true });
   await page.getByRole("link", { name: "Report" }).click();
-  await page.getByRole("heading", { name: "How to do it again" }).waitFor();
+  await page.getByRole("heading", { name: "Reproduction" }).waitFor();
   assert.equal(await page.locator("svg").count(), 1);
   assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector("table")).borderCollapse), "collapse", "its style is allowed");
   await expectAccessible(page);
   await picture(page, "report", { fullPage: true });
   await page.goto(`${url}/#/analyses/${designed.id}`);
   await page.getByRole("region", { name: "Sensitivity" }).getByText("Restitution").waitFor();
-  await page.getByText(/predicts a point from all others/).waitFor();
+  await page.getByText(/leave-one-out error/).waitFor();
   await page.locator(".chart canvas").nth(1).waitFor();
   await page.getByRole("combobox", { name: /^Metric/ }).selectOption("impact_count");
   await page.waitForURL(/metric=impact_count/);
@@ -485,12 +485,12 @@ test("a sweep says what its results mean", async () => {
     await route.fulfill({ json: { ...made, surfaces: made.surfaces.map((surface) => ({ ...surface, predicted_part: -0.05 })) } });
   });
   await page.getByRole("combobox", { name: /^Metric/ }).selectOption("peak_contact_force_n");
-  await page.getByText(/predicts a point from all others to .* which the mean of the others does as well: it is of no use here/).waitFor();
+  await page.getByText(/leave-one-out error .*, no better than the mean, so of no use here/).waitFor();
   await leave(page);
 });
 
 test("a view that is not there says so", async () => {
   const page = await visit("#/jobs/none");
-  await page.getByRole("heading", { name: "This view cannot be shown" }).waitFor();
+  await page.getByRole("heading", { name: "This page cannot be shown" }).waitFor();
   await leave(page, /404/);
 });

@@ -56,7 +56,7 @@ test("a trajectory of 500,000 samples pans", { timeout: 300000 }, async (t) => {
   await page.locator("canvas.scene[data-instant]").waitFor();
   await page.locator("canvas.orbit[data-samples]").waitFor();
   await page.waitForTimeout(1000);
-  const energy = page.locator('[aria-label^="Energy account"] canvas');
+  const energy = page.locator('[aria-label^="Energy balance"] canvas');
   const before = await energy.evaluate((plot) => plot.toDataURL());
   for (let k = 0; k < tries; k += 1) {
     const { mean, slow } = await framesOfPanning(page, 2000);

@@ -27,7 +27,7 @@ async function drawAcross(page, locator, from, to) {
 
 test("the paper's study is submitted in the form and watched until it has finished", { timeout: 10 * minutes }, async () => {
   const page = await visit("#/new");
-  await page.getByRole("link", { name: "Take the paper's study" }).click();
+  await page.getByRole("link", { name: "Load the paper's sweep" }).click();
   await page.getByText("40 jobs").waitFor();
   const curl = await page.locator("aside pre").last().textContent();
   assert.match(curl, /^curl -d '\{"name":"paper","sweep":\{/);
@@ -60,7 +60,7 @@ test("the sweep's parts are linked, and its table and charts are taken along", a
   await page.mouse.click(box.x + 0.42 * box.width, box.y + 0.4 * box.height);
   await page.getByText("1 job selected").waitFor();
   assert.equal(await page.locator("tr.selected").count(), 1);
-  await page.getByRole("button", { name: "Select none" }).click();
+  await page.getByRole("button", { name: "Clear selection" }).click();
   await page.getByText("1 job selected").waitFor({ state: "hidden" });
   await page.getByRole("button", { name: /^Peak slider acceleration \[/ }).click();
   await page.getByRole("button", { name: /^Peak slider acceleration \[.*▲/ }).click();
@@ -97,7 +97,7 @@ test("brushing an axis of the parallel coordinates selects jobs everywhere", asy
   await page.mouse.up();
   await page.getByText("16 jobs selected").waitFor();
   assert.equal(await page.locator("tr.selected").count(), 16);
-  await page.getByLabel("only what is selected").check();
+  await page.getByLabel("Selected only").check();
   const clearances = await page.locator("tbody tr td:nth-child(4)").allTextContents();
   assert.deepEqual(clearances, Array(16).fill("0.5"));
   await picture(page, "parallel_brushed", { fullPage: true });
@@ -107,7 +107,7 @@ test("brushing an axis of the parallel coordinates selects jobs everywhere", asy
 test("another sweep stands beside it, dashed", async () => {
   const other = await runSweep({ name: "denser", sweep: { clearance_mm: [0, 0.1, 0.25, 0.4, 0.5] } }, 120);
   const page = await visit(`#/sweeps/${study.id}?x=clearance_mm&y=coupler`);
-  await page.getByLabel("Beside it, dashed").selectOption(other.id);
+  await page.getByLabel("Compare with").selectOption(other.id);
   await page.waitForURL(new RegExp(`with=${other.id}`));
   await page.locator(".chart canvas").nth(2).waitFor();
   await picture(page, "compared");
@@ -122,7 +122,7 @@ test("the orbit is brushed in time, and every spike survives", async () => {
   const page = await visit(`#/jobs/${id}`);
   await page.locator("canvas.orbit[data-samples='5001']").waitFor();
   await page.locator("canvas.scene[data-instant]").waitFor();
-  await page.getByRole("button", { name: "Lay over the ideal linkage" }).click();
+  await page.getByRole("button", { name: "Overlay ideal linkage" }).click();
   await page.getByText("ideal linkage", { exact: true }).waitFor({ timeout: minutes });
   await page.getByLabel("Instant [s]").fill("3.618");
   await picture(page, "job", { clip: { x: 0, y: 0, width: 1360, height: 1400 }, fullPage: true });
@@ -140,7 +140,7 @@ test("the orbit is brushed in time, and every spike survives", async () => {
   await page.getByLabel("Colour by").selectOption("force");
   await page.getByText("the rest of the run is pale").waitFor();
   await picture(page, "orbit_brushed", { fullPage: true });
-  await page.getByLabel("Add a channel").selectOption("friction_force_n");
+  await page.getByLabel("Add channel").selectOption("friction_force_n");
   await page.getByRole("heading", { name: "Friction force [N]" }).waitFor();
   await page.waitForURL(/channels=friction_force_n/);
   // The address is enough to see the same again.
@@ -167,7 +167,7 @@ test("the linkage is scrubbed, played, and looked at closely", async () => {
   assert.notDeepEqual(await scene.screenshot(), still);
   await picture(page, "scrubbed");
   // At the real speed the stretch around the peak would be over in 0.04 s; through its impact it is played slowly.
-  await page.getByRole("button", { name: "Around the peak" }).click();
+  await page.getByRole("button", { name: "Peak", exact: true }).click();
   await pointAt(page, peak - 0.01);
   await page.getByLabel("Speed").selectOption("1");
   const pace = await page.getByRole("button", { name: "Play" }).evaluate(async (play) => {
@@ -180,9 +180,9 @@ test("the linkage is scrubbed, played, and looked at closely", async () => {
   });
   assert.ok(pace > 0 && pace < 0.05, `${pace} s of the run in a second of the clock`);
   await page.getByRole("button", { name: "Whole run" }).click();
-  await page.getByRole("button", { name: "Around the peak" }).click();
+  await page.getByRole("button", { name: "Peak", exact: true }).click();
   await pointAt(page, peak - 0.0199);
-  await page.getByLabel("Look at").selectOption("joint");
+  await page.getByRole("combobox", { name: /^View/ }).selectOption("joint");
   await page.getByLabel("Speed").selectOption("0.01");
   await page.getByRole("button", { name: "Play" }).click();
   await page.waitForFunction((until) => Number(document.querySelector("canvas.scene").dataset.instant) > until, peak - 0.019, { timeout: minutes });
@@ -191,9 +191,9 @@ test("the linkage is scrubbed, played, and looked at closely", async () => {
   assert.ok(Number(paused) > peak - 0.02 && Number(paused) <= peak + 0.02);
   await pointAt(page, peak);
   await picture(page, "joint");
-  await page.getByLabel("Clearance drawn").selectOption("100");
-  await page.getByLabel("Bend drawn").selectOption("100");
-  await page.getByLabel("Look at").selectOption("all");
+  await page.getByLabel("Clearance scale").selectOption("100");
+  await page.getByLabel("Deflection scale").selectOption("100");
+  await page.getByRole("combobox", { name: /^View/ }).selectOption("all");
   await picture(page, "exaggerated");
   await leave(page);
 });
@@ -201,7 +201,7 @@ test("the linkage is scrubbed, played, and looked at closely", async () => {
 test("jobs are laid over each other", async () => {
   const [first, second] = [jobWith(0.25, 15, "rigid"), jobWith(0.5, 15, "rigid")];
   const page = await visit(`#/jobs/${first}`);
-  await page.getByLabel("Lay over another job").selectOption(second);
+  await page.getByLabel("Overlay job").selectOption(second);
   await page.waitForURL(new RegExp(`with=${second}`));
   await page.getByRole("columnheader", { name: "0.5 mm" }).waitFor();
   await page.locator(".uplot").nth(4).waitFor();
@@ -235,7 +235,7 @@ test("it is read in the dark, on a phone, and with the keyboard", async () => {
   await page.waitForURL((address) => !address.href.includes("from="));
   const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const light = await ground();
-  await page.getByLabel("Colours").selectOption("dark");
+  await page.getByLabel("Theme").selectOption("dark");
   await page.getByLabel("Palette").selectOption("cividis");
   assert.notEqual(await ground(), light);
   await expectAccessible(page);

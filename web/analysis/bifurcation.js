@@ -30,13 +30,13 @@ export async function bifurcationCard(element, { sweep, numbers }, signal) {
   let chart = null;
   await load(channel);
   if (rows.length === 0) {
-    element.replaceChildren(h("p", {}, "After the run-up of these jobs no turn of the crank is complete."));
+    element.replaceChildren(h("p", {}, "No crank revolution is complete after the run-up of these jobs."));
     return null;
   }
   element.replaceChildren(h("p", { class: "actions" },
-    choice("Across", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart?.draw(); }),
+    choice("x axis", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart?.draw(); }),
     choice("Channel", channels.map((key) => [key, titleOf(key)]), channel, (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
-  chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel), "The channel once a turn over the axis", signal);
+  chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel), "Bifurcation diagram: the channel once per crank revolution", signal);
   return chart;
 }
 

@@ -45,7 +45,7 @@ function spectrum(job, columns, signal) {
   const option = () => found && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 }, tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
     dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"), yAxis: valueAxis(`Amplitude: ${titleOf(found.channel)}`, { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
     series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 }, data: found.frequencies.map((frequency, k) => [frequency, found.amplitudes[k]]).filter(([, amplitude]) => amplitude > 0) }] });
-  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "Amplitude over frequency", signal); } };
+  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "Amplitude spectrum", signal); } };
 }
 
 /// The journal once a turn; the circle is the clearance.
@@ -61,14 +61,14 @@ function section(job, signal) {
     trouble.textContent = "";
     chart?.draw();
   }, signal);
-  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Angle of the crank [rad]", onchange: () => { view.phase = Number(slider.value); load().catch((error) => { trouble.textContent = error.message; }); } });
-  const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Poincaré section: the journal once a turn"), saveButtons(() => chart, () => `${job.id} section`)),
-    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Angle of the crank"), slider)), trouble, drawing);
+  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Crank angle [rad]", onchange: () => { view.phase = Number(slider.value); load().catch((error) => { trouble.textContent = error.message; }); } });
+  const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Poincaré section of the journal"), saveButtons(() => chart, () => `${job.id} section`)),
+    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Crank angle [rad]"), slider)), trouble, drawing);
   const radius = job.parameters.clearance_mm;
   const circle = Array.from({ length: 73 }, (_, k) => [radius * Math.cos((k * Math.PI) / 36), radius * Math.sin((k * Math.PI) / 36)]);
   const option = () => found && ({ grid: { left: 75, right: 20, top: 20, bottom: 50 }, tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
     xAxis: acrossAxis(titleOf("journal_x_mm")), yAxis: valueAxis(titleOf("journal_y_mm")),
     series: [{ type: "line", silent: true, showSymbol: false, color: colour("quiet"), lineStyle: { width: 1, type: "dashed" }, data: circle },
       { type: "scatter", symbolSize: 7, color: lineColour(0), data: found.t_s.map((t, k) => [found.journal_x_mm[k], found.journal_y_mm[k], t]) }] });
-  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "The journal's centre once a turn of the crank", signal); } };
+  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "Poincaré section: the journal's centre once per crank revolution", signal); } };
 }

@@ -25,8 +25,8 @@ export async function paperCard(element, { sweep }, signal) {
   const [numbered, others] = split(rows);
   const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }), download: `${sweep.name || sweep.id} paper.csv` };
   element.replaceChildren(statements("The paper's statements", numbered, [["No.", (row) => row.number, "of"]]),
-    ...(others.length === 0 ? [] : [h("h3", { class: "quiet small" }, "The same at other velocities; the paper names none"),
-      statements("The same at other velocities", others)]),
+    ...(others.length === 0 ? [] : [h("h3", { class: "quiet small" }, "Other velocities, on which the paper makes no statement"),
+      statements("Other velocities", others)]),
     ...indexParts(numbered), h("p", { class: "actions" }, h("a", csv, "CSV")));
   return null;
 }
@@ -54,7 +54,7 @@ const percent = (part) => `${number(100 * part, 3)} %`;
 function statements(label, rows, first = []) {
   const sentence = ({ text }) => text.charAt(0).toUpperCase() + text.slice(1);
   const printed = ({ paper }) => (paper === null ? "below 1" : number(paper));
-  return table(label, rows, [...first, ["Statement", sentence, "text"], ["Paper", printed, "paper"], ["Here", foundIn, "here"],
+  return table(label, rows, [...first, ["Statement", sentence, "text"], ["Paper", printed, "paper"], ["This sweep", foundIn, "here"],
     ["Verdict", verdictOf, "verdict"]], "statements");
 }
 
@@ -84,7 +84,7 @@ function indicesOf(row) {
 function indexParts(numbered) {
   const rows = numbered.map((row) => ({ row, indices: indicesOf(row) })).filter(({ indices }) => indices.length > 0);
   if (rows.length === 0) return [];
-  return [h("h3", {}, "What decides each statement"),
+  return [h("h3", {}, "Sensitivity of each statement"),
     h("p", { class: "quiet small" }, "First-order sensitivity index: part of the variance of the logarithm of a statement's ratio that the "
       + `parameter alone makes. Shown from ${leastIndex} on.`),
     table("First-order sensitivity indices", rows, [["No.", ({ row }) => row.number],

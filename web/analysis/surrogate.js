@@ -34,24 +34,24 @@ export async function surrogateCard(element, { sweep, metric }, signal) {
     const names = made.inputs.map(({ parameter }) => [parameter, titleOf(parameter)]);
     const groups = made.surfaces.map(({ where }, index) => [String(index), Object.entries(where).map(([axis, value]) => pointOf(axis, value)).join(", ")]);
     const other = (than) => made.inputs.find(({ parameter }) => parameter !== than)?.parameter;
-    pickers.replaceChildren(...[groups.length > 1 && choice("At", groups, String(shown), (index) => { shown = Number(index); draw(); }),
-      names.length > 1 && choice("Across", names, made.x, (x) => again(x, x === made.y ? other(x) : made.y ?? undefined)),
-      names.length > 2 && made.y !== null && choice("Up", names.filter(([name]) => name !== made.x), made.y, (y) => again(made.x, y))].filter(Boolean));
+    pickers.replaceChildren(...[groups.length > 1 && choice("Group", groups, String(shown), (index) => { shown = Number(index); draw(); }),
+      names.length > 1 && choice("x axis", names, made.x, (x) => again(x, x === made.y ? other(x) : made.y ?? undefined)),
+      names.length > 2 && made.y !== null && choice("y axis", names.filter(([name]) => name !== made.x), made.y, (y) => again(made.x, y))].filter(Boolean));
     chart?.draw();
   };
   element.replaceChildren(pickers, said, drawing);
   draw();
-  chart = await makeChart(drawing, () => optionOf(made, made.surfaces[shown]), "The surrogate with the points that it stands on", signal);
+  chart = await makeChart(drawing, () => optionOf(made, made.surfaces[shown]), "Surrogate, with the jobs that it is fitted to", signal);
   return chart;
 }
 
 /** @param {Surface} surface  @param {Surrogate} surrogate */
 function judgement(surface, { metric, x, y, inputs }) {
-  if (surface.degree === null) return `${surface.points} points are too few for a surrogate; there must be 6.`;
+  if (surface.degree === null) return `No surrogate: it needs 6 points or more, and there are ${surface.points}.`;
   const others = inputs.filter(({ parameter }) => parameter !== x && parameter !== y).map(({ parameter, middle }) => `${nameOf(parameter)} ${number(middle)} ${unitOf(parameter)}`);
-  const at = others.length > 0 ? `; drawn at ${others.join(", ")}, points at all their values` : "";
-  const part = surface.predicted_part !== null && surface.predicted_part > 0 ? `${number(100 * surface.predicted_part, 3)} % of the variance` : "which the mean of the others does as well: it is of no use here";
-  return `Degree ${surface.degree}, ${surface.terms} terms on ${surface.points} points: predicts a point from all others to ${[number(surface.cross_validation_error), unitOf(metric)].join(" ").trim()}, `
+  const at = others.length > 0 ? `; drawn at ${others.join(", ")}, with the points of all values` : "";
+  const part = surface.predicted_part !== null && surface.predicted_part > 0 ? `${number(100 * surface.predicted_part, 3)} % of the variance explained` : "no better than the mean, so of no use here";
+  return `Degree ${surface.degree}, ${surface.terms} terms, ${surface.points} points; leave-one-out error ${[number(surface.cross_validation_error), unitOf(metric)].join(" ").trim()}, `
     + `${part}${at}.`;
 }
 

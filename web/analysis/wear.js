@@ -28,17 +28,17 @@ async function fill(body, job, signal) {
   const load = latest(async (current) => {
     rows = await findWear(job.id, view, current);
     const worst = rows.reduce((most, row) => (row.depth_um > most.depth_um ? row : most));
-    const life = worst.life_h === null ? "" : `; ${exact(Number(view.worn_clearance_mm))} mm are reached after ${number(worst.life_h, 3)} h of such motion`;
-    said.textContent = `Deepest: ${number(worst.depth_um)} µm in this run at ${number((180 / Math.PI) * worst.angle_rad, 3)}°, ring at ${number(worst.position_mm)} mm, ${number(worst.rate_um_h)} µm/h${life}.`;
+    const life = worst.life_h === null ? "" : `; ${exact(Number(view.worn_clearance_mm))} mm after ${number(worst.life_h, 3)} h of this motion`;
+    said.textContent = `Maximum depth: ${number(worst.depth_um)} µm in this run at ${number((180 / Math.PI) * worst.angle_rad, 3)}°, ring at ${number(worst.position_mm)} mm, ${number(worst.rate_um_h)} µm/h${life}.`;
     chart?.draw();
   }, signal);
   const field = (label, key) => {
     const input = h("input", { type: "text", inputmode: "decimal", value: view[key], onchange: () => { view[key] = input.value.trim(); load().catch((error) => notify(error.message, "trouble")); } });
     return h("label", { class: "choice" }, h("span", {}, label), input);
   };
-  body.replaceChildren(h("div", { class: "head" }, h("p", { class: "quiet small" }, "Archard's law: depth = coefficient × force × sliding distance over area. The coefficient is the materials' and the lubricant's: choose yours."),
+  body.replaceChildren(h("div", { class: "head" }, h("p", { class: "quiet small" }, "Archard's law: depth = coefficient × force × sliding distance / area. The coefficient depends on materials and lubricant."),
     saveButtons(() => chart, () => `${job.id} wear`)),
-  h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"), field("Until a clearance of [mm]", "worn_clearance_mm")), said, drawing);
+  h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"), field("Worn clearance [mm]", "worn_clearance_mm")), said, drawing);
   await load();
   chart = await makeChart(drawing, () => optionOf(rows), "Worn depth around the bearing", signal);
 }

@@ -40,7 +40,7 @@ export function fieldRow(field, entry, changed) {
     return h("label", {}, box, ` ${word}`);
   }
 
-  const modes = h("select", { "aria-label": `${name}: how it is given`, onchange: () => { entry.mode = modes.value; drawValues(); changed(); } },
+  const modes = h("select", { "aria-label": `${name}: kind of value`, onchange: () => { entry.mode = modes.value; drawValues(); changed(); } },
     ["one", "list", "range"].map((mode) => h("option", { value: mode }, mode === "one" ? "one value" : mode)));
   modes.value = entry.mode;
   drawValues();

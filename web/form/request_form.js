@@ -109,10 +109,10 @@ export class RequestForm {
   }
 
   linkage() {
-    return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Another linkage than RPSUP"),
-      h("p", { class: "quiet small" }, "A described linkage has its own bodies, joints and drives; the parameters of the coupler, the crank, the rod and the guide above belong to RPSUP alone."),
-      ...this.json("linkage", "Linkage: its bodies and joints, as a JSON object"),
-      ...this.json("inside", "Axes over numbers inside it, as a JSON object of lists and ranges"));
+    return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Custom linkage"),
+      h("p", { class: "quiet small" }, "A custom linkage has its own bodies, joints and drives; the parameters of coupler, crank, rod and guide above apply to RPSUP only."),
+      ...this.json("linkage", "Linkage: JSON object of bodies and joints"),
+      ...this.json("inside", "Axes inside the linkage: JSON object of lists and ranges"));
   }
 
   /// A part of the request that is written as JSON.
@@ -125,20 +125,20 @@ export class RequestForm {
 
   replicateFields() {
     const { replicates } = this.state;
-    return [this.text("Runs of each set", replicates, "count", { type: "number", min: 1 }), this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
+    return [this.text("Replicates", replicates, "count", { type: "number", min: 1 }), this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
       this.text("Seed", replicates, "seed", { type: "number" })];
   }
 
   orderFields() {
     return [this.text("Priority", this.state, "priority", { type: "number", min: -100, max: 100 }),
-      choice("Results computed before", [["yes", "are used"], ["no", "are computed again"]], this.state.reuse ? "yes" : "no", (value) => { this.state.reuse = value === "yes"; this.update(); })];
+      choice("Stored results", [["yes", "reuse"], ["no", "recompute"]], this.state.reuse ? "yes" : "no", (value) => { this.state.reuse = value === "yes"; this.update(); })];
   }
 
   summary() {
     const copy = (label, code) => h("button", { onclick: () => navigator.clipboard.writeText(code.textContent).then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
     return [this.count, this.cost, this.faults, h("p", {}, this.send),
       h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown), h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
-      h("details", {}, h("summary", {}, "As a curl command"), h("pre", { tabindex: 0 }, this.curl))];
+      h("details", {}, h("summary", {}, "curl command"), h("pre", { tabindex: 0 }, this.curl))];
   }
 
   filter(text) {

@@ -31,16 +31,16 @@ export class SearchForm extends StudyForm {
     const metrics = this.schema.metric.enum.map((metric) => [metric, titleOf(metric)]);
     const help = (key) => helpOf(this.way[key]);
     return [this.nameField(),
-      h("h2", {}, "What is looked for"),
-      this.told("over.parameter", "Parameter", over, "parameter", "The one whose largest value is looked for", numbers.map((path) => [path, titleOf(path)])),
-      this.told("over.from", "From", over, "from", "Where the metric is within its bound"),
-      this.told("over.to", "To", over, "to", "Where the search ends; it may be less than where it begins"),
-      this.told("over.scale", "Spacing", over, "scale", "Whether differences are halved, or ratios", [["linear", "linear"], ["log", "logarithmic"]]),
-      this.told("over.tolerance", "Tolerance", over, "tolerance", help("tolerance")), this.told("over.first", "Values at first", over, "first", help("first")),
-      this.told("metric", "Metric", values, "metric", "What may not exceed the bound", metrics),
+      h("h2", {}, "Search"),
+      this.told("over.parameter", "Parameter", over, "parameter", "Parameter whose largest admissible value is searched", numbers.map((path) => [path, titleOf(path)])),
+      this.told("over.from", "From", over, "from", "Start of the search, where the metric is within its bound"),
+      this.told("over.to", "To", over, "to", "End of the search; may be less than its start"),
+      this.told("over.scale", "Spacing", over, "scale", "Bisection of differences (linear) or of ratios (logarithmic)", [["linear", "linear"], ["log", "logarithmic"]]),
+      this.told("over.tolerance", "Tolerance", over, "tolerance", help("tolerance")), this.told("over.first", "Initial values", over, "first", help("first")),
+      this.told("metric", "Metric", values, "metric", "Metric that must not exceed the bound", metrics),
       this.number("bound"), this.number("quantile"),
-      h("h2", {}, "Linkage and axes"), h("p", { class: "quiet small" }, "A limit is looked for at each value of what has a list or a range."), ...this.parameterFields(), this.linkage(),
-      h("details", { open: Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates and order"), h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()))];
+      h("h2", {}, "Linkage and axes"), h("p", { class: "quiet small" }, "One limit for each combination of the parameters that have a list or a range."), ...this.parameterFields(), this.linkage(),
+      h("details", { open: Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates and priority"), h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()))];
   }
 
   build() {
@@ -60,7 +60,7 @@ export class SearchForm extends StudyForm {
     const measured = { "over.from": ["From", this.state.over.parameter], "over.to": ["To", this.state.over.parameter], "over.tolerance": ["Tolerance", this.state.over.parameter], bound: ["Bound", request.metric] };
     for (const [row, [name, of]] of Object.entries(measured)) this.rows.get(row)?.rename?.(inUnit(name, of));
     this.count.textContent = `${plural(limits, "limit")} to find`;
-    this.cost.textContent = `${plural(request.replicates?.count ?? 1, "run")} at each value that is tried; ${nameOf(request.metric).toLowerCase()}${unit ? ` in ${unit}` : ""}.`;
+    this.cost.textContent = `${plural(request.replicates?.count ?? 1, "run")} per evaluated value; ${nameOf(request.metric).toLowerCase()}${unit ? ` in ${unit}` : ""}.`;
   }
 
   rowOf(pointer) {

@@ -23,7 +23,7 @@ export async function showStudyForm(main, Form, example, query, signal) {
     from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {} : example]);
   const form = new Form(fieldsOf(parameters), schemas, request);
   main.replaceChildren(h("h1", {}, Form.title),
-    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Take the example"), h("a", { class: "button", href: routeTo(Form.route, "new", { empty: "1" }) }, "Start empty")),
+    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Load example"), h("a", { class: "button", href: routeTo(Form.route, "new", { empty: "1" }) }, "Empty form")),
     form.columns(...form.parts()));
   form.update();
 }

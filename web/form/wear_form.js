@@ -16,14 +16,14 @@ export class WearForm extends StudyForm {
 
   parts() {
     return [this.nameField(),
-      h("h2", {}, "How long and how finely"), numbers.map((key) => this.number(key, units[key] ?? "", names[key])),
+      h("h2", {}, "Duration and resolution"), numbers.map((key) => this.number(key, units[key] ?? "", names[key])),
       h("h2", {}, "Linkage"), ...this.parameterFields(),
-      h("details", {}, h("summary", {}, "Order"), h("p", { class: "actions" }, ...this.orderFields()))];
+      h("details", {}, h("summary", {}, "Priority"), h("p", { class: "actions" }, ...this.orderFields()))];
   }
 
   build() {
     const { request: { name, parameters, sweep = {}, priority, reuse }, problems } = this.buildCommon();
-    for (const path of Object.keys(sweep)) problems.push({ path, detail: "has one value in a wear study" });
+    for (const path of Object.keys(sweep)) problems.push({ path, detail: "must have a single value in a wear study" });
     const request = { name, parameters };
     this.addNumbers(numbers, request, problems);
     return { request: JSON.parse(JSON.stringify({ ...request, priority, reuse })), problems };
@@ -31,8 +31,8 @@ export class WearForm extends StudyForm {
 
   drawCount({ hours, worn_clearance_mm: clearance }) {
     const ends = [hours && `${hours} h`, clearance && `${clearance} mm`].filter(Boolean);
-    this.count.textContent = ends.length > 0 ? `Until ${ends.join(" or ")}` : "It has no end yet";
-    this.cost.textContent = "One run a cycle, each after the one before.";
+    this.count.textContent = ends.length > 0 ? `Until ${ends.join(" or ")}` : "No end given";
+    this.cost.textContent = "One run per cycle, in sequence.";
   }
 
   rowOf(pointer) {

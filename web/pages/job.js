@@ -75,13 +75,13 @@ class JobPage {
     const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity, linkage } = job.parameters;
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible").map((link) => `flexible ${link}, `).join("");
     const title = typeof linkage === "object" ? titleOfLinkage(linkage) : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
-    const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "its sweep") : "no sweep";
+    const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
     const links = job.state === "succeeded" ? h("p", { class: "actions" }, formats.map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
       : h("p", { class: "actions" }, isWaiting(job.state) ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
-      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this one alone")] : "")), links), failure].filter(Boolean);
+      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · overlaid with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this job only")] : "")), links), failure].filter(Boolean);
   }
 
   drawState() {
@@ -132,7 +132,7 @@ class JobPage {
     const drives = described ? driveChannels(columns) : ["crank_torque_n_m", "rod_force_n"];
     this.drawAcceleration([]);
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
-    const add = choice("Add a channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
+    const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
     const plots = [this.main, joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
       drives.length > 0 ? this.card("Drive torque and force", drives) : null,
       this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay()), motionCard(this.job, columns, this.signal),
@@ -154,7 +154,7 @@ class JobPage {
   drawAcceleration(ideal) {
     const { acceleration } = this;
     const behind = ideal.map((job) => ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: () => colour("quiet"), dash: [6, 4] }));
-    const button = h("button", { onclick: () => this.compare(button) }, "Lay over the ideal linkage");
+    const button = h("button", { onclick: () => this.compare(button) }, "Overlay ideal linkage");
     const tools = isDescribed(this.job) || isIdeal(this.job) || ideal.length > 0 ? [] : [button];
     this.mainLife?.abort();
     this.mainLife = new AbortController();
@@ -184,7 +184,7 @@ class JobPage {
   }
 
   energy() {
-    const card = this.card("Energy account", ["kinetic_energy_j", "potential_energy_j", "drive_work_j"]);
+    const card = this.card("Energy balance", ["kinetic_energy_j", "potential_energy_j", "drive_work_j"]);
     card.append(lossesCard(this.job));
     return card;
   }

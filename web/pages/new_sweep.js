@@ -47,16 +47,16 @@ class SweepForm extends RequestForm {
 
   parts() {
     return [h("h1", {}, "New sweep"),
-      h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study"), h("a", { class: "button", href: "#/new" }, "Start empty"),
-        choice("Take another linkage", [["", "choose …"], ...examples], this.example, (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
+      h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Load the paper's sweep"), h("a", { class: "button", href: "#/new" }, "Empty form"),
+        choice("Example linkage", [["", "choose …"], ...examples], this.example, (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
       this.columns(this.nameField(), ...this.parameterFields(), this.linkage(), this.more())];
   }
 
   more() {
-    return h("details", { open: this.state.cases + this.state.design !== "" || Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates, cases, designs and order"),
+    return h("details", { open: this.state.cases + this.state.design !== "" || Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates, cases, design and priority"),
       h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()),
-      ...this.json("cases", "Cases: a JSON list of parameter sets, each times the axes"),
-      ...this.json("design", "Design: points that are no grid, as a JSON object (latin_hypercube, sobol, zip, one_at_a_time, morris, saltelli), each times the axes"));
+      ...this.json("cases", "Cases: JSON list of parameter sets, each combined with the axes"),
+      ...this.json("design", "Design of experiments: JSON object (latin_hypercube, sobol, zip, one_at_a_time, morris, saltelli), combined with the axes"));
   }
 
   build() {
@@ -72,7 +72,7 @@ class SweepForm extends RequestForm {
   costText(jobs) {
     const cost = estimate(this.request, this.defaults, jobs, this.costs);
     const store = `the store grows by about ${bytes(cost.bytes)}`;
-    if (cost.unknown.length > 0) return `No time is known yet for: ${cost.unknown.join("; ")}. Of what is new, ${store}.`;
-    return `About ${span(cost.seconds)} of computing on one core, as earlier jobs took; ${store}. What has been computed before costs nothing.`;
+    if (cost.unknown.length > 0) return `No computing time known yet for: ${cost.unknown.join("; ")}. For new results ${store}.`;
+    return `Computing time about ${span(cost.seconds)} on one core, judged by earlier jobs; ${store}. Stored results cost nothing.`;
   }
 }

@@ -10,7 +10,7 @@ import { showStudy } from "/study/study_view.js";
 
 // What the flexible linkage of the paper may bear.
 const example = {
-  name: "How large may the clearance become?",
+  name: "Clearance limit",
   parameters: { coupler: "flexible", duration_s: 3 },
   over: { clearance_mm: { from: 0.05, to: 0.5, tolerance: 0.02 } },
   metric: "amplification",
@@ -27,8 +27,8 @@ function aimOf({ parameter, metric, bound }) {
 }
 
 const kind = {
-  api: searches, route: "searches", title: "Limits", question: "How far may a parameter go until a metric exceeds its bound?", listName: "Searches",
-  aim: { heading: "Looks for", textOf: aimOf }, none: "No search has been begun yet.", begin: "New search",
+  api: searches, route: "searches", title: "Limits", question: "Largest value of a parameter for which a metric stays within a bound.", listName: "Searches",
+  aim: { heading: "Target", textOf: aimOf }, none: "No searches yet.", begin: "New search",
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */

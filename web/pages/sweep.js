@@ -229,7 +229,7 @@ export class SweepPage {
   drawTexts() {
     this.table.draw();
     this.logs.draw();
-    this.help.textContent = `Draw along an axis to select the jobs between; click there to let them go. ${parallelNote(this)}`;
+    this.help.textContent = `Drag along an axis to select jobs; click the axis to clear its selection. ${parallelNote(this)}`;
   }
 
   changed() {
@@ -258,8 +258,8 @@ export class SweepPage {
     this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => this.failures.doubt()));
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
       h("a", { class: "button", href: resultsUrl(id, { format: "csv" }), download: `${name || id}.csv` }, "CSV"),
-      h("a", { class: "button", href: routeTo("analyses", id) }, "What it says"),
-      h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Use again"));
+      h("a", { class: "button", href: routeTo("analyses", id) }, "Analysis"),
+      h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Duplicate"));
   }
 
   drawPickers() {
@@ -269,9 +269,9 @@ export class SweepPage {
     const named = (names) => names.map((name) => [name, titleOf(name)]);
     const axes = named(this.axes);
     this.pickers.replaceChildren(choice("Metric", named(this.metrics), this.view.metric, set("metric")),
-      ...(this.axes.length === 0 ? [] : [choice("Across", axes, this.view.x, set("x"))]),
-      choice("Up, or a line each", [["", "none"], ...axes], this.view.y, set("y")),
-      choice("A panel each", [["", "none"], ...axes], this.view.panel, set("panel")), this.compare);
+      ...(this.axes.length === 0 ? [] : [choice("x axis", axes, this.view.x, set("x"))]),
+      choice("y axis / series", [["", "none"], ...axes], this.view.y, set("y")),
+      choice("Facet by", [["", "none"], ...axes], this.view.panel, set("panel")), this.compare);
     this.offerComparison();
   }
 
@@ -279,7 +279,7 @@ export class SweepPage {
     const page = await listSweeps({ limit: 100 }, this.signal).catch(() => null);
     const alike = (page?.items ?? []).filter(({ id, axes }) => id !== this.sweep.id && axes.includes(this.view.x));
     if (alike.length === 0) return;
-    this.compare.replaceChildren(choice("Beside it, dashed", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], this.others?.id ?? "", (id) => this.compareWith(id).then(() => this.changed())));
+    this.compare.replaceChildren(choice("Compare with", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], this.others?.id ?? "", (id) => this.compareWith(id).then(() => this.changed())));
   }
 
   /** @param {string} id */
@@ -297,7 +297,7 @@ export class SweepPage {
     this.chosen.hidden = ids.length === 0;
     const [first, ...more] = ids;
     this.chosen.replaceChildren(h("span", {}, `${plural(ids.length, "job")} selected`),
-      ids.length > 0 && ids.length <= 6 ? h("a", { class: "button main", href: routeTo("jobs", first, { with: more.join(",") }) }, ids.length === 1 ? "Open it" : "Open them together") : "",
-      h("button", { onclick: () => this.selection.set([]) }, "Select none"));
+      ids.length > 0 && ids.length <= 6 ? h("a", { class: "button main", href: routeTo("jobs", first, { with: more.join(",") }) }, ids.length === 1 ? "Open" : "Overlay") : "",
+      h("button", { onclick: () => this.selection.set([]) }, "Clear selection"));
   }
 }

@@ -18,7 +18,7 @@ const followed = 3;  // a browser keeps six connections to a service, and the pa
 const states = ["queued", "running", "succeeded", "failed", "cancelled"];
 /** @type {(text: string | null) => Api.State | ""} */
 const stateOf = (text) => states.find((state) => state === text) ?? "";
-const columns = [["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Least and largest peak"], ["created", "Created"], ["actions", "Actions"]];
+const columns = [["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Peak range"], ["created", "Created"], ["actions", "Actions"]];
 const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits and slides in its bearing, and accelerations and "
   + "forces have peaks that an ideal linkage has not. A sweep is a set of such simulations over ranges of their parameters; the service computes them in the "
   + "background and keeps what comes out, and charts and tables fill as it does.";
@@ -43,7 +43,7 @@ class SweepList {
   status = h("p", { class: "quiet", role: "status" }, "Loading the sweeps …");
   body = h("tbody");
   more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
-  none = h("p", { class: "card", hidden: true }, "No sweep is like that.");
+  none = h("p", { class: "card", hidden: true }, "No matching sweeps.");
   executors = executorsPanel();
   table = this.#makeTable();
   empty = this.#makeWelcome();
@@ -62,12 +62,12 @@ class SweepList {
   }
 
   #makeWelcome() {
-    return h("section", { class: "card", hidden: true }, h("h2", {}, "There is no sweep here yet"),
+    return h("section", { class: "card", hidden: true }, h("h2", {}, "No sweeps yet"),
       h("p", {}, whatItIs),
-      h("p", {}, "The paper's study is an example, ready to be submitted. For scripts and notebooks, ",
-        h("a", { href: "/docs" }, "the interface is described"), " on a page to try it with."),
-      h("p", {}, h("a", { class: "button main", href: "#/new" }, "Set one up"), " ",
-        h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Take the paper's study")));
+      h("p", {}, "The paper's sweep is an example, ready to be submitted. For scripts and notebooks, ",
+        h("a", { href: "/docs" }, "the REST interface is documented"), " on a page to try it with."),
+      h("p", {}, h("a", { class: "button main", href: "#/new" }, "New sweep"), " ",
+        h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Load the paper's sweep")));
   }
 
   parts() {
@@ -75,10 +75,10 @@ class SweepList {
     const refreshSoon = settled(() => this.signal.aborted || this.refresh(), 300);
     const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
     const tools = h("p", { class: "actions" },
-      h("label", { class: "choice" }, h("span", {}, "Search by name, id or axis"), search),
+      h("label", { class: "choice" }, h("span", {}, "Search (name, id, axis)"), search),
       choice("State", [["", "any"], ...states], this.state, (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
       h("a", { class: "button main", href: "#/new" }, "New sweep"));
-    return [h("h1", {}, "Sweeps of the RPSUP linkage"), this.status, this.executors.element, tools, this.table, this.none, this.more, this.empty];
+    return [h("h1", {}, "Sweeps"), this.status, this.executors.element, tools, this.table, this.none, this.more, this.empty];
   }
 
   changed() {
@@ -157,7 +157,7 @@ class SweepList {
 
   async act(run, action, id) {
     const sweep = await findSweep(id).catch(() => ({ name: "", id }));
-    const question = `Delete “${sweep.name || id}”? The results that no other sweep shares go with it.`;
+    const question = `Delete “${sweep.name || id}”? Results that no other sweep shares are deleted, too.`;
     if (action === "delete" && !(await confirmed(question, "Delete"))) return;
     try {
       await run(id);

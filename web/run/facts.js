@@ -27,9 +27,9 @@ function whyMissing(jobs) {
 export function lossesCard({ metrics }) {
   const losses = ["friction_work_j", "impact_loss_j", "structural_loss_j"].map((name) => ({ name, value: metrics?.[name] }));
   const largest = Math.max(...losses.map(({ value }) => Math.abs(value ?? 0)), Number.MIN_VALUE);
-  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Energy lost in the whole run"), h("tbody", {}, losses.map(({ name, value }) => h("tr", {}, h("th", { scope: "row" }, titleOf(name)),
+  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Losses over the whole run"), h("tbody", {}, losses.map(({ name, value }) => h("tr", {}, h("th", { scope: "row" }, titleOf(name)),
     h("td", {}, h("progress", { value: Math.abs(value ?? 0) / largest, "aria-label": nameOf(name) })), h("td", { class: "number" }, number(value)))))),
-    h("p", { class: "small" }, `What the account misses: ${number(metrics?.energy_residual, 2)} of the work turned over.`));
+    h("p", { class: "small" }, `Energy residual: ${number(metrics?.energy_residual, 2)} of the work turned over.`));
 }
 
 /** @param {Api.Job} job  @param {any} schema */
@@ -37,8 +37,8 @@ export function runCard(job, schema) {
   const defaults = (name) => JSON.stringify(schema.properties[name]?.default) === JSON.stringify(job.parameters[name]);
   const set = Object.entries(job.parameters).filter(([, value]) => typeof value !== "object");
   const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)), h("td", { class: "number" }, exact(value)), h("td", {}, schema.properties[name]?.["x-unit"] ?? ""));
-  const facts = job.run ? `${span(job.run.wall_time_s)} on ${job.run.cpu}, ${job.run.host}; version ${job.run.program.version} (${job.run.program.commit}), ${job.run.program.compiler}${job.run.libm ? `; ${job.run.libm}, ${job.run.numerics} numerics` : ""}${job.run.reused ? "; taken from an earlier run" : ""}` : "none has ended yet";
+  const facts = job.run ? `${span(job.run.wall_time_s)} on ${job.run.cpu}, ${job.run.host}; version ${job.run.program.version} (${job.run.program.commit}), ${job.run.program.compiler}${job.run.libm ? `; ${job.run.libm}, ${job.run.numerics} numerics` : ""}${job.run.reused ? "; reused from an earlier run" : ""}` : "not completed";
   return h("section", { class: "card" }, h("h2", {}, "Parameters"), h("p", { class: "small quiet" }, `Run: ${facts}.`),
     h("table", {}, h("tbody", {}, set.filter(([name]) => !defaults(name)).map(row))),
-    h("details", {}, h("summary", {}, "Those left at their defaults"), h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
+    h("details", {}, h("summary", {}, "Parameters at their defaults"), h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
 }

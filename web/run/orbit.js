@@ -51,7 +51,7 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
     const unit = by === "time" ? "s" : "N";
     low.textContent = `${number(least)} ${unit}`;
     high.textContent = `${number(largest)} ${unit}`;
-    caption.textContent = `Circle: clearance ${number(clearance)} mm. ${shown.t_s.length.toLocaleString("en")} samples${shown === whole ? "" : "; the rest of the run is pale"}. The ring marks the instant.`;
+    caption.textContent = `Circle: clearance ${number(clearance)} mm. ${shown.t_s.length.toLocaleString("en")} samples${shown === whole ? "" : "; the rest of the run is pale"}. Ring: current instant.`;
     canvas.dataset.samples = shown.t_s.length;
     draw();
   }

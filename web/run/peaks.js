@@ -37,5 +37,5 @@ export function peakNote(jobs, channels) {
   const peaks = jobs.flatMap((job, j) => channels.map((channel) => [nameFor(channel, j), peakOf(job, channel)])).filter(([, peak]) => peak !== null);
   if (peaks.length === 0) return "";
   const rates = [...new Set(jobs.map((job) => job.parameters.output_rate_hz))].map((rate) => number(rate, 6)).join(" and ");
-  return `Largest magnitude: ${peaks.map((words) => words.join(" ").trim()).join("; ")}. It is sought between the samples, too, which the curve joins at ${rates} Hz.`;
+  return `Peak magnitude: ${peaks.map((words) => words.join(" ").trim()).join("; ")}. Peaks include values between the samples, which the curve joins at ${rates} Hz.`;
 }

@@ -21,7 +21,7 @@ export function plotCard(title, { traces, times, height, signal, note = "", clos
   timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; }).catch((error) => { element.textContent = error.message; });
   return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
     h("span", { class: "actions" }, tools, h("button", { onclick: () => made && saveCanvas(made.canvas(), `${title}.png`) }, "PNG"),
-      close ? h("button", { onclick: close, "aria-label": `Take ${title} away` }, "✕") : null)), element, note && h("p", { class: "quiet small" }, note));
+      close ? h("button", { onclick: close, "aria-label": `Remove ${title}` }, "✕") : null)), element, note && h("p", { class: "quiet small" }, note));
 }
 
 /// Traces of some channels for each of the jobs. @param channels  names, or {channel, envelope}

@@ -28,7 +28,7 @@ export function standingCard() {
     });
   }
 
-  return { element: h("section", { class: "card", "aria-label": "State" }, h("h2", {}, "Where it stands"), h("table", {}, body)), draw };
+  return { element: h("section", { class: "card", "aria-label": "State" }, h("h2", {}, "Progress"), h("table", {}, body)), draw };
 }
 
 /// [what, how it is] of a job; why it failed stands above it.
@@ -36,13 +36,13 @@ export function standingCard() {
 export function standingRows(job, sweep, now) {
   const { state, error, created_at: created, started_at: started, ended_at: ended, attempts } = job;
   return [["State", state],
-    typeof error?.t_s === "number" && ["The run came to", `${number(error.t_s)} s of ${number(job.parameters.duration_s)} s`],
+    typeof error?.t_s === "number" && ["Simulated time", `${number(error.t_s)} s of ${number(job.parameters.duration_s)} s`],
     ["Submitted", moment(created)],
     started && ["Started", moment(started)],
-    started && [ended ? "Computed for" : "Computing for", span(Math.max(0, seconds(started, ended ?? now)))],
+    started && ["Computing time", span(Math.max(0, seconds(started, ended ?? now)))],
     ended && ["Ended", moment(ended)],
     attempts > 1 && ["Attempts", String(attempts)],
-    sweep && ["Its sweep", sweepText(sweep)]].filter(Boolean);
+    sweep && ["Sweep", sweepText(sweep)]].filter(Boolean);
 }
 
 /** @param {Api.Sweep} sweep */

@@ -5,8 +5,8 @@ import { number } from "/core/format.js";
 import { overview } from "/run/overview.js";
 
 const aroundPeak = 0.02;
-const help = "In a plot: drag across to look closer, turn the wheel to zoom, drag with Shift to move, double-click for the whole run; on a touch screen two fingers "
-  + "zoom, one moves. Keys there: ← → + − 0. In the strip: drag across with the mouse for another stretch.";
+const help = "Plots: drag or turn the wheel to zoom, Shift + drag to pan, double-click for the whole run; touch screen: two fingers "
+  + "zoom, one pans; keys: ← → + − 0. Strip: drag to choose the time window.";
 
 /// @param job       with parameters and metrics; the buttons lead to its steady window and its peak
 /// @param envelope  channels that the strip shows: the least and the largest of one quantity, or one alone
@@ -37,8 +37,8 @@ export function timeBar(times, job, envelope, signal) {
   const jump = (name, go) => h("button", { onclick: go }, name);
   return h("section", { class: "card tight", "aria-label": "Time" },
     h("p", { class: "actions" }, h("strong", {}, "Time"), jump("Whole run", () => times.reset()),
-      runUp < times.end ? jump("Steady part", () => times.set(runUp, times.end)) : null,
-      typeof peak === "number" ? jump("Around the peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null, text),  // last: its length changes
+      runUp < times.end ? jump("Steady window", () => times.set(runUp, times.end)) : null,
+      typeof peak === "number" ? jump("Peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null, text),  // last: its length changes
     overview(job, envelope, times, signal),
     h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from), h("label", { class: "small quiet" }, "to", to)),
     h("p", { class: "quiet small" }, help));

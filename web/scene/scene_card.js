@@ -62,7 +62,7 @@ export function sceneCard(job, links, times, signal) {
     draw();
   }
 
-  const views = choice("Look at", [["all", "the whole linkage"], ["joint", "the joint"]], "all", () => {});
+  const views = choice("View", [["all", "whole linkage"], ["joint", "joint"]], "all", () => {});
   const enlarge = (label, key, to = factors) => choice(label, to.map((factor) => [String(factor), `× ${factor}`]), String(drawn[key]), (value) => { drawn[key] = Number(value); draw(); });
   const slow = h("input", { type: "checkbox", onchange: () => { player.slow = slow.checked; } });
   slow.checked = player.slow;
@@ -74,12 +74,12 @@ export function sceneCard(job, links, times, signal) {
   if (hasClearance) findTrajectory(job.id, { channels: ["t_s", "slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"], points: impactPoints }, signal).then((columns) => { player.impacts = impactsOf(columns); }).catch(() => {});
 
   return h("section", { class: "card", "aria-label": "Linkage" },
-    h("div", { class: "head" }, h("h2", {}, "The linkage in motion"), h("button", { onclick: () => saveCanvas(canvas, "linkage.png") }, "PNG")),
+    h("div", { class: "head" }, h("h2", {}, "3-D view"), h("button", { onclick: () => saveCanvas(canvas, "linkage.png") }, "PNG")),
     canvas,
     h("p", { class: "actions" }, play, scrub, instant),
     h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]), String(player.speed), (value) => { player.speed = Number(value); draw(); }), described ? null : views,
-      hasClearance ? enlarge("Clearance drawn", "clearance") : null, isFlexible ? enlarge("Bend drawn", "bend", bendFactors) : null,
-      hasClearance ? h("label", { class: "small" }, slow, " slow through hard impacts") : null),
+      hasClearance ? enlarge("Clearance scale", "clearance") : null, isFlexible ? enlarge("Deflection scale", "bend", bendFactors) : null,
+      hasClearance ? h("label", { class: "small" }, slow, " slow motion at impacts") : null),
     h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours).map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
 }
 

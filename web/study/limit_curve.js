@@ -58,6 +58,6 @@ function bandSeries(name, limits, index, at) {
 function textOf(search, limit) {
   const where = search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
   const beyond = limit.limit_beyond === null ? "not exceeded up to there" : `exceeded at ${number(limit.limit_beyond)}`;
-  const band = `all replicates within up to ${number(limit.band_from)}, none from ${number(limit.band_to)}`;
-  return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band, limit.monotonic ? "" : "the metric falls on the way"].filter(Boolean).join("\n");
+  const band = `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}`;
+  return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band, limit.monotonic ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
 }

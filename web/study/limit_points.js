@@ -10,7 +10,7 @@ import { colour, lineColour } from "/core/theme.js";
  * @param {AbortSignal} signal
  */
 export function limitPoints(element, view, signal) {
-  return makeChart(element, () => optionOf(view.study, view.study.limits[view.shown]), "The metric at each value that was tried, with its bound", signal);
+  return makeChart(element, () => optionOf(view.study, view.study.limits[view.shown]), "The metric at each evaluated value, with its bound", signal);
 }
 
 /** @param {Api.Search} search  @param {Api.Limit} limit */

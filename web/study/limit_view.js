@@ -7,11 +7,11 @@ import { limitCurve } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
 
-const verdicts = { open: "not known yet", found: "found", never_exceeded: "never exceeded", always_exceeded: "exceeded from the start", lost: "a job without a value is in the way" };
+const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded", always_exceeded: "exceeded from the start", lost: "undetermined: a job has no value" };
 
 /** @type {(limit: Api.Limit) => string} */
 const verdictOf = ({ verdict, lost_reason: reason }) =>
-  verdicts[verdict] + (reason === "no_value" ? ": the metric does not apply to it" : reason ? `: ${reason}` : "");
+  verdicts[verdict] + (reason === "no_value" ? " (the metric does not apply)" : reason ? ` (${reason})` : "");
 
 /// The combination of a limit: "10 rad/s, flexible".
 /** @type {(search: Api.Search, limit: Api.Limit) => string} */
@@ -38,8 +38,8 @@ export class LimitView extends StudyView {
   columns() {
     const { study: search } = this;
     const unit = `[${unitOf(search.parameter) || "1"}]`;
-    return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`], [`All within up to ${unit}`, "number"], [`None within from ${unit}`, "number"],
-      ["Evaluations", "number"], [`Where the metric falls ${unit}`]];
+    return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`], [`OK up to ${unit}`, "number"], [`Exceeded from ${unit}`, "number"],
+      ["Evaluations", "number"], [`Metric falls in ${unit}`]];
   }
 
   statusText() {
@@ -51,7 +51,7 @@ export class LimitView extends StudyView {
     const { study: search } = this;
     if (search.axes.length === 0 || this.picker.hasChildNodes()) return;
     const names = search.limits.map((limit, index) => [String(index), combinationOf(search, limit)]);
-    this.picker.replaceChildren(choice("At", names, String(this.shown), (index) => { this.shown = Number(index); this.drawn[1]?.draw(); }));
+    this.picker.replaceChildren(choice("Combination", names, String(this.shown), (index) => { this.shown = Number(index); this.drawn[1]?.draw(); }));
   }
 
   rows() {
@@ -64,6 +64,6 @@ export class LimitView extends StudyView {
     const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}` : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
     return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))), h("td", {}, verdictOf(limit)), h("td", {}, between),
       h("td", { class: "number" }, number(limit.band_from)), h("td", { class: "number" }, number(limit.band_to)), h("td", { class: "number" }, String(limit.evaluations)),
-      h("td", {}, falls || "nowhere"));
+      h("td", {}, falls || "–"));
   }
 }

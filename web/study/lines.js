@@ -73,9 +73,9 @@ function notesOf(study, own, theirs) {
   const averaged = new Set([...averagedIn(own, study), ...averagedIn(theirs, { ...study.others, view: study.view })]);
   const count = own.length + theirs.length;
   const without = withoutValue(study).length;
-  return [averaged.size > 0 && `Mean over ${[...averaged].map((axis) => nameOf(axis).toLowerCase()).join(", ")}; bars from the least to the largest.`,
+  return [averaged.size > 0 && `Mean over ${[...averaged].map((axis) => nameOf(axis).toLowerCase()).join(", ")}; bars: range.`,
     without > 0 && `${plural(without, "computed job")} without a value: the table says why.`,
-    count > mostLines && `The first ${mostLines} of ${count} lines: choose fewer values, or another axis for them.`].filter(Boolean);
+    count > mostLines && `The first ${mostLines} of ${count} series: choose fewer values, or another axis.`].filter(Boolean);
 }
 
 /// Lines with a value at least; where jobs have none, a group without a mean stands in its place.

@@ -32,7 +32,7 @@ export function logBoxes(study, changed) {
     for (const [key, label] of Object.entries(labels)) {
       label.hidden = !offered[key];
       boxes[key].checked = chosen[key];
-      part("span", label).textContent = ` logarithmic ${nameOf(study.view[key]).toLowerCase()}`;
+      part("span", label).textContent = ` log scale: ${nameOf(study.view[key]).toLowerCase()}`;
     }
   }
 

@@ -148,12 +148,12 @@ export class StudyView {
     this.delete = h("button", { class: "danger", onclick: () => this.remove() }, "Delete");
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
       h("a", { class: "button", href: api.resultsUrl(id, { format: "csv" }), download: `${this.name}.csv` }, "CSV"),
-      h("a", { class: "button", href: routeTo("sweeps", sweep) }, "Its jobs"),
-      h("a", { class: "button", href: routeTo(route, "new", { from: id }) }, "Use again"), this.delete);
+      h("a", { class: "button", href: routeTo("sweeps", sweep) }, "Jobs"),
+      h("a", { class: "button", href: routeTo(route, "new", { from: id }) }, "Duplicate"), this.delete);
   }
 
   async remove() {
-    if (!(await confirmed(`Delete “${this.name}”? Its jobs go with it; results that other sweeps share stay.`, "Delete"))) return;
+    if (!(await confirmed(`Delete “${this.name}”? Its jobs are deleted, too; results that other sweeps share stay.`, "Delete"))) return;
     this.isRemoved = true;  // a reload that is still to come would not find it
     try {
       await this.kind.api.remove(this.study.id);

@@ -24,7 +24,7 @@ export function sweepRow(act, signal) {
     retry: h("button", { onclick: () => act("retry") }, "Retry"),
     delete: h("button", { class: "danger", onclick: () => act("delete") }, "Delete"),
   };
-  const again = h("a", { class: "button" }, "Use again");
+  const again = h("a", { class: "button" }, "Duplicate");
   cells.actions.append(h("span", { class: "actions" }, again, buttons.delete, buttons.cancel, buttons.retry));
   const bar = h("progress");
   const percent = h("span", { class: "small quiet" });
@@ -53,7 +53,7 @@ export function sweepRow(act, signal) {
     setSeen(buttons.delete, !isUnderWay(sweep));
     for (const button of Object.values(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
     again.href = routeTo("new", "", { from: sweep.id });
-    again.setAttribute("aria-label", `Use again: ${name}`);
+    again.setAttribute("aria-label", `Duplicate ${name}`);
     if (sweep.counts.succeeded !== counted && sweep.counts.succeeded > 0) showPeaks(sweep);
     counted = sweep.counts.succeeded;
   }

@@ -18,12 +18,12 @@ export class ResultTable {
     this.head = h("tr");
     this.body = h("tbody");
     this.where = h("span", { class: "quiet small" });
-    this.back = h("button", { onclick: () => this.turn(-1) }, "Back");
+    this.back = h("button", { onclick: () => this.turn(-1) }, "Previous");
     this.next = h("button", { onclick: () => this.turn(1) }, "Next");
     const only = h("input", { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.page = 0; this.draw(); } });
     this.missing = h("p", { class: "quiet small", role: "note" });
     this.element = h("div", {}, this.missing,
-      h("p", { class: "actions" }, this.back, this.next, this.where, h("label", {}, only, " only what is selected")),
+      h("p", { class: "actions" }, this.back, this.next, this.where, h("label", {}, only, " Selected only")),
       h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Results" }, h("table", {}, h("thead", {}, this.head), this.body)));
   }
 

@@ -21,7 +21,7 @@ export function wearMap(element, view, signal) {
  * @param {AbortSignal} signal
  */
 export function wearGrowth(element, view, signal) {
-  return makeChart(element, () => growthOption(view.study.cycles), "Largest depth and rate over the hours; the table below has the same numbers", signal);
+  return makeChart(element, () => growthOption(view.study.cycles), "Maximum depth and rate over time; the table below has the same numbers", signal);
 }
 
 /// The first is round; the last and some between, evenly.
@@ -55,7 +55,7 @@ function growthOption(cycles) {
   return {
     grid: { left: 75, right: 75, top: 40, bottom: 50 }, legend: { top: 0 }, tooltip: { formatter: ({ seriesName, value }) => `${seriesName}\n${number(value[0])} h: ${number(value[1])}` },
     xAxis: { type: "value", name: "time [h]", nameLocation: "middle", nameGap: 28, ...axisLook() },
-    yAxis: [scale("largest depth [µm]"), { ...scale("largest rate [µm/h]"), splitLine: { show: false } }],
+    yAxis: [scale("maximum depth [µm]"), { ...scale("maximum rate [µm/h]"), splitLine: { show: false } }],
     series: [line("deepest_um", "depth [µm]", 0, 0), line("rate_um_h", "rate [µm/h]", 1, 1)],
   };
 }

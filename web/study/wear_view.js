@@ -7,8 +7,8 @@ import { routeTo } from "/core/route.js";
 import { StudyView } from "/study/study_view.js";
 import { wearGrowth, wearMap } from "/study/wear_charts.js";
 
-const verdicts = { open: "not ended yet", hours_reached: "the hours are over", clearance_reached: "the clearance is reached", no_wear: "nothing is worn", cycle_limit: "as many cycles as were allowed",
-  lost: "a failed job is in the way" };
+const verdicts = { open: "open", hours_reached: "end time reached", clearance_reached: "worn clearance reached", no_wear: "no wear", cycle_limit: "cycle limit reached",
+  lost: "undetermined: a job failed" };
 
 /** @extends {StudyView<Api.WearStudy>} */
 export class WearView extends StudyView {
@@ -24,7 +24,7 @@ export class WearView extends StudyView {
   }
 
   columns() {
-    const numbers = ["Cycle", "Time [h]", "Deepest [µm]", "at [°]", "Clearance there [mm]", "Rate [µm/h]", "Change of the rate [%]", "Worn volume [mm³]"];
+    const numbers = ["Cycle", "Time [h]", "Maximum depth [µm]", "Angle [°]", "Clearance [mm]", "Rate [µm/h]", "Rate change [%]", "Worn volume [mm³]"];
     return [...numbers.map((heading) => [heading, "number"]), ["Job"]];
   }
 

@@ -211,7 +211,7 @@ TEST(Report, StandsByItself) {
   const std::string& page = response.body;
   for (const char* const forbidden : {"<script", "style=", "<b>", "src=", "href=", "url("}) EXPECT_EQ(page.find(forbidden), std::string::npos)
       << forbidden;
-  for (const char* const wanted : {"<svg", "Does flexibility help?", "How it was computed", "it's &lt;b&gt;bold"}) EXPECT_NE(page.find(wanted),
+  for (const char* const wanted : {"<svg", "Effect of flexibility", "Provenance", "it's &lt;b&gt;bold"}) EXPECT_NE(page.find(wanted),
       std::string::npos) << wanted;
   // The policy names the style by its hash, which stands in the page, too, for when it has been saved.
   const std::string policy = header(response, "Content-Security-Policy");
