@@ -21,7 +21,7 @@ LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage&
     : built_(built), reactions_(built.mechanism) {
   measured_.steady_from = steady_from;
   measured_.prepare = prepare();
-  add_channel("t_s", "time", [](const Evaluation& at) { return at.t; });
+  add_channel("t_s", "Time", [](const Evaluation& at) { return at.t; });
   for (std::size_t k = 0; k < linkage.joints.size(); ++k)
     for (int i = 0; i < built.joints[k].count; ++i)
       add_coordinate(linkage.joints[k].freedoms[static_cast<std::size_t>(i)], built.joints[k].first + i);
@@ -51,21 +51,31 @@ void LinkageQuantities::add_load(std::string key, std::string help, double scale
 }
 
 void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex i) {
-  const bool slides = built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
+  const bool slides =
+      built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
   const std::string unit = slides ? "_m" : "_rad";
-  add_channel(freedom.name + unit, "coordinate of a joint", [i](const Evaluation& at) { return at.q[i]; });
-  add_channel(freedom.name + unit + "_s", "its rate", [i](const Evaluation& at) { return at.qd[i]; });
-  add_channel(freedom.name + unit + "_s2", "its second derivative", [i](const Evaluation& at) { return at.qdd[i]; });
+  add_channel(freedom.name + unit, "Coordinate of the joint", [i](const Evaluation& at) { return at.q[i]; });
+  add_channel(freedom.name + unit + "_s", "Rate of the joint's coordinate",
+              [i](const Evaluation& at) { return at.qd[i]; });
+  add_channel(freedom.name + unit + "_s2", "Acceleration of the joint's coordinate",
+              [i](const Evaluation& at) { return at.qdd[i]; });
   const std::size_t k = measured_.accelerations.size();
   measured_.accelerations.push_back(i);
   const std::string name = freedom.name + "_acceleration";
-  add_metric({.key = "peak_" + name + unit + "_s2", .help = "largest |acceleration| for t >= run_up_s, from the inside of every step"},
-             [k](const RunMetrics& metrics, const RunEnd&) { return metrics.steady_time() > 0.0 ?
-                                                            metrics.acceleration(k).steady.magnitude : kNone; });
-  add_metric({.key = "peak_" + name + "_whole_run" + unit + "_s2", .help = "the same from t = 0 on"},
-             [k](const RunMetrics& metrics, const RunEnd&) { return metrics.acceleration(k).whole_run.magnitude; });
-  add_metric({.key = "rms_" + name + unit + "_s2", .help = "root mean square for t >= run_up_s"},
-             [k](const RunMetrics& metrics, const RunEnd&) { return metrics.calc_rms(k); });
+  add_metric({.key = "peak_" + name + unit + "_s2",
+              .help = "Largest magnitude of the coordinate's acceleration in the steady window (t ≥ "
+                      "run_up_s), sought inside every integration step"},
+             [k](const RunMetrics& metrics, const RunEnd&) {
+               return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.magnitude : kNone;
+             });
+  add_metric(
+      {.key = "peak_" + name + "_whole_run" + unit + "_s2",
+       .help = "Largest magnitude of the coordinate's acceleration in the whole run"},
+      [k](const RunMetrics& metrics, const RunEnd&) { return metrics.acceleration(k).whole_run.magnitude; });
+  add_metric(
+      {.key = "rms_" + name + unit + "_s2",
+       .help = "Root mean square of the coordinate's acceleration in the steady window (t ≥ run_up_s)"},
+      [k](const RunMetrics& metrics, const RunEnd&) { return metrics.calc_rms(k); });
   if (freedom.drive) add_drive(freedom, i);
 }
 
@@ -73,17 +83,23 @@ void LinkageQuantities::add_drive(const LinkageFreedom& freedom, FrameIndex i) {
   const std::vector<Drive>& drives = built_.mechanism.drives;
   Eigen::Index drive = 0;
   while (drives[static_cast<std::size_t>(drive)].coordinate != i) ++drive;
-  const bool slides = built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
+  const bool slides =
+      built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
   const std::string key = freedom.name + (slides ? "_drive_n" : "_drive_n_m");
   const Reading force = [drive](const Evaluation& at) { return at.drive_force[drive]; };
-  add_channel(key, "what the drive exerts", force);
-  add_load("peak_" + key, "largest magnitude of it in the whole run", 1.0, force);
+  add_channel(key, slides ? "Driving force of the coordinate" : "Driving torque of the coordinate", force);
+  add_load("peak_" + key,
+           std::string("Largest magnitude of the coordinate's driving ") + (slides ? "force" : "torque") +
+               " in the whole run",
+           1.0, force);
 }
 
 void LinkageQuantities::add_joint(const LinkageJoint& joint, const BuiltJoint& built) {
   if (built.cut >= 0) {
     const auto cut = static_cast<std::size_t>(built.cut);
-    add_reaction(joint, [cut](const Evaluation& at) { return Wrench{at.joints[cut].reaction_W, at.joints[cut].moment_W}; });
+    add_reaction(joint, [cut](const Evaluation& at) {
+      return Wrench{at.joints[cut].reaction_W, at.joints[cut].moment_W};
+    });
     if (joint.clearance) add_clearance(joint, cut);
   } else if (built.count > 0) {
     const FrameIndex last = built.first + built.count - 1;
@@ -91,70 +107,100 @@ void LinkageQuantities::add_joint(const LinkageJoint& joint, const BuiltJoint& b
   }
 }
 
-void LinkageQuantities::add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench) {
-  const std::string of = " of the joint on its second body, in the global frame";
+void LinkageQuantities::add_reaction(const LinkageJoint& joint,
+                                     const std::function<Wrench(const Evaluation&)>& wrench) {
+  const std::string of = " of the joint on its second body: ";
   for (int axis = 0; axis < 3; ++axis)
-    add_channel(joint.name + "_force_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_n", "force" + of,
-                [=](const Evaluation& at) { return wrench(at).force[axis]; });
+    add_channel(
+        joint.name + "_force_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_n",
+        "Force" + of + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + " in the global frame",
+        [=](const Evaluation& at) { return wrench(at).force[axis]; });
   for (int axis = 0; axis < 3; ++axis)
-    add_channel(joint.name + "_moment_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_n_m", "moment" + of,
-                [=](const Evaluation& at) { return wrench(at).moment[axis]; });
-  add_load("peak_" + joint.name + "_reaction_n", "largest force in the joint of the whole run", 1.0,
+    add_channel(
+        joint.name + "_moment_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_n_m",
+        "Moment" + of + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + " in the global frame",
+        [=](const Evaluation& at) { return wrench(at).moment[axis]; });
+  add_load("peak_" + joint.name + "_reaction_n",
+           "Largest magnitude of the force in the joint in the whole run", 1.0,
            [=](const Evaluation& at) { return wrench(at).force.norm(); });
 }
 
 void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut) {
   for (int axis = 0; axis < 3; ++axis)
-    add_channel(joint.name + "_journal_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_mm", "journal centre in the bearing frame",
-                [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
-  add_channel(joint.name + "_journal_tilt_mrad", "angle between the axes of journal and bearing",
+    add_channel(
+        joint.name + "_journal_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_mm",
+        "Journal centre in the bearing frame: " + std::string(kAxisNames[static_cast<std::size_t>(axis)]),
+        [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
+  add_channel(joint.name + "_journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [=](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[cut].journal); });
   const Reading force = [=](const Evaluation& at) { return at.joints[cut].load.radial_normal_sum; };
-  add_channel(joint.name + "_contact_force_n", "sum of the radial normal forces", force);
-  add_channel(joint.name + "_friction_force_n", "sum of the friction forces' magnitudes",
+  add_channel(joint.name + "_contact_force_n", "Sum of the radial normal forces on the journal", force);
+  add_channel(joint.name + "_friction_force_n", "Sum of the magnitudes of the friction forces on the journal",
               [=](const Evaluation& at) { return at.joints[cut].load.friction_sum; });
-  add_load("peak_" + joint.name + "_contact_force_n", "largest sum of radial normal forces of the whole run", 1.0, force);
-  add_load("max_" + joint.name + "_penetration_um", "largest radial penetration of the whole run", 1e6,
+  add_load("peak_" + joint.name + "_contact_force_n",
+           "Largest sum of the radial normal forces on the journal in the whole run", 1.0, force);
+  add_load("max_" + joint.name + "_penetration_um",
+           "Largest radial penetration of the journal into the bore in the whole run", 1e6,
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
   const std::size_t contact = measured_.contacts.size();
   measured_.contacts.push_back(cut);
-  add_metric({.key = joint.name + "_contact_time_ratio", .help = "part of the whole run in which the bore is touched"},
-             [=](const RunMetrics& metrics, const RunEnd& end) { return metrics.contact_time(contact) / end.t; });
+  add_metric(
+      {.key = joint.name + "_contact_time_ratio",
+       .help = "Fraction of the whole run in which the journal touches the bore"},
+      [=](const RunMetrics& metrics, const RunEnd& end) { return metrics.contact_time(contact) / end.t; });
 }
 
 void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t index) {
-  const auto motion = [this, index](const Evaluation& at) { return calc_spring_motion(built_.mechanism.springs[index], at.frames); };
+  const auto motion = [this, index](const Evaluation& at) {
+    return calc_spring_motion(built_.mechanism.springs[index], at.frames);
+  };
   const Reading tension = [motion](const Evaluation& at) { return motion(at).tension; };
-  add_channel(spring.name + "_length_m", "distance of the spring's ends", [motion](const Evaluation& at) { return motion(at).length; });
-  add_channel(spring.name + "_tension_n", "how it pulls its ends together, its damper with it", tension);
-  add_load("peak_" + spring.name + "_tension_n", "largest magnitude of it in the whole run", 1.0, tension);
+  add_channel(spring.name + "_length_m", "Distance of the spring's ends",
+              [motion](const Evaluation& at) { return motion(at).length; });
+  add_channel(spring.name + "_tension_n", "Tension of the spring with its damper", tension);
+  add_load("peak_" + spring.name + "_tension_n", "Largest magnitude of the spring's tension in the whole run",
+           1.0, tension);
 }
 
 void LinkageQuantities::add_energies() {
-  add_channel("kinetic_energy_j", "of all bodies", [](const Evaluation& at) { return at.energy.kinetic; });
-  add_channel("potential_energy_j", "of gravity, springs and the elastic part of the contacts",
+  add_channel("kinetic_energy_j", "Kinetic energy of all bodies",
+              [](const Evaluation& at) { return at.energy.kinetic; });
+  add_channel("potential_energy_j", "Potential energy of gravity, of springs and of the elastic contacts",
               [](const Evaluation& at) { return at.energy.potential; });
-  add_channel("drive_work_j", "of all drives since t = 0", [](const Evaluation& at) { return at.energy.drive_work.sum(); });
-  channels_.push_back({.info = {.key = "energy_imbalance_j", .help = "E - E(0) - work of the drives + losses"}, .kind = Channel::Kind::kImbalance});
-  add_metric({.key = "impact_count", .help = "onsets of radial contact of a ring in the whole run", .integer = true},
-             [](const RunMetrics& metrics, const RunEnd&) { return static_cast<double>(metrics.onsets()); });
-  add_metric({.key = "friction_work_j", .help = "energy lost to friction in the joints"},
+  add_channel("drive_work_j", "Work of all drives since t = 0",
+              [](const Evaluation& at) { return at.energy.drive_work.sum(); });
+  channels_.push_back(
+      {.info = {.key = "energy_imbalance_j", .help = "E − E(0) − work of the drives + losses"},
+       .kind = Channel::Kind::kImbalance});
+  add_metric(
+      {.key = "impact_count",
+       .help = "Number of onsets of radial contact in the whole run, counted for each ring of each journal",
+       .integer = true},
+      [](const RunMetrics& metrics, const RunEnd&) { return static_cast<double>(metrics.onsets()); });
+  add_metric({.key = "friction_work_j", .help = "Energy lost to friction in the joints in the whole run"},
              [](const RunMetrics& metrics, const RunEnd&) { return metrics.last_energy().friction_loss; });
-  add_metric({.key = "impact_loss_j", .help = "energy lost in the normal contact law"},
+  add_metric({.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
              [](const RunMetrics& metrics, const RunEnd&) { return metrics.last_energy().impact_loss; });
-  add_metric({.key = "structural_loss_j", .help = "energy lost in dampers, those of flexible bodies with them"},
+  add_metric({.key = "structural_loss_j",
+              .help = "Energy lost in dampers, including those of flexible bodies, in the whole run"},
              [](const RunMetrics& metrics, const RunEnd&) { return metrics.last_energy().structural_loss; });
-  add_metric({.key = "energy_imbalance_j", .help = "largest |E - E(0) - work of the drives + losses|"},
+  add_metric({.key = "energy_imbalance_j",
+              .help = "Largest |E − E(0) − work of the drives + losses| in the whole run"},
              [](const RunMetrics& metrics, const RunEnd&) { return metrics.largest_imbalance(); });
-  add_metric({.key = "energy_residual", .help = "that over the work turned over; null if there was none"},
+  add_metric({.key = "energy_residual",
+              .help = "Ratio of energy_imbalance_j to the work turned over; null if that is zero"},
              [](const RunMetrics& metrics, const RunEnd&) { return metrics.calc_energy_residual(); });
-  add_metric({.key = "redundant_constraints", .help = "constraint rows that follow from others: of the reactions that do, the least are given",
-              .integer = true},
-             [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.redundant_constraints); });
-  add_metric({.key = "steps", .help = "accepted integration steps", .integer = true},
+  add_metric(
+      {.key = "redundant_constraints",
+       .help = "Number of constraint equations that follow from others; reactions are then the smallest that "
+               "satisfy the equations of motion",
+       .integer = true},
+      [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.redundant_constraints); });
+  add_metric({.key = "steps", .help = "Number of accepted integration steps", .integer = true},
              [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.steps); });
-  add_metric({.key = "rhs_evaluations", .help = "evaluations of the equations of motion", .integer = true},
-             [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.evaluations); });
+  add_metric(
+      {.key = "rhs_evaluations", .help = "Number of evaluations of the equations of motion", .integer = true},
+      [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.evaluations); });
 }
 
 std::vector<QuantityInfo> LinkageQuantities::channel_table() const {

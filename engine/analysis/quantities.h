@@ -9,10 +9,11 @@
 
 namespace engine {
 
-/// One column of a trajectory or one metric: its key ends in its unit.
+/// One column of a trajectory or one metric.
 struct QuantityInfo {
-  std::string key;
-  std::string help;
+  std::string key;                ///< name, which ends in the unit
+  std::string help;               ///< definition: one phrase, noun first
+  std::string symbol{};           ///< of the paper, if it has one: see SYMBOLS.md
   bool integer = false;           ///< metrics: a count
   bool single_precision = false;  ///< channels: 24 bits are enough to store it (poses that are drawn)
 };

@@ -51,7 +51,8 @@ Reading rate(FrameIndex i) {
 }
 
 /// Of one ring of the journal.
-void add_sliding_work(int ring, const RpsupParameters& parameters, const SlidingWork& sliding_work, std::vector<Channel>& channels) {
+void add_sliding_work(int ring, const RpsupParameters& parameters, const SlidingWork& sliding_work,
+                      std::vector<Channel>& channels) {
   const bool clearance = parameters.c_r > 0.0;
   const std::string key = "ring_" + std::to_string(ring + 1) + "_sliding_work";
   const auto read = [&](double SlidingWork::Ring::*part) -> Reading {
@@ -60,12 +61,17 @@ void add_sliding_work(int ring, const RpsupParameters& parameters, const Sliding
       return sliding_work.at(static_cast<std::size_t>(ring), sliding_work.place_of(at.t)).*part;
     };
   };
-  channels.push_back({.info = {.key = key + "_j", .help = "normal force times sliding speed of that ring of the journal, since t = 0; null without clearance"},
+  const std::string work =
+      "Time integral of normal force × sliding speed of this ring of the journal since t = 0";
+  channels.push_back({.info = {.key = key + "_j", .help = work + "; null without clearance"},
                       .read = read(&SlidingWork::Ring::work)});
-  channels.push_back({.info = {.key = key + "_x_j", .help = "the same times the contact normal's x"}, .read = read(&SlidingWork::Ring::work_x)});
-  channels.push_back({.info = {.key = key + "_y_j", .help = "the same times the contact normal's y"}, .read = read(&SlidingWork::Ring::work_y)});
+  channels.push_back({.info = {.key = key + "_x_j", .help = work + ", weighted with x of the contact normal"},
+                      .read = read(&SlidingWork::Ring::work_x)});
+  channels.push_back({.info = {.key = key + "_y_j", .help = work + ", weighted with y of the contact normal"},
+                      .read = read(&SlidingWork::Ring::work_y)});
   if (parameters.wear_depth.empty()) return;
-  channels.push_back({.info = {.key = key + "_penetration_j_m", .help = "the same times the penetration; of a worn bore alone"},
+  channels.push_back({.info = {.key = key + "_penetration_j_m",
+                               .help = work + ", weighted with the penetration; of worn bores only"},
                       .read = read(&SlidingWork::Ring::work_delta)});
 }
 
@@ -73,26 +79,50 @@ void add_sliding_work(int ring, const RpsupParameters& parameters, const Sliding
 
 std::span<const QuantityInfo> metric_table() {
   static const std::vector<QuantityInfo> table{
-      {.key = "peak_slider_acceleration_m_s2", .help = "largest |acceleration| of the slider for t >= run_up_s, from the inside of every step"},
-      {.key = "peak_slider_acceleration_time_s", .help = "when that was"},
-      {.key = "peak_slider_acceleration_whole_run_m_s2", .help = "the same from t = 0 on"},
-      {.key = "rms_slider_acceleration_m_s2", .help = "root mean square of the slider's acceleration for t >= run_up_s"},
-      {.key = "ideal_peak_slider_acceleration_m_s2", .help = "largest |acceleration| of the ideal rigid linkage with the same drives, t >= run_up_s"},
-      {.key = "amplification", .help = "peak over ideal peak"},
-      {.key = "peak_contact_force_n", .help = "largest sum of radial normal forces of the whole run; null without clearance"},
-      {.key = "max_penetration_um", .help = "largest radial penetration of the whole run; null without clearance"},
-      {.key = "impact_count", .help = "onsets of radial contact of a ring in the whole run", .integer = true},
-      {.key = "contact_time_ratio", .help = "part of the whole run in which the bore is touched; null without clearance"},
-      {.key = "peak_crank_torque_n_m", .help = "largest |driving torque| of the whole run"},
-      {.key = "peak_rod_force_n", .help = "largest |driving force| of the telescoping rod of the whole run"},
-      {.key = "peak_joint_reaction_n", .help = "largest force between coupler and cross link of the whole run"},
-      {.key = "friction_work_j", .help = "energy lost to friction in the joint"},
-      {.key = "impact_loss_j", .help = "energy lost in the normal contact law"},
-      {.key = "structural_loss_j", .help = "energy lost in the flexible links' dampers"},
-      {.key = "sliding_work_j", .help = "contact force times sliding speed over the whole run: worn volume = wear coefficient times it; null without clearance"},
-      {.key = "energy_residual", .help = "largest |E - E(0) - work of the drives + losses| over the work turned over"},
-      {.key = "steps", .help = "accepted integration steps", .integer = true},
-      {.key = "rhs_evaluations", .help = "evaluations of the equations of motion", .integer = true},
+      {.key = "peak_slider_acceleration_m_s2",
+       .help = "Largest magnitude of the slider's acceleration in the steady window (t ≥ run_up_s), sought "
+               "inside every integration step",
+       .symbol = "max |z̈^(2,1)|"},
+      {.key = "peak_slider_acceleration_time_s", .help = "Time of peak_slider_acceleration_m_s2"},
+      {.key = "peak_slider_acceleration_whole_run_m_s2",
+       .help = "Largest magnitude of the slider's acceleration in the whole run"},
+      {.key = "rms_slider_acceleration_m_s2",
+       .help = "Root mean square of the slider's acceleration in the steady window (t ≥ run_up_s)"},
+      {.key = "ideal_peak_slider_acceleration_m_s2",
+       .help = "Largest magnitude of the slider's acceleration in the steady window, of the ideal linkage "
+               "(rigid links, no clearance) with the same drives"},
+      {.key = "amplification",
+       .help = "Ratio of peak_slider_acceleration_m_s2 to ideal_peak_slider_acceleration_m_s2"},
+      {.key = "peak_contact_force_n",
+       .help =
+           "Largest sum of the radial normal forces on the journal in the whole run; null without clearance",
+       .symbol = "max Σ f_n"},
+      {.key = "max_penetration_um",
+       .help =
+           "Largest radial penetration of the journal into the bore in the whole run; null without clearance",
+       .symbol = "max Δ"},
+      {.key = "impact_count",
+       .help = "Number of onsets of radial contact in the whole run, counted for each ring of the journal",
+       .integer = true},
+      {.key = "contact_time_ratio",
+       .help = "Fraction of the whole run in which the journal touches the bore; null without clearance"},
+      {.key = "peak_crank_torque_n_m",
+       .help = "Largest magnitude of the crank's driving torque in the whole run"},
+      {.key = "peak_rod_force_n",
+       .help = "Largest magnitude of the telescoping rod's driving force in the whole run"},
+      {.key = "peak_joint_reaction_n",
+       .help = "Largest magnitude of the force between coupler and cross link in the whole run"},
+      {.key = "friction_work_j", .help = "Energy lost to friction in the joint in the whole run"},
+      {.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
+      {.key = "structural_loss_j",
+       .help = "Energy lost in the dampers of the flexible links in the whole run"},
+      {.key = "sliding_work_j",
+       .help = "Time integral of normal contact force × sliding speed over the whole run; by Archard's law "
+               "worn volume = wear coefficient × sliding work; null without clearance"},
+      {.key = "energy_residual",
+       .help = "Largest |E − E(0) − work of the drives + losses| / work turned over in the whole run"},
+      {.key = "steps", .help = "Number of accepted integration steps", .integer = true},
+      {.key = "rhs_evaluations", .help = "Number of evaluations of the equations of motion", .integer = true},
   };
   return table;
 }
@@ -101,66 +131,106 @@ std::vector<QuantityInfo> channel_table(const RpsupParameters& parameters) {
   const Rpsup rpsup = build_rpsup(parameters);
   std::vector<QuantityInfo> table;
   const SlidingWork sliding_work(parameters);
-  for (Channel& channel : rpsup_channels(parameters, rpsup, sliding_work)) table.push_back(std::move(channel.info));
+  for (Channel& channel : rpsup_channels(parameters, rpsup, sliding_work))
+    table.push_back(std::move(channel.info));
   for (QuantityInfo& pose : pose_channels(rpsup.mechanism.links)) table.push_back(std::move(pose));
   return table;
 }
 
-std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rpsup& rpsup, const SlidingWork& sliding_work) {
+std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rpsup& rpsup,
+                                    const SlidingWork& sliding_work) {
   const RpsupLayout& layout = rpsup.layout;
   const FrameIndex slider = layout.slider;
   const bool clearance = parameters.c_r > 0.0;
   std::vector<Channel> channels{
-      {.info = {.key = "t_s", .help = "time"}, .read = [](const Evaluation& at) { return at.t; }},
-      {.info = {.key = "crank_angle_rad", .help = "psi of link (1,1)"}, .read = position(layout.crank)},
-      {.info = {.key = "crank_velocity_rad_s", .help = "its rate"}, .read = rate(layout.crank)},
-      {.info = {.key = "rod_displacement_m", .help = "z of link (1,2)"}, .read = position(layout.rod)},
-      {.info = {.key = "slider_position_m", .help = "z of link (2,1)"}, .read = position(slider)},
-      {.info = {.key = "slider_velocity_m_s", .help = "its rate"}, .read = rate(slider)},
-      {.info = {.key = "slider_acceleration_m_s2", .help = "its second derivative"},
+      {.info = {.key = "t_s", .help = "Time", .symbol = "t"},
+       .read = [](const Evaluation& at) { return at.t; }},
+      {.info = {.key = "crank_angle_rad", .help = "Angle of the crank, link (1,1)", .symbol = "ψ^(1,1)"},
+       .read = position(layout.crank)},
+      {.info = {.key = "crank_velocity_rad_s", .help = "Angular velocity of the crank", .symbol = "ψ̇^(1,1)"},
+       .read = rate(layout.crank)},
+      {.info = {.key = "rod_displacement_m",
+                .help = "Displacement of the telescoping rod, link (1,2), along the crank",
+                .symbol = "z^(1,2)"},
+       .read = position(layout.rod)},
+      {.info = {.key = "slider_position_m",
+                .help = "Position of the slider, link (2,1), along its guide",
+                .symbol = "z^(2,1)"},
+       .read = position(slider)},
+      {.info = {.key = "slider_velocity_m_s", .help = "Velocity of the slider", .symbol = "ż^(2,1)"},
+       .read = rate(slider)},
+      {.info = {.key = "slider_acceleration_m_s2", .help = "Acceleration of the slider", .symbol = "z̈^(2,1)"},
        .read = [slider](const Evaluation& at) { return at.qdd[slider]; }},
-      {.info = {.key = "slider_acceleration_min_m_s2", .help = "least since the last sample"}, .kind = Channel::Kind::kLeastAcceleration,
+      {.info = {.key = "slider_acceleration_min_m_s2",
+                .help = "Smallest acceleration of the slider since the sample before"},
+       .kind = Channel::Kind::kLeastAcceleration,
        .coordinate = slider},
-      {.info = {.key = "slider_acceleration_max_m_s2", .help = "largest since the last sample"}, .kind = Channel::Kind::kLargestAcceleration,
+      {.info = {.key = "slider_acceleration_max_m_s2",
+                .help = "Largest acceleration of the slider since the sample before"},
+       .kind = Channel::Kind::kLargestAcceleration,
        .coordinate = slider},
-      {.info = {.key = "journal_x_mm", .help = "journal centre in the bearing frame"}, .read = journal_mm(0)},
-      {.info = {.key = "journal_y_mm", .help = "journal centre in the bearing frame"}, .read = journal_mm(1)},
-      {.info = {.key = "journal_z_mm", .help = "journal centre in the bearing frame, along its axis"}, .read = journal_mm(2)},
-      {.info = {.key = "journal_tilt_mrad", .help = "angle between the axes of journal and bearing"},
+      {.info = {.key = "journal_x_mm", .help = "Journal centre in the bearing frame {b}: x, across the axis"},
+       .read = journal_mm(0)},
+      {.info = {.key = "journal_y_mm", .help = "Journal centre in the bearing frame {b}: y, across the axis"},
+       .read = journal_mm(1)},
+      {.info = {.key = "journal_z_mm", .help = "Journal centre in the bearing frame {b}: z, along the axis"},
+       .read = journal_mm(2)},
+      {.info = {.key = "journal_tilt_mrad", .help = "Angle between the axes of journal and bearing"},
        .read = [](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[0].journal); }},
-      {.info = {.key = "contact_force_n", .help = "sum of the radial normal forces; null without clearance"},
+      {.info = {.key = "contact_force_n",
+                .help = "Sum of the radial normal forces on the journal; null without clearance",
+                .symbol = "Σ f_n"},
        .read = clearance ? radial_force : none},
-      {.info = {.key = "friction_force_n", .help = "sum of the friction forces' magnitudes; null without clearance"},
+      {.info = {.key = "friction_force_n",
+                .help = "Sum of the magnitudes of the friction forces on the journal; null without clearance",
+                .symbol = "Σ |f_t|"},
        .read = clearance ? friction_force : none},
-      {.info = {.key = "crank_torque_n_m", .help = "driving torque of the crank"}, .read = crank_torque},
-      {.info = {.key = "rod_force_n", .help = "driving force of the telescoping rod"}, .read = rod_force},
-      {.info = {.key = "reaction_x_n", .help = "force of the coupler on the cross link, in the global frame"}, .read = reaction_along(0)},
-      {.info = {.key = "reaction_y_n", .help = "force of the coupler on the cross link, in the global frame"}, .read = reaction_along(1)},
-      {.info = {.key = "reaction_z_n", .help = "force of the coupler on the cross link, in the global frame"}, .read = reaction_along(2)},
-      {.info = {.key = "coupler_deflection_mm", .help = "of the bearing's centre from where the undeformed coupler would hold it"},
-       .read = [&parameters, &rpsup](const Evaluation& at) { return 1e3 * calc_deflection(parameters, rpsup, at); }},
-      {.info = {.key = "kinetic_energy_j", .help = "of all links"}, .read = [](const Evaluation& at) { return at.energy.kinetic; }},
-      {.info = {.key = "potential_energy_j", .help = "of gravity, the flexible links' springs and the elastic part of the contact"},
+      {.info = {.key = "crank_torque_n_m", .help = "Driving torque of the crank"}, .read = crank_torque},
+      {.info = {.key = "rod_force_n", .help = "Driving force of the telescoping rod"}, .read = rod_force},
+      {.info = {.key = "reaction_x_n",
+                .help = "Force of the coupler on the cross link: x in the global frame"},
+       .read = reaction_along(0)},
+      {.info = {.key = "reaction_y_n",
+                .help = "Force of the coupler on the cross link: y in the global frame"},
+       .read = reaction_along(1)},
+      {.info = {.key = "reaction_z_n",
+                .help = "Force of the coupler on the cross link: z in the global frame"},
+       .read = reaction_along(2)},
+      {.info = {.key = "coupler_deflection_mm",
+                .help = "Distance of the bearing's centre from its place on the undeformed coupler"},
+       .read = [&parameters,
+                &rpsup](const Evaluation& at) { return 1e3 * calc_deflection(parameters, rpsup, at); }},
+      {.info = {.key = "kinetic_energy_j", .help = "Kinetic energy of all links"},
+       .read = [](const Evaluation& at) { return at.energy.kinetic; }},
+      {.info = {.key = "potential_energy_j",
+                .help =
+                    "Potential energy of gravity, of the flexible links' springs and of the elastic contact"},
        .read = [](const Evaluation& at) { return at.energy.potential; }},
-      {.info = {.key = "drive_work_j", .help = "of both drives since t = 0"},
+      {.info = {.key = "drive_work_j", .help = "Work of both drives since t = 0"},
        .read = [](const Evaluation& at) { return at.energy.drive_work.sum(); }},
-      {.info = {.key = "energy_residual", .help = "(E - E(0) - work of the drives + losses) over the work turned over in the whole run"},
+      {.info = {.key = "energy_residual",
+                .help = "(E − E(0) − work of the drives + losses) / work turned over in the whole run"},
        .kind = Channel::Kind::kImbalance},
   };
   for (const BentLink& link : layout.bent)
-    channels.push_back({.info = {.key = link.name + "_deflection_mm", .help = "of the link's end from where the undeformed link would hold it"},
+    channels.push_back({.info = {.key = link.name + "_deflection_mm",
+                                 .help = "Distance of the link's end from its place on the undeformed link"},
                         .read = [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); }});
-  for (int ring = 0; ring < parameters.radial_levels; ++ring) add_sliding_work(ring, parameters, sliding_work, channels);
+  for (int ring = 0; ring < parameters.radial_levels; ++ring)
+    add_sliding_work(ring, parameters, sliding_work, channels);
   return channels;
 }
 
 Measured rpsup_measured(const RpsupParameters& parameters, const RpsupLayout& layout) {
-  return {.accelerations = {layout.slider}, .loads = {radial_force, penetration, crank_torque, rod_force, reaction}, .contacts = {0},
+  return {.accelerations = {layout.slider},
+          .loads = {radial_force, penetration, crank_torque, rod_force, reaction},
+          .contacts = {0},
           .steady_from = parameters.run_up};
 }
 
-std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const RunMetrics& metrics, const SlidingWork& sliding_work,
-                                       const RunEnd& end, const std::optional<Peak>& ideal) {
+std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const RunMetrics& metrics,
+                                       const SlidingWork& sliding_work, const RunEnd& end,
+                                       const std::optional<Peak>& ideal) {
   const bool has_steady = metrics.steady_time() > 0.0;
   const bool has_clearance = parameters.c_r > 0.0;
   const double ideal_peak = ideal ? ideal->magnitude : kNone;

@@ -23,16 +23,23 @@ std::vector<QuantityInfo> pose_channels(const std::vector<NamedFrame>& links) {
   std::vector<QuantityInfo> channels;
   for (const NamedFrame& link : links)
     for (const std::string_view part : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
-      channels.push_back({.key = pose_key(link, part), .help = "pose of link (" + link.name + ") in the global frame: origin, unit quaternion",
+      channels.push_back({.key = pose_key(link, part),
+                          .help = "Pose of link (" + link.name +
+                                  ") in the global frame: origin x, y, z or unit quaternion w, x, y, z",
                           .single_precision = true});
   return channels;
 }
 
-RunChannels::RunChannels(std::vector<Channel> channels, const std::vector<NamedFrame>& links, Preparation prepare)
-    : channels_(std::move(channels)), links_(links), prepare_(std::move(prepare)), last_turns_(links.size(), Eigen::Quaterniond::Identity()) {
+RunChannels::RunChannels(std::vector<Channel> channels, const std::vector<NamedFrame>& links,
+                         Preparation prepare)
+    : channels_(std::move(channels)),
+      links_(links),
+      prepare_(std::move(prepare)),
+      last_turns_(links.size(), Eigen::Quaterniond::Identity()) {
   for (const Channel& channel : channels_) {
     trajectory_.channels.push_back(channel.info);
-    if (channel.kind == Channel::Kind::kLeastAcceleration) extremes_.push_back({.coordinate = channel.coordinate});
+    if (channel.kind == Channel::Kind::kLeastAcceleration)
+      extremes_.push_back({.coordinate = channel.coordinate});
   }
   for (QuantityInfo& pose : pose_channels(links_)) trajectory_.channels.push_back(std::move(pose));
   trajectory_.columns.resize(trajectory_.channels.size());
@@ -63,14 +70,17 @@ void RunChannels::take_extremes(double until) {
 }
 
 RunChannels::Extremes& RunChannels::extremes_of(FrameIndex coordinate) {
-  return *std::find_if(extremes_.begin(), extremes_.end(), [&](const Extremes& e) { return e.coordinate == coordinate; });
+  return *std::find_if(extremes_.begin(), extremes_.end(),
+                       [&](const Extremes& e) { return e.coordinate == coordinate; });
 }
 
 double RunChannels::read(const Channel& channel, const Evaluation& at) {
   switch (channel.kind) {
     case Channel::Kind::kReading: return channel.read(at);
-    case Channel::Kind::kLeastAcceleration: return std::min(extremes_of(channel.coordinate).least, at.qdd[channel.coordinate]);
-    case Channel::Kind::kLargestAcceleration: return std::max(extremes_of(channel.coordinate).most, at.qdd[channel.coordinate]);
+    case Channel::Kind::kLeastAcceleration:
+      return std::min(extremes_of(channel.coordinate).least, at.qdd[channel.coordinate]);
+    case Channel::Kind::kLargestAcceleration:
+      return std::max(extremes_of(channel.coordinate).most, at.qdd[channel.coordinate]);
     case Channel::Kind::kImbalance: return at.energy.calc_balance() - first_balance_;
   }
   return 0.0;
@@ -103,7 +113,8 @@ void RunChannels::add_poses(const Evaluation& at) {
     Eigen::Quaterniond turn(R);
     if (turn.dot(last_turns_[k]) < 0.0) turn.coeffs() = -turn.coeffs();
     last_turns_[k] = turn;
-    for (const double value : {p.x(), p.y(), p.z(), turn.w(), turn.x(), turn.y(), turn.z()}) row_.push_back(value);
+    for (const double value : {p.x(), p.y(), p.z(), turn.w(), turn.x(), turn.y(), turn.z()})
+      row_.push_back(value);
   }
 }
 

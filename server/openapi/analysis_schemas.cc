@@ -3,6 +3,7 @@
 
 #include "engine/analysis/quantities.h"
 #include "jobs/requests/parameter_path.h"
+#include "server/openapi/quantity_schemas.h"
 
 namespace server::openapi {
 
@@ -61,7 +62,7 @@ Json make_paper() {
 
 Json make_bifurcation() {
   Json properties{{"job_id", ref("Id")}};
-  for (const engine::QuantityInfo& channel : engine::channel_table({})) properties[channel.key] = described(kNumberOrNull, channel.help);
+  properties.update(channel_properties([](const engine::QuantityInfo&) { return kNumberOrNull; }));
   Json rows = rows_of(std::move(properties));
   rows["items"]["additionalProperties"] = kNumberOrNull;  // a flexible coupler has more poses
   return rows;

@@ -8,6 +8,7 @@
 #include "jobs/statistics/replicate_statistics.h"
 #include "jobs/base/states.h"
 #include "server/openapi/analysis_schemas.h"
+#include "server/openapi/quantity_schemas.h"
 #include "server/openapi/search_schemas.h"
 #include "server/openapi/wear_schemas.h"
 
@@ -26,12 +27,17 @@ Json make_problem_schema() {
                    {"errors"});
 }
 
+Json metric_value(const engine::QuantityInfo& metric) { return {{"type", {metric.integer ? "integer" : "number", "null"}}}; }
+
+Json column_of_numbers(const engine::QuantityInfo& = {}) { return list_of({{"type", {"number", "null"}}}); }
+
+/// Metrics of the RPSUP linkage, or of a described one.
 Json make_metrics() {
-  Json metrics = Json::object();
-  for (const engine::QuantityInfo& metric : engine::metric_table()) {
-    metrics[metric.key] = {{"type", {metric.integer ? "integer" : "number", "null"}}, {"description", metric.help}};
-  }
-  return metrics;
+  const Json described_linkage{{"type", "object"},
+                               {"description", "of a described linkage, by the names of its joints"},
+                               {"patternProperties", linkage_metric_patterns(metric_value)},
+                               {"additionalProperties", or_null(kNumber)}};
+  return {{"anyOf", Json::array({object_of(metric_properties(metric_value)), described_linkage})}};
 }
 
 Json make_error() {
@@ -111,7 +117,7 @@ Json make_page(std::string_view item) {
 Json make_result_row() {
   Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", kCount}};
   for (const std::string& path : jobs::known_paths()) properties[path] = or_null(parameter_ref(path));  // null: of jobs of another linkage
-  properties.update(make_metrics());
+  properties.update(metric_properties(metric_value));
   properties["replicates_count"] = described(kCount, "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"}) properties[key] = or_null(kNumber);
   for (const std::string_view column : jobs::kErrorColumns) properties[std::string(column)] = described(or_null(kText), "why a job failed; only if it is named");
@@ -122,13 +128,12 @@ Json make_result_row() {
 }
 
 Json make_trajectory() {
-  Json columns = Json::object();
-  for (const engine::QuantityInfo& channel : engine::channel_table({})) {
-    columns[channel.key] = described(list_of({{"type", {"number", "null"}}}), channel.help);
-  }
   return object_of({{"channels", described(list_of(kText), "the columns in their order")},
-                    {"columns", {{"type", "object"}, {"required", {"t_s"}}, {"properties", std::move(columns)},
-                                 {"additionalProperties", list_of({{"type", {"number", "null"}}})}}}});
+                    {"columns", {{"type", "object"},
+                                 {"required", {"t_s"}},
+                                 {"properties", channel_properties(column_of_numbers)},
+                                 {"patternProperties", linkage_channel_patterns(column_of_numbers)},
+                                 {"additionalProperties", column_of_numbers()}}}});
 }
 
 }  // namespace
@@ -137,9 +142,7 @@ Json make_resource_schemas() {
   Json schemas{{"Id", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
           {"State", {{"type", "string"}, {"enum", jobs::kJobStates}}},
           {"Problem", make_problem_schema()},
-          {"Metrics", {{"anyOf", Json::array({object_of(make_metrics()),
-                                              {{"type", "object"}, {"description", "of a described linkage, by the names of its joints"},
-                                               {"additionalProperties", or_null(kNumber)}}})}}},
+          {"Metrics", make_metrics()},
           {"JobError", make_error()},
           {"Run", make_run()},
           {"Job", make_job(Detail::kFull)},

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/openapi/quantity_schemas.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/model/linkage.h"
+#include "engine/model/links.h"
+#include "engine/model/rpsup_parameters.h"
+#include "engine/simulate_linkage.h"
+
+namespace server::openapi {
+
+namespace {
+
+/// Ends of names and their units; the first that fits counts.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits{{{"_j_m", "J m"},
+                                                                                {"_rad_s2", "rad/s²"},
+                                                                                {"_rad_s", "rad/s"},
+                                                                                {"_m_s2", "m/s²"},
+                                                                                {"_m_s", "m/s"},
+                                                                                {"_n_m", "N m"},
+                                                                                {"_mrad", "mrad"},
+                                                                                {"_rad", "rad"},
+                                                                                {"_mm", "mm"},
+                                                                                {"_um", "µm"},
+                                                                                {"_n", "N"},
+                                                                                {"_j", "J"},
+                                                                                {"_s", "s"},
+                                                                                {"_m", "m"},
+                                                                                {"", "1"}}};
+
+Json schema_of(const engine::QuantityInfo& quantity, const ValueSchema& value) {
+  Json schema = described(value(quantity), quantity.help);
+  schema["x-unit"] = unit_of(quantity.key);
+  if (!quantity.symbol.empty()) schema["x-symbol"] = quantity.symbol;
+  return schema;
+}
+
+Json properties_of(std::span<const engine::QuantityInfo> quantities, const ValueSchema& value) {
+  Json properties = Json::object();
+  for (const engine::QuantityInfo& quantity : quantities) properties[quantity.key] = schema_of(quantity, value);
+  return properties;
+}
+
+/// Regular expression of the names that a name with placeholders stands for: "^peak_.+_reaction_n$".
+std::string pattern_of(std::string_view name) {
+  std::string pattern = "^";
+  while (!name.empty()) {
+    const auto open = std::min(name.find('{'), name.size());
+    pattern += name.substr(0, open);
+    name.remove_prefix(open);
+    if (name.empty()) break;
+    pattern += ".+";
+    name.remove_prefix(name.find('}') + 1);
+  }
+  return pattern + "$";
+}
+
+Json patterns_of(std::span<const engine::QuantityInfo> quantities, const ValueSchema& value) {
+  Json patterns = Json::object();
+  for (const engine::QuantityInfo& quantity : quantities) {
+    Json schema = schema_of(quantity, value);
+    schema["x-name"] = quantity.key;
+    patterns[pattern_of(quantity.key)] = std::move(schema);
+  }
+  return patterns;
+}
+
+/// Quantities of a linkage whose names are placeholders: a body on a driven cylindrical joint, another on a revolute
+/// joint, both joined by a revolute joint with clearance and by a spring.
+engine::LinkageTables make_sample_tables() {
+  const auto make_joint = [](engine::JointKind kind, const char* from, const char* to) {
+    engine::LinkageJoint joint;
+    joint.name = "{joint}";
+    joint.kind = kind;
+    joint.from = from;
+    joint.to = to;
+    return joint;
+  };
+  engine::LinkageJoint driven = make_joint(engine::JointKind::kCylindrical, engine::kGroundName, "{body}");
+  driven.freedoms.assign(2, {.name = "{coordinate}", .drive = engine::DriveLaw{}});
+  engine::LinkageJoint carrying = make_joint(engine::JointKind::kRevolute, engine::kGroundName, "other");
+  carrying.freedoms.assign(1, {.name = "{coordinate}"});
+  engine::LinkageJoint closing = make_joint(engine::JointKind::kRevolute, "{body}", "other");
+  closing.cut = true;
+  closing.clearance = engine::ClearanceParameters{};
+  engine::Linkage linkage;
+  linkage.bodies = {{.name = "{body}"}, {.name = "other"}};
+  linkage.joints = {driven, carrying, closing};
+  linkage.springs = {{.name = "{spring}", .from = "{body}", .to = "other"}};
+  return engine::linkage_tables(linkage);
+}
+
+const engine::LinkageTables& sample_tables() {
+  static const engine::LinkageTables tables = [] {
+    engine::LinkageTables made = make_sample_tables();
+    std::erase_if(made.channels, [](const engine::QuantityInfo& channel) { return channel.key.starts_with("pose_other"); });
+    return made;
+  }();
+  return tables;
+}
+
+/// Channels of the RPSUP linkage with and without flexible links and wear.
+std::vector<engine::QuantityInfo> all_channels() {
+  std::vector<engine::QuantityInfo> channels = engine::channel_table({});
+  engine::RpsupParameters parameters;
+  parameters.cross_length = 0.1;
+  for (engine::RoundLink* const link : {&parameters.crank, &parameters.rod, &parameters.cross}) {
+    link->model = engine::LinkModel::kFlexible;
+    link->diameter = 0.01;
+  }
+  parameters.wear_depth.assign(static_cast<std::size_t>(parameters.radial_levels), std::vector<double>(16, 0.0));
+  for (engine::QuantityInfo& channel : engine::channel_table(parameters)) {
+    const bool known = std::ranges::find(channels, channel.key, &engine::QuantityInfo::key) != channels.end();
+    if (!known && !channel.key.starts_with("pose_")) channels.push_back(std::move(channel));
+  }
+  return channels;
+}
+
+}  // namespace
+
+std::string_view unit_of(std::string_view key) {
+  return std::ranges::find_if(kUnits, [&](const auto& unit) { return key.ends_with(unit.first); })->second;
+}
+
+Json metric_properties(const ValueSchema& value) { return properties_of(engine::metric_table(), value); }
+
+Json channel_properties(const ValueSchema& value) { return properties_of(all_channels(), value); }
+
+Json linkage_metric_patterns(const ValueSchema& value) { return patterns_of(sample_tables().metrics, value); }
+
+Json linkage_channel_patterns(const ValueSchema& value) { return patterns_of(sample_tables().channels, value); }
+
+}  // namespace server::openapi
