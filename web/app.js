@@ -5,6 +5,7 @@ import { readRoute } from "/core/route.js";
 import { h, part } from "/core/dom.js";
 import { pause, persist } from "/core/live.js";
 import { Missing, loadModule, nextWait, tryAgain } from "/core/modules.js";
+import { startDefinitions } from "/core/quantities.js";
 import { startTheme } from "/core/theme.js";
 
 const pages = {
@@ -85,5 +86,6 @@ part(".skip").addEventListener("click", (event) => {
   main.focus();
 });
 startTheme();
+startDefinitions();
 addEventListener("hashchange", show);
 show();

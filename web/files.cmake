@@ -21,6 +21,7 @@ set(page_files
   core/format.js
   core/live.js
   core/modules.js
+  core/quantities.js
   core/route.js
   core/theme.js
   core/uplot.js

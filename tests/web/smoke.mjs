@@ -138,6 +138,27 @@ test("the form counts the jobs that the service makes", async () => {
   await leave(page);
 });
 
+test("metrics and channels are defined where they are pointed at", async () => {
+  const { id } = await runSweep({ parameters: short, sweep: { clearance_mm: [0.1, 0.2] } });
+  const page = await visit(`#/sweeps/${id}`);
+  const titleOf = async (element, text) => {
+    await element.hover();
+    await page.waitForFunction((wanted) => [...document.querySelectorAll("[data-quantity]")].some(({ title }) => title.includes(wanted)), text);
+    return element.getAttribute("title");
+  };
+  assert.equal(await titleOf(page.getByRole("button", { name: /^Max penetration \[/ }), "penetration"),
+    "max Δ: Largest radial penetration of the journal into the bore in the whole run; null without clearance [µm]");
+  const metric = page.locator("label", { has: page.getByRole("combobox", { name: /^Metric/ }) });
+  await titleOf(metric, "steady window");
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption("rms_slider_acceleration_m_s2");
+  assert.match(await titleOf(metric, "Root mean square"), /^Root mean square of the slider's acceleration .* \[m\/s²\]$/);
+  const [{ job_id: job }] = await resultsOf(await ask(`/v1/sweeps/${id}`));
+  await page.goto(`${url}/#/jobs/${job}`);
+  assert.equal(await titleOf(page.getByRole("heading", { name: "Contact force" }), "normal forces"),
+    "Σ f_n: Sum of the radial normal forces on the journal; null without clearance [N]");
+  await leave(page);
+});
+
 test("a sweep shows its metrics, and what is selected in its table is selected everywhere", async () => {
   const sweep = await runSweep({ name: "axes", parameters: short, sweep: { clearance_mm: [0.1, 0.2, 0.3], coupler: ["rigid", "flexible"] } });
   const page = await visit(`#/sweeps/${sweep.id}`);

@@ -5,6 +5,7 @@ import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { number, pointOf, titleOf } from "/core/format.js";
 import { latest } from "/core/live.js";
+import { quantityChoice } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
 
@@ -35,7 +36,7 @@ export async function bifurcationCard(element, { sweep, numbers }, signal) {
   }
   element.replaceChildren(h("p", { class: "actions" },
     choice("x axis", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart?.draw(); }),
-    choice("Channel", channels.map((key) => [key, titleOf(key)]), channel, (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
+    quantityChoice("Channel", "channels", channels, channel, (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
   chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel), "Bifurcation diagram: the channel once per crank revolution", signal);
   return chart;
 }

@@ -5,6 +5,7 @@ import { makeChart, saveButtons } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
 import { latest } from "/core/live.js";
+import { quantityChoice } from "/core/quantities.js";
 import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
 import { isDescribed, mainAcceleration } from "/run/described.js";
@@ -41,7 +42,7 @@ function spectrum(job, columns, signal) {
   }, signal);
   const set = (key) => (value) => { view[key] = value; load().catch((error) => { trouble.textContent = error.message; }); };
   const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"), saveButtons(() => chart, () => `${job.id} spectrum`)),
-    h("p", { class: "actions" }, choice("Channel", columns.map((name) => [name, titleOf(name)]), view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), trouble, drawing);
+    h("p", { class: "actions" }, quantityChoice("Channel", "channels", columns, view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), trouble, drawing);
   const option = () => found && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 }, tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
     dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"), yAxis: valueAxis(`Amplitude: ${titleOf(found.channel)}`, { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
     series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 }, data: found.frequencies.map((frequency, k) => [frequency, found.amplitudes[k]]).filter(([, amplitude]) => amplitude > 0) }] });

@@ -2,8 +2,8 @@
 // What the results of a sweep say: each answer in a card of its own, asked for when it can be given.
 import { findResults, findSweep, reportUrl } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
-import { choice, h, setSeen } from "/core/dom.js";
-import { titleOf } from "/core/format.js";
+import { h, setSeen } from "/core/dom.js";
+import { quantityChoice } from "/core/quantities.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf } from "/study/data.js";
 import { bifurcationCard } from "/analysis/bifurcation.js";
@@ -27,7 +27,7 @@ export async function show(main, { id, query, signal }) {
   document.title = `RPSUP: analysis of ${name}`;
   const cards = h("div");
   const draw = () => cards.replaceChildren(...cardsFor(study).map(([title, help, make]) => card(name, title, help, make, study, signal)));
-  const pick = choice("Metric", metrics.map((metric) => [metric, titleOf(metric)]), study.metric, (metric) => { study.metric = metric; rememberQuery({ metric }); draw(); });
+  const pick = quantityChoice("Metric", "metrics", metrics, study.metric, (metric) => { study.metric = metric; rememberQuery({ metric }); draw(); });
   main.replaceChildren(h("div", { class: "head" }, h("h1", {}, `Analysis of ${name}`),
     h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("sweeps", id) }, "Sweep"), h("a", { class: "button", href: reportUrl(id) }, "Report"))),
   h("p", { class: "actions" }, pick), cards);

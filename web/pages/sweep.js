@@ -4,6 +4,7 @@ import { cancelSweep, findAnalysis, findResults, findSweep, listSweeps, paramete
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify, setSeen } from "/core/dom.js";
 import { plural, span, titleOf } from "/core/format.js";
+import { quantityChoice } from "/core/quantities.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, summaryOf } from "/analysis/paper.js";
@@ -268,7 +269,7 @@ export class SweepPage {
     const set = (key) => (value) => { Object.assign(this.view, { [key]: value, ...scales[key] }); this.changed(); };
     const named = (names) => names.map((name) => [name, titleOf(name)]);
     const axes = named(this.axes);
-    this.pickers.replaceChildren(choice("Metric", named(this.metrics), this.view.metric, set("metric")),
+    this.pickers.replaceChildren(quantityChoice("Metric", "metrics", this.metrics, this.view.metric, set("metric")),
       ...(this.axes.length === 0 ? [] : [choice("x axis", axes, this.view.x, set("x"))]),
       choice("y axis / series", [["", "none"], ...axes], this.view.y, set("y")),
       choice("Facet by", [["", "none"], ...axes], this.view.panel, set("panel")), this.compare);

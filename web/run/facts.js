@@ -2,6 +2,7 @@
 // What a job's result is, in tables: metrics, how it was run, its parameters.
 import { h } from "/core/dom.js";
 import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
+import { defines } from "/core/quantities.js";
 import { labelsOf } from "/run/labels.js";
 
 /** @param {Api.Job[]} jobs */
@@ -10,7 +11,7 @@ export function metricsCard(jobs) {
   const labels = labelsOf(jobs);
   const head = h("tr", {}, h("th", { scope: "col" }, "Metric"), labels.map((_, index) => h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index])), h("th", { scope: "col" }, "Unit"));
   return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"), h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
-    names.map((name) => h("tr", {}, h("td", {}, nameOf(name)), jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))), whyMissing(jobs));
+    names.map((name) => h("tr", {}, h("td", defines("metrics", name), nameOf(name)), jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))), whyMissing(jobs));
 }
 
 /// A dash without a word would look like a fault.
@@ -27,7 +28,7 @@ function whyMissing(jobs) {
 export function lossesCard({ metrics }) {
   const losses = ["friction_work_j", "impact_loss_j", "structural_loss_j"].map((name) => ({ name, value: metrics?.[name] }));
   const largest = Math.max(...losses.map(({ value }) => Math.abs(value ?? 0)), Number.MIN_VALUE);
-  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Losses over the whole run"), h("tbody", {}, losses.map(({ name, value }) => h("tr", {}, h("th", { scope: "row" }, titleOf(name)),
+  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Losses over the whole run"), h("tbody", {}, losses.map(({ name, value }) => h("tr", {}, h("th", { scope: "row", ...defines("metrics", name) }, titleOf(name)),
     h("td", {}, h("progress", { value: Math.abs(value ?? 0) / largest, "aria-label": nameOf(name) })), h("td", { class: "number" }, number(value)))))),
     h("p", { class: "small" }, `Energy residual: ${number(metrics?.energy_residual, 2)} of the work turned over.`));
 }

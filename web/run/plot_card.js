@@ -3,6 +3,7 @@
 import { h } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
 import { nameOf } from "/core/format.js";
+import { defines } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { labelsOf } from "/run/labels.js";
 import { timePlot } from "/run/time_plot.js";
@@ -16,10 +17,11 @@ import { timePlot } from "/run/time_plot.js";
  */
 export function plotCard(title, { traces, times, height, signal, note = "", close, tools = [] }) {
   const element = h("div");
+  const [channel, ...others] = new Set(traces.map((trace) => trace.channel));
   /** @type {Awaited<ReturnType<typeof timePlot>> | null} */
   let made = null;
   timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; }).catch((error) => { element.textContent = error.message; });
-  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
+  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", others.length === 0 ? defines("channels", channel) : {}, title),
     h("span", { class: "actions" }, tools, h("button", { onclick: () => made && saveCanvas(made.canvas(), `${title}.png`) }, "PNG"),
       close ? h("button", { onclick: close, "aria-label": `Remove ${title}` }, "✕") : null)), element, note && h("p", { class: "quiet small" }, note));
 }

@@ -2,6 +2,7 @@
 // The rows of a sweep as a table: sorted by any column, a page at a time.
 import { h } from "/core/dom.js";
 import { nameOf, number, unitOf } from "/core/format.js";
+import { defines } from "/core/quantities.js";
 import { routeTo } from "/core/route.js";
 import { sortedBy, valueOf, valuesOf } from "/study/data.js";
 import { missingText } from "/study/missing.js";
@@ -78,8 +79,9 @@ export class ResultTable {
     const sorted = this.order.column === column;
     const arrow = sorted ? (this.order.descending ? " ▼" : " ▲") : "";
     const unit = unitOf(column);
+    const { metrics } = this.study;
     return h("th", { scope: "col", class: this.lookOf(column), "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
-      h("button", { "data-column": column, onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
+      h("button", { "data-column": column, ...(metrics.includes(column) ? defines("metrics", column) : {}), onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
   }
 
   /** @param {Api.Row} row  @param {string[]} columns */
