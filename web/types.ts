@@ -48,14 +48,14 @@ declare namespace Api {
 
 /** What the address says of a view, which ends with the signal. */
 type Visit = { kind: string; id: string; query: URLSearchParams; signal: AbortSignal };
-/** What a sweep's charts and table are made of. */
-type Study = import("/pages/sweep.js").SweepPage;
+/** Page of a sweep, whose charts and table share rows, axes, view and selection. */
+type SweepPage = import("/pages/sweep.js").SweepPage;
 /** Rows that agree in some columns, whose values these are; mean and extremes of a metric. */
 type Group = {
   values: (string | number)[]; jobs: string[]; count: number; min: number; max: number; mean: number | null;
 };
 type Extremes = { min: number; max: number };
-/** A sweep, its axes that are numbers, and the metric that is looked at. */
+/** Sweep on the page of its analyses, with its numeric axes and the chosen metric. */
 type AnalysedSweep = { sweep: Api.Sweep; numbers: string[]; isRpsup: boolean; metric: string };
 type Chart = Awaited<ReturnType<typeof import("/core/charts.js").makeChart>>;
 /** A curve over time, of one or two channels at its edges. */

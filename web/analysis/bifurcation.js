@@ -13,7 +13,7 @@ const channels = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "c
 
 /**
  * @param {HTMLElement} element
- * @param {AnalysedSweep} study
+ * @param {AnalysedSweep} analysed
  * @param {AbortSignal} signal
  */
 export async function bifurcationCard(element, { sweep, numbers }, signal) {

@@ -11,7 +11,7 @@ const percent = (part) => (part === null ? "–" : `${number(100 * part, 3)} %`)
 
 /**
  * @param {HTMLElement} element
- * @param {AnalysedSweep} study
+ * @param {AnalysedSweep} analysed
  * @param {AbortSignal} signal
  */
 export async function flexibilityCard(element, { sweep, metric }, signal) {

@@ -6,7 +6,7 @@ import { axisColumns, table } from "/analysis/parts.js";
 
 /**
  * @param {HTMLElement} element
- * @param {AnalysedSweep} study
+ * @param {AnalysedSweep} analysed
  * @param {AbortSignal} signal
  */
 export async function lyapunovCard(element, { sweep }, signal) {

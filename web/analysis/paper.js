@@ -17,7 +17,7 @@ export const bearsOnPaper = (axes) => axesNeeded.every((axis) => axes.includes(a
 
 /**
  * @param {HTMLElement} element
- * @param {AnalysedSweep} study
+ * @param {AnalysedSweep} analysed
  * @param {AbortSignal} signal
  */
 export async function paperCard(element, { sweep }, signal) {

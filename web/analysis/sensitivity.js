@@ -9,7 +9,7 @@ import { acrossAxis, axisColumns, bars, table, valueAxis, where } from "/analysi
 
 /**
  * @param {HTMLElement} element
- * @param {AnalysedSweep} study
+ * @param {AnalysedSweep} analysed
  * @param {AbortSignal} signal
  */
 export async function sensitivityCard(element, { sweep, metric }, signal) {

@@ -13,7 +13,7 @@ import { acrossAxis, valueAxis } from "/analysis/parts.js";
 
 /**
  * @param {HTMLElement} element
- * @param {AnalysedSweep} study
+ * @param {AnalysedSweep} analysed
  * @param {AbortSignal} signal
  */
 export async function surrogateCard(element, { sweep, metric }, signal) {

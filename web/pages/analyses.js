@@ -22,12 +22,12 @@ export async function show(main, { id, query, signal }) {
   const metrics = metricsOf(rows, sweep.axes);
   const isRpsup = metrics.includes(usual);
   const numbers = sweep.axes.filter((axis) => typeof rows[0][axis] === "number");
-  const study = { sweep, numbers, isRpsup, metric: metrics.find((metric) => metric === query.get("metric")) ?? (isRpsup ? usual : metrics[0]) };
+  const analysed = { sweep, numbers, isRpsup, metric: metrics.find((metric) => metric === query.get("metric")) ?? (isRpsup ? usual : metrics[0]) };
   const name = sweep.name || sweep.id;
   document.title = `RPSUP: analysis of ${name}`;
   const cards = h("div");
-  const draw = () => cards.replaceChildren(...cardsFor(study).map(([title, help, make]) => card(name, title, help, make, study, signal)));
-  const pick = quantityChoice("Metric", "metrics", metrics, study.metric, (metric) => { study.metric = metric; rememberQuery({ metric }); draw(); });
+  const draw = () => cards.replaceChildren(...cardsFor(analysed).map(([title, help, make]) => card(name, title, help, make, analysed, signal)));
+  const pick = quantityChoice("Metric", "metrics", metrics, analysed.metric, (metric) => { analysed.metric = metric; rememberQuery({ metric }); draw(); });
   main.replaceChildren(h("div", { class: "head" }, h("h1", {}, `Analysis of ${name}`),
     h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("sweeps", id) }, "Sweep"), h("a", { class: "button", href: reportUrl(id) }, "Report"))),
   h("p", { class: "actions" }, pick), cards);
@@ -36,10 +36,10 @@ export async function show(main, { id, query, signal }) {
 
 /// Those that a sweep can answer.
 /**
- * @typedef {(element: HTMLElement, study: AnalysedSweep, signal: AbortSignal) =>
+ * @typedef {(element: HTMLElement, analysed: AnalysedSweep, signal: AbortSignal) =>
  *   Promise<Chart | null>} MakeCard
  */
-/** @param {AnalysedSweep} study  @returns {[string, string, MakeCard][]} */
+/** @param {AnalysedSweep} analysed  @returns {[string, string, MakeCard][]} */
 function cardsFor({ sweep, numbers, isRpsup }) {
   const type = sweep.request.design?.type;
   /** @type {([string, string, MakeCard] | false | undefined | "")[]} */
@@ -55,12 +55,12 @@ function cardsFor({ sweep, numbers, isRpsup }) {
   return cards.filter(Boolean);
 }
 
-function card(name, title, help, make, study, signal) {
+function card(name, title, help, make, analysed, signal) {
   const body = h("div");
   let chart = null;
   const save = saveButtons(() => chart, () => `${name} ${title.toLowerCase()}`);
   setSeen(save, false);
-  make(body, study, signal).then((made) => {
+  make(body, analysed, signal).then((made) => {
     chart = made;
     if (made) setSeen(save, true);
     else save.remove();

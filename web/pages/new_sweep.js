@@ -9,7 +9,7 @@ import { fieldsOf } from "/form/fields.js";
 import { buildRequest, countJobs, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
-// The study of the paper, as script/paper.json: every other parameter has the paper's value by default.
+// The sweep of the paper, as script/paper.json: every other parameter has the paper's value by default.
 const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12, 15], coupler: ["rigid", "flexible"] },
   replicates: { count: 5, only: { clearance_mm: [0.25, 0.5], crank_velocity_rad_s: [15] } } };
 // Linkages that the program brings along, as sets of parameters.

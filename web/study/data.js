@@ -58,7 +58,7 @@ export function groupBy(rows, keys, metric) {
 }
 
 /// The axes that a chart does not draw, so that what differs in them lies together in its points; replicates, too.
-/** @param {Group[]} groups  @param {Pick<Study, "rows" | "axes" | "view">} study */
+/** @param {Group[]} groups  @param {Pick<SweepPage, "rows" | "axes" | "view">} sweep */
 export function averagedAxes(groups, { rows, axes, view }) {
   if (!groups.some((group) => group.count > 1)) return [];
   const drawn = [view.x, view.y, view.panel];

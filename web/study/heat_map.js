@@ -11,25 +11,25 @@ const mostPanels = 12;
 const fewCells = 400;  // with lines between them
 const mostLabels = 12;
 
-/** @param {HTMLElement} element  @param {Study} study  @param {AbortSignal} signal */
-export function heatMap(element, study, signal) {
+/** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
+export function heatMap(element, sweep, signal) {
   /** @type {Group[][]} */
   let cells = [];
   const made = makeChart(element, () => {
-    const plan = planOf(study);
+    const plan = planOf(sweep);
     cells = plan.cells;
     return plan.option;
   }, "Heat map of the metric over two axes; the table below has the same numbers", signal);
   made.then(({ chart }) => chart.on("click", ({ seriesIndex, dataIndex }) => {
     const cell = cells[seriesIndex]?.[dataIndex];
-    if (cell) study.selection.toggle(cell.jobs);
+    if (cell) sweep.selection.toggle(cell.jobs);
   })).catch(() => {});
   return made;
 }
 
-/** @param {Study} study */
-function planOf(study) {
-  const { rows, view, selection } = study;
+/** @param {SweepPage} sweep */
+function planOf(sweep) {
+  const { rows, view, selection } = sweep;
   const xs = valuesOf(rows, view.x);
   const ys = view.y ? valuesOf(rows, view.y) : [""];
   const allPanels = view.panel ? valuesOf(rows, view.panel) : [""];
@@ -38,11 +38,11 @@ function planOf(study) {
   const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
   const ends = extremesOf(groups.map((group) => group.mean).filter((mean) => mean !== null));
-  if (groups.length === 0) return { cells, option: nothingYet(whyEmpty(study)) };
+  if (groups.length === 0) return { cells, option: nothingYet(whyEmpty(sweep)) };
   const grids = gridsOf(view, xs, ys, panels);
   return { cells, option: {
     ...grids,
-    title: [metricTitle(study, groups), ...grids.title],
+    title: [metricTitle(sweep, groups), ...grids.title],
     tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
     visualMap: { ...(widened(ends) ?? ends), calculable: true, orient: "horizontal", left: "center", bottom: 0, precision: 3,
       inRange: { color: palette() }, textStyle: { color: colour("text") }, formatter: (value) => number(value, 3), dimension: 2 },
@@ -54,10 +54,10 @@ function planOf(study) {
 }
 
 /// What the colours mean, above their scale, and so in the saved pictures, too.
-/** @param {Study} study  @param {Group[]} groups */
-function metricTitle(study, groups) {
-  const averaged = averagedAxes(groups, study).map((axis) => nameOf(axis).toLowerCase());
-  const text = [titleOf(study.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean).join("\n");
+/** @param {SweepPage} sweep  @param {Group[]} groups */
+function metricTitle(sweep, groups) {
+  const averaged = averagedAxes(groups, sweep).map((axis) => nameOf(axis).toLowerCase());
+  const text = [titleOf(sweep.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean).join("\n");
   return { text, left: "center", bottom: 58, textStyle: { fontSize: 12, lineHeight: 15, fontWeight: "normal", color: colour("text") } };
 }
 
@@ -67,7 +67,7 @@ function cellOf(group, view, xs, ys, selection) {
   return chosen ? { value, itemStyle: { borderColor: "#e6007a", borderWidth: 3 } } : value;
 }
 
-/** @param {Group} group  @param {Study["view"]} view */
+/** @param {Group} group  @param {SweepPage["view"]} view */
 function textOf(group, view) {
   const where = [view.x, view.y, view.panel].filter(Boolean).map((axis, i) => `${nameOf(axis)}: ${pointOf(axis, group.values[i])}`);
   const several = group.count > 1 ? `\nmean of ${group.count} jobs, ${number(group.min)} to ${number(group.max)}` : "";

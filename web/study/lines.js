@@ -14,25 +14,25 @@ const fewPoints = 400;  // whose marks do not hide the lines
 const widthOfLetter = 6.3;  // of the notes, in pixels: about
 const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow"];
 
-/** @param {HTMLElement} element  @param {Study} study  @param {AbortSignal} signal */
-export function linesChart(element, study, signal) {
+/** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
+export function linesChart(element, sweep, signal) {
   /** @type {Group[][]} */
   let groups = [];
   const made = makeChart(element, () => {
-    const plan = planOf(study, element.clientWidth);
+    const plan = planOf(sweep, element.clientWidth);
     groups = plan.groups;
     return plan.option;
   }, "Lines of the metric over one axis; the table below has the same numbers", signal);
   made.then(({ chart }) => chart.on("click", ({ seriesId, dataIndex }) => {
     const group = groups[Number(seriesId?.split(":")[1])]?.[dataIndex];
-    if (group) study.selection.toggle(group.jobs);
+    if (group) sweep.selection.toggle(group.jobs);
   })).catch(() => {});
   return made;
 }
 
-/** @param {Study} study  @param {number} width */
-function planOf(study, width) {
-  const { rows, view, selection, others } = study;
+/** @param {SweepPage} sweep  @param {number} width */
+function planOf(sweep, width) {
+  const { rows, view, selection, others } = sweep;
   const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
   const numeric = xs.every((x) => typeof x === "number");
   const [own, theirs] = [linesOf(rows, view, ""), others ? linesOf(others.rows, view, others.name) : []];
@@ -40,11 +40,11 @@ function planOf(study, width) {
   const lines = all.slice(0, mostLines);
   const few = lines.reduce((sum, line) => sum + line.groups.length, 0) <= fewPoints;
   const at = (value) => (numeric ? value : xs.indexOf(value));
-  const logs = chosenLogs(study);
+  const logs = chosenLogs(sweep);
   const x = numeric ? { type: logs.x ? "log" : "value", scale: true } : { type: "category", data: xs.map((value) => number(value, 4)) };
   const groups = lines.map((line) => line.groups);
-  if (lines.length === 0) return { groups, option: nothingYet(whyEmpty(study)) };
-  const notes = notesOf(study, own, theirs);
+  if (lines.length === 0) return { groups, option: nothingYet(whyEmpty(sweep)) };
+  const notes = notesOf(sweep, own, theirs);
   const noteLines = notes.reduce((sum, note) => sum + Math.ceil((note.length * widthOfLetter) / width), 0);
   const legend = legendOf(lines.map(({ name }) => name), width);
   return { groups, option: {
@@ -67,21 +67,21 @@ function logLook() {
 }
 
 /// What the lines alone do not say.
-/** @param {Study} study */
-function notesOf(study, own, theirs) {
-  const averagedIn = (lines, sweep) => averagedAxes(lines.flatMap((line) => line.groups), sweep);
-  const averaged = new Set([...averagedIn(own, study), ...averagedIn(theirs, { ...study.others, view: study.view })]);
+/** @param {SweepPage} sweep */
+function notesOf(sweep, own, theirs) {
+  const averagedIn = (lines, drawn) => averagedAxes(lines.flatMap((line) => line.groups), drawn);
+  const averaged = new Set([...averagedIn(own, sweep), ...averagedIn(theirs, { ...sweep.others, view: sweep.view })]);
   const count = own.length + theirs.length;
-  const without = withoutValue(study).length;
+  const without = withoutValue(sweep).length;
   return [averaged.size > 0 && `Mean over ${[...averaged].map((axis) => nameOf(axis).toLowerCase()).join(", ")}; bars: range.`,
     without > 0 && `${plural(without, "computed job")} without a value: the table says why.`,
     count > mostLines && `The first ${mostLines} of ${count} series: choose fewer values, or another axis.`].filter(Boolean);
 }
 
 /// Lines with a value at least; where jobs have none, a group without a mean stands in its place.
-/// @param sweep  its name, where it is not the one that is looked at
-/** @param {Api.Row[]} rows  @param {Study["view"]} view  @param {string} sweep */
-function linesOf(rows, view, sweep) {
+/// @param name  of the sweep, where it is not the one that is looked at
+/** @param {Api.Row[]} rows  @param {SweepPage["view"]} view  @param {string} name */
+function linesOf(rows, view, name) {
   const keys = [view.y, view.panel].filter(Boolean);
   /** @type {Map<string, Group[]>} */
   const byLine = new Map();
@@ -91,11 +91,11 @@ function linesOf(rows, view, sweep) {
     byLine.set(key, line);
     line.push(group);
   }
-  const nameOfLine = ({ values }) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), sweep].filter(Boolean).join(", ") || nameOf(view.metric);
+  const nameOfLine = ({ values }) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), name].filter(Boolean).join(", ") || nameOf(view.metric);
   const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
   const x = (group) => order.get(group.values.at(-1));
   const drawn = [...byLine.values()].filter((groups) => groups.some(hasValue));
-  return drawn.map((groups) => ({ name: nameOfLine(groups[0]), dashed: sweep !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+  return drawn.map((groups) => ({ name: nameOfLine(groups[0]), dashed: name !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
 }
 
 const hasValue = (group) => group?.count > 0;

@@ -6,7 +6,7 @@ import { valuesOf } from "/study/data.js";
 import { spansDecades } from "/study/span.js";
 
 /// The axes that may be logarithmic.
-/** @param {Pick<Study, "rows" | "others" | "view">} study */
+/** @param {Pick<SweepPage, "rows" | "others" | "view">} sweep */
 export function offeredLogs({ rows, others, view }) {
   const both = others ? [rows, others.rows] : [rows];
   const metrics = both.flat().map((row) => row[view.metric]).filter((value) => value !== null && value !== undefined);
@@ -14,25 +14,25 @@ export function offeredLogs({ rows, others, view }) {
 }
 
 /// The axes that are so. Values of an axis are decades apart because somebody has chosen them so; of a metric that is for the user to say.
-/** @param {Pick<Study, "rows" | "others" | "view">} study */
-export function chosenLogs(study) {
-  const offered = offeredLogs(study);
-  return { x: offered.x && study.view.xScale !== "linear", metric: offered.metric && study.view.metricScale === "log" };
+/** @param {Pick<SweepPage, "rows" | "others" | "view">} sweep */
+export function chosenLogs(sweep) {
+  const offered = offeredLogs(sweep);
+  return { x: offered.x && sweep.view.xScale !== "linear", metric: offered.metric && sweep.view.metricScale === "log" };
 }
 
 /// A box for each axis that may be logarithmic. @param changed  is called when one has been ticked
-/** @param {Study} study  @param {() => void} changed */
-export function logBoxes(study, changed) {
-  const box = (key) => h("input", { type: "checkbox", onchange: ({ target }) => { study.view[key] = target.checked ? "log" : "linear"; changed(); } });
+/** @param {SweepPage} sweep  @param {() => void} changed */
+export function logBoxes(sweep, changed) {
+  const box = (key) => h("input", { type: "checkbox", onchange: ({ target }) => { sweep.view[key] = target.checked ? "log" : "linear"; changed(); } });
   const boxes = { x: box("xScale"), metric: box("metricScale") };
   const labels = Object.fromEntries(Object.entries(boxes).map(([key, input]) => [key, h("label", { class: "small" }, input, h("span"))]));
 
   function draw() {
-    const [offered, chosen] = [offeredLogs(study), chosenLogs(study)];
+    const [offered, chosen] = [offeredLogs(sweep), chosenLogs(sweep)];
     for (const [key, label] of Object.entries(labels)) {
       label.hidden = !offered[key];
       boxes[key].checked = chosen[key];
-      part("span", label).textContent = ` log scale: ${nameOf(study.view[key]).toLowerCase()}`;
+      part("span", label).textContent = ` log scale: ${nameOf(sweep.view[key]).toLowerCase()}`;
     }
   }
 

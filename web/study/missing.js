@@ -5,19 +5,19 @@ import { nameOf, plural } from "/core/format.js";
 const ofContacts = /contact|penetration|sliding/;
 
 /// The jobs that it is about.
-/** @type {(study: Pick<Study, "rows" | "view">) => Api.Row[]} */
+/** @type {(sweep: Pick<SweepPage, "rows" | "view">) => Api.Row[]} */
 export const withoutValue = ({ rows, view }) => rows.filter((row) => row.state === "succeeded" && typeof row[view.metric] !== "number");
 
 /// The value of a parameter in a row: swept, given to all jobs, or the default.
-/** @param {Pick<Study, "sweep" | "schema">} study  @param {Api.Row} row  @param {keyof Api.Parameters} key */
+/** @param {Pick<SweepPage, "sweep" | "schema">} sweep  @param {Api.Row} row  @param {keyof Api.Parameters} key */
 function parameterOf({ sweep, schema }, row, key) {
   return row[key] ?? sweep.request.parameters?.[key] ?? schema.properties[key]?.default;
 }
 
 /// How many of the jobs end before their steady part begins.
-/** @param {Study} study  @param {Api.Row[]} rows */
-function countEarly(study, rows) {
-  return rows.filter((row) => parameterOf(study, row, "duration_s") <= parameterOf(study, row, "run_up_s")).length;
+/** @param {SweepPage} sweep  @param {Api.Row[]} rows */
+function countEarly(sweep, rows) {
+  return rows.filter((row) => parameterOf(sweep, row, "duration_s") <= parameterOf(sweep, row, "run_up_s")).length;
 }
 
 /// How many of so many jobs without a value have ended too early.
@@ -28,20 +28,20 @@ function earlyText(early, all) {
 }
 
 /// A sentence on the jobs without a value; empty if all have one.
-/** @param {Study} study */
-export function missingText(study) {
-  const without = withoutValue(study);
+/** @param {SweepPage} sweep */
+export function missingText(sweep) {
+  const without = withoutValue(sweep);
   if (without.length === 0) return "";
-  const early = earlyText(countEarly(study, without), without.length);
-  return `${plural(without.length, "computed job")} without a value of ${nameOf(study.view.metric)}: `
+  const early = earlyText(countEarly(sweep, without), without.length);
+  return `${plural(without.length, "computed job")} without a value of ${nameOf(sweep.view.metric)}: `
     + `values of the steady part count from run_up_s on, ${early}; those of contacts need a clearance.`;
 }
 
 /// Why a chart is empty, in few words.
-/** @param {Study} study */
-export function whyEmpty(study) {
-  const without = withoutValue(study);
-  if (without.length === 0) return study.rows.some(({ state }) => state === "failed") ? "Jobs have failed: the table says why." : "";
-  if (ofContacts.test(study.view.metric)) return "Values of contacts need a clearance.";
-  return countEarly(study, without) === without.length ? "The runs end before their steady part: at or before run_up_s." : "";
+/** @param {SweepPage} sweep */
+export function whyEmpty(sweep) {
+  const without = withoutValue(sweep);
+  if (without.length === 0) return sweep.rows.some(({ state }) => state === "failed") ? "Jobs have failed: the table says why." : "";
+  if (ofContacts.test(sweep.view.metric)) return "Values of contacts need a clearance.";
+  return countEarly(sweep, without) === without.length ? "The runs end before their steady part: at or before run_up_s." : "";
 }

@@ -9,13 +9,13 @@ import { extremesOf, widened } from "/study/span.js";
 
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
 
-/** @param {HTMLElement} element  @param {Study} study  @param {AbortSignal} signal */
-export function parallelChart(element, study, signal) {
+/** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
+export function parallelChart(element, sweep, signal) {
   /** @type {Api.Row[]} */
   let shown = [];
   let brushing = false;
   const made = makeChart(element, () => {
-    const plan = planOf(study);
+    const plan = planOf(sweep);
     shown = plan.shown;
     return plan.option;
   }, "Parallel coordinates of all jobs; the table below has the same numbers", signal);
@@ -23,7 +23,7 @@ export function parallelChart(element, study, signal) {
     const [series] = chart.getModel().getSeries();
     const active = series.getRawIndicesByActiveState("active");
     brushing = true;
-    study.selection.set(active.length === shown.length ? [] : active.map((index) => shown[index].job_id));
+    sweep.selection.set(active.length === shown.length ? [] : active.map((index) => shown[index].job_id));
     brushing = false;
   })).catch(() => {});
   // While an axis is brushed its own lines are not drawn anew: that would end the brushing.
@@ -37,7 +37,7 @@ const roomy = { scale: true, min: (extremes) => ends(extremes).min - room(ends(e
 
 /// The columns, those that most jobs have a value of first: a line then ends where its job has no further values. One that would lead across a gap
 /// is left out, for there is no way to draw it that tells the truth.
-/** @param {Study} study */
+/** @param {SweepPage} sweep */
 function layOut({ rows, axes, metrics, view }) {
   const computed = rows.filter((row) => row.state === "succeeded");
   const names = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
@@ -54,9 +54,9 @@ function layOut({ rows, axes, metrics, view }) {
 }
 
 /// What the lines do not show of the jobs; empty where they show all.
-/** @param {Study} study */
-export function parallelNote(study) {
-  const { leftOut, short } = layOut(study);
+/** @param {SweepPage} sweep */
+export function parallelNote(sweep) {
+  const { leftOut, short } = layOut(sweep);
   return [short > 0 && `${plural(short, "line")} ${short === 1 ? "ends" : "end"} early, where the job has no further values.`,
     leftOut > 0 && `${plural(leftOut, "job")} with a gap between values ${leftOut === 1 ? "is" : "are"} left out.`].filter(Boolean).join(" ");
 }
@@ -69,11 +69,11 @@ function dimensionOf({ name, values, isNumeric }, dim) {
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
 }
 
-/** @param {Study} study */
-function planOf(study) {
-  const { view, selection } = study;
-  const { columns, shown } = layOut(study);
-  if (shown.length === 0) return { shown, option: nothingYet(whyEmpty(study)) };
+/** @param {SweepPage} sweep */
+function planOf(sweep) {
+  const { view, selection } = sweep;
+  const { columns, shown } = layOut(sweep);
+  if (shown.length === 0) return { shown, option: nothingYet(whyEmpty(sweep)) };
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
   return { shown, option: {
     parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },

@@ -10,9 +10,9 @@ import { missingText } from "/study/missing.js";
 const pageSize = 50;
 
 export class ResultTable {
-  /** @param {Study} study */
-  constructor(study) {
-    this.study = study;
+  /** @param {SweepPage} sweep */
+  constructor(sweep) {
+    this.sweep = sweep;
     this.order = { column: "", descending: false };
     this.page = 0;
     this.onlySelected = false;
@@ -44,8 +44,8 @@ export class ResultTable {
   }
 
   draw() {
-    const { axes, metrics, view } = this.study;
-    const columns = ["state", ...axes, ...(this.study.rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
+    const { axes, metrics, view } = this.sweep;
+    const columns = ["state", ...axes, ...(this.sweep.rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
       view.metric, ...metrics.filter((metric) => metric !== view.metric)];
     this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"), ...columns.map((column) => this.heading(column)));
     this.drawMissing();
@@ -55,38 +55,38 @@ export class ResultTable {
     this.body.replaceChildren(...rows.slice(this.page * pageSize, (this.page + 1) * pageSize).map((row) => this.row(row, columns)));
     this.back.disabled = this.page === 0;
     this.next.disabled = this.page >= pages - 1;
-    this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} of ${this.study.rows.length.toLocaleString("en")} jobs`;
+    this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} of ${this.sweep.rows.length.toLocaleString("en")} jobs`;
   }
 
   /// Says why jobs that succeeded have no value of the metric.
   drawMissing() {
-    this.missing.textContent = missingText(this.study);
+    this.missing.textContent = missingText(this.sweep);
     this.missing.hidden = this.missing.textContent === "";
   }
 
   visible() {
-    const { rows, selection } = this.study;
+    const { rows, selection } = this.sweep;
     const wanted = this.onlySelected ? rows.filter((row) => selection.has(row.job_id)) : rows;
     return this.order.column ? sortedBy(wanted, this.order.column, this.order.descending) : wanted;
   }
 
   /// Numbers stand below each other at their last digit, and their heading there, too.
   lookOf(column) {
-    return valuesOf(this.study.rows, column).some((value) => typeof value === "number") ? "number" : null;
+    return valuesOf(this.sweep.rows, column).some((value) => typeof value === "number") ? "number" : null;
   }
 
   heading(column) {
     const sorted = this.order.column === column;
     const arrow = sorted ? (this.order.descending ? " ▼" : " ▲") : "";
     const unit = unitOf(column);
-    const { metrics } = this.study;
+    const { metrics } = this.sweep;
     return h("th", { scope: "col", class: this.lookOf(column), "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
       h("button", { "data-column": column, ...(metrics.includes(column) ? defines("metrics", column) : {}), onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
   }
 
   /** @param {Api.Row} row  @param {string[]} columns */
   row(row, columns) {
-    const { selection } = this.study;
+    const { selection } = this.sweep;
     const box = h("input", { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
     box.checked = selection.has(row.job_id);
     return h("tr", { class: box.checked ? "selected" : null }, h("td", {}, box),
@@ -98,13 +98,13 @@ export class ResultTable {
   cell(row, column) {
     const value = valueOf(row, column);
     if (column === "state") return this.stateCell(row);
-    const given = this.study.axes.includes(column);
+    const given = this.sweep.axes.includes(column);
     return h("td", { class: this.lookOf(column) }, number(value, given ? 6 : 4));
   }
 
   /** @param {Api.Row} row */
   stateCell({ job_id: id, state }) {
-    const error = state === "failed" && this.study.failures.of(id);
+    const error = state === "failed" && this.sweep.failures.of(id);
     return h("td", { class: state }, error ? [`${state}: ${error.error_reason}`, h("span", { class: "small reason" }, error.error_detail)] : state);
   }
 }
