@@ -44,7 +44,7 @@ async function whenBack(signal) {
   await persist(() => findHealth(signal), () => {}, signal);
 }
 
-/// Says why a view is not shown. @param more  what can be done about it
+/// Shows why there is no view. @param more  elements that help
 function say(told, ...more) {
   main.replaceChildren(h("h1", {}, "This page cannot be shown"), h("p", { class: "trouble", role: "alert" }, told), ...more, h("p", {}, h("a", { href: "#/" }, "Sweeps")));
 }

@@ -1,6 +1,6 @@
 // Types of the pages, for the test system.javascript_types alone: browsers never see them.
 
-/** What the interface says: "openapi" is made of the service's own OpenAPI document. */
+/** Types of the interface: "openapi" is made of the service's own OpenAPI document. */
 declare namespace Api {
   type Paths = import("openapi").paths;
   type Schemas = import("openapi").components["schemas"];
@@ -20,9 +20,9 @@ declare namespace Api {
     Paths[Path] extends { get: { parameters: { query?: infer Keys } } }
       ? { [Key in keyof Keys]: InAddress<Keys[Key]> } : never;
   type InAddress<Value> = Value extends unknown[] ? string : Value extends number ? number | string : Value;
-  /** One that may have keys by the names of columns, too: "state", "peak_contact_force_n_ge". */
+  /** Query with keys by the names of columns, too: "state", "peak_contact_force_n_ge". */
   type Filters<Path extends keyof Paths> = Query<Path> & { [column: string]: string | number | undefined };
-  /** One that is asked for without "fields" has all of them. */
+  /** Page of a listing asked for without "fields": its items have all of them. */
   type Page<Path extends keyof Paths> = { items: Listed<Path>[] } & Omit<Get<Path>, "items">;
   type Listed<Path extends keyof Paths> =
     Get<Path> extends { items: (infer Item)[] } ? Required<Item> : never;
@@ -32,7 +32,7 @@ declare namespace Api {
   type Limit = Required<Schemas["Limit"]>;
   type Search = Omit<Get<"/v1/searches/{id}">, "limits"> & { limits: Limit[] };
   type WearStudy = Get<"/v1/wear-studies/{id}">;
-  /** Those of a job, which has all of them. */
+  /** Parameters of a job, which has all of them. */
   type Parameters = Required<Omit<Schemas["Parameters"], "links">>
     & { links: Required<NonNullable<Schemas["Parameters"]["links"]>> };
   type Job = Omit<Get<"/v1/jobs/{id}">, "parameters"> & { parameters: Parameters };
@@ -46,7 +46,7 @@ declare namespace Api {
   type Executor = Schemas["Executors"]["items"][number];
 }
 
-/** What the address says of a view, which ends with the signal. */
+/** Address of a view, which ends with the signal. */
 type Visit = { kind: string; id: string; query: URLSearchParams; signal: AbortSignal };
 /** Page of a sweep, whose charts and table share rows, axes, view and selection. */
 type SweepPage = import("/pages/sweep.js").SweepPage;
@@ -64,9 +64,9 @@ type Trace = {
 };
 type TimeWindow = import("/run/time_window.js").TimeWindow;
 
-/** What the list of studies shows of each. */
+/** Item of a list of studies. */
 type Listed = { id: string; name: string; state: string; created_at: string };
-/** What the service does with studies of one kind. */
+/** Requests to the service for studies of one kind. */
 interface Studies<Kept, Item extends Listed, Request> {
   path: string;
   list(query: { limit?: number }, signal?: AbortSignal): Promise<{ items: Item[] }>;
@@ -85,6 +85,6 @@ interface Array<T> {
   filter(isGiven: BooleanConstructor): Exclude<T, false | null | undefined | "" | 0>[];
 }
 interface Window {
-  /** Of the package swagger-ui-dist, which has no types. */
+  /** Function of the package swagger-ui-dist, which has no types. */
   SwaggerUIBundle(options: object): unknown;
 }

@@ -11,7 +11,7 @@ const axesNeeded = ["clearance_mm", "crank_velocity_rad_s", "coupler"];
 const indexPrefix = "index.";
 const leastIndex = 0.02;
 
-/// Whether a sweep varies what the paper's statements compare.
+/// True if a sweep varies the parameters that the paper's statements compare.
 /** @type {(axes: string[]) => boolean} */
 export const bearsOnPaper = (axes) => axesNeeded.every((axis) => axes.includes(axis));
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the charts of the analyses have in common.
+// Common parts of the charts and tables of analyses.
 import { axisLook } from "/core/charts.js";
 import { h } from "/core/dom.js";
 import { number, pointOf, titleOf } from "/core/format.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sliding wears off the bore, drawn around it: a bar outwards in each sector, a colour for each ring along the length.
+// Wear map of the bore in polar coordinates: a bar for the depth in each sector, a colour for each ring along the length.
 import { findWear } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";
 import { h, notify } from "/core/dom.js";

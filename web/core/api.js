@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only place that asks the service.
 
-/// What the service refused, with every fault and its place in the request.
+/// Refusal of a request by the service, with every fault and its place in the request.
 export class Refusal extends Error {
   /** @param {Partial<Api.Schemas["Problem"]>} problem  @param {number} status */
   constructor(problem, status) {
@@ -92,7 +92,7 @@ export const findJob = (id, signal) => ask(jobPath(id), { signal });
 export const submitJob = (parameters) => ask("/v1/jobs", { method: "POST", body: parameters });
 /** @type {(id: string) => Promise<Api.Post<"/v1/jobs/{id}/cancel">>} */
 export const cancelJob = (id) => ask(`${jobPath(id)}/cancel`, { method: "POST" });
-/// What the service does with studies of one kind.
+/// Requests to the service for studies of one kind.
 /** @param {string} path  @returns {Studies<any, any, any>} */
 function studies(path) {
   /** @type {(id: string) => string} */

@@ -24,12 +24,12 @@ function inPageColours(option) {
     tooltip: option.tooltip && { renderMode: "richText", confine: true, backgroundColor: colour("card"), borderColor: colour("line"), textStyle: text, ...option.tooltip } };
 }
 
-/// What is shown where there is nothing to draw. @param why  in a line of its own
+/// Option of a chart without data. @param why  reason, in a line of its own
 export function nothingYet(why = "") {
   return { title: { text: ["No job has a value of this metric.", why].filter(Boolean).join("\n"), left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
 }
 
-/// How an axis looks.
+/// Colours and lines of an axis.
 export function axisLook() {
   const line = { lineStyle: { color: colour("line") } };
   return { axisLine: line, axisTick: line, splitLine: line, axisLabel: { color: colour("text"), hideOverlap: true }, nameTextStyle: { color: colour("text") } };

@@ -42,7 +42,7 @@ export function contextOf(canvas) {
   return context;
 }
 
-/// Lets an element be seen or not. Its place is kept: what stands beside it would move under the pointer.
+/// Shows or hides an element. Its place is kept, so that its neighbours do not move under the pointer.
 /** @param {HTMLElement} element  @param {boolean} isSeen */
 export function setSeen(element, isSeen) {
   element.classList.toggle("unseen", !isSeen);

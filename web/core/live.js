@@ -64,7 +64,7 @@ async function poll(source, told, signal) {
   return undefined;
 }
 
-/// What the asked function resolves to; it is asked again as long as the service is away.
+/// Result of a function that asks the service; it is called again as long as the service is away.
 /// @param tell  is given what there is to say meanwhile, and "" at the end
 /**
  * @template Found

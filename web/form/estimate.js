@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a request will cost, from what earlier jobs of the same kind have cost.
+// Estimate of a request's cost, from earlier jobs of the same kind.
 import { findResults, listJobs } from "/core/api.js";
 
 const lookedAt = 400;

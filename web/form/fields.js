@@ -13,7 +13,7 @@ function fieldOf(path, property) {
   return { path, kind, unit: property["x-unit"] ?? "", default: property.default, help: property.description ?? "", source: property["x-default-source"] ?? "", schema: property };
 }
 
-/// What is allowed, in words: "≥ 0, < 1000 mm".
+/// Allowed values in words: "≥ 0, < 1000 mm".
 export function allowed(field) {
   const { schema } = field;
   if (field.kind === "words") return schema.enum.join(", ");
@@ -28,7 +28,7 @@ function boundsOf(field) {
   return field.kind === "numbers" ? field.schema.items : field.schema;
 }
 
-/// What is wrong with a value of this field; empty if nothing is.
+/// Fault of a value of this field; empty if it is allowed.
 export function faultOf(field, value) {
   if (!Number.isFinite(value)) return `must be a number ${allowed(field)}`;
   const { minimum, exclusiveMinimum, maximum, exclusiveMaximum } = boundsOf(field);

@@ -73,7 +73,7 @@ const jsonKinds = {
   design: { fits: (value) => typeof value?.over === "object", detail: "must be a JSON object with a type and parameters, such as {\"type\": \"sobol\", \"count\": 64, \"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
 };
 
-/// What is written as JSON: the linkage and axes inside it, cases and the design.
+/// Adds a part that is written as JSON: the linkage, axes inside it, cases or the design.
 function addJson(key, text, request, problems) {
   if (text.trim() === "") return;
   const { fits, detail } = jsonKinds[key];
@@ -118,7 +118,7 @@ function entryOf(field, values, mode) {
   return field.kind === "words" ? { ...emptyEntry(), chosen: values } : { ...emptyEntry(), mode, text: values.join(", ") };
 }
 
-/// How many jobs a request makes.
+/// Number of jobs of a request.
 export function countJobs(request) {
   const axes = Object.entries(request.sweep ?? {});
   const { count = 1, only = {} } = request.replicates ?? {};
@@ -132,7 +132,7 @@ const product = (sizes) => sizes.reduce((all, size) => all * size, 1);
 
 const sizeOf = (axis) => (Array.isArray(axis) ? axis.length : axis.count);
 
-/// Of a design; the service has the last word.
+/// Number of points of a design; the service decides in the end.
 function countPoints(design) {
   if (!design) return 1;
   const dimensions = Object.keys(design.over).length;

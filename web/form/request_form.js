@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the forms of sweeps, searches and wear studies have in common: the parameters' fields, the request that they make, and the service's refusals.
+// Base of the forms of sweeps, searches and wear studies: fields of parameters, request, and refusals of the service.
 import { Refusal } from "/core/api.js";
 import { choice, freshId, h, notify } from "/core/dom.js";
 import { routeTo } from "/core/route.js";
@@ -7,17 +7,17 @@ import { fieldRow } from "/form/field.js";
 import { pathOfPointer } from "/form/fields.js";
 import { emptyEntry } from "/form/request.js";
 
-// What most studies are about; the others are one click away.
+// Parameters that are shown at first; the others are one click away.
 const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", "run_up_s", "restitution", "integrator"];
 
 /// Its kinds say what is asked (path, ask, route), make the request (build) and the text above it (drawCount).
 export class RequestForm {
-  /// What is asked, of the service and in this page.
+  /// Request's path at the service, and route of its result in the page.
   path = "";
   route = "";
   /** @type {(request: any) => Promise<{ id: string }>} */
   ask;
-  /// What shows the fault of each field and value, by its name.
+  /// Rows of the form by the names of their fields; a row shows its fault.
   /** @type {Map<string, { complain: (text: string) => void, rename?: (text: string) => void }>} */
   rows = new Map();
   /** @type {any} */
@@ -45,7 +45,7 @@ export class RequestForm {
   /** @returns {{ request: any, problems: { path: string, detail: string }[] }} */
   build() { return { request: {}, problems: [] }; }
 
-  /// Says how much a request asks for.
+  /// Shows the size of a request.
   /** @param {any} _request */
   drawCount(_request) {}
 

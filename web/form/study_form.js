@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the forms of searches and wear studies have in common: values that the service's description of the request explains.
+// Base of the forms of searches and wear studies: values whose help is that of the request's schema.
 import { parameterSchema, requestSchemas } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { nameOf, unitOf } from "/core/format.js";
@@ -47,7 +47,7 @@ export class StudyForm extends RequestForm {
     for (const [key, value] of Object.entries(request)) this.state.values[key] = typeof value === "number" || typeof value === "string" ? String(value) : "";
   }
 
-  /// What stands in the form.
+  /// Elements of the form.
   /** @returns {any[]} */
   parts() { return []; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the results of a sweep say: each answer in a card of its own, asked for when it can be given.
+// Analyses of a sweep, each in a card of its own.
 import { findResults, findSweep, reportUrl } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { h, setSeen } from "/core/dom.js";
@@ -34,7 +34,7 @@ export async function show(main, { id, query, signal }) {
   draw();
 }
 
-/// Those that a sweep can answer.
+/// Analyses that apply to a sweep.
 /**
  * @typedef {(element: HTMLElement, analysed: AnalysedSweep, signal: AbortSignal) =>
  *   Promise<Chart | null>} MakeCard

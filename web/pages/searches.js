@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a parameter may go: the list of searches, the form of a new one, and the view of one.
+// Limit searches: their list, the form of a new one, and the view of one.
 import { searches } from "/core/api.js";
 import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
 import { SearchForm } from "/form/search_form.js";
@@ -8,7 +8,7 @@ import { LimitView } from "/study/limit_view.js";
 import { showStudies } from "/study/study_list.js";
 import { showStudy } from "/study/study_view.js";
 
-// What the flexible linkage of the paper may bear.
+// Largest clearance of the paper's flexible linkage.
 const example = {
   name: "Clearance limit",
   parameters: { coupler: "flexible", duration_s: 3 },

@@ -210,7 +210,7 @@ export class SweepPage {
     return this.metrics.includes("peak_slider_acceleration_m_s2") && bearsOnPaper(this.axes);
   }
 
-  /// How the paper's statements stand, of a sweep that has ended.
+  /// Shows how many of the paper's statements hold, once the sweep has ended.
   async drawPaper() {
     if (!this.paper || isUnderWay(this.sweep)) return;
     try {

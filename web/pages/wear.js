@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a bearing is worn over the hours: the list of wear studies, the form of a new one, and the view of one.
+// Wear studies: their list, the form of a new one, and the view of one.
 import { wearStudies } from "/core/api.js";
 import { exact } from "/core/format.js";
 import { showStudyForm } from "/form/study_form.js";

@@ -24,7 +24,7 @@ export function captioned(source, names) {
   return copy;
 }
 
-/// Where names stand that are set side by side, in as many lines as it takes. @param letters  their height
+/// Positions of names set side by side, in as many lines as they need. @param letters  their height
 function setInLines(context, names, width, letters) {
   let left = letters;
   let middle = letters;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What there is to see of a linkage that is described: everything goes by the names of its joints.
+// Titles, channels and joints of a described linkage, by the names of its joints.
 
-/// Whether a job describes its linkage, instead of naming the RPSUP linkage.
+/// True for a job of a described linkage, false for one of the RPSUP linkage.
 /** @type {(job: Pick<Api.Job, "parameters">) => boolean} */
 export const isDescribed = (job) => typeof job.parameters.linkage === "object";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job's result is, in tables: metrics, how it was run, its parameters.
+// Tables of a job: metrics, losses, provenance, parameters.
 import { h } from "/core/dom.js";
 import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
@@ -23,7 +23,7 @@ function whyMissing(jobs) {
   return h("p", { class: "quiet small" }, `Values of the steady part count from run_up_s on${which}.`);
 }
 
-/// Where the energy went: what the drives gave, what was lost to what, and what the account misses.
+/// Table of the energy losses by kind, with the energy residual.
 /** @param {Api.Job} job */
 export function lossesCard({ metrics }) {
   const losses = ["friction_work_j", "impact_loss_j", "structural_loss_j"].map((name) => ({ name, value: metrics?.[name] }));

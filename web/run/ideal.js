@@ -6,7 +6,7 @@ const pollMs = 300;
 /** @type {Pick<Api.Parameters, "coupler" | "crank" | "rod" | "cross">} */
 const rigid = { coupler: "rigid", crank: "rigid", rod: "rigid", cross: "rigid" };
 
-/// Has it computed, or takes it from the store if it was computed before. Resolves to the job, when it has succeeded.
+/// Submits the run of the ideal linkage, which the store may have already. Resolves to the job, once it has succeeded.
 /** @param {Api.Job} job  @param {AbortSignal} signal */
 export async function idealOf(job, signal) {
   let ideal = await submitJob({ ...job.parameters, clearance_mm: 0, axial_clearance_mm: 0, ...rigid, drive: "prescribed" });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tells several jobs apart.
+// Labels that tell jobs apart.
 import { pointOf } from "/core/format.js";
 
 /// A short name for each of the jobs: the parameters in which they differ, or the end of the id where they do not.

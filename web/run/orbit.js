@@ -67,7 +67,7 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
     if (index !== null) drawRing(context, painted.at(index), 5 * devicePixelRatio);
   }
 
-  /// What stands above the orbit where it is saved.
+  /// Caption of a saved orbit.
   function words() {
     const [x, y, force] = channels.slice(1).map((channel) => titleOf(channel));
     return [title, `${x} across, ${y} up`, `colour: ${by === "time" ? "time" : force}, ${low.textContent} to ${high.textContent}`,

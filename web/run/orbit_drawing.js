@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the journal's orbit is painted.
+// Painting of the journal's orbit.
 import { contextOf } from "/core/dom.js";
 import { number } from "/core/format.js";
 import { colour, paletteColour } from "/core/theme.js";

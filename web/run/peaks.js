@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the metrics know of the curves: peaks are found inside the steps of the integration, curves join samples.
+// Peaks of curves, from the metrics: these are found inside the integration's steps, curves join samples.
 import { nameOf, number, unitOf } from "/core/format.js";
 import { labelsOf } from "/run/labels.js";
 

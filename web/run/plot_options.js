@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a plot over time looks and answers to the pointer, in uPlot's words.
+// Options of a plot over time for uPlot: look, and response to the pointer.
 import { number, unitOf } from "/core/format.js";
 import { colour, isDark } from "/core/theme.js";
 import { columnsOf } from "/run/plot_data.js";

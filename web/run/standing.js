@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a job stands that has no result: not yet, or not at all.
+// Progress of a job that has no result yet, or has failed.
 import { h } from "/core/dom.js";
 import { moment, number, plural, span } from "/core/format.js";
 import { isUnderWay } from "/core/live.js";

@@ -67,14 +67,14 @@ export async function timePlot(element, { traces, times, height, label, signal }
 
   const fetchSoon = seldom(() => signal.aborted || tryLoad(), refineMs);
   const fetchLater = settled(() => signal.aborted || tryLoad(), settleMs);
-  // What moves inside the data that are there is drawn from them at every frame, and made finer when it stands still.
+  // While the window moves within the loaded data these are drawn; finer data are fetched when it stands still.
   const isThere = () => data && times.from >= data[0][0] && times.to <= data[0][data[0].length - 1];
   times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });
   times.addEventListener("instant", showInstant, { signal });
   onColours(() => data && make(), signal);
   const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });
   sizes.observe(element);
-  // What is out of sight is drawn when it comes into sight: a page has many plots, and all move at every frame.
+  // Plots out of sight are not drawn until they come into sight: a page has many, and all move at every frame.
   const sight = new IntersectionObserver((entries) => { isSeen = entries[entries.length - 1].isIntersecting; follow(); });
   sight.observe(element);
   signal.addEventListener("abort", () => { sizes.disconnect(); sight.disconnect(); plot?.destroy(); });

@@ -51,7 +51,7 @@ const keys = {
   ArrowLeft: (times) => times.pan(-0.2), ArrowRight: (times) => times.pan(0.2), "+": (times) => times.zoom(0.5), "-": (times) => times.zoom(2), 0: (times) => times.reset(),
 };
 
-/// Lets an element that has the keyboard's focus move the window: arrows, + and -, 0 for all of it.
+/// Makes keys move the window while an element has the focus: arrows, + and -, 0 for the whole run.
 export function listenToKeys(element, times) {
   element.tabIndex = 0;
   element.addEventListener("keydown", (event) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets the instant run on, at a part of the real speed, and slower still through impacts.
+// Player: advances the instant at a fraction of real time, slower during impacts.
 
 const slowdown = 50;
 const around = 0.006;  // seconds of the run on either side of an impact

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the links are at an instant. Poses are fetched in stretches of time, each fine enough for the speed at which it is played.
+// Poses of the links at an instant, fetched in chunks of time whose resolution suits the speed of playing.
 import { findTrajectory } from "/core/api.js";
 
 const framesPerStretch = 120;

@@ -83,7 +83,7 @@ export function sceneCard(job, links, times, signal) {
     h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours).map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
 }
 
-/// What the stage must know of a linkage.
+/// Size, upward direction and points of a linkage, for the stage.
 /**
  * @param {Api.Parameters} parameters
  * @returns {{ reach: number, up: number[], places: number[][] | null }}

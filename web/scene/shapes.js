@@ -5,7 +5,7 @@ import { guideOf, rodEnds } from "/scene/geometry.js";
 
 /** @typedef {{ mass_kg: number, inertia_kg_m2: number[] }} Body */
 
-/// What the parameters say of the links' shapes [m].
+/// Shapes of the links, from the parameters [m].
 /** @param {Api.Parameters} parameters */
 export function measuresOf(parameters) {
   const { links } = parameters;

@@ -10,7 +10,7 @@ export function metricsOf(rows, axes) {
   return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_") && !axes.includes(column));
 }
 
-/// What stands where a row has no value.
+/// Sign for a missing value.
 export const none = "–";
 
 function compare(a, b) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What computes, for a service with a cluster: its slots, tasks and nodes, and what somebody should look at.
+// Panel of a service with a cluster: slots, tasks and nodes, and problems that need attention.
 import { h } from "/core/dom.js";
 import { plural } from "/core/format.js";
 

@@ -14,7 +14,7 @@ export class Failures {
     return this.#errors.get(id);
   }
 
-  /// What is known may be so no longer: jobs that run again may fail for another reason.
+  /// Marks the known reasons as outdated: jobs that run again may fail for others.
   doubt() {
     this.#isDoubted = true;
   }

@@ -53,7 +53,7 @@ function planOf(sweep) {
   } };
 }
 
-/// What the colours mean, above their scale, and so in the saved pictures, too.
+/// Title of the colour scale, also in saved pictures.
 /** @param {SweepPage} sweep  @param {Group[]} groups */
 function metricTitle(sweep, groups) {
   const averaged = averagedAxes(groups, sweep).map((axis) => nameOf(axis).toLowerCase());

@@ -39,7 +39,7 @@ function optionOf(search) {
   };
 }
 
-/// Where nothing was exceeded the limit lies beyond: such points are drawn hollow.
+/// Line of the limits. A limit that was not exceeded lies beyond its point, which is drawn hollow.
 function lineSeries(name, limits, index, at) {
   return { name, type: "line", color: lineColour(index), symbolSize: 9, z: 3,
     data: limits.map((limit) => ({ value: [at(limit), limit.limit], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };

@@ -66,7 +66,7 @@ function logLook() {
   return { ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } };
 }
 
-/// What the lines alone do not say.
+/// Notes below the lines: averages, missing values, lines left out.
 /** @param {SweepPage} sweep */
 function notesOf(sweep, own, theirs) {
   const averagedIn = (lines, drawn) => averagedAxes(lines.flatMap((line) => line.groups), drawn);
@@ -100,7 +100,7 @@ function linesOf(rows, view, name) {
 
 const hasValue = (group) => group?.count > 0;
 
-/// Where a value is missing, the line has a gap; a value between two gaps is marked even where marks would hide the lines, for it has no line.
+/// Line with gaps where values are missing. A value between two gaps is marked even among many points, for it has no line.
 function lineSeries({ name, dashed, groups }, index, at, few) {
   const symbol = symbols[index % symbols.length];
   const isAlone = (place) => !hasValue(groups[place - 1]) && !hasValue(groups[place + 1]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which axes of the lines are logarithmic: boxes for those whose values lie decades apart.
+// Boxes for logarithmic axes of the lines, offered where values lie decades apart.
 import { h, part } from "/core/dom.js";
 import { nameOf } from "/core/format.js";
 import { valuesOf } from "/study/data.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of jobs that were computed and yet have no value of the metric.
+// Texts on jobs that were computed but have no value of the metric.
 import { nameOf, plural } from "/core/format.js";
 
 const ofContacts = /contact|penetration|sliding/;
@@ -14,13 +14,13 @@ function parameterOf({ sweep, schema }, row, key) {
   return row[key] ?? sweep.request.parameters?.[key] ?? schema.properties[key]?.default;
 }
 
-/// How many of the jobs end before their steady part begins.
+/// Number of jobs that end before their steady window begins.
 /** @param {SweepPage} sweep  @param {Api.Row[]} rows */
 function countEarly(sweep, rows) {
   return rows.filter((row) => parameterOf(sweep, row, "duration_s") <= parameterOf(sweep, row, "run_up_s")).length;
 }
 
-/// How many of so many jobs without a value have ended too early.
+/// Text on the number of jobs without a value that ended too early.
 function earlyText(early, all) {
   if (early === 0) return "and a run must last longer";
   if (early === all) return "and these have ended by then";

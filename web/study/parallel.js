@@ -53,7 +53,7 @@ function layOut({ rows, axes, metrics, view }) {
   return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => last.lacks(row)).length };
 }
 
-/// What the lines do not show of the jobs; empty where they show all.
+/// Note on jobs that the lines do not show; empty if they show all.
 /** @param {SweepPage} sweep */
 export function parallelNote(sweep) {
   const { leftOut, short } = layOut(sweep);
@@ -84,7 +84,7 @@ function planOf(sweep) {
   } };
 }
 
-/// What all axes have in common.
+/// Options of all axes.
 function axisDefaults() {
   return { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" },
     areaSelectStyle: { color: colour("accent"), opacity: 0.35 } };
@@ -99,7 +99,7 @@ function lineOf(row, columns, metric, selection) {
   return { value, visualMap: uncoloured === null, lineStyle: { ...uncoloured, ...weightOf(row, selection) } };
 }
 
-/// How a line stands out; as the others do where nothing is selected.
+/// Width and opacity of a line; the defaults if nothing is selected.
 function weightOf(row, selection) {
   if (selection.size === 0) return {};
   return selection.has(row.job_id) ? { width: 3, opacity: 1 } : { opacity: 0.1 };

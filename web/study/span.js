@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far an axis reaches: so far that rounding does not look like an effect, and by decades where values lie decades apart.
+// Range of an axis: so wide that rounding does not look like an effect, logarithmic for values decades apart.
 
 const leastSpan = 1e-3;  // of the largest value: what differs by less is drawn as nearly equal
 const decades = 100;
@@ -30,7 +30,7 @@ export function extremesOf(values) {
   return { min, max };
 }
 
-/// Whether the values are positive numbers that lie two decades or more apart.
+/// True for positive numbers that span two decades or more.
 /** @param {any[]} values */
 export function spansDecades(values) {
   if (values.some((value) => typeof value !== "number")) return false;

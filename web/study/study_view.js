@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pages of one search and of one wear study have in common: charts beside each other, a table, and actions; up to date by themselves.
+// Base of the pages of one search and of one wear study: charts side by side, a table and actions, kept up to date.
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
@@ -64,16 +64,16 @@ export class StudyView {
    *   make: (element: HTMLElement, view: any, signal: AbortSignal) => Promise<Chart> }[]}
    */
   charts() { return []; }
-  /// What stands above the charts.
+  /// Elements above the charts.
   /** @returns {HTMLElement[]} */
   intro() { return []; }
-  /// Of the table: [heading, "number" where numbers stand below it].
+  /// Columns of the table: [heading, "number" for numbers].
   /** @returns {string[][]} */
   columns() { return []; }
   /// Rows of the table, each an element.
   /** @returns {HTMLElement[]} */
   rows() { return []; }
-  /// How it stands, in words.
+  /// State of the study in words.
   statusText() { return ""; }
   /// Choices that depend on the study are made here, each time it is drawn.
   drawChoices() {}

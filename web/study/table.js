@@ -58,7 +58,7 @@ export class ResultTable {
     this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} of ${this.sweep.rows.length.toLocaleString("en")} jobs`;
   }
 
-  /// Says why jobs that succeeded have no value of the metric.
+  /// Shows why jobs that succeeded have no value of the metric.
   drawMissing() {
     this.missing.textContent = missingText(this.sweep);
     this.missing.hidden = this.missing.textContent === "";
