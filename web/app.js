@@ -46,13 +46,15 @@ async function whenBack(signal) {
 
 /// Shows why there is no view. @param more  elements that help
 function say(told, ...more) {
-  main.replaceChildren(h("h1", {}, "This page cannot be shown"), h("p", { class: "trouble", role: "alert" }, told), ...more, h("p", {}, h("a", { href: "#/" }, "Sweeps")));
+  main.replaceChildren(h("h1", {}, "This page cannot be shown"), h("p", { class: "trouble", role: "alert" }, told),
+    ...more, h("p", {}, h("a", { href: "#/" }, "Sweeps")));
 }
 
 function sayMissing(error, signal) {
   const wait = nextWait();
   if (wait === null) {
-    return say(`${error.message} It has been tried several times: a file may be missing where the service is installed, or something between it and this browser holds it back.`,
+    return say(`${error.message} It has been tried several times: a file may be missing where the service is `
+      + `installed, or something between it and this browser holds it back.`,
       h("p", { class: "quiet small" }, error.reason), h("p", {}, h("button", { onclick: tryAgain }, "Try again")));
   }
   say(`${error.message} Trying again …`);

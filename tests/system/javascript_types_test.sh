@@ -33,7 +33,7 @@ plant() {
 plant pages/sweep.js 'counts, eta_s: eta' 'counts, eta_seconds: eta' "Property 'eta_seconds' does not exist"
 plant study/sweep_row.js 'sweep.executor' 'sweep.exekutor' "Property 'exekutor' does not exist"
 plant run/standing.js 'ended_at: ended' 'end_at: ended' "Property 'end_at' does not exist"
-plant run/facts.js 'job.run.wall_time_s' 'job.run.wall_s' "Property 'wall_s' does not exist"
+plant run/facts.js 'run.wall_time_s' 'run.wall_s' "Property 'wall_s' does not exist"
 plant study/wear_view.js 'cycle.rate_um_h' 'cycle.rate_um' "Property 'rate_um' does not exist"
 plant study/limit_view.js 'limit.limit_beyond' 'limit.beyond' "Property 'beyond' does not exist"
 plant analysis/surrogate.js 'surface.terms' 'surface.term' "Property 'term' does not exist"

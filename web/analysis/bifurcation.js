@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A channel once a turn over a number that is swept: one line of points where the motion repeats itself, a cloud where it does not.
+// A channel once a turn over a number that is swept: one line of points where the motion repeats itself, a cloud
+// where it does not.
 import { findAnalysis } from "/core/api.js";
 import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
@@ -9,7 +10,8 @@ import { quantityChoice } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
 
-const channels = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "coupler_deflection_mm", "contact_force_n"];
+const channels = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "coupler_deflection_mm",
+  "contact_force_n"];
 
 /**
  * @param {HTMLElement} element
@@ -36,8 +38,10 @@ export async function bifurcationCard(element, { sweep, numbers }, signal) {
   }
   element.replaceChildren(h("p", { class: "actions" },
     choice("x axis", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart?.draw(); }),
-    quantityChoice("Channel", "channels", channels, channel, (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
-  chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel), "Bifurcation diagram: the channel once per crank revolution", signal);
+    quantityChoice("Channel", "channels", channels, channel,
+      (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
+  chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel),
+    "Bifurcation diagram: the channel once per crank revolution", signal);
   return chart;
 }
 
@@ -49,6 +53,7 @@ function optionOf(rows, others, along, channel) {
     tooltip: { formatter: ({ value }) => `${pointOf(along, value[0])}\n${number(value[1])}` },
     xAxis: acrossAxis(titleOf(along)), yAxis: valueAxis(titleOf(channel)),
     series: names.map((name, index) => ({ name, type: "scatter", symbolSize: 4, color: lineColour(index), large: true,
-      data: rows.filter((row) => where(row, others) === name && row[channel] !== null).map((row) => [row[along], row[channel]]) })),
+      data: rows.filter((row) => where(row, others) === name && row[channel] !== null)
+        .map((row) => [row[along], row[channel]]) })),
   };
 }

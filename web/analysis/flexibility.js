@@ -20,11 +20,18 @@ export async function flexibilityCard(element, { sweep, metric }, signal) {
   const along = rows[0]?.along;
   const drawing = h("div", { class: "chart tall", hidden: !along });
   const reversed = rows.filter((row) => row.reverses_from !== null);
-  const said = reversed.length === 0 ? "No reversal: the ratio does not cross 1 by more than 0.1 %, the accuracy of peaks." : `Reversal: ${reversed.map((row) => reversalOf(row, axes)).join("; ")}.`;
-  element.replaceChildren(h("p", {}, along ? said : ""), drawing, table("Rigid and flexible", rows, [...axisColumns(axes), ["Flexible / rigid", (row) => number(row.ratio)],
-    ["Range", (row) => `${number(row.ratio_least)} to ${number(row.ratio_largest)}`], ["Verdict", (row) => (row.verdict === "either" && row.ratio_least >= 0.999 && row.ratio_largest <= 1.001 ? "no difference" : row.verdict ?? "–")],
-    ["Coupler loss [J]", (row) => number(row.coupler_loss_j)], ["Share of all losses", (row) => percent(row.coupler_loss_part)]]));
-  return along ? makeChart(drawing, () => optionOf(rows, axes, along, metric), "Ratio of flexible to rigid; the table below has the same numbers", signal) : null;
+  const said = reversed.length === 0
+    ? "No reversal: the ratio does not cross 1 by more than 0.1 %, the accuracy of peaks."
+    : `Reversal: ${reversed.map((row) => reversalOf(row, axes)).join("; ")}.`;
+  element.replaceChildren(h("p", {}, along ? said : ""), drawing,
+    table("Rigid and flexible", rows, [...axisColumns(axes), ["Flexible / rigid", (row) => number(row.ratio)],
+    ["Range", (row) => `${number(row.ratio_least)} to ${number(row.ratio_largest)}`],
+    ["Verdict", (row) => (row.verdict === "either" && row.ratio_least >= 0.999 && row.ratio_largest <= 1.001
+      ? "no difference" : row.verdict ?? "–")],
+    ["Coupler loss [J]", (row) => number(row.coupler_loss_j)],
+    ["Share of all losses", (row) => percent(row.coupler_loss_part)]]));
+  return along ? makeChart(drawing, () => optionOf(rows, axes, along, metric),
+    "Ratio of flexible to rigid; the table below has the same numbers", signal) : null;
 }
 
 /// Between which two values of a parameter the ratio passes 1.
@@ -40,12 +47,15 @@ function optionOf(rows, axes, along, metric) {
   const others = axes.filter((axis) => axis !== along);
   const lines = groupBy(drawn, (row) => where(row, others));
   return {
-    grid: { left: 75, right: 20, top: 40, bottom: 50 }, legend: { top: 0, show: others.length > 0, data: [...lines.keys()] },
+    grid: { left: 75, right: 20, top: 40, bottom: 50 },
+    legend: { top: 0, show: others.length > 0, data: [...lines.keys()] },
     tooltip: { formatter: ({ value }) => `${pointOf(along, value[0])}\n${number(value[1])}` },
     xAxis: acrossAxis(titleOf(along)), yAxis: valueAxis(`${nameOf(metric)}, flexible / rigid`),
-    series: [...lines].flatMap(([name, line], index) => [bars(lineColour(index), line.map((row) => [row[along], row.ratio_least, row.ratio_largest])),
+    series: [...lines].flatMap(([name, line], index) =>
+      [bars(lineColour(index), line.map((row) => [row[along], row.ratio_least, row.ratio_largest])),
       { name, type: "line", color: lineColour(index), symbolSize: 8, data: line.map((row) => [row[along], row.ratio]),
-        ...(index === 0 ? { markLine: { symbol: "none", silent: true, label: { show: false }, lineStyle: { color: colour("quiet") }, data: [{ yAxis: 1 }] } } : {}) }]),
+        ...(index === 0 ? { markLine: { symbol: "none", silent: true, label: { show: false },
+          lineStyle: { color: colour("quiet") }, data: [{ yAxis: 1 }] } } : {}) }]),
   };
 }
 

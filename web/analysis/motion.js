@@ -16,11 +16,15 @@ export function motionCard(job, columns, signal) {
   const body = h("div");
   const open = () => {
     if (!details.open || body.hasChildNodes()) return;
-    const parts = [spectrum(job, columns, signal), !isDescribed(job) && job.parameters.clearance_mm > 0 ? section(job, signal) : null].filter(Boolean);
+    const parts = [spectrum(job, columns, signal), !isDescribed(job) && job.parameters.clearance_mm > 0
+      ? section(job, signal) : null].filter(Boolean);
     body.replaceChildren(...parts.map(({ element }) => element));
-    for (const part of parts) part.fill().catch((error) => error.name !== "AbortError" && part.element.append(h("p", { class: "trouble" }, error.message)));
+    for (const part of parts) part.fill()
+      .catch((error) => error.name !== "AbortError"
+        && part.element.append(h("p", { class: "trouble" }, error.message)));
   };
-  const details = h("details", { class: "card", ontoggle: open }, h("summary", {}, "Spectrum and Poincaré section"), body);
+  const details = h("details", { class: "card", ontoggle: open }, h("summary", {}, "Spectrum and Poincaré section"),
+    body);
   return details;
 }
 
@@ -35,18 +39,30 @@ function spectrum(job, columns, signal) {
   const load = latest(async (current) => {
     const asked = { ...view };
     const from = job.parameters.run_up_s < job.parameters.duration_s ? job.parameters.run_up_s : undefined;
-    const { frequency_hz: frequencies, [asked.channel]: amplitudes } = await findMotion(job.id, "spectrum", { ...asked, from }, current);
+    const { frequency_hz: frequencies, [asked.channel]: amplitudes } = await findMotion(job.id, "spectrum",
+      { ...asked, from }, current);
     found = { channel: asked.channel, frequencies, amplitudes };
     trouble.textContent = "";
     chart?.draw();
   }, signal);
-  const set = (key) => (value) => { view[key] = value; load().catch((error) => { trouble.textContent = error.message; }); };
-  const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"), saveButtons(() => chart, () => `${job.id} spectrum`)),
-    h("p", { class: "actions" }, quantityChoice("Channel", "channels", columns, view.channel, set("channel")), choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), trouble, drawing);
-  const option = () => found && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 }, tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
-    dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"), yAxis: valueAxis(`Amplitude: ${titleOf(found.channel)}`, { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
-    series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 }, data: found.frequencies.map((frequency, k) => [frequency, found.amplitudes[k]]).filter(([, amplitude]) => amplitude > 0) }] });
-  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "Amplitude spectrum", signal); } };
+  const set = (key) => (value) =>
+    { view[key] = value; load().catch((error) => { trouble.textContent = error.message; }); };
+  const element = h("div", {},
+    h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"),
+      saveButtons(() => chart, () => `${job.id} spectrum`)),
+    h("p", { class: "actions" }, quantityChoice("Channel", "channels", columns, view.channel, set("channel")),
+      choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), trouble, drawing);
+  const option = () => found
+    && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 },
+      tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
+    dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"),
+    yAxis: valueAxis(`Amplitude: ${titleOf(found.channel)}`,
+      { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
+    series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 },
+      data: found.frequencies.map((frequency, k) => [frequency, found.amplitudes[k]])
+        .filter(([, amplitude]) => amplitude > 0) }] });
+  return { element, fill: async () =>
+    { await load(); chart = await makeChart(drawing, option, "Amplitude spectrum", signal); } };
 }
 
 /// The journal once a turn; the circle is the clearance.
@@ -62,14 +78,25 @@ function section(job, signal) {
     trouble.textContent = "";
     chart?.draw();
   }, signal);
-  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Crank angle [rad]", onchange: () => { view.phase = Number(slider.value); load().catch((error) => { trouble.textContent = error.message; }); } });
-  const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Poincaré section of the journal"), saveButtons(() => chart, () => `${job.id} section`)),
-    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Crank angle [rad]"), slider)), trouble, drawing);
+  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Crank angle [rad]",
+    onchange: () => { view.phase = Number(slider.value); load()
+      .catch((error) => { trouble.textContent = error.message; }); } });
+  const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Poincaré section of the journal"),
+    saveButtons(() => chart, () => `${job.id} section`)),
+    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Crank angle [rad]"), slider)), trouble,
+    drawing);
   const radius = job.parameters.clearance_mm;
-  const circle = Array.from({ length: 73 }, (_, k) => [radius * Math.cos((k * Math.PI) / 36), radius * Math.sin((k * Math.PI) / 36)]);
-  const option = () => found && ({ grid: { left: 75, right: 20, top: 20, bottom: 50 }, tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
+  const circle = Array.from({ length: 73 },
+    (_, k) => [radius * Math.cos((k * Math.PI) / 36), radius * Math.sin((k * Math.PI) / 36)]);
+  const option = () => found
+    && ({ grid: { left: 75, right: 20, top: 20, bottom: 50 },
+      tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
     xAxis: acrossAxis(titleOf("journal_x_mm")), yAxis: valueAxis(titleOf("journal_y_mm")),
-    series: [{ type: "line", silent: true, showSymbol: false, color: colour("quiet"), lineStyle: { width: 1, type: "dashed" }, data: circle },
-      { type: "scatter", symbolSize: 7, color: lineColour(0), data: found.t_s.map((t, k) => [found.journal_x_mm[k], found.journal_y_mm[k], t]) }] });
-  return { element, fill: async () => { await load(); chart = await makeChart(drawing, option, "Poincaré section: the journal's centre once per crank revolution", signal); } };
+    series: [{ type: "line", silent: true, showSymbol: false, color: colour("quiet"),
+      lineStyle: { width: 1, type: "dashed" }, data: circle },
+      { type: "scatter", symbolSize: 7, color: lineColour(0),
+        data: found.t_s.map((t, k) => [found.journal_x_mm[k], found.journal_y_mm[k], t]) }] });
+  return { element, fill: async () =>
+    { await load(); chart = await makeChart(drawing, option,
+      "Poincaré section: the journal's centre once per crank revolution", signal); } };
 }

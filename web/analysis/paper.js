@@ -23,9 +23,11 @@ export const bearsOnPaper = (axes) => axesNeeded.every((axis) => axes.includes(a
 export async function paperCard(element, { sweep }, signal) {
   const rows = await findAnalysis(sweep.id, "paper", {}, signal);
   const [numbered, others] = split(rows);
-  const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }), download: `${sweep.name || sweep.id} paper.csv` };
+  const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }),
+    download: `${sweep.name || sweep.id} paper.csv` };
   element.replaceChildren(statements("The paper's statements", numbered, [["No.", (row) => row.number, "of"]]),
-    ...(others.length === 0 ? [] : [h("h3", { class: "quiet small" }, "Other velocities, on which the paper makes no statement"),
+    ...(others.length === 0 ? []
+      : [h("h3", { class: "quiet small" }, "Other velocities, on which the paper makes no statement"),
       statements("Other velocities", others)]),
     ...indexParts(numbered), h("p", { class: "actions" }, h("a", csv, "CSV")));
   return null;
@@ -54,7 +56,8 @@ const percent = (part) => `${number(100 * part, 3)} %`;
 function statements(label, rows, first = []) {
   const sentence = ({ text }) => text.charAt(0).toUpperCase() + text.slice(1);
   const printed = ({ paper }) => (paper === null ? "below 1" : number(paper));
-  return table(label, rows, [...first, ["Statement", sentence, "text"], ["Paper", printed, "paper"], ["This sweep", foundIn, "here"],
+  return table(label, rows,
+    [...first, ["Statement", sentence, "text"], ["Paper", printed, "paper"], ["This sweep", foundIn, "here"],
     ["Verdict", verdictOf, "verdict"]], "statements");
 }
 
@@ -75,7 +78,8 @@ function verdictOf({ settings, share, holds }) {
 /// {parameter, index}s of a statement, largest first.
 /** @param {Statement} row */
 function indicesOf(row) {
-  return Object.entries(row).map(([key, value]) => ({ key, index: Number(value) })).filter(({ key, index }) => key.startsWith(indexPrefix) && index >= leastIndex)
+  return Object.entries(row).map(([key, value]) => ({ key, index: Number(value) }))
+    .filter(({ key, index }) => key.startsWith(indexPrefix) && index >= leastIndex)
     .map(({ key, index }) => ({ parameter: key.slice(indexPrefix.length), index })).sort((a, b) => b.index - a.index);
 }
 
@@ -85,7 +89,8 @@ function indexParts(numbered) {
   const rows = numbered.map((row) => ({ row, indices: indicesOf(row) })).filter(({ indices }) => indices.length > 0);
   if (rows.length === 0) return [];
   return [h("h3", {}, "Sensitivity of each statement"),
-    h("p", { class: "quiet small" }, "First-order sensitivity index: part of the variance of the logarithm of a statement's ratio that the "
+    h("p", { class: "quiet small" },
+      "First-order sensitivity index: part of the variance of the logarithm of a statement's ratio that the "
       + `parameter alone makes. Shown from ${leastIndex} on.`),
     table("First-order sensitivity indices", rows, [["No.", ({ row }) => row.number],
       ["First-order sensitivity index", ({ indices }) => indices.map(indexBar)]])];

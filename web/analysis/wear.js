@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wear map of the bore in polar coordinates: a bar for the depth in each sector, a colour for each ring along the length.
+// Wear map of the bore in polar coordinates: a bar for the depth in each sector, a colour for each ring along the
+// length.
 import { findWear } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";
 import { h, notify } from "/core/dom.js";
@@ -12,7 +13,9 @@ export function wearCard(job, signal) {
   const body = h("div");
   const details = h("details", { class: "card", ontoggle: () => {
     if (!details.open || body.hasChildNodes()) return;
-    fill(body, job, signal).catch((error) => error.name !== "AbortError" && body.replaceChildren(h("p", { class: "trouble" }, error.message)));
+    fill(body, job, signal)
+      .catch((error) => error.name !== "AbortError"
+        && body.replaceChildren(h("p", { class: "trouble" }, error.message)));
   } }, h("summary", {}, "Wear of the bearing"), body);
   return details;
 }
@@ -28,17 +31,28 @@ async function fill(body, job, signal) {
   const load = latest(async (current) => {
     rows = await findWear(job.id, view, current);
     const worst = rows.reduce((most, row) => (row.depth_um > most.depth_um ? row : most));
-    const life = worst.life_h === null ? "" : `; ${exact(Number(view.worn_clearance_mm))} mm after ${number(worst.life_h, 3)} h of this motion`;
-    said.textContent = `Maximum depth: ${number(worst.depth_um)} µm in this run at ${number((180 / Math.PI) * worst.angle_rad, 3)}°, ring at ${number(worst.position_mm)} mm, ${number(worst.rate_um_h)} µm/h${life}.`;
+    const life = worst.life_h === null ? ""
+      : `; ${exact(Number(view.worn_clearance_mm))} mm after ${number(worst.life_h, 3)} h of this motion`;
+    said.textContent = `Maximum depth: ${number(worst.depth_um)} µm in this run `
+      + `at ${number((180 / Math.PI) * worst.angle_rad, 3)}°, ring at ${number(worst.position_mm)} `
+      + `mm, ${number(worst.rate_um_h)} µm/h${life}.`;
     chart?.draw();
   }, signal);
   const field = (label, key) => {
-    const input = h("input", { type: "text", inputmode: "decimal", value: view[key], onchange: () => { view[key] = input.value.trim(); load().catch((error) => notify(error.message, "trouble")); } });
+    const input = h("input",
+      { type: "text", inputmode: "decimal", value: view[key],
+        onchange: () => { view[key] = input.value.trim(); load()
+          .catch((error) => notify(error.message, "trouble")); } });
     return h("label", { class: "choice" }, h("span", {}, label), input);
   };
-  body.replaceChildren(h("div", { class: "head" }, h("p", { class: "quiet small" }, "Archard's law: depth = coefficient × force × sliding distance / area. The coefficient depends on materials and lubricant."),
+  body.replaceChildren(
+    h("div", { class: "head" },
+      h("p", { class: "quiet small" },
+        "Archard's law: depth = coefficient × force × sliding distance / area. The coefficient depends on materials "
+          + "and lubricant."),
     saveButtons(() => chart, () => `${job.id} wear`)),
-  h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"), field("Worn clearance [mm]", "worn_clearance_mm")), said, drawing);
+  h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"),
+    field("Worn clearance [mm]", "worn_clearance_mm")), said, drawing);
   await load();
   chart = await makeChart(drawing, () => optionOf(rows), "Worn depth around the bearing", signal);
 }
@@ -47,13 +61,21 @@ async function fill(body, job, signal) {
 /** @param {Api.Get<"/v1/jobs/{id}/wear">} rows */
 function optionOf(rows) {
   const rings = [...new Set(rows.map((row) => row.ring))];
-  const sectors = rows.filter((row) => row.ring === rings[0]).map((row) => String(Math.round((180 / Math.PI) * row.angle_rad * 10) / 10));
+  const sectors = rows.filter((row) => row.ring === rings[0])
+    .map((row) => String(Math.round((180 / Math.PI) * row.angle_rad * 10) / 10));
   const text = { color: colour("text") };
   return {
-    legend: { top: 0 }, polar: { radius: ["25%", "80%"] }, tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
-    angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false, axisLabel: { ...text, interval: sectors.length / 12 - 1 }, axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text, axisLabel: { ...text, formatter: (value) => number(value, 2) }, splitLine: { lineStyle: { color: colour("line") } } },
-    series: rings.map((ring, index) => ({ type: "bar", coordinateSystem: "polar", name: `ring at ${number(rows.find((row) => row.ring === ring)?.position_mm)} mm`, color: lineColour(index), barGap: "0%",
+    legend: { top: 0 }, polar: { radius: ["25%", "80%"] },
+    tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
+    angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false,
+      axisLabel: { ...text, interval: sectors.length / 12 - 1 }, axisLine: { lineStyle: { color: colour("quiet") } } },
+    radiusAxis: { name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text,
+      axisLabel: { ...text, formatter: (value) => number(value, 2) },
+      splitLine: { lineStyle: { color: colour("line") } } },
+    series: rings.map((ring, index) =>
+      ({ type: "bar", coordinateSystem: "polar",
+        name: `ring at ${number(rows.find((row) => row.ring === ring)?.position_mm)} mm`, color: lineColour(index),
+        barGap: "0%",
       data: rows.filter((row) => row.ring === ring).map((row) => row.depth_um) })),
   };
 }

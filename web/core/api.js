@@ -34,7 +34,8 @@ export async function ask(path, { method = "GET", body, signal } = {}) {
   let answer;
   let text;
   try {
-    answer = await fetch(path, { method, headers, signal, body: body === undefined ? undefined : JSON.stringify(body) });
+    answer = await fetch(path,
+      { method, headers, signal, body: body === undefined ? undefined : JSON.stringify(body) });
     text = await answer.text();
   } catch (error) {
     if (error.name === "AbortError") throw error;
@@ -138,7 +139,8 @@ export const reportUrl = (id) => `${sweepPath(id)}/report`;
  * @type {<Name extends "spectrum" | "poincare">(id: string, analysis: Name,
  *   query: Api.Query<`/v1/jobs/{id}/${Name}`>, signal: AbortSignal) => Promise<Record<string, number[]>>}
  */
-export const findMotion = (id, analysis, query, signal) => ask(withQuery(`${jobPath(id)}/${analysis}`, query), { signal }).then(({ columns }) => columns);
+export const findMotion = (id, analysis, query, signal) => ask(withQuery(`${jobPath(id)}/${analysis}`, query),
+  { signal }).then(({ columns }) => columns);
 
 /**
  * @type {(id: string, query: Api.Query<"/v1/jobs/{id}/wear">, signal: AbortSignal) =>
@@ -174,7 +176,8 @@ export const exampleLinkage = (name, signal) => ask(`/linkages/${name}.json`, { 
 
 /// The JSON Schemas of all requests, by their names in the interface's description.
 /** @type {(signal: AbortSignal) => Promise<Record<string, any>>} */
-export const requestSchemas = (signal) => ask("/v1/openapi.json", { signal }).then(({ components }) => components.schemas);
+export const requestSchemas = (signal) => ask("/v1/openapi.json", { signal })
+  .then(({ components }) => components.schemas);
 
 /** @type {Promise<any> | null} */
 let schema = null;

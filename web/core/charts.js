@@ -10,7 +10,8 @@ let library = null;
 export function loadCharts() {
   library ??= import("/lib/echarts.js").catch(() => {
     library = null;
-    throw new Error("The charts could not be loaded: the program was built without the npm packages of web/, or is another one since this page was loaded. Load the page again.");
+    throw new Error("The charts could not be loaded: the program was built without the npm packages of web/, or is "
+      + "another one since this page was loaded. Load the page again.");
   });
   return library;
 }
@@ -18,21 +19,25 @@ export function loadCharts() {
 /// The parts of an option that all charts share.
 function inPageColours(option) {
   const text = { color: colour("text") };
-  return { textStyle: { fontFamily: "system-ui, sans-serif" }, backgroundColor: "transparent", animation: false, aria: { enabled: true },
+  return { textStyle: { fontFamily: "system-ui, sans-serif" }, backgroundColor: "transparent", animation: false,
+    aria: { enabled: true },
     ...option,
     legend: option.legend && { type: "scroll", textStyle: text, pageTextStyle: text, ...option.legend },
-    tooltip: option.tooltip && { renderMode: "richText", confine: true, backgroundColor: colour("card"), borderColor: colour("line"), textStyle: text, ...option.tooltip } };
+    tooltip: option.tooltip && { renderMode: "richText", confine: true, backgroundColor: colour("card"),
+      borderColor: colour("line"), textStyle: text, ...option.tooltip } };
 }
 
 /// Option of a chart without data. @param why  reason, in a line of its own
 export function nothingYet(why = "") {
-  return { title: { text: ["No job has a value of this metric.", why].filter(Boolean).join("\n"), left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
+  return { title: { text: ["No job has a value of this metric.", why].filter(Boolean).join("\n"), left: "center",
+    top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
 }
 
 /// Colours and lines of an axis.
 export function axisLook() {
   const line = { lineStyle: { color: colour("line") } };
-  return { axisLine: line, axisTick: line, splitLine: line, axisLabel: { color: colour("text"), hideOverlap: true }, nameTextStyle: { color: colour("text") } };
+  return { axisLine: line, axisTick: line, splitLine: line, axisLabel: { color: colour("text"), hideOverlap: true },
+    nameTextStyle: { color: colour("text") } };
 }
 
 /// A chart that fills its element and follows its size and the page's colours.
@@ -60,12 +65,15 @@ export async function makeChart(element, makeOption, label, signal) {
     chart.dispose();
   });
   draw();
-  return { chart, draw, savePng: (name) => saveCanvas(chart.renderToCanvas({ pixelRatio: 2, backgroundColor: colour("card") }), `${name}.png`),
+  return { chart, draw,
+    savePng: (name) => saveCanvas(
+      chart.renderToCanvas({ pixelRatio: 2, backgroundColor: colour("card") }), `${name}.png`),
     saveSvg: (name) => saveSvg(echarts, element, inPageColours(makeOption() ?? nothingYet()), name) };
 }
 
 function saveSvg(echarts, element, option, name) {
-  const drawing = echarts.init(null, null, { renderer: "svg", ssr: true, width: element.clientWidth, height: element.clientHeight });
+  const drawing = echarts.init(null, null,
+    { renderer: "svg", ssr: true, width: element.clientWidth, height: element.clientHeight });
   drawing.setOption({ ...option, backgroundColor: colour("card") });
   save(drawing.renderToSVGString(), `${name}.svg`, "image/svg+xml");
   drawing.dispose();

@@ -3,9 +3,12 @@
 
 // The first that fits counts.
 const suffixes = [
-  ["_n_m_s_rad", "N m s/rad"], ["_n_m_rad", "N m/rad"], ["_deg", "°"], ["_n_s_m", "N s/m"], ["_s_m", "s/m"], ["_1_m", "1/m"], ["_1_s", "1/s"], ["_j_m", "J m"],
-  ["_m_s2", "m/s²"], ["_rad_s2", "rad/s²"], ["_rad_s", "rad/s"], ["_m_s", "m/s"], ["_n_m", "N m"], ["_kg_m2", "kg m²"], ["_kg", "kg"], ["_mrad", "mrad"],
-  ["_rad", "rad"], ["_mm", "mm"], ["_um", "µm"], ["_hz", "Hz"], ["_pa", "Pa"], ["_n", "N"], ["_j", "J"], ["_s", "s"], ["_m", "m"],
+  ["_n_m_s_rad", "N m s/rad"], ["_n_m_rad", "N m/rad"], ["_deg", "°"], ["_n_s_m", "N s/m"], ["_s_m", "s/m"],
+  ["_1_m", "1/m"], ["_1_s", "1/s"], ["_j_m", "J m"],
+  ["_m_s2", "m/s²"], ["_rad_s2", "rad/s²"], ["_rad_s", "rad/s"], ["_m_s", "m/s"], ["_n_m", "N m"], ["_kg_m2", "kg m²"],
+  ["_kg", "kg"], ["_mrad", "mrad"],
+  ["_rad", "rad"], ["_mm", "mm"], ["_um", "µm"], ["_hz", "Hz"], ["_pa", "Pa"], ["_n", "N"], ["_j", "J"], ["_s", "s"],
+  ["_m", "m"],
 ];
 
 const minus = "−";
@@ -17,14 +20,16 @@ export function number(value, digits = 4) {
   if (typeof value !== "number") return String(value);
   if (value === 0) return "0";
   const size = Math.abs(value);
-  const text = size >= 1e6 || size < 1e-3 ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e") : String(Number(value.toPrecision(digits)));
+  const text = size >= 1e6 || size < 1e-3 ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e")
+    : String(Number(value.toPrecision(digits)));
   return text.replaceAll("-", minus);
 }
 
 /// A parameter's value as it was given, to the last digit.
 /** @param {number | string | null | undefined} value */
 export function exact(value) {
-  return typeof value === "number" ? String(value).replaceAll("-", minus) : value === null || value === undefined ? "–" : String(value);
+  return typeof value === "number" ? String(value).replaceAll("-", minus) : value === null || value === undefined ? "–"
+    : String(value);
 }
 
 /** @param {string} column */
@@ -37,7 +42,8 @@ export function unitOf(column) {
 /** @param {string} column */
 export function nameOf(column) {
   const suffix = suffixes.find(([ending]) => column.endsWith(ending))?.[0] ?? "";
-  const words = column.slice(0, column.length - suffix.length).replace(/^links\.([^.]+)\./, "link ($1) ").replaceAll("_", " ").trim();
+  const words = column.slice(0, column.length - suffix.length).replace(/^links\.([^.]+)\./, "link ($1) ")
+    .replaceAll("_", " ").trim();
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 

@@ -31,7 +31,8 @@ export function follow(id, told, signal) {
  * @param {AbortSignal} signal
  */
 export function followStudy(api, id, told, signal) {
-  followEvents({ events: api.eventsUrl(id), find: () => api.find(id, signal), isUnderWay: ({ state }) => state === "running" }, told, signal);
+  followEvents({ events: api.eventsUrl(id), find: () => api.find(id, signal),
+    isUnderWay: ({ state }) => state === "running" }, told, signal);
 }
 
 function followEvents(source, told, signal) {
@@ -118,7 +119,8 @@ export function latest(run, signal) {
   };
 }
 
-/// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and always after the last call.
+/// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and
+/// always after the last call.
 /** @param {() => unknown} run  @param {number | (() => number)} milliseconds */
 export function seldom(run, milliseconds) {
   let timer = null;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the modules of views. One that failed is kept as such by some browsers: only a new page asks for it again, and how often that was tried outlives it.
+// Loads the modules of views. One that failed is kept as such by some browsers: only a new page asks for it again,
+// and how often that was tried outlives it.
 import { findHealth } from "/core/api.js";
 
 const waitsMs = [2000, 5000, 15000, 45000];
@@ -28,7 +29,8 @@ export async function loadModule(ask, signal) {
   }
 }
 
-/// Milliseconds until a missing module is to be asked for again, longer each time; null when that was tried often enough.
+/// Milliseconds until a missing module is to be asked for again, longer each time; null when that was tried often
+/// enough.
 export const nextWait = () => waitsMs[attempts()] ?? null;
 
 /// Asks again with a new page.

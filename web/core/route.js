@@ -11,7 +11,8 @@ export function readRoute() {
 /// The address of a view. Keys without a value are left out.
 /** @param {string} kind  @param {string} id  @param {Record<string, any>} query */
 export function routeTo(kind, id = "", query = {}) {
-  const search = new URLSearchParams(Object.entries(query).filter(([, value]) => value !== "" && value !== null && value !== undefined));
+  const search = new URLSearchParams(Object.entries(query)
+    .filter(([, value]) => value !== "" && value !== null && value !== undefined));
   const path = id ? `${kind}/${encodeURIComponent(id)}` : kind;
   return `#/${path}${search.size > 0 ? `?${search}` : ""}`;
 }

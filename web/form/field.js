@@ -11,7 +11,8 @@ export function fieldRow(field, entry, changed) {
   const values = h("div", { class: "values" });
   const fault = h("p", { class: "trouble small", id: `${id}-fault`, hidden: true });
   const input = (key, label, attributes = {}) => {
-    const element = h("input", { value: entry[key], "aria-describedby": `${id}-help ${id}-fault`, "aria-label": label, ...attributes,
+    const element = h("input", { value: entry[key], "aria-describedby": `${id}-help ${id}-fault`, "aria-label": label,
+      ...attributes,
       oninput: () => { entry[key] = element.value; changed(); } });
     return element;
   };
@@ -22,12 +23,16 @@ export function fieldRow(field, entry, changed) {
     if (field.kind === "words") return values.replaceChildren(...field.schema.enum.map(wordBox));
     if (entry.mode !== "range") {
       const hint = entry.mode === "list" ? "0, 0.1, 0.2" : String(field.default ?? "");
-      return values.replaceChildren(input("text", name, { type: "text", id, inputmode: entry.mode === "one" ? "decimal" : null, placeholder: hint }));
+      return values.replaceChildren(
+        input("text", name, { type: "text", id, inputmode: entry.mode === "one" ? "decimal" : null,
+          placeholder: hint }));
     }
-    const scale = h("select", { "aria-label": `${name}: spacing`, onchange: () => { entry.scale = scale.value; changed(); } },
+    const scale = h("select",
+      { "aria-label": `${name}: spacing`, onchange: () => { entry.scale = scale.value; changed(); } },
       h("option", { value: "linear" }, "linear"), h("option", { value: "log" }, "logarithmic"));
     scale.value = entry.scale;
-    return values.replaceChildren(labelled("from", input("from", `${name}: from`, { type: "text" })), labelled("to", input("to", `${name}: to`, { type: "text" })),
+    return values.replaceChildren(labelled("from", input("from", `${name}: from`, { type: "text" })),
+      labelled("to", input("to", `${name}: to`, { type: "text" })),
       labelled("count", input("count", `${name}: count`, { type: "number", min: 1 })), scale);
   }
 
@@ -40,21 +45,31 @@ export function fieldRow(field, entry, changed) {
     return h("label", {}, box, ` ${word}`);
   }
 
-  const modes = h("select", { "aria-label": `${name}: kind of value`, onchange: () => { entry.mode = modes.value; drawValues(); changed(); } },
+  const modes = h("select",
+    { "aria-label": `${name}: kind of value`, onchange: () => { entry.mode = modes.value; drawValues(); changed(); } },
     ["one", "list", "range"].map((mode) => h("option", { value: mode }, mode === "one" ? "one value" : mode)));
   modes.value = entry.mode;
   drawValues();
-  const fallback = field.default === undefined ? "" : `; default ${[field.default].flat().map((value) => (typeof value === "number" ? Number(value.toPrecision(6)) : value)).join(", ")}${field.unit ? ` ${field.unit}` : ""}`;
-  const label = field.kind === "words" ? h("span", {}, name) : h("label", { for: id }, name, field.unit ? ` [${field.unit}]` : "");
-  const element = h("div", { class: "field", role: field.kind === "words" ? "group" : null, "aria-label": field.kind === "words" ? name : null, "data-path": field.path }, label,
+  const short = (value) => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
+  const unit = field.unit ? ` ${field.unit}` : "";
+  const fallback = field.default === undefined ? ""
+    : `; default ${[field.default].flat().map(short).join(", ")}${unit}`;
+  const label = field.kind === "words" ? h("span", {}, name)
+    : h("label", { for: id }, name, field.unit ? ` [${field.unit}]` : "");
+  const element = h("div",
+    { class: "field", role: field.kind === "words" ? "group" : null, "aria-label": field.kind === "words" ? name : null,
+      "data-path": field.path }, label,
     field.kind === "words" || field.kind === "numbers" ? h("span") : modes, values,
-    h("p", { class: "quiet small", id: `${id}-help` }, `${field.help}. ${allowed(field)}${fallback}${field.source ? ` (${field.source})` : ""}. `, h("code", {}, field.path)), fault);
+    h("p", { class: "quiet small",
+      id: `${id}-help` }, `${field.help}. ${allowed(field)}${fallback}${field.source ? ` (${field.source})` : ""}. `,
+      h("code", {}, field.path)), fault);
 
   /// Shows what is wrong here; nothing, if the text is empty.
   function complain(text) {
     fault.textContent = text;
     fault.hidden = text === "";
-    for (const each of values.querySelectorAll("input")) each.setAttribute("aria-invalid", text === "" ? "false" : "true");
+    for (const each of values.querySelectorAll("input")) each.setAttribute("aria-invalid",
+      text === "" ? "false" : "true");
   }
 
   return { element, complain };

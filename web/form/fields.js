@@ -4,13 +4,15 @@
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {
   // The linkage is described in JSON, not in fields, and worn bores come from wear studies.
-  return Object.entries(schema.properties).filter(([key]) => key !== "linkage" && key !== "wear_depth_um").flatMap(([key, property]) =>
+  return Object.entries(schema.properties).filter(([key]) => key !== "linkage" && key !== "wear_depth_um")
+    .flatMap(([key, property]) =>
     (property.type === "object" ? fieldsOf(property, `${prefix}${key}.`) : [fieldOf(prefix + key, property)]));
 }
 
 function fieldOf(path, property) {
   const kind = property.enum ? "words" : property.type === "array" ? "numbers" : property.type;
-  return { path, kind, unit: property["x-unit"] ?? "", default: property.default, help: property.description ?? "", source: property["x-default-source"] ?? "", schema: property };
+  return { path, kind, unit: property["x-unit"] ?? "", default: property.default, help: property.description ?? "",
+    source: property["x-default-source"] ?? "", schema: property };
 }
 
 /// Allowed values in words: "≥ 0, < 1000 mm".
@@ -18,7 +20,8 @@ export function allowed(field) {
   const { schema } = field;
   if (field.kind === "words") return schema.enum.join(", ");
   const bounds = boundsOf(field);
-  const text = [["≥", bounds.minimum], [">", bounds.exclusiveMinimum], ["≤", bounds.maximum], ["<", bounds.exclusiveMaximum]]
+  const text = [["≥", bounds.minimum], [">", bounds.exclusiveMinimum], ["≤", bounds.maximum],
+    ["<", bounds.exclusiveMaximum]]
     .filter(([, bound]) => bound !== undefined).map(([sign, bound]) => `${sign} ${bound}`).join(", ");
   const count = field.kind === "numbers" ? `${schema.minItems} numbers ` : "";
   return `${count}${text}${field.unit ? ` ${field.unit}` : ""}`;
@@ -33,8 +36,10 @@ export function faultOf(field, value) {
   if (!Number.isFinite(value)) return `must be a number ${allowed(field)}`;
   const { minimum, exclusiveMinimum, maximum, exclusiveMaximum } = boundsOf(field);
   const whole = field.kind !== "integer" || Number.isInteger(value);
-  const inside = !(value < minimum) && !(value <= exclusiveMinimum) && !(value > maximum) && !(value >= exclusiveMaximum);
-  return whole && inside ? "" : `${value} is not allowed: must be ${field.kind === "integer" ? "a whole number " : ""}${allowed(field)}`;
+  const inside = !(value < minimum) && !(value <= exclusiveMinimum) && !(value > maximum)
+    && !(value >= exclusiveMaximum);
+  return whole && inside ? ""
+    : `${value} is not allowed: must be ${field.kind === "integer" ? "a whole number " : ""}${allowed(field)}`;
 }
 
 /// The field that a pointer of the service's answer means: "/sweep/clearance_mm/1" is clearance_mm's.

@@ -6,7 +6,8 @@ export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", coun
 
 const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
 
-/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed, only}, entries: {path: entry}}
+/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed,
+/// only}, entries: {path: entry}}
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
   const problems = [];
@@ -26,7 +27,8 @@ export function buildRequest(fields, state) {
   addJson("design", state.design, request, problems);
   if (Number(state.replicates.count) > 1) {
     const { count, perturbation, seed, only } = state.replicates;
-    request.replicates = { count: Number(count), perturbation: Number(perturbation), seed: Number(seed), only };  // undefined: every set
+    // undefined: every set
+    request.replicates = { count: Number(count), perturbation: Number(perturbation), seed: Number(seed), only };
   }
   if (Number(state.priority) !== 0) request.priority = Number(state.priority);
   if (!state.reuse) request.reuse = false;
@@ -66,11 +68,14 @@ function addRange(field, entry, request, refuse) {
 const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
 
 const jsonKinds = {
-  linkage: { fits: (value) => isObject(value) || value === "rpsup", detail: "must be a JSON object that describes a linkage, with bodies and joints" },
+  linkage: { fits: (value) => isObject(value) || value === "rpsup",
+    detail: "must be a JSON object that describes a linkage, with bodies and joints" },
   inside: { fits: (value) => isObject(value) && Object.keys(value).every((path) => path.startsWith("linkage.")),
     detail: "must be a JSON object of axes, such as {\"linkage.bodies.rod.mass_kg\": [0.2, 0.4]}" },
   cases: { fits: Array.isArray, detail: "must be a JSON list of objects, such as [{\"clearance_mm\": 0.1}]" },
-  design: { fits: (value) => typeof value?.over === "object", detail: "must be a JSON object with a type and parameters, such as {\"type\": \"sobol\", \"count\": 64, \"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
+  design: { fits: (value) => typeof value?.over === "object",
+    detail: "must be a JSON object with a type and parameters, such as {\"type\": \"sobol\", \"count\": 64, "
+      + "\"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
 };
 
 /// Adds a part that is written as JSON: the linkage, axes inside it, cases or the design.
@@ -104,18 +109,23 @@ export function readRequest(fields, request = {}) {
     const axis = request.sweep?.[field.path];
     if (fixed !== undefined && fixed !== null) entries[field.path] = entryOf(field, [fixed].flat(), "one");
     if (Array.isArray(axis)) entries[field.path] = entryOf(field, axis, "list");
-    else if (axis !== undefined) entries[field.path] = { ...emptyEntry(), mode: "range", from: String(axis.from), to: String(axis.to), count: String(axis.count), scale: axis.scale ?? "linear" };
+    else if (axis !== undefined) entries[field.path] = { ...emptyEntry(), mode: "range", from: String(axis.from),
+      to: String(axis.to), count: String(axis.count), scale: axis.scale ?? "linear" };
   }
   const { linkage } = request.parameters ?? {};
-  const inside = Object.fromEntries(Object.entries(request.sweep ?? {}).filter(([path]) => path.startsWith("linkage.")));
-  return { linkage: isObject(linkage) ? JSON.stringify(linkage, null, 1) : "", inside: Object.keys(inside).length > 0 ? JSON.stringify(inside, null, 1) : "",
+  const inside = Object.fromEntries(Object.entries(request.sweep ?? {})
+    .filter(([path]) => path.startsWith("linkage.")));
+  return { linkage: isObject(linkage) ? JSON.stringify(linkage, null, 1) : "", inside: Object.keys(inside)
+    .length > 0 ? JSON.stringify(inside, null, 1) : "",
     name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
-    cases: request.cases ? JSON.stringify(request.cases, null, 1) : "", design: request.design ? JSON.stringify(request.design, null, 1) : "",
+    cases: request.cases ? JSON.stringify(request.cases, null, 1) : "",
+    design: request.design ? JSON.stringify(request.design, null, 1) : "",
     replicates: { count: 1, perturbation: 1e-6, seed: 1, ...request.replicates } };
 }
 
 function entryOf(field, values, mode) {
-  return field.kind === "words" ? { ...emptyEntry(), chosen: values } : { ...emptyEntry(), mode, text: values.join(", ") };
+  return field.kind === "words" ? { ...emptyEntry(), chosen: values }
+    : { ...emptyEntry(), mode, text: values.join(", ") };
 }
 
 /// Number of jobs of a request.
@@ -124,7 +134,9 @@ export function countJobs(request) {
   const { count = 1, only = {} } = request.replicates ?? {};
   const times = countPoints(request.design) * (request.cases?.length ?? 1);
   const sets = times * product(axes.map(([, axis]) => sizeOf(axis)));
-  const replicated = times * product(axes.map(([path, axis]) => (path in only && Array.isArray(axis) ? axis.filter((value) => only[path].includes(value)).length : sizeOf(axis))));
+  const replicated = times * product(
+    axes.map(([path, axis]) => (path in only && Array.isArray(axis) ? axis.filter((value) => only[path].includes(value))
+      .length : sizeOf(axis))));
   return sets + (count - 1) * replicated;
 }
 

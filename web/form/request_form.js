@@ -8,7 +8,8 @@ import { pathOfPointer } from "/form/fields.js";
 import { emptyEntry } from "/form/request.js";
 
 // Parameters that are shown at first; the others are one click away.
-const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", "run_up_s", "restitution", "integrator"];
+const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", "run_up_s", "restitution",
+  "integrator"];
 
 /// Its kinds say what is asked (path, ask, route), make the request (build) and the text above it (drawCount).
 export class RequestForm {
@@ -57,13 +58,15 @@ export class RequestForm {
     const open = this.fields.some((field) => !isFirst(field) && this.state.entries[field.path]);
     this.rest.append(...this.fields.filter((field) => !isFirst(field)).map((field) => this.row(field)));
     return [inOrder.map((field) => this.row(field)),
-      h("details", { open }, h("summary", {}, "All other parameters"), h("label", { class: "choice" }, h("span", {}, "Filter"), filter), this.rest)];
+      h("details", { open }, h("summary", {}, "All other parameters"),
+        h("label", { class: "choice" }, h("span", {}, "Filter"), filter), this.rest)];
   }
 
   /// The form beside its summary.
   columns(...parts) {
     return h("div", { class: "columns" },
-      h("form", { class: "card", novalidate: true, onsubmit: (event) => { event.preventDefault(); this.submit(); } }, ...parts),
+      h("form", { class: "card", novalidate: true, onsubmit: (event) => { event.preventDefault(); this.submit(); } },
+        ...parts),
       h("aside", { class: "card sticky", "aria-label": "Summary" }, ...this.summary()));
   }
 
@@ -79,11 +82,14 @@ export class RequestForm {
   }
 
   text(label, object, key, attributes = {}) {
-    const input = h("input", { type: "text", value: object[key], ...attributes, oninput: () => { object[key] = input.value; this.update(); } });
+    const input = h("input",
+      { type: "text", value: object[key], ...attributes,
+        oninput: () => { object[key] = input.value; this.update(); } });
     return h("label", { class: "choice" }, h("span", {}, label), input);
   }
 
-  /// A value with help below it, and a place for what is wrong. @param name  by which its faults are told  @param options  to choose among; null: any text
+  /// A value with help below it, and a place for its fault.
+  /// @param name  of the row  @param options  to choose among; null: any text
   /**
    * @param {string} name
    * @param {string} label
@@ -96,7 +102,8 @@ export class RequestForm {
     const id = freshId("told");
     const listen = { oninput: () => { object[key] = input.value; this.update(); } };
     const attributes = { id, "aria-describedby": `${id}-help ${id}-fault`, ...listen };
-    const input = options ? h("select", attributes, options.map(([value, text]) => h("option", { value }, text))) : h("input", { type: "text", ...attributes });
+    const input = options ? h("select", attributes, options.map(([value, text]) => h("option", { value }, text)))
+      : h("input", { type: "text", ...attributes });
     input.value = object[key];
     const fault = h("p", { class: "trouble small", id: `${id}-fault`, hidden: true });
     const labelled = h("label", { for: id }, label);
@@ -105,12 +112,15 @@ export class RequestForm {
       fault.hidden = text === "";
       input.setAttribute("aria-invalid", text === "" ? "false" : "true");
     } });
-    return h("div", { class: "field" }, labelled, h("span"), h("div", { class: "values" }, input), h("p", { class: "quiet small", id: `${id}-help` }, help), fault);
+    return h("div", { class: "field" }, labelled, h("span"), h("div", { class: "values" }, input),
+      h("p", { class: "quiet small", id: `${id}-help` }, help), fault);
   }
 
   linkage() {
     return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Custom linkage"),
-      h("p", { class: "quiet small" }, "A custom linkage has its own bodies, joints and drives; the parameters of coupler, crank, rod and guide above apply to RPSUP only."),
+      h("p", { class: "quiet small" },
+        "A custom linkage has its own bodies, joints and drives; the parameters of coupler, crank, rod and guide "
+          + "above apply to RPSUP only."),
       ...this.json("linkage", "Linkage: JSON object of bodies and joints"),
       ...this.json("inside", "Axes inside the linkage: JSON object of lists and ranges"));
   }
@@ -118,32 +128,41 @@ export class RequestForm {
   /// A part of the request that is written as JSON.
   json(key, label) {
     const fault = h("p", { class: "trouble small", hidden: true });
-    const area = h("textarea", { rows: 3, class: "wide", value: this.state[key], oninput: () => { this.state[key] = area.value; this.update(); } });
+    const area = h("textarea",
+      { rows: 3, class: "wide", value: this.state[key],
+        oninput: () => { this.state[key] = area.value; this.update(); } });
     this.rows.set(key, { complain: (text) => { fault.textContent = text; fault.hidden = text === ""; } });
     return [h("label", { class: "choice" }, h("span", {}, label), area), fault];
   }
 
   replicateFields() {
     const { replicates } = this.state;
-    return [this.text("Replicates", replicates, "count", { type: "number", min: 1 }), this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
+    return [this.text("Replicates", replicates, "count", { type: "number", min: 1 }),
+      this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
       this.text("Seed", replicates, "seed", { type: "number" })];
   }
 
   orderFields() {
     return [this.text("Priority", this.state, "priority", { type: "number", min: -100, max: 100 }),
-      choice("Stored results", [["yes", "reuse"], ["no", "recompute"]], this.state.reuse ? "yes" : "no", (value) => { this.state.reuse = value === "yes"; this.update(); })];
+      choice("Stored results", [["yes", "reuse"], ["no", "recompute"]], this.state.reuse ? "yes" : "no",
+        (value) => { this.state.reuse = value === "yes"; this.update(); })];
   }
 
   summary() {
-    const copy = (label, code) => h("button", { onclick: () => navigator.clipboard.writeText(code.textContent).then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
+    const copy = (label, code) =>
+      h("button", { onclick: () => navigator.clipboard.writeText(code.textContent)
+        .then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
     return [this.count, this.cost, this.faults, h("p", {}, this.send),
-      h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown), h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
+      h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown),
+      h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
       h("details", {}, h("summary", {}, "curl command"), h("pre", { tabindex: 0 }, this.curl))];
   }
 
   filter(text) {
     const words = text.toLowerCase().split(/\s+/);
-    for (const row of /** @type {Iterable<HTMLElement>} */ (this.rest.children)) row.hidden = !words.every((word) => row.textContent.toLowerCase().includes(word));
+    for (const row of /** @type {Iterable<HTMLElement>} */ (this.rest.children)) {
+      row.hidden = !words.every((word) => row.textContent.toLowerCase().includes(word));
+    }
   }
 
   update() {
@@ -154,9 +173,11 @@ export class RequestForm {
     for (const { path, detail } of problems) this.rows.get(path)?.complain(detail);
     this.drawCount(request);
     this.drawSend();
-    this.faults.replaceChildren(...problems.filter(({ path }) => !this.rows.has(path)).map(({ path, detail }) => h("p", {}, `${path}: ${detail}`)));
+    this.faults.replaceChildren(...problems.filter(({ path }) => !this.rows.has(path))
+      .map(({ path, detail }) => h("p", {}, `${path}: ${detail}`)));
     this.shown.textContent = JSON.stringify(request, null, 1);
-    this.curl.textContent = `curl -d '${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}${this.path}`;
+    this.curl.textContent = "curl -d "
+      + `'${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}${this.path}`;
   }
 
   drawSend() {
@@ -185,8 +206,10 @@ export class RequestForm {
 
   /** @param {Error} error */
   refuse(error) {
-    const faults = error instanceof Refusal && error.faults.length > 0 ? error.faults : [{ pointer: "", detail: error.message }];
+    const faults = error instanceof Refusal && error.faults.length > 0 ? error.faults
+      : [{ pointer: "", detail: error.message }];
     for (const { pointer, detail } of faults) this.rows.get(this.rowOf(pointer))?.complain(detail);
-    this.faults.replaceChildren(h("ul", {}, faults.map(({ pointer, detail }) => h("li", {}, `${pointer ? `${pointer}: ` : ""}${detail}`))));
+    this.faults.replaceChildren(
+      h("ul", {}, faults.map(({ pointer, detail }) => h("li", {}, `${pointer ? `${pointer}: ` : ""}${detail}`))));
   }
 }

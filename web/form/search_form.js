@@ -20,7 +20,8 @@ export class SearchForm extends StudyForm {
     /** @type {any} */
     this.way = schemas.SearchPath.properties;
     const [[parameter, way] = ["clearance_mm", {}]] = Object.entries(request.over ?? {});
-    const texts = Object.fromEntries(["from", "to", "tolerance", "first"].map((key) => [key, way[key] === undefined ? "" : String(way[key])]));
+    const texts = Object.fromEntries(
+      ["from", "to", "tolerance", "first"].map((key) => [key, way[key] === undefined ? "" : String(way[key])]));
     this.state.over = { parameter, scale: way.scale ?? "linear", ...texts };
     this.state.values.metric ||= "peak_slider_acceleration_m_s2";
   }
@@ -32,15 +33,21 @@ export class SearchForm extends StudyForm {
     const help = (key) => helpOf(this.way[key]);
     return [this.nameField(),
       h("h2", {}, "Search"),
-      this.told("over.parameter", "Parameter", over, "parameter", "Parameter whose largest admissible value is searched", numbers.map((path) => [path, titleOf(path)])),
+      this.told("over.parameter", "Parameter", over, "parameter",
+        "Parameter whose largest admissible value is searched", numbers.map((path) => [path, titleOf(path)])),
       this.told("over.from", "From", over, "from", "Start of the search, where the metric is within its bound"),
       this.told("over.to", "To", over, "to", "End of the search; may be less than its start"),
-      this.told("over.scale", "Spacing", over, "scale", "Bisection of differences (linear) or of ratios (logarithmic)", [["linear", "linear"], ["log", "logarithmic"]]),
-      this.told("over.tolerance", "Tolerance", over, "tolerance", help("tolerance")), this.told("over.first", "Initial values", over, "first", help("first")),
+      this.told("over.scale", "Spacing", over, "scale", "Bisection of differences (linear) or of ratios (logarithmic)",
+        [["linear", "linear"], ["log", "logarithmic"]]),
+      this.told("over.tolerance", "Tolerance", over, "tolerance", help("tolerance")),
+      this.told("over.first", "Initial values", over, "first", help("first")),
       this.told("metric", "Metric", values, "metric", "Metric that must not exceed the bound", metrics),
       this.number("bound"), this.number("quantile"),
-      h("h2", {}, "Linkage and axes"), h("p", { class: "quiet small" }, "One limit for each combination of the parameters that have a list or a range."), ...this.parameterFields(), this.linkage(),
-      h("details", { open: Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates and priority"), h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()))];
+      h("h2", {}, "Linkage and axes"),
+      h("p", { class: "quiet small" }, "One limit for each combination of the parameters that have a list or a range."),
+      ...this.parameterFields(), this.linkage(),
+      h("details", { open: Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates and priority"),
+        h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()))];
   }
 
   build() {
@@ -57,10 +64,12 @@ export class SearchForm extends StudyForm {
   drawCount(request) {
     const limits = countJobs({ sweep: request.sweep });
     const unit = unitOf(request.metric);
-    const measured = { "over.from": ["From", this.state.over.parameter], "over.to": ["To", this.state.over.parameter], "over.tolerance": ["Tolerance", this.state.over.parameter], bound: ["Bound", request.metric] };
+    const measured = { "over.from": ["From", this.state.over.parameter], "over.to": ["To", this.state.over.parameter],
+      "over.tolerance": ["Tolerance", this.state.over.parameter], bound: ["Bound", request.metric] };
     for (const [row, [name, of]] of Object.entries(measured)) this.rows.get(row)?.rename?.(inUnit(name, of));
     this.count.textContent = `${plural(limits, "limit")} to find`;
-    this.cost.textContent = `${plural(request.replicates?.count ?? 1, "run")} per evaluated value; ${nameOf(request.metric).toLowerCase()}${unit ? ` in ${unit}` : ""}.`;
+    this.cost.textContent = `${plural(request.replicates?.count ?? 1, "run")} per evaluated `
+      + `value; ${nameOf(request.metric).toLowerCase()}${unit ? ` in ${unit}` : ""}.`;
   }
 
   rowOf(pointer) {

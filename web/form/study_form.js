@@ -23,7 +23,8 @@ export async function showStudyForm(main, Form, example, query, signal) {
     from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {} : example]);
   const form = new Form(fieldsOf(parameters), schemas, request);
   main.replaceChildren(h("h1", {}, Form.title),
-    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Load example"), h("a", { class: "button", href: routeTo(Form.route, "new", { empty: "1" }) }, "Empty form")),
+    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Load example"),
+      h("a", { class: "button", href: routeTo(Form.route, "new", { empty: "1" }) }, "Empty form")),
     form.columns(...form.parts()));
   form.update();
 }
@@ -44,7 +45,8 @@ export class StudyForm extends RequestForm {
     this.path = kind.api.path;
     this.route = kind.route;
     this.ask = kind.api.submit;
-    for (const [key, value] of Object.entries(request)) this.state.values[key] = typeof value === "number" || typeof value === "string" ? String(value) : "";
+    for (const [key, value] of Object.entries(request)) this.state.values[key] = typeof value === "number"
+      || typeof value === "string" ? String(value) : "";
   }
 
   /// Elements of the form.

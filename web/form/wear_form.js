@@ -4,7 +4,8 @@ import { wearStudies } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { StudyForm } from "/form/study_form.js";
 
-const numbers = ["hours", "worn_clearance_mm", "wear_coefficient_m2_n", "max_depth_step_um", "max_rate_change", "max_cycles", "sectors"];
+const numbers = ["hours", "worn_clearance_mm", "wear_coefficient_m2_n", "max_depth_step_um", "max_rate_change",
+  "max_cycles", "sectors"];
 const names = { wear_coefficient_m2_n: "Wear coefficient" };
 const units = { hours: "h", wear_coefficient_m2_n: "m²/N", max_depth_step_um: "µm", worn_clearance_mm: "mm" };
 

@@ -22,14 +22,18 @@ export async function show(main, { id, query, signal }) {
   const metrics = metricsOf(rows, sweep.axes);
   const isRpsup = metrics.includes(usual);
   const numbers = sweep.axes.filter((axis) => typeof rows[0][axis] === "number");
-  const analysed = { sweep, numbers, isRpsup, metric: metrics.find((metric) => metric === query.get("metric")) ?? (isRpsup ? usual : metrics[0]) };
+  const analysed = { sweep, numbers, isRpsup, metric: metrics.find((metric) => metric === query.get("metric"))
+    ?? (isRpsup ? usual : metrics[0]) };
   const name = sweep.name || sweep.id;
   document.title = `RPSUP: analysis of ${name}`;
   const cards = h("div");
-  const draw = () => cards.replaceChildren(...cardsFor(analysed).map(([title, help, make]) => card(name, title, help, make, analysed, signal)));
-  const pick = quantityChoice("Metric", "metrics", metrics, analysed.metric, (metric) => { analysed.metric = metric; rememberQuery({ metric }); draw(); });
+  const draw = () => cards.replaceChildren(...cardsFor(analysed)
+    .map(([title, help, make]) => card(name, title, help, make, analysed, signal)));
+  const pick = quantityChoice("Metric", "metrics", metrics, analysed.metric,
+    (metric) => { analysed.metric = metric; rememberQuery({ metric }); draw(); });
   main.replaceChildren(h("div", { class: "head" }, h("h1", {}, `Analysis of ${name}`),
-    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("sweeps", id) }, "Sweep"), h("a", { class: "button", href: reportUrl(id) }, "Report"))),
+    h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("sweeps", id) }, "Sweep"),
+      h("a", { class: "button", href: reportUrl(id) }, "Report"))),
   h("p", { class: "actions" }, pick), cards);
   draw();
 }
@@ -44,13 +48,25 @@ function cardsFor({ sweep, numbers, isRpsup }) {
   const type = sweep.request.design?.type;
   /** @type {([string, string, MakeCard] | false | undefined | "")[]} */
   const cards = [
-    isRpsup && bearsOnPaper(sweep.axes) && ["The paper's statements", "Ratios of the largest slider acceleration in the steady window. "
+    isRpsup && bearsOnPaper(sweep.axes)
+      && ["The paper's statements", "Ratios of the largest slider acceleration in the steady window. "
       + "Statement 1 holds within 5 %, statements 2 to 5 within 20 %, 6 and 7 below 1.", paperCard],
-    sweep.axes.includes("coupler") && ["Effect of flexibility", "Metric with the flexible coupler / metric with the rigid one; bars: range over the replicates.", flexibilityCard],
-    type && ["morris", "saltelli"].includes(type) && ["Sensitivity", type === "morris" ? "Morris: elementary effects of the whole range of each parameter." : "Sobol indices: share of the variance due to each parameter, alone (first order) and with its interactions (total); bars: 95 % confidence.", sensitivityCard],
-    numbers.length > 0 && ["Surrogate", "Polynomial chaos expansion fitted to the jobs, with its error of leave-one-out cross-validation.", surrogateCard],
-    isRpsup && numbers.length > 0 && ["Bifurcation diagram", "A channel once per crank revolution, for each job.", bifurcationCard],
-    isRpsup && sweep.request.replicates && ["Largest Lyapunov exponent", "Divergence rate of runs with nearly equal contact stiffness; a positive exponent means chaos.", lyapunovCard],
+    sweep.axes.includes("coupler")
+      && ["Effect of flexibility",
+        "Metric with the flexible coupler / metric with the rigid one; bars: range over the replicates.",
+        flexibilityCard],
+    type && ["morris", "saltelli"].includes(type)
+      && ["Sensitivity", type === "morris" ? "Morris: elementary effects of the whole range of each parameter."
+        : "Sobol indices: share of the variance due to each parameter, alone (first order) and with its interactions "
+        + "(total); bars: 95 % confidence.", sensitivityCard],
+    numbers.length > 0 && ["Surrogate",
+      "Polynomial chaos expansion fitted to the jobs, with its error of leave-one-out cross-validation.",
+      surrogateCard],
+    isRpsup && numbers.length > 0 && ["Bifurcation diagram", "A channel once per crank revolution, for each job.",
+      bifurcationCard],
+    isRpsup && sweep.request.replicates
+      && ["Largest Lyapunov exponent",
+        "Divergence rate of runs with nearly equal contact stiffness; a positive exponent means chaos.", lyapunovCard],
   ];
   return cards.filter(Boolean);
 }

@@ -25,7 +25,8 @@ import { sceneCard } from "/scene/scene_card.js";
 const formats = ["csv", "json", "npz"];
 /** @type {(state: Api.State) => boolean} */
 const isWaiting = (state) => state === "queued" || state === "running";
-const sliderAcceleration = { channel: "slider_acceleration_m_s2", envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
+const sliderAcceleration = { channel: "slider_acceleration_m_s2",
+  envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
 const pollMs = 1000;
 const sweepPolls = 5;  // its sweep is asked for with every fifth
 const rememberMs = 400;  // browsers refuse to change the address many times a second
@@ -33,7 +34,8 @@ const rememberMs = 400;  // browsers refuse to change the address many times a s
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
   const others = (query.get("with") ?? "").split(",").filter(Boolean);
-  const [schema, job, ...more] = await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
+  const [schema, job, ...more] =
+    await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
   document.title = `RPSUP: job ${id.slice(-5)}`;
   const page = new JobPage([job, ...more], schema, query, signal);
   if (job.state !== "succeeded") {
@@ -73,15 +75,26 @@ class JobPage {
   head() {
     const { job } = this;
     const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity, linkage } = job.parameters;
-    const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible").map((link) => `flexible ${link}, `).join("");
-    const title = typeof linkage === "object" ? titleOfLinkage(linkage) : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
+    const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible")
+      .map((link) => `flexible ${link}, `).join("");
+    const title = typeof linkage === "object" ? titleOfLinkage(linkage)
+      : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${exact(velocity)} rad/s`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
-    const links = job.state === "succeeded" ? h("p", { class: "actions" }, formats.map((format) => h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` }, format.toUpperCase())))
-      : h("p", { class: "actions" }, isWaiting(job.state) ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) }, "Cancel") : null);
+    const links = job.state === "succeeded"
+      ? h("p", { class: "actions" },
+        formats.map((format) =>
+          h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` },
+            format.toUpperCase())))
+      : h("p", { class: "actions" },
+        isWaiting(job.state)
+          ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) },
+            "Cancel") : null);
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
-      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.jobs.length > 1 ? [` · overlaid with ${this.jobs.length - 1} more · `, h("a", { href: routeTo("jobs", job.id) }, "this job only")] : "")), links), failure].filter(Boolean);
+      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back,
+        this.jobs.length > 1 ? [` · overlaid with ${this.jobs.length - 1} more · `,
+          h("a", { href: routeTo("jobs", job.id) }, "this job only")] : "")), links), failure].filter(Boolean);
   }
 
   drawState() {
@@ -94,7 +107,8 @@ class JobPage {
     const trouble = h("p", { class: "trouble", role: "status" });
     const tell = (text) => { trouble.textContent = text; };
     const standing = standingCard();
-    const redraw = () => main.replaceChildren(...this.head(), trouble, h("div", { class: "columns even" }, standing.element, runCard(this.job, this.schema)));
+    const redraw = () => main.replaceChildren(...this.head(), trouble,
+      h("div", { class: "columns even" }, standing.element, runCard(this.job, this.schema)));
     redraw();
     let sweep = await this.findItsSweep(tell);
     standing.draw(this.job, sweep, new Date());
@@ -132,13 +146,19 @@ class JobPage {
     const drives = described ? driveChannels(columns) : ["crank_torque_n_m", "rod_force_n"];
     this.drawAcceleration([]);
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
-    const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "", (channel) => this.add(channel, add));
-    const plots = [this.main, joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
+    const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "",
+      (channel) => this.add(channel, add));
+    const plots = [this.main,
+      joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
       drives.length > 0 ? this.card("Drive torque and force", drives) : null,
-      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay()), motionCard(this.job, columns, this.signal),
+      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay()),
+      motionCard(this.job, columns, this.signal),
       !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
-    const side = [sceneCard(this.job, linksOf(all), this.times, this.signal), ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs), runCard(this.job, this.schema)];
-    return [timeBar(this.times, this.job, this.acceleration.envelope ?? [this.acceleration.channel], this.signal), h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
+    const side = [sceneCard(this.job, linksOf(all), this.times, this.signal),
+      ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs),
+      runCard(this.job, this.schema)];
+    return [timeBar(this.times, this.job, this.acceleration.envelope ?? [this.acceleration.channel], this.signal),
+      h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }
 
   /**
@@ -147,19 +167,24 @@ class JobPage {
    * @param {Partial<Parameters<typeof plotCard>[1]>} more
    */
   card(title, channels, more = {}) {
-    return plotCard(title, { traces: tracesOf(this.jobs, channels), note: peakNote(this.jobs, channels), times: this.times, height: 220, signal: this.signal, ...more });
+    return plotCard(title, { traces: tracesOf(this.jobs, channels), note: peakNote(this.jobs, channels),
+      times: this.times, height: 220, signal: this.signal, ...more });
   }
 
   /** @param {Api.Job[]} ideal */
   drawAcceleration(ideal) {
     const { acceleration } = this;
-    const behind = ideal.map((job) => ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: () => colour("quiet"), dash: [6, 4] }));
+    const behind = ideal.map((job) =>
+      ({ job: job.id, channel: acceleration.channel, name: "ideal linkage", colour: () => colour("quiet"),
+        dash: [6, 4] }));
     const button = h("button", { onclick: () => this.compare(button) }, "Overlay ideal linkage");
     const tools = isDescribed(this.job) || isIdeal(this.job) || ideal.length > 0 ? [] : [button];
     this.mainLife?.abort();
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
-    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration", { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], note: peakNote(this.jobs, [acceleration.channel]), times: this.times, height: 320, signal, tools }));
+    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration",
+      { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], note: peakNote(this.jobs, [acceleration.channel]),
+        times: this.times, height: 320, signal, tools }));
   }
 
   async compare(button) {
@@ -199,7 +224,8 @@ class JobPage {
 
   channelCard(channel) {
     const life = new AbortController();
-    const card = this.card(`${nameOf(channel)}${unitOf(channel) ? ` [${unitOf(channel)}]` : ""}`, [channel], { signal: AbortSignal.any([this.signal, life.signal]), close: () => {
+    const card = this.card(`${nameOf(channel)}${unitOf(channel) ? ` [${unitOf(channel)}]` : ""}`, [channel],
+      { signal: AbortSignal.any([this.signal, life.signal]), close: () => {
       life.abort();
       card.remove();
       this.added = this.added.filter((name) => name !== channel);
@@ -212,6 +238,7 @@ class JobPage {
     const { times } = this;
     const short = (value) => Number(value.toPrecision(7));
     const window = times.isWhole ? {} : { from: short(times.from), to: short(times.to) };
-    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window, t: times.instant > 0 ? short(times.instant) : "" });
+    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window,
+      t: times.instant > 0 ? short(times.instant) : "" });
   }
 }

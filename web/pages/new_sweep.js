@@ -10,10 +10,12 @@ import { buildRequest, countJobs, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
 // The sweep of the paper, as script/paper.json: every other parameter has the paper's value by default.
-const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12, 15], coupler: ["rigid", "flexible"] },
+const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12, 15],
+  coupler: ["rigid", "flexible"] },
   replicates: { count: 5, only: { clearance_mm: [0.25, 0.5], crank_velocity_rad_s: [15] } } };
 // Linkages that the program brings along, as sets of parameters.
-const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"], ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
+const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"],
+  ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
   ["four_bar", "four-bar with a flexible coupler"], ["bricard", "Bricard's linkage"]];
 
 /** @param {HTMLElement} main  @param {Visit} view */
@@ -22,7 +24,8 @@ export async function show(main, { query, signal }) {
   const fields = fieldsOf(await parameterSchema());
   const from = query.get("from");
   const example = examples.find(([name]) => name === query.get("linkage"))?.[0];
-  const request = from ? (await findSweep(from, signal)).request : example ? { name: example, parameters: await exampleLinkage(example, signal) }
+  const request = from ? (await findSweep(from, signal))
+    .request : example ? { name: example, parameters: await exampleLinkage(example, signal) }
     : query.get("template") === "paper" ? paper : {};
   const form = new SweepForm(fields, readRequest(fields, request), example ?? "", signal);
   main.replaceChildren(...form.parts());
@@ -47,16 +50,21 @@ class SweepForm extends RequestForm {
 
   parts() {
     return [h("h1", {}, "New sweep"),
-      h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Load the paper's sweep"), h("a", { class: "button", href: "#/new" }, "Empty form"),
-        choice("Example linkage", [["", "choose …"], ...examples], this.example, (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
+      h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) },
+        "Load the paper's sweep"), h("a", { class: "button", href: "#/new" }, "Empty form"),
+        choice("Example linkage", [["", "choose …"], ...examples], this.example,
+          (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
       this.columns(this.nameField(), ...this.parameterFields(), this.linkage(), this.more())];
   }
 
   more() {
-    return h("details", { open: this.state.cases + this.state.design !== "" || Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates, cases, design and priority"),
+    return h("details", { open: this.state.cases + this.state.design !== ""
+      || Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates, cases, design and priority"),
       h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()),
       ...this.json("cases", "Cases: JSON list of parameter sets, each combined with the axes"),
-      ...this.json("design", "Design of experiments: JSON object (latin_hypercube, sobol, zip, one_at_a_time, morris, saltelli), combined with the axes"));
+      ...this.json("design",
+        "Design of experiments: JSON object (latin_hypercube, sobol, zip, one_at_a_time, morris, saltelli), combined "
+          + "with the axes"));
   }
 
   build() {
@@ -72,7 +80,9 @@ class SweepForm extends RequestForm {
   costText(jobs) {
     const cost = estimate(this.request, this.defaults, jobs, this.costs);
     const store = `the store grows by about ${bytes(cost.bytes)}`;
-    if (cost.unknown.length > 0) return `No computing time known yet for: ${cost.unknown.join("; ")}. For new results ${store}.`;
-    return `Computing time about ${span(cost.seconds)} on one core, judged by earlier jobs; ${store}. Stored results cost nothing.`;
+    if (cost.unknown.length > 0) return `No computing time known yet for: ${cost.unknown.join("; ")}. For new `
+      + `results ${store}.`;
+    return `Computing time about ${span(cost.seconds)} on one core, judged by earlier jobs; ${store}. Stored results `
+      + `cost nothing.`;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sweep: its metrics over its axes, in parts that share what is selected.
-import { cancelSweep, findAnalysis, findResults, findSweep, listSweeps, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
+import { cancelSweep, findAnalysis, findResults, findSweep, listSweeps, parameterSchema, resultsUrl,
+  retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { choice, h, notify, setSeen } from "/core/dom.js";
 import { plural, span, titleOf } from "/core/format.js";
@@ -78,7 +79,8 @@ export class SweepPage {
     /** @type {(key: string, allowed: string[], otherwise?: string) => string} */
     const pick = (key, allowed, otherwise) => allowed.find((each) => each === query.get(key)) ?? otherwise ?? "";
     this.view = { metric: pick("metric", this.metrics, this.metrics[0]), x: pick("x", this.axes, varied[0] ?? "job_id"),
-      y: pick("y", this.axes, query.has("x") ? "" : varied[1]), panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]),
+      y: pick("y", this.axes, query.has("x") ? "" : varied[1]),
+      panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]),
       xScale: pick("x_scale", ["linear"]), metricScale: pick("metric_scale", ["log"]) };
     this.selection.set((query.get("jobs") ?? "").split(",").filter(Boolean));
     this.makeButtons();
@@ -92,8 +94,10 @@ export class SweepPage {
     this.drawHead();
     this.drawPickers();
     return [
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status, this.paper), this.buttons), this.pickers, this.chosen,
-      h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0), this.card("Lines", this.lines, 1, { tools: this.logs.element })),
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status, this.paper),
+        this.buttons), this.pickers, this.chosen,
+      h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0),
+        this.card("Lines", this.lines, 1, { tools: this.logs.element })),
       this.card("Parallel coordinates", this.parallel, 2, { help: this.help }),
       h("section", { class: "card" }, h("h2", {}, "Results"), this.table.element)];
   }
@@ -105,8 +109,10 @@ export class SweepPage {
    * @param {{ help?: HTMLElement, tools?: HTMLElement }} more
    */
   card(title, element, index, { help, tools } = {}) {
-    const save = saveButtons(() => this.charts[index], () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
-    return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, tools, save)), help, element);
+    const save = saveButtons(() => this.charts[index],
+      () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
+    return h("section", { class: "card" },
+      h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, tools, save)), help, element);
   }
 
   start() {
@@ -139,7 +145,8 @@ export class SweepPage {
 
   /// One in each frame, so that the first is seen before the last is made.
   async makeCharts() {
-    for (const { make, element } of [{ make: heatMap, element: this.heat }, { make: linesChart, element: this.lines }, { make: parallelChart, element: this.parallel }]) {
+    for (const { make, element } of [{ make: heatMap, element: this.heat }, { make: linesChart, element: this.lines },
+      { make: parallelChart, element: this.parallel }]) {
       await new Promise(requestAnimationFrame);
       if (this.signal.aborted) return;
       try {
@@ -171,7 +178,8 @@ export class SweepPage {
     if (!this.signal.aborted && isUnderWay(this.sweep)) this.followIt();
   }
 
-  /// One after the other, so that no answer covers a newer one. Who asks while one waits for its turn is given that one.
+  /// One after the other, so that no answer covers a newer one. Who asks while one waits for its turn is given that
+  /// one.
   reload() {
     this.waiting ??= this.reloading.then(() => {
       this.waiting = null;
@@ -215,7 +223,8 @@ export class SweepPage {
     if (!this.paper || isUnderWay(this.sweep)) return;
     try {
       const rows = await findAnalysis(this.sweep.id, "paper", {}, this.signal);
-      this.paper.replaceChildren(h("a", { href: routeTo("analyses", this.sweep.id) }, "The paper's statements"), `: ${summaryOf(rows)}`);
+      this.paper.replaceChildren(h("a", { href: routeTo("analyses", this.sweep.id) },
+        "The paper's statements"), `: ${summaryOf(rows)}`);
       setSeen(this.paper, true);
     } catch {
       setSeen(this.paper, false);  // the page of the analyses says why
@@ -230,20 +239,23 @@ export class SweepPage {
   drawTexts() {
     this.table.draw();
     this.logs.draw();
-    this.help.textContent = `Drag along an axis to select jobs; click the axis to clear its selection. ${parallelNote(this)}`;
+    this.help.textContent = "Drag along an axis to select jobs; click the axis to clear its selection. "
+      + parallelNote(this);
   }
 
   changed() {
     const { metric, x, y, panel, xScale, metricScale } = this.view;
     const jobs = this.selection.size <= mostInAddress ? this.selection.ids.join(",") : "";
-    rememberQuery({ metric, x, y, panel, x_scale: xScale === "linear" ? xScale : "", metric_scale: metricScale === "log" ? metricScale : "", jobs, with: this.others?.id });
+    rememberQuery({ metric, x, y, panel, x_scale: xScale === "linear" ? xScale : "",
+      metric_scale: metricScale === "log" ? metricScale : "", jobs, with: this.others?.id });
     this.drawChosen();
     this.drawAll();
   }
 
   drawHead() {
     const { counts, eta_s: eta } = this.sweep;
-    const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0).map(([state, count]) => `${count.toLocaleString("en")} ${state}`);
+    const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0)
+      .map(([state, count]) => `${count.toLocaleString("en")} ${state}`);
     const left = isUnderWay(this.sweep) && eta !== null ? `; about ${span(eta)} left` : "";
     this.status.textContent = `${this.sweep.state}: ${parts.join(", ")} of ${plural(counts.total, "job")}${left}`;
     setSeen(this.cancel, isUnderWay(this.sweep));
@@ -254,7 +266,9 @@ export class SweepPage {
   makeButtons() {
     const { id, name } = this.sweep;
     /** @type {(text: string, run: (id: string) => Promise<unknown>) => HTMLButtonElement} */
-    const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.update()).catch((error) => notify(error.message, "trouble")) }, text);
+    const act = (text, run) =>
+      h("button", { class: "passing", onclick: () => run(id).then(() => this.update())
+        .catch((error) => notify(error.message, "trouble")) }, text);
     this.cancel = act("Cancel", cancelSweep);
     this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => this.failures.doubt()));
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
@@ -280,7 +294,9 @@ export class SweepPage {
     const page = await listSweeps({ limit: 100 }, this.signal).catch(() => null);
     const alike = (page?.items ?? []).filter(({ id, axes }) => id !== this.sweep.id && axes.includes(this.view.x));
     if (alike.length === 0) return;
-    this.compare.replaceChildren(choice("Compare with", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], this.others?.id ?? "", (id) => this.compareWith(id).then(() => this.changed())));
+    this.compare.replaceChildren(
+      choice("Compare with", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], this.others?.id ?? "",
+        (id) => this.compareWith(id).then(() => this.changed())));
   }
 
   /** @param {string} id */
@@ -298,7 +314,9 @@ export class SweepPage {
     this.chosen.hidden = ids.length === 0;
     const [first, ...more] = ids;
     this.chosen.replaceChildren(h("span", {}, `${plural(ids.length, "job")} selected`),
-      ids.length > 0 && ids.length <= 6 ? h("a", { class: "button main", href: routeTo("jobs", first, { with: more.join(",") }) }, ids.length === 1 ? "Open" : "Overlay") : "",
+      ids.length > 0 && ids.length <= 6
+        ? h("a", { class: "button main", href: routeTo("jobs", first, { with: more.join(",") }) },
+          ids.length === 1 ? "Open" : "Overlay") : "",
       h("button", { onclick: () => this.selection.set([]) }, "Clear selection"));
   }
 }

@@ -18,9 +18,12 @@ const followed = 3;  // a browser keeps six connections to a service, and the pa
 const states = ["queued", "running", "succeeded", "failed", "cancelled"];
 /** @type {(text: string | null) => Api.State | ""} */
 const stateOf = (text) => states.find((state) => state === text) ?? "";
-const columns = [["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Peak range"], ["created", "Created"], ["actions", "Actions"]];
-const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits and slides in its bearing, and accelerations and "
-  + "forces have peaks that an ideal linkage has not. A sweep is a set of such simulations over ranges of their parameters; the service computes them in the "
+const columns = [["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Peak range"],
+  ["created", "Created"], ["actions", "Actions"]];
+const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits "
+  + "and slides in its bearing, and accelerations and "
+  + "forces have peaks that an ideal linkage has not. A sweep is a set of such simulations over ranges of their "
+  + "parameters; the service computes them in the "
   + "background and keeps what comes out, and charts and tables fill as it does.";
 
 /** @param {HTMLElement} main  @param {Visit} view */
@@ -73,12 +76,16 @@ class SweepList {
   parts() {
     document.title = "RPSUP: sweeps";
     const refreshSoon = settled(() => this.signal.aborted || this.refresh(), 300);
-    const search = h("input", { type: "search", value: this.search, oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
+    const search = h("input",
+      { type: "search", value: this.search,
+        oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
     const tools = h("p", { class: "actions" },
       h("label", { class: "choice" }, h("span", {}, "Search (name, id, axis)"), search),
-      choice("State", [["", "any"], ...states], this.state, (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
+      choice("State", [["", "any"], ...states], this.state,
+        (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
       h("a", { class: "button main", href: "#/new" }, "New sweep"));
-    return [h("h1", {}, "Sweeps"), this.status, this.executors.element, tools, this.table, this.none, this.more, this.empty];
+    return [h("h1", {}, "Sweeps"), this.status, this.executors.element, tools, this.table, this.none, this.more,
+      this.empty];
   }
 
   changed() {
@@ -119,7 +126,8 @@ class SweepList {
       if (this.followedIds.size >= followed || this.followedIds.has(sweep.id)) continue;
       this.followedIds.add(sweep.id);
       follow(sweep.id, {
-        progress: (news) => this.update({ ...this.sweeps.find(({ id }) => id === sweep.id) ?? sweep, ...news, id: sweep.id }),
+        progress: (news) => this.update({ ...this.sweeps.find(({ id }) => id === sweep.id) ?? sweep, ...news,
+          id: sweep.id }),
         done: () => { this.followedIds.delete(sweep.id); this.refresh(); },
       }, this.signal);
     }
@@ -141,18 +149,21 @@ class SweepList {
     const shown = this.sweeps.filter((sweep) => this.matches(sweep));
     const actions = { cancel: cancelSweep, retry: retrySweep, delete: deleteSweep };
     const rows = shown.map((sweep) => {
-      const row = this.rows.get(sweep.id) ?? sweepRow((action) => this.act(actions[action], action, sweep.id), this.signal);
+      const row = this.rows.get(sweep.id) ?? sweepRow((action) => this.act(actions[action], action, sweep.id),
+        this.signal);
       this.rows.set(sweep.id, row);
       row.update(sweep);
       return row.element;
     });
     // Rows that stay are left in their places, with the keyboard's focus in them.
-    if (rows.length !== this.body.children.length || rows.some((row, i) => this.body.children[i] !== row)) this.body.replaceChildren(...rows);
+    if (rows.length !== this.body.children.length
+      || rows.some((row, i) => this.body.children[i] !== row)) this.body.replaceChildren(...rows);
     this.table.hidden = shown.length === 0;
     this.empty.hidden = shown.length > 0 || this.search !== "" || this.state !== "";
     this.none.hidden = shown.length > 0 || !this.empty.hidden;
     const busy = shown.filter(isUnderWay).length;
-    this.status.textContent = `${this.more.hidden ? "" : "The newest "}${plural(shown.length, "sweep")}, ${busy} under way`;
+    this.status.textContent = `${this.more.hidden ? "" : "The newest "}${plural(shown.length, "sweep")}, ${busy} `
+      + `under way`;
   }
 
   async act(run, action, id) {

@@ -9,13 +9,17 @@ import { showStudy } from "/study/study_view.js";
 import { WearView } from "/study/wear_view.js";
 
 // The paper's rigid linkage until its bearing has got 10 um wider at the deepest place.
-const example = { name: "Bearing wear", parameters: { duration_s: 3 }, wear_coefficient_m2_n: 1e-15, worn_clearance_mm: 0.26, max_depth_step_um: 2 };
+const example = { name: "Bearing wear", parameters: { duration_s: 3 }, wear_coefficient_m2_n: 1e-15,
+  worn_clearance_mm: 0.26, max_depth_step_um: 2 };
 
 /** @type {(study: Api.Listed<"/v1/wear-studies">) => string} */
-const untilOf = ({ hours, worn_clearance_mm: clearance }) => [hours === null ? "" : `${exact(hours)} h`, clearance === null ? "" : `${exact(clearance)} mm`].filter(Boolean).join(" or ");
+const untilOf = ({ hours, worn_clearance_mm: clearance }) => [hours === null ? "" : `${exact(hours)} h`,
+  clearance === null ? "" : `${exact(clearance)} mm`].filter(Boolean).join(" or ");
 
 const kind = {
-  api: wearStudies, route: "wear", title: "Wear", question: "Wear of the bearing's bore over time, cycle by cycle; each cycle simulates the worn bore.", listName: "Wear studies",
+  api: wearStudies, route: "wear", title: "Wear",
+  question: "Wear of the bearing's bore over time, cycle by cycle; each cycle simulates the worn bore.",
+  listName: "Wear studies",
   aim: { heading: "End", textOf: untilOf }, none: "No wear studies yet.", begin: "New wear study",
 };
 

@@ -3,7 +3,8 @@
 import { contextOf } from "/core/dom.js";
 import { colour } from "/core/theme.js";
 
-/// A copy of a canvas on the page's ground, below a caption. @param names  [{name, ink: a colour; the text's if left out}], set side by side
+/// A copy of a canvas on the page's ground, below a caption. @param names  [{name, ink: a colour; the text's if
+/// left out}], set side by side
 /** @param {HTMLCanvasElement} source  @param {{ name: string, ink?: string }[]} names */
 export function captioned(source, names) {
   const letters = 14 * devicePixelRatio;

@@ -12,7 +12,8 @@ export const titleOfLinkage = ({ name, joints }) => name ?? `Linkage of ${Object
 /// The channel that stands for the whole run: the first acceleration along a line, else the first one.
 /** @param {string[]} channels */
 export function mainAcceleration(channels) {
-  return channels.find((name) => name.endsWith("_m_s2")) ?? channels.find((name) => name.endsWith("_rad_s2")) ?? channels[0];
+  return channels.find((name) => name.endsWith("_m_s2")) ?? channels.find((name) => name.endsWith("_rad_s2"))
+    ?? channels[0];
 }
 
 /** @type {(channels: string[]) => string[]} */
@@ -21,7 +22,9 @@ export const driveChannels = (channels) => channels.filter((name) => /_drive_n(_
 /// The joints with clearance in a run: {name, prefix, clearance}. @param prefix  of their channels
 /** @param {Api.Job} job  @param {string[]} channels */
 export function clearanceJoints({ parameters }, channels) {
-  if (typeof parameters.linkage !== "object") return parameters.clearance_mm > 0 ? [{ name: "", prefix: "", clearance: parameters.clearance_mm }] : [];
+  if (typeof parameters.linkage !== "object") return parameters.clearance_mm > 0
+    ? [{ name: "", prefix: "", clearance: parameters.clearance_mm }] : [];
   return Object.entries(parameters.linkage.joints).filter(([name]) => channels.includes(`${name}_journal_x_mm`))
-    .map(([name, joint]) => ({ name, prefix: `${name}_`, clearance: joint.clearance?.clearance_mm ?? parameters.clearance_mm }));
+    .map(([name, joint]) =>
+      ({ name, prefix: `${name}_`, clearance: joint.clearance?.clearance_mm ?? parameters.clearance_mm }));
 }

@@ -9,9 +9,14 @@ import { labelsOf } from "/run/labels.js";
 export function metricsCard(jobs) {
   const names = Object.keys(jobs[0].metrics ?? {});
   const labels = labelsOf(jobs);
-  const head = h("tr", {}, h("th", { scope: "col" }, "Metric"), labels.map((_, index) => h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index])), h("th", { scope: "col" }, "Unit"));
-  return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"), h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
-    names.map((name) => h("tr", {}, h("td", defines("metrics", name), nameOf(name)), jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))), whyMissing(jobs));
+  const head = h("tr", {}, h("th", { scope: "col" }, "Metric"),
+    labels.map((_, index) => h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index])),
+    h("th", { scope: "col" }, "Unit"));
+  return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"),
+    h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
+    names.map((name) => h("tr", {}, h("td", defines("metrics", name), nameOf(name)),
+      jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))),
+      whyMissing(jobs));
 }
 
 /// A dash without a word would look like a fault.
@@ -19,27 +24,43 @@ export function metricsCard(jobs) {
 function whyMissing(jobs) {
   const early = jobs.filter(({ metrics, parameters }) => metrics && parameters.duration_s <= parameters.run_up_s);
   if (early.length === 0) return "";
-  const which = jobs.length === 1 ? `; this run ends at ${exact(early[0].parameters.duration_s)} s, at or before run_up_s (${exact(early[0].parameters.run_up_s)} s)` : "; some of these runs have ended by then";
+  const which = jobs.length === 1
+    ? `; this run ends at ${exact(early[0].parameters.duration_s)} s, at or before run_up_s `
+    + `(${exact(early[0].parameters.run_up_s)} s)` : "; some of these runs have ended by then";
   return h("p", { class: "quiet small" }, `Values of the steady part count from run_up_s on${which}.`);
 }
 
 /// Table of the energy losses by kind, with the energy residual.
 /** @param {Api.Job} job */
 export function lossesCard({ metrics }) {
-  const losses = ["friction_work_j", "impact_loss_j", "structural_loss_j"].map((name) => ({ name, value: metrics?.[name] }));
+  const losses = ["friction_work_j", "impact_loss_j",
+    "structural_loss_j"].map((name) => ({ name, value: metrics?.[name] }));
   const largest = Math.max(...losses.map(({ value }) => Math.abs(value ?? 0)), Number.MIN_VALUE);
-  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Losses over the whole run"), h("tbody", {}, losses.map(({ name, value }) => h("tr", {}, h("th", { scope: "row", ...defines("metrics", name) }, titleOf(name)),
-    h("td", {}, h("progress", { value: Math.abs(value ?? 0) / largest, "aria-label": nameOf(name) })), h("td", { class: "number" }, number(value)))))),
+  return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Losses over the whole run"),
+    h("tbody", {}, losses.map(({ name, value }) =>
+      h("tr", {}, h("th", { scope: "row", ...defines("metrics", name) }, titleOf(name)),
+    h("td", {}, h("progress", { value: Math.abs(value ?? 0) / largest, "aria-label": nameOf(name) })),
+    h("td", { class: "number" }, number(value)))))),
     h("p", { class: "small" }, `Energy residual: ${number(metrics?.energy_residual, 2)} of the work turned over.`));
+}
+
+/// Time, machine and program of a run.
+/** @param {NonNullable<Api.Job["run"]>} run */
+function provenanceOf({ program, libm, ...run }) {
+  return [`${span(run.wall_time_s)} on ${run.cpu}, ${run.host}`,
+    `version ${program.version} (${program.commit}), ${program.compiler}`, libm && `${libm}, ${run.numerics} numerics`,
+    run.reused && "reused from an earlier run"].filter(Boolean).join("; ");
 }
 
 /** @param {Api.Job} job  @param {any} schema */
 export function runCard(job, schema) {
   const defaults = (name) => JSON.stringify(schema.properties[name]?.default) === JSON.stringify(job.parameters[name]);
   const set = Object.entries(job.parameters).filter(([, value]) => typeof value !== "object");
-  const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)), h("td", { class: "number" }, exact(value)), h("td", {}, schema.properties[name]?.["x-unit"] ?? ""));
-  const facts = job.run ? `${span(job.run.wall_time_s)} on ${job.run.cpu}, ${job.run.host}; version ${job.run.program.version} (${job.run.program.commit}), ${job.run.program.compiler}${job.run.libm ? `; ${job.run.libm}, ${job.run.numerics} numerics` : ""}${job.run.reused ? "; reused from an earlier run" : ""}` : "not completed";
+  const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)), h("td", { class: "number" }, exact(value)),
+    h("td", {}, schema.properties[name]?.["x-unit"] ?? ""));
+  const facts = job.run ? provenanceOf(job.run) : "not completed";
   return h("section", { class: "card" }, h("h2", {}, "Parameters"), h("p", { class: "small quiet" }, `Run: ${facts}.`),
     h("table", {}, h("tbody", {}, set.filter(([name]) => !defaults(name)).map(row))),
-    h("details", {}, h("summary", {}, "Parameters at their defaults"), h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
+    h("details", {}, h("summary", {}, "Parameters at their defaults"),
+      h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
 }

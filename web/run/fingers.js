@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fingers on a plot: each holds the instant on which it was put down. One moves the stretch of time, two zoom it as well.
+// Fingers on a plot: each holds the instant on which it was put down. One moves the stretch of time, two zoom it as
+// well.
 
 const leastApart = 10;  // pixels between two fingers: nearer ones would zoom without end, crossed ones turn time round
 

@@ -9,7 +9,8 @@ const rigid = { coupler: "rigid", crank: "rigid", rod: "rigid", cross: "rigid" }
 /// Submits the run of the ideal linkage, which the store may have already. Resolves to the job, once it has succeeded.
 /** @param {Api.Job} job  @param {AbortSignal} signal */
 export async function idealOf(job, signal) {
-  let ideal = await submitJob({ ...job.parameters, clearance_mm: 0, axial_clearance_mm: 0, ...rigid, drive: "prescribed" });
+  let ideal = await submitJob({ ...job.parameters, clearance_mm: 0, axial_clearance_mm: 0, ...rigid,
+    drive: "prescribed" });
   while (ideal.state === "queued" || ideal.state === "running") {
     await new Promise((resolve) => { setTimeout(resolve, pollMs); });
     ideal = await findJob(ideal.id, signal);

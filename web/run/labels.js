@@ -6,7 +6,9 @@ import { pointOf } from "/core/format.js";
 /** @param {Api.Job[]} jobs */
 export function labelsOf(jobs) {
   const [first] = jobs;
-  const differing = Object.keys(first.parameters).filter((key) => typeof first.parameters[key] !== "object" && jobs.some((job) => job.parameters[key] !== first.parameters[key]));
+  const differing = Object.keys(first.parameters)
+    .filter((key) => typeof first.parameters[key] !== "object"
+      && jobs.some((job) => job.parameters[key] !== first.parameters[key]));
   const labels = jobs.map((job) => differing.map((key) => pointOf(key, job.parameters[key])).join(", "));
   const unique = new Set(labels).size === jobs.length;
   return labels.map((label, j) => (unique ? label : `${label} …${jobs[j].id.slice(-5)}`.trim()));

@@ -23,7 +23,8 @@ const quantities = ["journal_x_mm", "journal_y_mm", "contact_force_n"];
 export function orbit(job, { name, prefix, clearance }, times, signal) {
   const title = name ? `Journal orbit of ${name.replaceAll("_", " ")}` : "Journal orbit";
   const channels = ["t_s", ...quantities.map((quantity) => prefix + quantity)];
-  const columnsOf = async (more, current) => plain(await findTrajectory(job.id, { channels, ...more, points }, current), prefix);
+  const columnsOf = async (more, current) => plain(await findTrajectory(job.id, { channels, ...more, points }, current),
+    prefix);
   const canvas = h("canvas", { class: "orbit", role: "img", "aria-label": `${title} inside the clearance circle` });
   const bar = h("canvas", { class: "palette", width: 256, height: 1, "aria-hidden": "true" });
   const [low, high] = [h("span"), h("span")];
@@ -46,12 +47,14 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
     if (!shown || size === 0) return;
     const values = by === "time" ? shown.t_s : shown.contact_force_n;
     const [least, largest] = extremes(values);
-    painted = paintOrbit(size, shown, shown === whole ? null : whole, clearance, (i) => (largest > least ? (values[i] - least) / (largest - least) : 0));
+    painted = paintOrbit(size, shown, shown === whole ? null : whole, clearance,
+      (i) => (largest > least ? (values[i] - least) / (largest - least) : 0));
     drawScale(bar);
     const unit = by === "time" ? "s" : "N";
     low.textContent = `${number(least)} ${unit}`;
     high.textContent = `${number(largest)} ${unit}`;
-    caption.textContent = `Circle: clearance ${number(clearance)} mm. ${shown.t_s.length.toLocaleString("en")} samples${shown === whole ? "" : "; the rest of the run is pale"}. Ring: current instant.`;
+    caption.textContent = `Circle: clearance ${number(clearance)} mm. ${shown.t_s.length.toLocaleString("en")} `
+      + `samples${shown === whole ? "" : "; the rest of the run is pale"}. Ring: current instant.`;
     canvas.dataset.samples = shown.t_s.length;
     draw();
   }
@@ -70,7 +73,8 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
   /// Caption of a saved orbit.
   function words() {
     const [x, y, force] = channels.slice(1).map((channel) => titleOf(channel));
-    return [title, `${x} across, ${y} up`, `colour: ${by === "time" ? "time" : force}, ${low.textContent} to ${high.textContent}`,
+    return [title, `${x} across, ${y} up`, `colour: ${by === "time" ? "time" : force}, ${low.textContent} `
+      + `to ${high.textContent}`,
       `clearance ${number(clearance)} mm`, job.id].map((text) => ({ name: text }));
   }
 
@@ -82,16 +86,20 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
   sizes.observe(canvas);
   signal.addEventListener("abort", () => sizes.disconnect());
   tryLoad();
-  const picker = choice("Colour by", [["time", "time"], ["force", "contact force"]], by, (value) => { by = value; paint(); });
+  const picker = choice("Colour by", [["time", "time"], ["force", "contact force"]], by,
+    (value) => { by = value; paint(); });
   return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, title),
-    h("span", { class: "actions" }, picker, h("button", { onclick: () => painted && saveCanvas(captioned(canvas, words()), `${title}.png`) }, "PNG"))), canvas,
+    h("span", { class: "actions" }, picker,
+      h("button", { onclick: () => painted && saveCanvas(captioned(canvas, words()), `${title}.png`) }, "PNG"))),
+      canvas,
     h("p", { class: "scale small" }, low, bar, high), caption);
 }
 
 /// The columns by their names without the joint's.
 /** @param {Api.Columns} columns  @param {string} prefix */
 function plain(columns, prefix) {
-  return Object.fromEntries(Object.entries(columns).map(([name, values]) => [name.startsWith(prefix) ? name.slice(prefix.length) : name, values]));
+  return Object.fromEntries(Object.entries(columns)
+    .map(([name, values]) => [name.startsWith(prefix) ? name.slice(prefix.length) : name, values]));
 }
 
 function extremes(values) {

@@ -17,5 +17,6 @@ export async function overlayPicker(jobs, chosen, signal) {
   if (others.length === 0) return null;
   /** @type {(row: Api.Row) => string} */
   const textOf = (row) => axes.map((axis) => pointOf(axis, row[axis])).join(", ") || `…${row.job_id.slice(-5)}`;
-  return choice("Overlay job", [["", "choose …"], ...others.map((row) => [row.job_id, textOf(row)])], "", (job) => job && chosen(job));
+  return choice("Overlay job", [["", "choose …"], ...others.map((row) => [row.job_id, textOf(row)])], "",
+    (job) => job && chosen(job));
 }

@@ -16,8 +16,12 @@ const height = 64;
  * @param {AbortSignal} signal
  */
 export function overview(job, envelope, times, signal) {
-  const element = h("div", { class: "overview", role: "img", "aria-label": `${nameOf(envelope[0].replace("_min_", "_"))} of the whole run, with the stretch that the plots show. The sliders below set it too.` });
-  make(element, job, envelope, times, signal).catch((error) => { if (error.name !== "AbortError") element.textContent = error.message; });
+  const element = h("div",
+    { class: "overview", role: "img",
+      "aria-label": `${nameOf(envelope[0].replace("_min_", "_"))} of the whole run, with the stretch that the plots `
+        + `show. The sliders below set it too.` });
+  make(element, job, envelope, times, signal)
+    .catch((error) => { if (error.name !== "AbortError") element.textContent = error.message; });
   return element;
 }
 
@@ -55,7 +59,8 @@ function optionsOf(width, times) {
     width, height, legend: { show: false }, padding: [4, 8, 0, 8],
     scales: { x: { time: false, range: () => [0, times.end] } },
     series: [{}, line, line], bands: [{ series: [1, 2], fill: line.stroke }],
-    axes: [{ size: 22, stroke: colour("text"), font: "11px system-ui", grid: { show: false }, ticks: { show: false }, values: (_, values) => values.map((value) => `${value} s`) }, { show: false }],
+    axes: [{ size: 22, stroke: colour("text"), font: "11px system-ui", grid: { show: false }, ticks: { show: false },
+      values: (_, values) => values.map((value) => `${value} s`) }, { show: false }],
     cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: false, setScale: false } },
     hooks: { ready: [(plot) => mark(plot, times)], setSelect: [(plot) => {
       const { left, width: wide } = plot.select;
@@ -67,5 +72,6 @@ function optionsOf(width, times) {
 
 function mark(plot, times) {
   const left = plot.valToPos(times.from, "x");
-  plot.setSelect({ left, top: 0, width: plot.valToPos(times.to, "x") - left, height: plot.bbox.height / devicePixelRatio }, false);
+  plot.setSelect({ left, top: 0, width: plot.valToPos(times.to, "x") - left,
+    height: plot.bbox.height / devicePixelRatio }, false);
 }

@@ -26,16 +26,21 @@ const wholeRunOf = (key) => key.replace(unitOfAcceleration, "_whole_run_$1");
 function steadyText(metrics, key) {
   const at = metrics[key.replace(unitOfAcceleration, "_time_s")];
   const whole = metrics[wholeRunOf(key)];
-  return `${typeof at === "number" ? ` at ${number(at, 6)} s` : ""} from run_up_s on, ${number(whole, digits)} ${unitOf(key)} in the whole run`;
+  return `${typeof at === "number" ? ` at ${number(at, 6)} s` : ""} from run_up_s `
+    + `on, ${number(whole, digits)} ${unitOf(key)} in the whole run`;
 }
 
 /// The peaks of what a plot shows, for below it; empty if the metrics have none.
 /** @param {Api.Job[]} jobs  @param {string[]} channels */
 export function peakNote(jobs, channels) {
   const labels = labelsOf(jobs);
-  const nameFor = (channel, j) => [channels.length > 1 && nameOf(channel), jobs.length > 1 && labels[j]].filter(Boolean).join(", ");
-  const peaks = jobs.flatMap((job, j) => channels.map((channel) => [nameFor(channel, j), peakOf(job, channel)])).filter(([, peak]) => peak !== null);
+  const nameFor = (channel, j) => [channels.length > 1 && nameOf(channel), jobs.length > 1 && labels[j]].filter(Boolean)
+    .join(", ");
+  const peaks = jobs.flatMap((job, j) => channels.map((channel) => [nameFor(channel, j), peakOf(job, channel)]))
+    .filter(([, peak]) => peak !== null);
   if (peaks.length === 0) return "";
-  const rates = [...new Set(jobs.map((job) => job.parameters.output_rate_hz))].map((rate) => number(rate, 6)).join(" and ");
-  return `Peak magnitude: ${peaks.map((words) => words.join(" ").trim()).join("; ")}. Peaks include values between the samples, which the curve joins at ${rates} Hz.`;
+  const rates = [...new Set(jobs.map((job) => job.parameters.output_rate_hz))].map((rate) => number(rate, 6))
+    .join(" and ");
+  return `Peak magnitude: ${peaks.map((words) => words.join(" ").trim()).join("; ")}. Peaks include values between `
+    + `the samples, which the curve joins at ${rates} Hz.`;
 }

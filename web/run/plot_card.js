@@ -20,10 +20,14 @@ export function plotCard(title, { traces, times, height, signal, note = "", clos
   const [channel, ...others] = new Set(traces.map((trace) => trace.channel));
   /** @type {Awaited<ReturnType<typeof timePlot>> | null} */
   let made = null;
-  timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; }).catch((error) => { element.textContent = error.message; });
-  return h("section", { class: "card" }, h("div", { class: "head" }, h("h2", others.length === 0 ? defines("channels", channel) : {}, title),
-    h("span", { class: "actions" }, tools, h("button", { onclick: () => made && saveCanvas(made.canvas(), `${title}.png`) }, "PNG"),
-      close ? h("button", { onclick: close, "aria-label": `Remove ${title}` }, "✕") : null)), element, note && h("p", { class: "quiet small" }, note));
+  timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; })
+    .catch((error) => { element.textContent = error.message; });
+  return h("section", { class: "card" },
+    h("div", { class: "head" }, h("h2", others.length === 0 ? defines("channels", channel) : {}, title),
+    h("span", { class: "actions" }, tools,
+      h("button", { onclick: () => made && saveCanvas(made.canvas(), `${title}.png`) }, "PNG"),
+      close ? h("button", { onclick: close, "aria-label": `Remove ${title}` }, "✕") : null)), element, note && h("p",
+      { class: "quiet small" }, note));
 }
 
 /// Traces of some channels for each of the jobs. @param channels  names, or {channel, envelope}
@@ -38,6 +42,7 @@ export function tracesOf(jobs, channels) {
   return jobs.flatMap((job, j) => channels.map((each, c) => {
     const { channel, envelope = undefined } = typeof each === "string" ? { channel: each } : each;
     const name = channels.length > 1 || !several ? nameOf(channel) : "";
-    return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "), colour: () => lineColour(j * channels.length + c) };
+    return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "),
+      colour: () => lineColour(j * channels.length + c) };
   }));
 }

@@ -26,7 +26,8 @@ export function plotOptions(traces, times, width, height) {
     } },
     hooks: {
       setSelect: [(plot) => zoomToSelection(plot, times)],
-      setCursor: [(plot) => { if (plot.cursor.left >= 0 && plot.cursor.event) times.pointAt(plot.posToVal(plot.cursor.left, "x")); }],
+      setCursor: [(plot) =>
+        { if (plot.cursor.left >= 0 && plot.cursor.event) times.pointAt(plot.posToVal(plot.cursor.left, "x")); }],
     },
   };
 }
@@ -42,7 +43,8 @@ function zoomToSelection(plot, times) {
 /** @param {Trace} trace */
 function seriesOf(trace) {
   const unit = unitOf(trace.channel);
-  const common = { scale: unit || "1", stroke: trace.colour(), points: { show: false }, value: (_, value) => (value === null || value === undefined ? "–" : `${number(value)} ${unit}`) };
+  const common = { scale: unit || "1", stroke: trace.colour(), points: { show: false },
+    value: (_, value) => (value === null || value === undefined ? "–" : `${number(value)} ${unit}`) };
   return columnsOf(trace).map((column) => (column === trace.channel
     ? { ...common, label: trace.name, width: 1.3, dash: trace.dash }
     : { ...common, label: `${trace.name}, ${column === trace.envelope?.[0] ? "least" : "largest"}`, width: 0.7 }));
@@ -62,6 +64,7 @@ function bandsOf(traces) {
 function axis(scale, label, side) {
   const x = scale === "x";
   const grid = { stroke: isDark() ? "#ffffff18" : "#00000014", width: 1, show: side === 3 };
-  return { scale, label, side: x ? 2 : side, stroke: colour("text"), labelSize: 18, size: x ? 38 : 64, font: "12px system-ui", labelFont: "12px system-ui", grid, ticks: grid,
+  return { scale, label, side: x ? 2 : side, stroke: colour("text"), labelSize: 18, size: x ? 38 : 64,
+    font: "12px system-ui", labelFont: "12px system-ui", grid, ticks: grid,
     values: (_, values) => values.map((value) => (value === null ? "" : number(value, 6))) };
 }

@@ -28,7 +28,8 @@ export function standingCard() {
     });
   }
 
-  return { element: h("section", { class: "card", "aria-label": "State" }, h("h2", {}, "Progress"), h("table", {}, body)), draw };
+  return { element: h("section", { class: "card", "aria-label": "State" }, h("h2", {}, "Progress"),
+    h("table", {}, body)), draw };
 }
 
 /// [what, how it is] of a job; why it failed stands above it.
@@ -36,7 +37,8 @@ export function standingCard() {
 export function standingRows(job, sweep, now) {
   const { state, error, created_at: created, started_at: started, ended_at: ended, attempts } = job;
   return [["State", state],
-    typeof error?.t_s === "number" && ["Simulated time", `${number(error.t_s)} s of ${number(job.parameters.duration_s)} s`],
+    typeof error?.t_s === "number"
+      && ["Simulated time", `${number(error.t_s)} s of ${number(job.parameters.duration_s)} s`],
     ["Submitted", moment(created)],
     started && ["Started", moment(started)],
     started && ["Computing time", span(Math.max(0, seconds(started, ended ?? now)))],

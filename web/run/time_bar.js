@@ -5,7 +5,8 @@ import { number } from "/core/format.js";
 import { overview } from "/run/overview.js";
 
 const aroundPeak = 0.02;
-const help = "Plots: drag or turn the wheel to zoom, Shift + drag to pan, double-click for the whole run; touch screen: two fingers "
+const help = "Plots: drag or turn the wheel to zoom, Shift + drag to pan, double-click for the whole run; touch "
+  + "screen: two fingers "
   + "zoom, one pans; keys: ← → + − 0. Strip: drag to choose the time window.";
 
 /// @param job       with parameters and metrics; the buttons lead to its steady window and its peak
@@ -18,7 +19,8 @@ const help = "Plots: drag or turn the wheel to zoom, Shift + drag to pan, double
  */
 export function timeBar(times, job, envelope, signal) {
   const slider = (label, moved) => {
-    const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide", "aria-label": label,
+    const input = h("input", { type: "range", min: 0, max: times.end, step: times.end / 10000, class: "wide",
+      "aria-label": label,
       oninput: () => moved(Number(input.value)) });
     return input;
   };
@@ -38,8 +40,10 @@ export function timeBar(times, job, envelope, signal) {
   return h("section", { class: "card tight", "aria-label": "Time" },
     h("p", { class: "actions" }, h("strong", {}, "Time"), jump("Whole run", () => times.reset()),
       runUp < times.end ? jump("Steady window", () => times.set(runUp, times.end)) : null,
-      typeof peak === "number" ? jump("Peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null, text),  // last: its length changes
+      // last: its length changes
+      typeof peak === "number" ? jump("Peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null, text),
     overview(job, envelope, times, signal),
-    h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from), h("label", { class: "small quiet" }, "to", to)),
+    h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from),
+      h("label", { class: "small quiet" }, "to", to)),
     h("p", { class: "quiet small" }, help));
 }

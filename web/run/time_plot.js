@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so no spike is lost.
+// Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so
+// no spike is lost.
 import { h, laidOut } from "/core/dom.js";
 import { latest, persist, seldom, settled } from "/core/live.js";
 import { onColours } from "/core/theme.js";
@@ -31,7 +32,8 @@ export async function timePlot(element, { traces, times, height, label, signal }
   let isSeen = true;
   const now = h("div", { class: "now", hidden: true });
   const place = h("div");
-  const trouble = h("p", { class: "trouble", role: "status" });  // in the page before it says something, or it would not be read out
+  // in the page before it says something, or it would not be read out
+  const trouble = h("p", { class: "trouble", role: "status" });
   element.append(place, trouble);
   const tell = (text) => { trouble.textContent = text; };
 
@@ -75,11 +77,13 @@ export async function timePlot(element, { traces, times, height, label, signal }
   const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });
   sizes.observe(element);
   // Plots out of sight are not drawn until they come into sight: a page has many, and all move at every frame.
-  const sight = new IntersectionObserver((entries) => { isSeen = entries[entries.length - 1].isIntersecting; follow(); });
+  const sight = new IntersectionObserver((entries) =>
+    { isSeen = entries[entries.length - 1].isIntersecting; follow(); });
   sight.observe(element);
   signal.addEventListener("abort", () => { sizes.disconnect(); sight.disconnect(); plot?.destroy(); });
   element.setAttribute("role", "group");
-  element.setAttribute("aria-label", `${label}, over time. Arrow keys move, plus and minus zoom, 0 shows the whole run.`);
+  element.setAttribute(
+    "aria-label", `${label}, over time. Arrow keys move, plus and minus zoom, 0 shows the whole run.`);
   listenToKeys(element, times);
   await tryLoad();
   return { plot: () => plot, canvas: () => paint(plot, label, traces) };

@@ -48,7 +48,8 @@ export class TimeWindow extends EventTarget {
 }
 
 const keys = {
-  ArrowLeft: (times) => times.pan(-0.2), ArrowRight: (times) => times.pan(0.2), "+": (times) => times.zoom(0.5), "-": (times) => times.zoom(2), 0: (times) => times.reset(),
+  ArrowLeft: (times) => times.pan(-0.2), ArrowRight: (times) => times.pan(0.2), "+": (times) => times.zoom(0.5),
+  "-": (times) => times.zoom(2), 0: (times) => times.reset(),
 };
 
 /// Makes keys move the window while an element has the focus: arrows, + and -, 0 for the whole run.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A described linkage as three.js sees it: bars between the places where joints sit on a body, a mark for each joint, tubes for beams.
+// A described linkage as three.js sees it: bars between the places where joints sit on a body, a mark for each
+// joint, tubes for beams.
 const colours = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
 const kindsWithAxis = new Set(["revolute", "cylindrical", "screw"]);
 const degree = Math.PI / 180;
@@ -16,7 +17,8 @@ export function bodyColours({ bodies, springs }) {
 /// The places on each body's frame that something sits at, its origin first. "ground" is a body, too.
 /** @param {Api.DescribedLinkage} linkage */
 function placesOn({ bodies, joints, springs = {} }) {
-  const places = Object.fromEntries(["ground", ...Object.keys(bodies)].map((name) => [name, name === "ground" ? [] : [[0, 0, 0]]]));
+  const places = Object.fromEntries(
+    ["ground", ...Object.keys(bodies)].map((name) => [name, name === "ground" ? [] : [[0, 0, 0]]]));
   for (const joint of Object.values(joints)) {
     places[joint.from].push(joint.at_m ?? [0, 0, 0]);
     if (joint.closes_loop) places[joint.to].push(joint.to_at_m ?? [0, 0, 0]);
@@ -52,7 +54,8 @@ export class DescribedLinkage {
     const places = placesOn(linkage);
     const grey = new THREE.MeshStandardMaterial({ color: "#7a8590" });
     Object.entries(linkage.bodies).forEach(([name, body], index) => {
-      const material = new THREE.MeshStandardMaterial({ color: colours[index % colours.length], roughness: 0.55, metalness: 0.1 });
+      const material = new THREE.MeshStandardMaterial({ color: colours[index % colours.length], roughness: 0.55,
+        metalness: 0.1 });
       if (body.beam) this.addBeam(name, body.beam, links, material);
       else this.addBody(name, places[name], material);
     });
@@ -70,7 +73,8 @@ export class DescribedLinkage {
   }
 
   addBeam(name, beam, links, material) {
-    const elements = links.filter((link) => link.startsWith(`${name}_`) && /^\d+$/.test(link.slice(name.length + 1))).sort((a, b) => Number(a.split("_").at(-1)) - Number(b.split("_").at(-1)));
+    const elements = links.filter((link) => link.startsWith(`${name}_`) && /^\d+$/.test(link.slice(name.length + 1)))
+      .sort((a, b) => Number(a.split("_").at(-1)) - Number(b.split("_").at(-1)));
     const tube = new this.THREE.Mesh(new this.THREE.BufferGeometry(), material);
     this.beams.set(name, { elements, end: beam.length_m / (elements.length - 1) / 2, tube });
     this.group.add(tube);
@@ -91,10 +95,12 @@ export class DescribedLinkage {
   addJoint({ kind, from, at_m: at = [0, 0, 0], turned_deg: turned = [0, 0, 0], axis = "z" }, { bodies }, material) {
     const { THREE, radius } = this;
     const pin = () => new THREE.CylinderGeometry(1.6 * radius, 1.6 * radius, 5 * radius, 24).rotateX(Math.PI / 2);
-    const geometry = kind === "prismatic" ? new THREE.BoxGeometry(3 * radius, 3 * radius, 6 * radius) : kindsWithAxis.has(kind) ? pin() : new THREE.SphereGeometry(1.8 * radius, 24, 12);
+    const geometry = kind === "prismatic" ? new THREE.BoxGeometry(3 * radius, 3 * radius, 6 * radius)
+      : kindsWithAxis.has(kind) ? pin() : new THREE.SphereGeometry(1.8 * radius, 24, 12);
     const mark = new THREE.Mesh(geometry, material);
     const along = { x: new THREE.Vector3(1, 0, 0), y: new THREE.Vector3(0, 1, 0), z: new THREE.Vector3(0, 0, 1) }[axis];
-    const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(turned[0] * degree, turned[1] * degree, turned[2] * degree, "ZYX"));
+    const turn = new THREE.Quaternion()
+      .setFromEuler(new THREE.Euler(turned[0] * degree, turned[1] * degree, turned[2] * degree, "ZYX"));
     mark.position.fromArray(at);
     mark.quaternion.copy(turn).multiply(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), along));
     if (from === "ground") this.group.add(mark);
@@ -106,7 +112,8 @@ export class DescribedLinkage {
     const line = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: springColour }));
     line.frustumCulled = false;
     this.group.add(line);
-    return { line, ends: [[from, at], [to, toAt]].map(([name, point]) => ({ name, point, length: bodies[name]?.beam?.length_m })) };
+    return { line, ends: [[from, at],
+      [to, toAt]].map(([name, point]) => ({ name, point, length: bodies[name]?.beam?.length_m })) };
   }
 
   /// A zigzag from end to end.

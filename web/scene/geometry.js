@@ -19,7 +19,8 @@ export function rodEnds({ rod_length_m: length, rod_start_m: start = length, rod
 /// The slider of an S joint that the coupler cannot join to the guide is taken to be beside the joint.
 /** @param {Api.Parameters} parameters  @returns {number[][]} */
 export function placesOf(parameters) {
-  const { coupler_length_m: length, crank_length_m: crank, cross_length_mm: cross = 0, yoke_axis: yoke = "across" } = parameters;
+  const { coupler_length_m: length, crank_length_m: crank, cross_length_mm: cross = 0, yoke_axis: yoke = "across" } =
+    parameters;
   const { point, direction: [c, , s] } = guideOf(parameters);
   const arm = cross / 1000;
   /** @type {(ball: number[]) => number[]} */

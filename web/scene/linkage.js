@@ -2,7 +2,8 @@
 // The linkage as three.js sees it: made once from the parameters, then moved from instant to instant.
 import { bushAlongZ, glassBox, measuresOf, rodAlongX, rodAlongZ } from "/scene/shapes.js";
 
-export const linkColours = [["crank (1,1)", "#0072b2"], ["sliding rod (1,2)", "#56b4e9"], ["coupler (1,3) with bearing", "#e69f00"], ["slider (2,1)", "#009e73"],
+export const linkColours = [["crank (1,1)", "#0072b2"], ["sliding rod (1,2)", "#56b4e9"],
+  ["coupler (1,3) with bearing", "#e69f00"], ["slider (2,1)", "#009e73"],
   ["cross link (2,2) with journal", "#d55e00"]];
 const tubePoints = 40;
 const bushWall = 0.6;  // of the bearing's radius
@@ -14,7 +15,9 @@ export class Linkage {
     this.THREE = THREE;
     this.measures = measuresOf(parameters);
     this.group = new THREE.Group();
-    const [crank, rod, coupler, slider, cross] = linkColours.map(([, colour]) => new THREE.MeshStandardMaterial({ color: colour, roughness: 0.55, metalness: 0.1 }));
+    const [crank, rod, coupler, slider, cross] =
+      linkColours.map(([, colour]) =>
+        new THREE.MeshStandardMaterial({ color: colour, roughness: 0.55, metalness: 0.1 }));
     const { measures } = this;
     seeThrough(slider, 0.25);
     if (measures.isBallInCrank) seeThrough(crank, 0.4);
@@ -22,19 +25,23 @@ export class Linkage {
     this.tubes = {};
     const add = (link, measure, material, rigid) => {
       const elements = elementsOf(link, links);
-      if (elements.length > 1) this.tubes[link] = { elements, ...measure, mesh: new THREE.Mesh(new THREE.BufferGeometry(), material) };
+      if (elements.length > 1) this.tubes[link] = { elements, ...measure,
+        mesh: new THREE.Mesh(new THREE.BufferGeometry(), material) };
       else this.bodies[link] = rigid();
     };
     add("1_1", measures.crank, crank, () => rodAlongX(THREE, measures.crank, crank));
     add("1_2", measures.rod, rod, () => rodAlongX(THREE, measures.rod, rod));
     add("2_2", measures.cross, cross, () => rodAlongZ(THREE, measures.cross, cross, measures.arm / 2));
     this.couplerMaterial = coupler;
-    this.coupler = { elements: elementsOf("1_3", links), ...measures.coupler, mesh: new THREE.Mesh(new THREE.BufferGeometry(), coupler) };
+    this.coupler = { elements: elementsOf("1_3", links), ...measures.coupler,
+      mesh: new THREE.Mesh(new THREE.BufferGeometry(), coupler) };
     this.ball = new THREE.Mesh(new THREE.SphereGeometry(1.6 * measures.coupler.radius, 32, 16), coupler);
     this.bush = new THREE.Group();
-    const pivot = rodAlongZ(THREE, { length: 5 * measures.crank.radius, radius: 0.8 * measures.crank.radius }, new THREE.MeshStandardMaterial({ color: "#7a8590" }));
+    const pivot = rodAlongZ(THREE, { length: 5 * measures.crank.radius, radius: 0.8 * measures.crank.radius },
+      new THREE.MeshStandardMaterial({ color: "#7a8590" }));
     const guide = this.#makeGuide(pivot.material);
-    this.group.add(...Object.values(this.bodies), ...Object.values(this.tubes).map(({ mesh }) => mesh), this.coupler.mesh, this.ball, this.bush, pivot, guide);
+    this.group.add(...Object.values(this.bodies), ...Object.values(this.tubes).map(({ mesh }) => mesh),
+      this.coupler.mesh, this.ball, this.bush, pivot, guide);
     this.drawBush(1);
   }
 
@@ -74,7 +81,8 @@ export class Linkage {
     const chord = points.at(-1).clone().sub(points[0]);
     const endOff = gap.add(journalOff);
     const drawn = exaggerate(points, chord, bend);
-    drawn.forEach((point, k) => point.add(ballOff.clone().lerp(endOff, points[k].clone().sub(points[0]).dot(chord) / chord.lengthSq())));
+    drawn.forEach((point, k) =>
+      point.add(ballOff.clone().lerp(endOff, points[k].clone().sub(points[0]).dot(chord) / chord.lengthSq())));
     setFrame(this.bush, frames[this.coupler.elements.at(-1)]);
     this.bush.position.copy(drawn.at(-1));
     endBefore(drawn, this.bushReach);
@@ -82,7 +90,8 @@ export class Linkage {
     this.ball.position.copy(drawn[0]);
   }
 
-  /// Draws a link that is held at its root, bent from the line on which it would lie unbent. @param off  where its root is drawn, from where it is
+  /// Draws a link that is held at its root, bent from the line on which it would lie unbent. @param off  where its
+  /// root is drawn, from where it is
   /// @returns the same of its end
   #placeArm(link, frames, bend, off = new this.THREE.Vector3()) {
     const { THREE, tubes: { [link]: tube }, bodies: { [link]: body } } = this;
@@ -92,7 +101,8 @@ export class Linkage {
       return off;
     }
     const points = this.#axisOf(tube, frames);
-    const unbent = new THREE.Vector3(1, 0, 0).applyQuaternion(new THREE.Quaternion(...frames[tube.elements[0]].slice(3)));
+    const unbent = new THREE.Vector3(1, 0, 0)
+      .applyQuaternion(new THREE.Quaternion(...frames[tube.elements[0]].slice(3)));
     const drawn = exaggerate(points, unbent, bend).map((point) => point.add(off));
     this.#drawTube(tube, drawn);
     return drawn.at(-1).clone().sub(points.at(-1));
@@ -113,7 +123,8 @@ export class Linkage {
     return new THREE.Vector3(0, 0, arm).applyQuaternion(new THREE.Quaternion(...turn)).add(new THREE.Vector3(x, y, z));
   }
 
-  /// A link's axis: the origins of its elements, and its end. The first and the last element have half the others' length.
+  /// A link's axis: the origins of its elements, and its end. The first and the last element have half the others'
+  /// length.
   #axisOf({ elements, length }, frames) {
     const { THREE } = this;
     const origins = elements.map((link) => new THREE.Vector3(...frames[link]));

@@ -21,7 +21,8 @@ export class Player extends EventTarget {
 
   /// Seconds of the run in a second of the clock, at this instant.
   speedAt(instant, step) {
-    const near = this.slow && this.impacts.some((impact) => impact > instant - around && impact < instant + step + around);
+    const near = this.slow && this.impacts.some((impact) => impact > instant - around && impact < instant + step
+      + around);
     return near ? this.speed / slowdown : this.speed;
   }
 
@@ -49,10 +50,13 @@ export class Player extends EventTarget {
   }
 }
 
-/// The instants of the hard impacts of a run: where the acceleration spreads inside one sample more than this part of its widest spread.
+/// The instants of the hard impacts of a run: where the acceleration spreads inside one sample more than this part
+/// of its widest spread.
 /** @param {Api.Columns} columns */
-export function impactsOf({ t_s: times, slider_acceleration_min_m_s2: least, slider_acceleration_max_m_s2: largest }, part = 0.25) {
+export function impactsOf({ t_s: times, slider_acceleration_min_m_s2: least, slider_acceleration_max_m_s2: largest },
+  part = 0.25) {
   const spread = times.map((_, i) => largest[i] - least[i]);
   const widest = spread.reduce((most, value) => Math.max(most, value), 0);
-  return times.filter((_, i) => widest > 0 && spread[i] >= part * widest && spread[i] >= (spread[i - 1] ?? 0) && spread[i] >= (spread[i + 1] ?? 0));
+  return times.filter((_, i) => widest > 0 && spread[i] >= part * widest && spread[i] >= (spread[i - 1] ?? 0)
+    && spread[i] >= (spread[i + 1] ?? 0));
 }

@@ -33,7 +33,8 @@ export class Poses {
     return Math.min(end, Math.max(2 * speed, leastSamples / rate));
   }
 
-  /// The frames at an instant, as {link: [x, y, z, qx, qy, qz, qw]}; null until they have come. What follows next is fetched ahead.
+  /// The frames at an instant, as {link: [x, y, z, qx, qy, qz, qw]}; null until they have come. What follows next
+  /// is fetched ahead.
   at(instant, speed) {
     const length = this.#lengthAt(speed);
     const last = Math.max(0, Math.ceil(this.job.parameters.duration_s / length) - 1);
@@ -60,7 +61,8 @@ export class Poses {
     try {
       // A sample more on either side: between two stretches there is no gap.
       const range = { from: Math.max(0, from - 1 / rate), to: Math.min(end, to + 1 / rate) };
-      stretch.columns = await findTrajectory(this.job.id, { channels: ["t_s", ...this.channels], ...range, points }, this.signal);
+      stretch.columns = await findTrajectory(this.job.id, { channels: ["t_s", ...this.channels], ...range, points },
+        this.signal);
       this.loaded(null);
     } catch (error) {
       this.#stretches.delete(key);
@@ -104,5 +106,6 @@ function mix(a, b, part) {
 /// The links of a run by the names of its channels, in their order.
 /** @param {string[]} channels */
 export function linksOf(channels) {
-  return channels.filter((name) => name.startsWith("pose_") && name.endsWith("_qw")).map((name) => name.slice("pose_".length, -"_qw".length)).sort();
+  return channels.filter((name) => name.startsWith("pose_") && name.endsWith("_qw"))
+    .map((name) => name.slice("pose_".length, -"_qw".length)).sort();
 }

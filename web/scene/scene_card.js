@@ -26,12 +26,16 @@ export function sceneCard(job, links, times, signal) {
   const hasClearance = !described && job.parameters.clearance_mm > 0;
   const isFlexible = ["coupler", "crank", "rod", "cross"].some((link) => job.parameters[link] === "flexible");
   const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1 };
-  const canvas = h("canvas", { class: "scene", role: "img", tabindex: 0, "aria-label": "The linkage in three dimensions. Drag to turn it, wheel to come closer, arrow keys to move." });
+  const canvas = h("canvas",
+    { class: "scene", role: "img", tabindex: 0,
+      "aria-label": "The linkage in three dimensions. Drag to turn it, wheel to come closer, arrow keys to move." });
   const status = h("p", { class: "quiet small" });
   const instant = h("output", { class: "small" });
   const player = new Player(times, signal);
   const play = h("button", { class: "main", onclick: () => player.toggle() }, "Play");
-  const scrub = h("input", { type: "range", step: "any", class: "wide", "aria-label": "Instant [s]", oninput: () => times.pointAt(Number(scrub.value)) });
+  const scrub = h("input",
+    { type: "range", step: "any", class: "wide", "aria-label": "Instant [s]",
+      oninput: () => times.pointAt(Number(scrub.value)) });
   let draw = () => {};
 
   function showInstant() {
@@ -44,10 +48,12 @@ export function sceneCard(job, links, times, signal) {
     const libraries = await loadThree();
     if (signal.aborted) return;
     const { parameters } = job;
-    const linkage = described ? new DescribedLinkage(libraries.THREE, described, links) : new Linkage(libraries.THREE, parameters, links);
+    const linkage = described ? new DescribedLinkage(libraries.THREE, described, links)
+      : new Linkage(libraries.THREE, parameters, links);
     const stage = new Stage(libraries, canvas, shownOf(parameters), signal);
     stage.scene.add(linkage.group);
-    const poses = new Poses(job, links, (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
+    const poses = new Poses(job, links, (error) => { status.textContent = error ? error.message : ""; draw(); },
+      signal);
     draw = () => {
       const frames = poses.at(times.instant, player.speed);
       if (!frames) return;
@@ -56,14 +62,16 @@ export function sceneCard(job, links, times, signal) {
       stage.request();
     };
     views.addEventListener("change", () => {
-      if (linkage instanceof Linkage && part("select", views).value === "joint") stage.follow(linkage.joint, 0.14 * stage.reach, linkage.jointAxis);
-      else stage.lookAtAll();
+      if (linkage instanceof Linkage && part("select", views).value === "joint") {
+        stage.follow(linkage.joint, 0.14 * stage.reach, linkage.jointAxis);
+      } else stage.lookAtAll();
     });
     draw();
   }
 
   const views = choice("View", [["all", "whole linkage"], ["joint", "joint"]], "all", () => {});
-  const enlarge = (label, key, to = factors) => choice(label, to.map((factor) => [String(factor), `× ${factor}`]), String(drawn[key]), (value) => { drawn[key] = Number(value); draw(); });
+  const enlarge = (label, key, to = factors) => choice(label, to.map((factor) => [String(factor), `× ${factor}`]),
+    String(drawn[key]), (value) => { drawn[key] = Number(value); draw(); });
   const slow = h("input", { type: "checkbox", onchange: () => { player.slow = slow.checked; } });
   slow.checked = player.slow;
   player.addEventListener("change", () => { play.textContent = player.playing ? "Pause" : "Play"; });
@@ -71,16 +79,22 @@ export function sceneCard(job, links, times, signal) {
   times.addEventListener("change", showInstant, { signal });
   showInstant();
   start().catch((error) => { status.textContent = `The linkage cannot be drawn: ${error.message}`; });
-  if (hasClearance) findTrajectory(job.id, { channels: ["t_s", "slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"], points: impactPoints }, signal).then((columns) => { player.impacts = impactsOf(columns); }).catch(() => {});
+  if (hasClearance) findTrajectory(job.id,
+    { channels: ["t_s", "slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"], points: impactPoints },
+    signal).then((columns) => { player.impacts = impactsOf(columns); }).catch(() => {});
 
   return h("section", { class: "card", "aria-label": "Linkage" },
-    h("div", { class: "head" }, h("h2", {}, "3-D view"), h("button", { onclick: () => saveCanvas(canvas, "linkage.png") }, "PNG")),
+    h("div", { class: "head" }, h("h2", {}, "3-D view"),
+      h("button", { onclick: () => saveCanvas(canvas, "linkage.png") }, "PNG")),
     canvas,
     h("p", { class: "actions" }, play, scrub, instant),
-    h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]), String(player.speed), (value) => { player.speed = Number(value); draw(); }), described ? null : views,
-      hasClearance ? enlarge("Clearance scale", "clearance") : null, isFlexible ? enlarge("Deflection scale", "bend", bendFactors) : null,
+    h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]),
+      String(player.speed), (value) => { player.speed = Number(value); draw(); }), described ? null : views,
+      hasClearance ? enlarge("Clearance scale", "clearance") : null,
+      isFlexible ? enlarge("Deflection scale", "bend", bendFactors) : null,
       hasClearance ? h("label", { class: "small" }, slow, " slow motion at impacts") : null),
-    h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours).map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
+    h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours)
+      .map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
 }
 
 /// Size, upward direction and points of a linkage, for the stage.

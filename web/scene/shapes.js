@@ -16,7 +16,8 @@ export function measuresOf(parameters) {
     rod: { length: parameters.rod_length_m, radius: rodRadius(links["1,2"]) },
     coupler: { length: parameters.coupler_length_m, radius: parameters.coupler_diameter_mm / 2000 },
     slider: boxOf(links["2,1"]),
-    cross: { length: parameters.cross_length_mm / 1000 || lengthOf(links["2,2"]), radius: (parameters.bearing_radius_mm - parameters.clearance_mm) / 1000 },
+    cross: { length: parameters.cross_length_mm / 1000 || lengthOf(links["2,2"]),
+      radius: (parameters.bearing_radius_mm - parameters.clearance_mm) / 1000 },
     arm: parameters.cross_length_mm / 1000,
     bearing: { length: parameters.bearing_length_mm / 1000 },
     clearance: parameters.clearance_mm / 1000,
@@ -40,18 +41,21 @@ function lengthOf({ mass_kg: mass, inertia_kg_m2: [x, , z] }) {
 
 /// A round rod along x, from 0 to its length.
 export function rodAlongX(THREE, { length, radius }, material) {
-  const geometry = new THREE.CylinderGeometry(radius, radius, length, 32).rotateZ(-Math.PI / 2).translate(length / 2, 0, 0);
+  const geometry = new THREE.CylinderGeometry(radius, radius, length, 32).rotateZ(-Math.PI / 2)
+    .translate(length / 2, 0, 0);
   return new THREE.Mesh(geometry, material);
 }
 
 /// A round rod along z. @param middle  where it has its middle
 export function rodAlongZ(THREE, { length, radius }, material, middle = 0) {
-  return new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, length, 48).rotateX(Math.PI / 2).translate(0, 0, middle), material);
+  return new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, length, 48).rotateX(Math.PI / 2)
+    .translate(0, 0, middle), material);
 }
 
 /// A bush along z about the middle.
 export function bushAlongZ(THREE, { inner, outer, length }, material) {
-  const profile = [[inner, -1], [outer, -1], [outer, 1], [inner, 1], [inner, -1]].map(([radius, side]) => new THREE.Vector2(radius, (side * length) / 2));
+  const profile = [[inner, -1], [outer, -1], [outer, 1], [inner, 1],
+    [inner, -1]].map(([radius, side]) => new THREE.Vector2(radius, (side * length) / 2));
   return new THREE.Mesh(new THREE.LatheGeometry(profile, 64).rotateX(Math.PI / 2), material);
 }
 
@@ -59,6 +63,7 @@ export function bushAlongZ(THREE, { inner, outer, length }, material) {
 export function glassBox(THREE, sides, material) {
   const geometry = new THREE.BoxGeometry(...sides);
   const box = new THREE.Mesh(geometry, material);
-  box.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry), new THREE.LineBasicMaterial({ color: material.color })));
+  box.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry),
+    new THREE.LineBasicMaterial({ color: material.color })));
   return box;
 }

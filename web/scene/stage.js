@@ -7,7 +7,8 @@ const usualAspect = 1.25;
 const margin = 1.12;
 
 export class Stage {
-  /// @param shown  {reach, up, places}: size of the linkage [m], unit vector that is up, and places that the first look shows; null: unknown
+  /// @param shown  {reach, up, places}: size of the linkage [m], unit vector that is up, and places that the first
+  /// look shows; null: unknown
   /**
    * @param {Awaited<ReturnType<typeof import("/scene/three.js").loadThree>>} libraries
    * @param {HTMLCanvasElement} canvas
@@ -36,7 +37,8 @@ export class Stage {
     onColours(() => { this.drawGround(); this.request(); }, signal);
     const sizes = new ResizeObserver(() => this.fit());
     sizes.observe(canvas);
-    signal.addEventListener("abort", () => { sizes.disconnect(); this.controls.dispose(); this.renderer.dispose(); this.ended = true; });
+    signal.addEventListener("abort",
+      () => { sizes.disconnect(); this.controls.dispose(); this.renderer.dispose(); this.ended = true; });
     this.fit();
     this.lookAtAll();
   }
@@ -44,7 +46,8 @@ export class Stage {
   /// A vector by its parts to the right, up, and to the front.
   #seen(right, up, front) {
     const { viewer } = this;
-    return new this.THREE.Vector3().addScaledVector(viewer.right, right).addScaledVector(viewer.up, up).addScaledVector(viewer.front, front);
+    return new this.THREE.Vector3().addScaledVector(viewer.right, right).addScaledVector(viewer.up, up)
+      .addScaledVector(viewer.front, front);
   }
 
   drawGround() {
@@ -81,7 +84,8 @@ export class Stage {
     const slope = Math.tan((camera.fov * Math.PI) / 360);
     const distances = places.map((place) => {
       const from = place.clone().sub(middle);
-      return from.dot(back) + margin * Math.max(Math.abs(from.dot(above)), Math.abs(from.dot(aside)) / camera.aspect) / slope;
+      return from.dot(back)
+        + margin * Math.max(Math.abs(from.dot(above)), Math.abs(from.dot(aside)) / camera.aspect) / slope;
     });
     this.controls.target.copy(middle);
     camera.position.copy(middle).addScaledVector(back, Math.max(...distances));
@@ -97,7 +101,8 @@ export class Stage {
     const above = along.clone().cross(aside);
     this.followed = point;
     this.controls.target.copy(point);
-    this.camera.position.copy(point).add(along.addScaledVector(aside, 0.35).addScaledVector(above, 0.35).setLength(distance));
+    this.camera.position.copy(point)
+      .add(along.addScaledVector(aside, 0.35).addScaledVector(above, 0.35).setLength(distance));
     this.controls.update();
     this.request();
   }

@@ -9,7 +9,8 @@ export function loadThree() {
     .then(([THREE, { OrbitControls }]) => ({ THREE, OrbitControls }))
     .catch(() => {
       library = null;
-      throw new Error("The 3-D view could not be loaded: the program was built without the npm packages of web/, or is another one since this page was loaded. Load the page again.");
+      throw new Error("The 3-D view could not be loaded: the program was built without the npm packages of web/, or "
+        + "is another one since this page was loaded. Load the page again.");
     });
   return library;
 }

@@ -4,7 +4,8 @@
 const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const usual = axes.y;
 
-/// The unit vector against gravity; y without gravity. Of a described linkage its own gravity counts, if it has one, else y is up.
+/// The unit vector against gravity; y without gravity. Of a described linkage its own gravity counts, if it has
+/// one, else y is up.
 /// Jobs of older programs have gravity along -y.
 /** @param {Api.Parameters} parameters */
 export function upOf({ linkage, gravity_m_s2: gravity, gravity_direction: direction = "-y" }) {

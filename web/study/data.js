@@ -7,7 +7,8 @@ const notMetrics = new Set(["job_id", "state", "replicate", "replicates"]);
 /** @param {Api.Row[]} rows  @param {string[]} axes */
 export function metricsOf(rows, axes) {
   const columns = new Set(rows.flatMap((row, index) => (index < 50 ? Object.keys(row) : [])));
-  return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_") && !axes.includes(column));
+  return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_")
+    && !axes.includes(column));
 }
 
 /// Sign for a missing value.
@@ -37,7 +38,8 @@ export function valueOf(row, axis) {
 }
 
 /// Mean and extremes of a metric over each set of rows that agree in the keys.
-/// @returns  a list of {values, jobs, count, mean, min, max}; rows without the metric count for nothing but are among the jobs
+/// @returns  a list of {values, jobs, count, mean, min, max}; rows without the metric count for nothing but are
+/// among the jobs
 /** @param {Api.Row[]} rows  @param {string[]} keys  @param {string} metric  @returns {Group[]} */
 export function groupBy(rows, keys, metric) {
   const groups = new Map();

@@ -14,7 +14,8 @@ function nodesText(nodes) {
 function clusterText({ name, slots, tasks, nodes, waiting }) {
   const running = `${plural(tasks.running, "task")} on ${nodes.length === 0 ? "no node" : nodesText(nodes)}`;
   const reasons = waiting.map(({ reason, tasks: count }) => `${count.toLocaleString("en")} for ${reason}`).join(", ");
-  return `${name}: ${plural(slots, "slot")}; ${running}; ${tasks.pending.toLocaleString("en")} wait${reasons ? ` (${reasons})` : ""}`;
+  return `${name}: ${plural(slots, "slot")}; ${running}; ${tasks.pending.toLocaleString("en")} `
+    + `wait${reasons ? ` (${reasons})` : ""}`;
 }
 
 /** @type {(executor: Api.Executor) => executor is Api.Executor & { tasks: object }} */

@@ -19,7 +19,8 @@ export class Failures {
     this.#isDoubted = true;
   }
 
-  /// Finds the reasons if there are some that are not known or doubted, and asks on while the service is away. @returns whether there is news
+  /// Finds the reasons if there are some that are not known or doubted, and asks on while the service is away.
+  /// @returns whether there is news
   /**
    * @param {string} sweep
    * @param {Api.Row[]} rows

@@ -34,7 +34,8 @@ function planOf(sweep) {
   const ys = view.y ? valuesOf(rows, view.y) : [""];
   const allPanels = view.panel ? valuesOf(rows, view.panel) : [""];
   const panels = allPanels.slice(0, mostPanels);
-  const groups = groupBy(rows, [view.x, view.y, view.panel].filter(Boolean), view.metric).filter((group) => group.mean !== null);
+  const groups = groupBy(rows, [view.x, view.y, view.panel].filter(Boolean), view.metric)
+    .filter((group) => group.mean !== null);
   const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
   const ends = extremesOf(groups.map((group) => group.mean).filter((mean) => mean !== null));
@@ -44,8 +45,10 @@ function planOf(sweep) {
     ...grids,
     title: [metricTitle(sweep, groups), ...grids.title],
     tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
-    visualMap: { ...(widened(ends) ?? ends), calculable: true, orient: "horizontal", left: "center", bottom: 0, precision: 3,
-      inRange: { color: palette() }, textStyle: { color: colour("text") }, formatter: (value) => number(value, 3), dimension: 2 },
+    visualMap: { ...(widened(ends) ?? ends), calculable: true, orient: "horizontal", left: "center", bottom: 0,
+      precision: 3,
+      inRange: { color: palette() }, textStyle: { color: colour("text") }, formatter: (value) => number(value, 3),
+      dimension: 2 },
     series: cells.map((groupsOfPanel, index) => ({ type: "heatmap", xAxisIndex: index, yAxisIndex: index,
       itemStyle: { borderColor: colour("card"), borderWidth: groupsOfPanel.length <= fewCells ? 1 : 0 },
       label: { show: xs.length * panels.length <= 14, formatter: ({ value }) => number(value[2], 3) },
@@ -57,8 +60,10 @@ function planOf(sweep) {
 /** @param {SweepPage} sweep  @param {Group[]} groups */
 function metricTitle(sweep, groups) {
   const averaged = averagedAxes(groups, sweep).map((axis) => nameOf(axis).toLowerCase());
-  const text = [titleOf(sweep.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean).join("\n");
-  return { text, left: "center", bottom: 58, textStyle: { fontSize: 12, lineHeight: 15, fontWeight: "normal", color: colour("text") } };
+  const text = [titleOf(sweep.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean)
+    .join("\n");
+  return { text, left: "center", bottom: 58,
+    textStyle: { fontSize: 12, lineHeight: 15, fontWeight: "normal", color: colour("text") } };
 }
 
 function cellOf(group, view, xs, ys, selection) {
@@ -69,7 +74,8 @@ function cellOf(group, view, xs, ys, selection) {
 
 /** @param {Group} group  @param {SweepPage["view"]} view */
 function textOf(group, view) {
-  const where = [view.x, view.y, view.panel].filter(Boolean).map((axis, i) => `${nameOf(axis)}: ${pointOf(axis, group.values[i])}`);
+  const where = [view.x, view.y, view.panel].filter(Boolean)
+    .map((axis, i) => `${nameOf(axis)}: ${pointOf(axis, group.values[i])}`);
   const several = group.count > 1 ? `\nmean of ${group.count} jobs, ${number(group.min)} to ${number(group.max)}` : "";
   return `${where.join("\n")}\n${nameOf(view.metric)} ${number(group.mean)} ${unitOf(view.metric)}${several}`;
 }
@@ -93,7 +99,12 @@ function gridsOf(view, xs, ys, panels) {
     title: panels.map((panel, index) => ({ text: view.panel ? pointOf(view.panel, panel) : "", left: place(index).left,
       top: `${Math.floor(index / columns) * (76 / lines)}%`, textStyle: { fontSize: 13, color: colour("text") } })),
     grid: panels.map((_, index) => place(index)),
-    xAxis: panels.map((_, index) => ({ gridIndex: index, type: "category", data: xs.map(shortly), name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...withRoom(xs, mostLabels / columns) })),
-    yAxis: panels.map((_, index) => ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0 && view.y ? titleOf(view.y) : "", nameLocation: "middle", nameGap: 52, ...withRoom(ys, mostLabels, index % columns === 0) })),
+    xAxis: panels.map((_, index) =>
+      ({ gridIndex: index, type: "category", data: xs.map(shortly), name: titleOf(view.x), nameLocation: "middle",
+        nameGap: 28, ...withRoom(xs, mostLabels / columns) })),
+    yAxis: panels.map((_, index) =>
+      ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0
+        && view.y ? titleOf(view.y) : "", nameLocation: "middle", nameGap: 52,
+        ...withRoom(ys, mostLabels, index % columns === 0) })),
   };
 }

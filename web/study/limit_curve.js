@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The limit over the first numeric axis, a line for each combination of the others; between "all within" and "none within" the band.
+// The limit over the first numeric axis, a line for each combination of the others; between "all within" and "none
+// within" the band.
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf } from "/core/format.js";
 import { lineColour } from "/core/theme.js";
@@ -10,7 +11,8 @@ import { lineColour } from "/core/theme.js";
  * @param {AbortSignal} signal
  */
 export function limitCurve(element, view, signal) {
-  return makeChart(element, () => optionOf(view.study), "The limit over an axis, with its band; the table below has the same numbers", signal);
+  return makeChart(element, () => optionOf(view.study),
+    "The limit over an axis, with its band; the table below has the same numbers", signal);
 }
 
 /** @param {Api.Search} search */
@@ -28,29 +30,37 @@ function optionOf(search) {
     const name = others.map((axis) => pointOf(axis, limit[axis])).join(", ") || nameOf(search.parameter);
     lines.set(name, [...(lines.get(name) ?? []), limit]);
   }
-  const axis = numeric ? { type: "value", scale: true } : { type: "category", data: [...new Set(drawn.map(at))].map(String) };
+  const axis = numeric ? { type: "value", scale: true }
+    : { type: "category", data: [...new Set(drawn.map(at))].map(String) };
   return {
     grid: { left: 75, right: 20, top: 40, bottom: 50 },
     legend: { top: 0, show: others.length > 0 },
-    tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(search, [...lines.values()][Math.floor(seriesIndex / 2)][dataIndex]) },
+    tooltip: { formatter: ({ seriesIndex, dataIndex }) =>
+      textOf(search, [...lines.values()][Math.floor(seriesIndex / 2)][dataIndex]) },
     xAxis: { ...axis, name: x ? titleOf(x) : "", nameLocation: "middle", nameGap: 28, ...axisLook() },
-    yAxis: { type: "value", scale: true, name: titleOf(search.parameter), nameLocation: "middle", nameGap: 50, ...axisLook() },
-    series: [...lines].flatMap(([name, limits], index) => [bandSeries(name, limits, index, at), lineSeries(name, limits, index, at)]),
+    yAxis: { type: "value", scale: true, name: titleOf(search.parameter), nameLocation: "middle", nameGap: 50,
+      ...axisLook() },
+    series: [...lines].flatMap(([name, limits], index) => [bandSeries(name, limits, index, at),
+      lineSeries(name, limits, index, at)]),
   };
 }
 
 /// Line of the limits. A limit that was not exceeded lies beyond its point, which is drawn hollow.
 function lineSeries(name, limits, index, at) {
   return { name, type: "line", color: lineColour(index), symbolSize: 9, z: 3,
-    data: limits.map((limit) => ({ value: [at(limit), limit.limit], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };
+    data: limits.map((limit) =>
+      ({ value: [at(limit), limit.limit], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };
 }
 
 function bandSeries(name, limits, index, at) {
-  return { name, type: "custom", color: lineColour(index), data: limits.map((limit) => [at(limit), limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond ?? limit.limit]), encode: { x: 0, y: [1, 2] },
+  return { name, type: "custom", color: lineColour(index),
+    data: limits.map((limit) => [at(limit), limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond
+      ?? limit.limit]), encode: { x: 0, y: [1, 2] },
     renderItem: (_, api) => {
       const [x, low] = api.coord([api.value(0), api.value(1)]);
       const [, high] = api.coord([api.value(0), api.value(2)]);
-      return { type: "rect", shape: { x: x - 6, y: high, width: 12, height: low - high }, style: { fill: api.visual("color"), opacity: 0.3 } };
+      return { type: "rect", shape: { x: x - 6, y: high, width: 12, height: low - high },
+        style: { fill: api.visual("color"), opacity: 0.3 } };
     } };
 }
 
@@ -59,5 +69,6 @@ function textOf(search, limit) {
   const where = search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
   const beyond = limit.limit_beyond === null ? "not exceeded up to there" : `exceeded at ${number(limit.limit_beyond)}`;
   const band = `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}`;
-  return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band, limit.monotonic ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
+  return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band,
+    limit.monotonic ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
 }

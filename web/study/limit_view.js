@@ -7,7 +7,8 @@ import { limitCurve } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
 
-const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded", always_exceeded: "exceeded from the start", lost: "undetermined: a job has no value" };
+const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded",
+  always_exceeded: "exceeded from the start", lost: "undetermined: a job has no value" };
 
 /** @type {(limit: Api.Limit) => string} */
 const verdictOf = ({ verdict, lost_reason: reason }) =>
@@ -32,26 +33,30 @@ export class LimitView extends StudyView {
 
   intro() {
     const { study: search } = this;
-    return [h("p", {}, `The largest ${titleOf(search.parameter)} for which at least ${number(100 * search.quantile)} % of the replicates keep ${titleOf(search.metric)} at or below ${exact(search.bound)}.`)];
+    return [h("p", {}, `The largest ${titleOf(search.parameter)} for which at least ${number(100 * search.quantile)} `
+      + `% of the replicates keep ${titleOf(search.metric)} at or below ${exact(search.bound)}.`)];
   }
 
   columns() {
     const { study: search } = this;
     const unit = `[${unitOf(search.parameter) || "1"}]`;
-    return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`], [`OK up to ${unit}`, "number"], [`Exceeded from ${unit}`, "number"],
+    return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`],
+      [`OK up to ${unit}`, "number"], [`Exceeded from ${unit}`, "number"],
       ["Evaluations", "number"], [`Metric falls in ${unit}`]];
   }
 
   statusText() {
     const { state, progress, counts, error } = this.study;
-    return `${state}: ${Math.floor(100 * progress)} %, ${plural(counts.succeeded, "run")} of ${plural(counts.total, "job")}${state === "running" ? " so far" : ""}${error ? `; ${error}` : ""}`;
+    return `${state}: ${Math.floor(100 * progress)} %, ${plural(counts.succeeded, "run")} `
+      + `of ${plural(counts.total, "job")}${state === "running" ? " so far" : ""}${error ? `; ${error}` : ""}`;
   }
 
   drawChoices() {
     const { study: search } = this;
     if (search.axes.length === 0 || this.picker.hasChildNodes()) return;
     const names = search.limits.map((limit, index) => [String(index), combinationOf(search, limit)]);
-    this.picker.replaceChildren(choice("Combination", names, String(this.shown), (index) => { this.shown = Number(index); this.drawn[1]?.draw(); }));
+    this.picker.replaceChildren(choice("Combination", names, String(this.shown),
+      (index) => { this.shown = Number(index); this.drawn[1]?.draw(); }));
   }
 
   rows() {
@@ -60,10 +65,15 @@ export class LimitView extends StudyView {
 
   /** @param {Api.Limit} limit */
   row(limit) {
-    const falls = limit.falls.map(({ from, to, within_again: again }) => `${number(from)} to ${number(to)}${again ? " (within the bound again)" : ""}`).join("; ");
-    const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}` : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
-    return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))), h("td", {}, verdictOf(limit)), h("td", {}, between),
-      h("td", { class: "number" }, number(limit.band_from)), h("td", { class: "number" }, number(limit.band_to)), h("td", { class: "number" }, String(limit.evaluations)),
+    const falls = limit.falls.map(
+      ({ from, to, within_again: again }) => `${number(from)} `
+        + `to ${number(to)}${again ? " (within the bound again)" : ""}`).join("; ");
+    const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}`
+      : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
+    return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))),
+      h("td", {}, verdictOf(limit)), h("td", {}, between),
+      h("td", { class: "number" }, number(limit.band_from)), h("td", { class: "number" }, number(limit.band_to)),
+      h("td", { class: "number" }, String(limit.evaluations)),
       h("td", {}, falls || "–"));
   }
 }

@@ -13,7 +13,8 @@ export function offeredLogs({ rows, others, view }) {
   return { x: spansDecades(both.flatMap((some) => valuesOf(some, view.x))), metric: spansDecades(metrics) };
 }
 
-/// The axes that are so. Values of an axis are decades apart because somebody has chosen them so; of a metric that is for the user to say.
+/// The axes that are so. Values of an axis are decades apart because somebody has chosen them so; of a metric that
+/// is for the user to say.
 /** @param {Pick<SweepPage, "rows" | "others" | "view">} sweep */
 export function chosenLogs(sweep) {
   const offered = offeredLogs(sweep);
@@ -23,9 +24,12 @@ export function chosenLogs(sweep) {
 /// A box for each axis that may be logarithmic. @param changed  is called when one has been ticked
 /** @param {SweepPage} sweep  @param {() => void} changed */
 export function logBoxes(sweep, changed) {
-  const box = (key) => h("input", { type: "checkbox", onchange: ({ target }) => { sweep.view[key] = target.checked ? "log" : "linear"; changed(); } });
+  const box = (key) =>
+    h("input", { type: "checkbox",
+      onchange: ({ target }) => { sweep.view[key] = target.checked ? "log" : "linear"; changed(); } });
   const boxes = { x: box("xScale"), metric: box("metricScale") };
-  const labels = Object.fromEntries(Object.entries(boxes).map(([key, input]) => [key, h("label", { class: "small" }, input, h("span"))]));
+  const labels = Object.fromEntries(Object.entries(boxes)
+    .map(([key, input]) => [key, h("label", { class: "small" }, input, h("span"))]));
 
   function draw() {
     const [offered, chosen] = [offeredLogs(sweep), chosenLogs(sweep)];

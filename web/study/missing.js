@@ -6,7 +6,8 @@ const ofContacts = /contact|penetration|sliding/;
 
 /// The jobs that it is about.
 /** @type {(sweep: Pick<SweepPage, "rows" | "view">) => Api.Row[]} */
-export const withoutValue = ({ rows, view }) => rows.filter((row) => row.state === "succeeded" && typeof row[view.metric] !== "number");
+export const withoutValue = ({ rows, view }) => rows.filter((row) => row.state === "succeeded"
+  && typeof row[view.metric] !== "number");
 
 /// The value of a parameter in a row: swept, given to all jobs, or the default.
 /** @param {Pick<SweepPage, "sweep" | "schema">} sweep  @param {Api.Row} row  @param {keyof Api.Parameters} key */
@@ -41,7 +42,9 @@ export function missingText(sweep) {
 /** @param {SweepPage} sweep */
 export function whyEmpty(sweep) {
   const without = withoutValue(sweep);
-  if (without.length === 0) return sweep.rows.some(({ state }) => state === "failed") ? "Jobs have failed: the table says why." : "";
+  if (without.length === 0) return sweep.rows.some(({ state }) => state === "failed")
+    ? "Jobs have failed: the table says why." : "";
   if (ofContacts.test(sweep.view.metric)) return "Values of contacts need a clearance.";
-  return countEarly(sweep, without) === without.length ? "The runs end before their steady part: at or before run_up_s." : "";
+  return countEarly(sweep, without) === without.length ? "The runs end before their steady part: at or before run_up_s."
+    : "";
 }

@@ -33,9 +33,11 @@ export function parallelChart(element, sweep, signal) {
 // Beyond the extremes there is room, from where a brush can begin.
 const room = ({ min, max }) => 0.05 * (max - min || Math.abs(max) || 1);
 const ends = (extremes) => widened(extremes) ?? extremes;
-const roomy = { scale: true, min: (extremes) => ends(extremes).min - room(ends(extremes)), max: (extremes) => ends(extremes).max + room(ends(extremes)) };
+const roomy = { scale: true, min: (extremes) => ends(extremes).min - room(ends(extremes)),
+  max: (extremes) => ends(extremes).max + room(ends(extremes)) };
 
-/// The columns, those that most jobs have a value of first: a line then ends where its job has no further values. One that would lead across a gap
+/// The columns, those that most jobs have a value of first: a line then ends where its job has no further values.
+/// One that would lead across a gap
 /// is left out, for there is no way to draw it that tells the truth.
 /** @param {SweepPage} sweep */
 function layOut({ rows, axes, metrics, view }) {
@@ -46,23 +48,29 @@ function layOut({ rows, axes, metrics, view }) {
     const isNumeric = values.every((value) => typeof value === "number" || value === none);
     const lacks = (row) => isNumeric && typeof row[name] !== "number";
     return { name, values, isNumeric, lacks, lacking: computed.filter(lacks).length };
-  }).filter(({ name, lacking }) => name === view.metric || lacking < computed.length).sort((a, b) => a.lacking - b.lacking);
+  }).filter(({ name, lacking }) => name === view.metric || lacking < computed.length).sort((a,
+  b) => a.lacking - b.lacking);
   const last = columns[columns.length - 1];
-  const hasGap = (row) => columns.some((column, index) => index > 0 && columns[index - 1].lacks(row) && !column.lacks(row));
+  const hasGap = (row) => columns.some((column, index) => index > 0 && columns[index - 1].lacks(row)
+    && !column.lacks(row));
   const shown = computed.filter((row) => !hasGap(row));
-  return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => last.lacks(row)).length };
+  return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => last.lacks(row))
+    .length };
 }
 
 /// Note on jobs that the lines do not show; empty if they show all.
 /** @param {SweepPage} sweep */
 export function parallelNote(sweep) {
   const { leftOut, short } = layOut(sweep);
-  return [short > 0 && `${plural(short, "line")} ${short === 1 ? "ends" : "end"} early, where the job has no further values.`,
-    leftOut > 0 && `${plural(leftOut, "job")} with a gap between values ${leftOut === 1 ? "is" : "are"} left out.`].filter(Boolean).join(" ");
+  return [short > 0 && `${plural(short, "line")} ${short === 1 ? "ends" : "end"} early, where the job has no further `
+    + `values.`,
+    leftOut > 0 && `${plural(leftOut, "job")} with a gap between values ${leftOut === 1 ? "is" : "are"} left `
+      + `out.`].filter(Boolean).join(" ");
 }
 
 function dimensionOf({ name, values, isNumeric }, dim) {
-  return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start", nameTextStyle: { color: colour("text") },
+  return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start",
+    nameTextStyle: { color: colour("text") },
     axisLine: { lineStyle: { color: colour("quiet") } },
     axisLabel: { color: colour("text"), formatter: (value) => (isNumeric ? number(value) : exact(value)),
       ...(isNumeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
@@ -78,8 +86,10 @@ function planOf(sweep) {
   return { shown, option: {
     parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },
     parallelAxis: columns.map(dimensionOf),
-    visualMap: { show: false, ...ends(extremesOf(peaks)), dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: linePalette() } },
-    series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000, lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
+    visualMap: { show: false, ...ends(extremesOf(peaks)),
+      dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: linePalette() } },
+    series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000,
+      lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
       data: shown.map((row) => lineOf(row, columns, view.metric, selection)) }],
   } };
 }

@@ -17,7 +17,8 @@ export function widened({ min, max }) {
 }
 
 /// An axis of values that is as wide as they are, and never too narrow.
-export const fittedAxis = { type: "value", scale: true, min: (extremes) => widened(extremes)?.min ?? null, max: (extremes) => widened(extremes)?.max ?? null };
+export const fittedAxis = { type: "value", scale: true, min: (extremes) => widened(extremes)?.min ?? null,
+  max: (extremes) => widened(extremes)?.max ?? null };
 
 /// The least and the largest of some numbers.
 /** @param {Iterable<number>} values  @returns {Extremes} */

@@ -25,10 +25,14 @@ export async function showStudies(main, kind, signal) {
   const status = h("p", { class: "quiet", role: "status" });
   const table = h("div", { class: "scroll card", tabindex: 0, role: "region", "aria-label": kind.listName },
     h("table", {}, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), body));
-  main.replaceChildren(h("h1", {}, kind.title), h("p", {}, kind.question), h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo(kind.route, "new") }, kind.begin)), status, table);
+  main.replaceChildren(h("h1", {}, kind.title), h("p", {}, kind.question),
+    h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo(kind.route, "new") }, kind.begin)),
+    status, table);
   /** @type {(study: Item) => HTMLElement} */
-  const row = (study) => h("tr", {}, h("td", { class: "name" }, h("a", { href: routeTo(kind.route, study.id) }, study.name || study.id)),
-    h("td", { class: study.state }, study.state), h("td", {}, kind.aim.textOf(study)), h("td", { class: "fixed" }, moment(study.created_at)));
+  const row = (study) =>
+    h("tr", {}, h("td", { class: "name" }, h("a", { href: routeTo(kind.route, study.id) }, study.name || study.id)),
+    h("td", { class: study.state }, study.state), h("td", {}, kind.aim.textOf(study)),
+    h("td", { class: "fixed" }, moment(study.created_at)));
   const refresh = async () => {
     try {
       const { items } = await kind.api.list({ limit: 100 }, signal);

@@ -80,14 +80,19 @@ export class StudyView {
 
   parts() {
     document.title = `RPSUP: ${this.name}`;
-    this.places = this.charts().map(({ title, make, above }) => ({ make, element: h("div", { class: "chart tall" }), title, above }));
+    this.places = this.charts()
+      .map(({ title, make, above }) => ({ make, element: h("div", { class: "chart tall" }), title, above }));
     const cards = this.places.map(({ title, element, above }, index) => h("section", { class: "card" },
-      h("div", { class: "head" }, h("h2", {}, title), saveButtons(() => this.drawn[index], () => `${this.name} ${title.toLowerCase()}`)), above, element));
+      h("div", { class: "head" }, h("h2", {}, title),
+        saveButtons(() => this.drawn[index], () => `${this.name} ${title.toLowerCase()}`)), above, element));
     return [
       h("div", { class: "head" }, h("div", {}, h("h1", {}, this.name), this.status), this.buttons), ...this.intro(),
       h("div", { class: "columns even" }, cards),
-      h("section", { class: "card" }, h("h2", {}, this.tableName), h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": this.tableName },
-        h("table", {}, h("thead", {}, h("tr", {}, this.columns().map(([text, look]) => h("th", { scope: "col", class: look }, text)))), this.body)))];
+      h("section", { class: "card" }, h("h2", {}, this.tableName),
+        h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": this.tableName },
+        h("table", {}, h("thead", {},
+          h("tr", {}, this.columns().map(([text, look]) => h("th", { scope: "col", class: look }, text)))),
+          this.body)))];
   }
 
   async start() {
@@ -107,7 +112,8 @@ export class StudyView {
     if (this.study.state !== "running") return;
     const reload = seldom(() => this.reload(), reloadMs);
     followStudy(this.kind.api, this.study.id, {
-      progress: ({ state, counts, progress }) => { Object.assign(this.study, { state, counts, progress }); this.drawHead(); reload(); },
+      progress: ({ state, counts, progress }) =>
+        { Object.assign(this.study, { state, counts, progress }); this.drawHead(); reload(); },
       done: () => this.reload(),
     }, this.signal);
   }
@@ -142,7 +148,9 @@ export class StudyView {
     const { id, sweep_id: sweep } = this.study;
     const { api, route } = this.kind;
     /** @type {(text: string, run: (id: string) => Promise<unknown>) => HTMLButtonElement} */
-    const act = (text, run) => h("button", { class: "passing", onclick: () => run(id).then(() => this.reload()).then(() => this.follow()).catch((error) => notify(error.message, "trouble")) }, text);
+    const act = (text, run) =>
+      h("button", { class: "passing", onclick: () => run(id).then(() => this.reload()).then(() => this.follow())
+        .catch((error) => notify(error.message, "trouble")) }, text);
     this.cancel = act("Cancel", api.cancel);
     this.retry = act("Retry", api.retry);
     this.delete = h("button", { class: "danger", onclick: () => this.remove() }, "Delete");
@@ -153,7 +161,8 @@ export class StudyView {
   }
 
   async remove() {
-    if (!(await confirmed(`Delete “${this.name}”? Its jobs are deleted, too; results that other sweeps share stay.`, "Delete"))) return;
+    if (!(await confirmed(`Delete “${this.name}”? Its jobs are deleted, too; results that other sweeps share stay.`,
+      "Delete"))) return;
     this.isRemoved = true;  // a reload that is still to come would not find it
     try {
       await this.kind.api.remove(this.study.id);

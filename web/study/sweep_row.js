@@ -7,7 +7,8 @@ import { isUnderWay } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
 const usualPeak = "peak_slider_acceleration_m_s2";
-const classes = { name: "name", state: "", jobs: "small", peaks: "peaks", created: "small created", actions: "acts" };  // of its cells
+// of its cells
+const classes = { name: "name", state: "", jobs: "small", peaks: "peaks", created: "small created", actions: "acts" };
 const shownOfId = 7;  // of its letters the last ones: the first tell the time and are much alike
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 
@@ -39,14 +40,16 @@ export function sweepRow(act, signal) {
     if (text === drawn) return;
     drawn = text;
     const name = sweep.name || sweep.id;
-    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id), title: sweep.id }, sweep.name || shortOf(sweep.id)), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
+    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id), title: sweep.id },
+      sweep.name || shortOf(sweep.id)), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
     state.className = sweep.state;
     state.textContent = sweep.executor === "local" ? sweep.state : `${sweep.state} on ${sweep.executor}`;
     const part = `${Math.floor(100 * sweep.progress)} %`;
     bar.value = sweep.progress;
     bar.setAttribute("aria-label", `Progress of ${name}`);
     percent.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `${part}, about ${span(sweep.eta_s)} left` : part;
-    cells.jobs.textContent = jobStates.filter((each) => sweep.counts[each] > 0).map((each) => `${sweep.counts[each].toLocaleString("en")} ${each}`).join(", ");
+    cells.jobs.textContent = jobStates.filter((each) => sweep.counts[each] > 0)
+      .map((each) => `${sweep.counts[each].toLocaleString("en")} ${each}`).join(", ");
     cells.created.textContent = moment(sweep.created_at);
     setSeen(buttons.cancel, isUnderWay(sweep));
     setSeen(buttons.retry, sweep.counts.failed + sweep.counts.cancelled > 0);
@@ -62,7 +65,8 @@ export function sweepRow(act, signal) {
   async function showPeaks(sweep) {
     /** @type {(peak: string, order: string) => Promise<Api.Row | undefined>} */
     const extreme = async (peak, order) => {
-      const rows = await findResults(sweep.id, { fields: `job_id,${peak}`, [`${peak}_ge`]: 0, order_by: order, limit: 1 }, signal);
+      const rows = await findResults(sweep.id,
+        { fields: `job_id,${peak}`, [`${peak}_ge`]: 0, order_by: order, limit: 1 }, signal);
       return rows[0];
     };
     try {
@@ -72,7 +76,8 @@ export function sweepRow(act, signal) {
       if (!peak) return;
       const [least, largest] = await Promise.all([extreme(peak, peak), extreme(peak, `-${peak}`)]);
       const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
-      cells.peaks.replaceChildren(...(least && largest ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
+      cells.peaks.replaceChildren(...(least && largest ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`]
+        : ["–"]));
     } catch (error) {
       if (error.name !== "AbortError") cells.peaks.textContent = "–";
     }

@@ -21,11 +21,13 @@ export class ResultTable {
     this.where = h("span", { class: "quiet small" });
     this.back = h("button", { onclick: () => this.turn(-1) }, "Previous");
     this.next = h("button", { onclick: () => this.turn(1) }, "Next");
-    const only = h("input", { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.page = 0; this.draw(); } });
+    const only = h("input",
+      { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.page = 0; this.draw(); } });
     this.missing = h("p", { class: "quiet small", role: "note" });
     this.element = h("div", {}, this.missing,
       h("p", { class: "actions" }, this.back, this.next, this.where, h("label", {}, only, " Selected only")),
-      h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Results" }, h("table", {}, h("thead", {}, this.head), this.body)));
+      h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Results" },
+        h("table", {}, h("thead", {}, this.head), this.body)));
   }
 
   turn(by) {
@@ -45,17 +47,21 @@ export class ResultTable {
 
   draw() {
     const { axes, metrics, view } = this.sweep;
-    const columns = ["state", ...axes, ...(this.sweep.rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
+    const columns = ["state", ...axes,
+      ...(this.sweep.rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
       view.metric, ...metrics.filter((metric) => metric !== view.metric)];
-    this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"), ...columns.map((column) => this.heading(column)));
+    this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"),
+      ...columns.map((column) => this.heading(column)));
     this.drawMissing();
     const rows = this.visible();
     const pages = Math.max(1, Math.ceil(rows.length / pageSize));
     this.page = Math.min(Math.max(this.page, 0), pages - 1);
-    this.body.replaceChildren(...rows.slice(this.page * pageSize, (this.page + 1) * pageSize).map((row) => this.row(row, columns)));
+    this.body.replaceChildren(...rows.slice(this.page * pageSize, (this.page + 1) * pageSize)
+      .map((row) => this.row(row, columns)));
     this.back.disabled = this.page === 0;
     this.next.disabled = this.page >= pages - 1;
-    this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} of ${this.sweep.rows.length.toLocaleString("en")} jobs`;
+    this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} `
+      + `of ${this.sweep.rows.length.toLocaleString("en")} jobs`;
   }
 
   /// Shows why jobs that succeeded have no value of the metric.
@@ -80,14 +86,17 @@ export class ResultTable {
     const arrow = sorted ? (this.order.descending ? " ▼" : " ▲") : "";
     const unit = unitOf(column);
     const { metrics } = this.sweep;
-    return h("th", { scope: "col", class: this.lookOf(column), "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
-      h("button", { "data-column": column, ...(metrics.includes(column) ? defines("metrics", column) : {}), onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
+    return h("th", { scope: "col", class: this.lookOf(column),
+      "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
+      h("button", { "data-column": column, ...(metrics.includes(column) ? defines("metrics", column) : {}),
+        onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
   }
 
   /** @param {Api.Row} row  @param {string[]} columns */
   row(row, columns) {
     const { selection } = this.sweep;
-    const box = h("input", { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
+    const box = h("input",
+      { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
     box.checked = selection.has(row.job_id);
     return h("tr", { class: box.checked ? "selected" : null }, h("td", {}, box),
       h("td", { class: "fixed" }, h("a", { href: routeTo("jobs", row.job_id) }, `…${row.job_id.slice(-5)}`)),
@@ -105,6 +114,7 @@ export class ResultTable {
   /** @param {Api.Row} row */
   stateCell({ job_id: id, state }) {
     const error = state === "failed" && this.sweep.failures.of(id);
-    return h("td", { class: state }, error ? [`${state}: ${error.error_reason}`, h("span", { class: "small reason" }, error.error_detail)] : state);
+    return h("td", { class: state },
+      error ? [`${state}: ${error.error_reason}`, h("span", { class: "small reason" }, error.error_detail)] : state);
   }
 }

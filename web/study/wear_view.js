@@ -7,7 +7,8 @@ import { routeTo } from "/core/route.js";
 import { StudyView } from "/study/study_view.js";
 import { wearGrowth, wearMap } from "/study/wear_charts.js";
 
-const verdicts = { open: "open", hours_reached: "end time reached", clearance_reached: "worn clearance reached", no_wear: "no wear", cycle_limit: "cycle limit reached",
+const verdicts = { open: "open", hours_reached: "end time reached", clearance_reached: "worn clearance reached",
+  no_wear: "no wear", cycle_limit: "cycle limit reached",
   lost: "undetermined: a job failed" };
 
 /** @extends {StudyView<Api.WearStudy>} */
@@ -24,21 +25,24 @@ export class WearView extends StudyView {
   }
 
   columns() {
-    const numbers = ["Cycle", "Time [h]", "Maximum depth [µm]", "Angle [°]", "Clearance [mm]", "Rate [µm/h]", "Rate change [%]", "Worn volume [mm³]"];
+    const numbers = ["Cycle", "Time [h]", "Maximum depth [µm]", "Angle [°]", "Clearance [mm]", "Rate [µm/h]",
+      "Rate change [%]", "Worn volume [mm³]"];
     return [...numbers.map((heading) => [heading, "number"]), ["Job"]];
   }
 
   statusText() {
     const { state, progress, cycles, rejected_steps: halved, error, verdict } = this.study;
     const rejected = halved > 0 ? `, ${plural(halved, "step")} halved` : "";
-    return `${state}: ${Math.floor(100 * progress)} %, ${plural(cycles.length, "cycle")}${rejected}; ${error ?? verdicts[verdict]}`;
+    return `${state}: ${Math.floor(100 * progress)} `
+      + `%, ${plural(cycles.length, "cycle")}${rejected}; ${error ?? verdicts[verdict]}`;
   }
 
   drawChoices() {
     const rings = this.study.cycles[0]?.wear_depth_um.length ?? 0;
     if (rings < 2 || this.picker.hasChildNodes()) return;
     const names = Array.from({ length: rings }, (_, ring) => [String(ring), String(ring + 1)]);
-    this.picker.replaceChildren(choice("Ring", names, String(this.ring), (ring) => { this.ring = Number(ring); this.drawn[0]?.draw(); }));
+    this.picker.replaceChildren(choice("Ring", names, String(this.ring),
+      (ring) => { this.ring = Number(ring); this.drawn[0]?.draw(); }));
   }
 
   rows() {
@@ -50,6 +54,8 @@ export class WearView extends StudyView {
 function row(cycle) {
   const degrees = cycle.deepest_angle_rad === null ? "–" : number((180 / Math.PI) * cycle.deepest_angle_rad, 3);
   const change = cycle.rate_change === null ? "–" : number(100 * cycle.rate_change, 2);
-  const values = [String(cycle.cycle), number(cycle.hours), number(cycle.deepest_um), degrees, number(cycle.clearance_mm, 5), number(cycle.rate_um_h), change, number(cycle.worn_volume_mm3)];
-  return h("tr", {}, values.map((value) => h("td", { class: "number" }, value)), h("td", {}, h("a", { href: routeTo("jobs", cycle.job_id) }, "run")));
+  const values = [String(cycle.cycle), number(cycle.hours), number(cycle.deepest_um), degrees,
+    number(cycle.clearance_mm, 5), number(cycle.rate_um_h), change, number(cycle.worn_volume_mm3)];
+  return h("tr", {}, values.map((value) => h("td", { class: "number" }, value)),
+    h("td", {}, h("a", { href: routeTo("jobs", cycle.job_id) }, "run")));
 }
