@@ -13,7 +13,10 @@ namespace {
 
 void print(const jobs::cluster::Finding& finding) {
   using Kind = jobs::cluster::Finding::Kind;
-  std::cout << (finding.kind == Kind::kGood ? "ok       " : finding.kind == Kind::kWarning ? "warning  " : "FAULT    ") << finding.text << '\n';
+  std::cout << (finding.kind == Kind::kGood      ? "ok       "
+                : finding.kind == Kind::kWarning ? "warning  "
+                                                 : "FAULT    ")
+            << finding.text << '\n';
   if (!finding.advice.empty()) std::cout << "         -> " << finding.advice << '\n';
   std::cout << std::flush;
 }
@@ -26,7 +29,8 @@ int check_cluster(const CheckClusterOptions& options) {
   const EndSignals signals;
   bool interrupted = false;
   const auto stop_requested = [&] { return interrupted = interrupted || signals.arrived(); };
-  const bool good = jobs::cluster::check_cluster(site, print, std::chrono::seconds(options.wait_s), stop_requested);
+  const bool good =
+      jobs::cluster::check_cluster(site, print, std::chrono::seconds(options.wait_s), stop_requested);
   if (interrupted) return kInterrupted;
   if (good) std::cout << "the cluster can be used: rpsup serve --executor slurm with the same options\n";
   return good ? kDone : kMachineFailed;

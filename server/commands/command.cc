@@ -35,7 +35,8 @@ std::string read_all(std::istream& in) { return {std::istreambuf_iterator<char>(
 std::string read_text(const std::string& path) {
   if (path == "-") return read_all(std::cin);
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw BadInput("cannot read " + path + ": it is a folder");
+  if (std::filesystem::is_directory(path, ignored))
+    throw BadInput("cannot read " + path + ": it is a folder");
   std::ifstream file(path, std::ios::binary);
   std::string text = file ? read_all(file) : "";
   if (!file) throw BadInput("cannot read " + path + ": " + std::strerror(errno));
@@ -52,10 +53,14 @@ int run_guarded(const std::function<int()>& command) {
   } catch (const BadInput& error) {
     return report(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
-    return report(kMachineFailed, "there is no memory left; ulimit -v and the unit's MemoryMax limit what a process may take");
+    return report(
+        kMachineFailed,
+        "there is no memory left; ulimit -v and the unit's MemoryMax limit what a process may take");
   } catch (const std::system_error& error) {
     const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
-    return report(kMachineFailed, no_thread ? "the system allows no more threads; ulimit -v and ulimit -u limit them" : error.what());
+    return report(
+        kMachineFailed,
+        no_thread ? "the system allows no more threads; ulimit -v and ulimit -u limit them" : error.what());
   } catch (const std::exception& error) {
     return report(kMachineFailed, error.what());
   }
@@ -73,10 +78,12 @@ nlohmann::ordered_json read_json(const std::string& path) {
 void check_output_file(const std::string& option, const std::string& path) {
   const auto folder = std::filesystem::absolute(path).parent_path();
   std::error_code ignored;
-  if (!std::filesystem::is_directory(folder, ignored)) throw BadInput(option + " " + path + ": there is no folder " + folder.string());
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw BadInput(option + " " + path + ": there is no folder " + folder.string());
   if (std::filesystem::is_directory(path, ignored)) throw BadInput(option + " " + path + ": it is a folder");
   const bool exists = std::filesystem::exists(path, ignored);
-  if (faccessat(AT_FDCWD, exists ? path.c_str() : folder.c_str(), exists ? W_OK : W_OK | X_OK, AT_EACCESS) != 0) {
+  if (faccessat(AT_FDCWD, exists ? path.c_str() : folder.c_str(), exists ? W_OK : W_OK | X_OK, AT_EACCESS) !=
+      0) {
     throw CannotWrite(option + " " + path + ": cannot be written: " + std::strerror(errno));
   }
 }

@@ -39,7 +39,8 @@ int run_guarded(const std::function<int()>& command);
 
 /// Refuses before the work a file that could not be written after it.
 /// @param option  that names the file, for the message
-/// @throws BadInput if it is a folder or is to be in one that is not there, CannotWrite if it may not be written
+/// @throws BadInput if it is a folder or is to be in one that is not there, CannotWrite if it may not be
+/// written
 void check_output_file(const std::string& option, const std::string& path);
 
 /// Writes a whole file, "-" for standard output.

@@ -40,7 +40,8 @@ std::vector<std::string> names_of_options(const CommandEntry& command) {
 
 /// What bash is to offer as an option's value.
 std::string bash_values(const OptionEntry& option) {
-  if (!option.choices.empty()) return "mapfile -t COMPREPLY < <(compgen -W " + quoted(spaced(option.choices)) + " -- \"$current\")";
+  if (!option.choices.empty())
+    return "mapfile -t COMPREPLY < <(compgen -W " + quoted(spaced(option.choices)) + " -- \"$current\")";
   return option.value == kFile ? "_rpsup_files" : "COMPREPLY=()";
 }
 
@@ -51,7 +52,8 @@ std::string zsh_action(const OptionEntry& option) {
 
 /// '--port[Port to listen on]:INT: ', '1:file:_files'
 std::string zsh_specification(const OptionEntry& option) {
-  const std::string value = ":" + escaped(option.argument ? option.name : option.value, ":") + ":" + zsh_action(option);
+  const std::string value =
+      ":" + escaped(option.argument ? option.name : option.value, ":") + ":" + zsh_action(option);
   if (option.argument) return quoted((option.many ? "*" : "1") + value);
   const std::string name = option.name + "[" + escaped(option.help, "[]:\\") + "]";
   if (option.value.empty()) return quoted(name);
@@ -76,11 +78,14 @@ std::string make_bash_completion(const std::vector<CommandEntry>& commands) {
     if (!program) first.push_back(command.name);
     for (const OptionEntry& option : command.options) {
       if (option.value.empty() || option.optional_value) continue;
-      const std::string place = option.argument ? quoted(command.name + " argument") : (program ? "*" + quoted(" " + option.name) : quoted(command.name + " " + option.name));
+      const std::string place = option.argument ? quoted(command.name + " argument")
+                                                : (program ? "*" + quoted(" " + option.name)
+                                                           : quoted(command.name + " " + option.name));
       if (option.argument && option.choices.empty()) continue;
       values += "    " + place + ") " + bash_values(option) + "; return ;;\n";
     }
-    if (!program) words += "    " + command.name + ") words=" + quoted(spaced(names_of_options(command))) + " ;;\n";
+    if (!program)
+      words += "    " + command.name + ") words=" + quoted(spaced(names_of_options(command))) + " ;;\n";
   }
   return R"(# bash completion of rpsup: source <(rpsup completion bash)
 _rpsup_files() {
@@ -151,10 +156,13 @@ std::string make_fish_completion(const std::vector<CommandEntry>& commands) {
   for (const CommandEntry& command : commands) {
     const bool program = &command == &commands.front();
     const std::string here = program ? "" : " -n " + quoted("__fish_seen_subcommand_from " + command.name);
-    if (!program) text += "complete -c rpsup -n __fish_use_subcommand -a " + command.name + " -d " + quoted(command.help) + "\n";
+    if (!program)
+      text += "complete -c rpsup -n __fish_use_subcommand -a " + command.name + " -d " +
+              quoted(command.help) + "\n";
     for (const OptionEntry& option : command.options) {
       if (!option.argument) {
-        text += "complete -c rpsup" + here + " -l " + option.name.substr(2) + fish_values(option) + " -d " + quoted(option.help) + "\n";
+        text += "complete -c rpsup" + here + " -l " + option.name.substr(2) + fish_values(option) + " -d " +
+                quoted(option.help) + "\n";
       } else if (!option.choices.empty()) {
         text += "complete -c rpsup" + here + " -a " + quoted(spaced(option.choices)) + "\n";
       } else if (option.value == kFile) {

@@ -47,7 +47,8 @@ bool ConfigFile::is_in_environment(const CLI::ConfigItem& item) const {
     command = found.front();
   }
   const CLI::Option* const option = command->get_option_no_throw("--" + item.name);
-  return option != nullptr && !option->get_envname().empty() && std::getenv(option->get_envname().c_str()) != nullptr;
+  return option != nullptr && !option->get_envname().empty() &&
+         std::getenv(option->get_envname().c_str()) != nullptr;
 }
 
 std::string find_user_config() {

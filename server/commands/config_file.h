@@ -8,11 +8,13 @@
 
 namespace server::commands {
 
-/// Reads the file with options: a [section] a command, a line name=value an option. The environment goes before the file.
+/// Reads the file with options: a [section] a command, a line name=value an option. The environment goes
+/// before the file.
 class ConfigFile : public CLI::ConfigTOML {
  public:
   /// @param app     whose options they are; outlives this
-  /// @param remote  commands that speak to a running service: what stands above the first section, where the service is, is theirs
+  /// @param remote  commands that speak to a running service: what stands above the first section, where the
+  /// service is, is theirs
   ConfigFile(const CLI::App& app, std::vector<std::string> remote) : app_(app), remote_(std::move(remote)) {}
 
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
@@ -24,7 +26,8 @@ class ConfigFile : public CLI::ConfigTOML {
   std::vector<std::string> remote_;
 };
 
-/// The file that is read if none is named: rpsup/config.ini in $XDG_CONFIG_HOME, which is ~/.config by default. Empty if there is no such file.
+/// The file that is read if none is named: rpsup/config.ini in $XDG_CONFIG_HOME, which is ~/.config by
+/// default. Empty if there is no such file.
 [[nodiscard]] std::string find_user_config();
 
 }  // namespace server::commands

@@ -10,10 +10,13 @@
 namespace server::commands {
 
 int export_store(const ExportOptions& options) {
-  if (!std::filesystem::is_regular_file(options.store)) throw BadInput("--db " + options.store + ": there is no such store");
-  if (std::filesystem::exists(options.file)) throw BadInput(options.file + " exists already; a copy replaces nothing");
+  if (!std::filesystem::is_regular_file(options.store))
+    throw BadInput("--db " + options.store + ": there is no such store");
+  if (std::filesystem::exists(options.file))
+    throw BadInput(options.file + " exists already; a copy replaces nothing");
   const EndSignals signals;
-  return jobs::copy_store(options.store, options.file, [&] { return signals.arrived(); }) ? kDone : kInterrupted;
+  return jobs::copy_store(options.store, options.file, [&] { return signals.arrived(); }) ? kDone
+                                                                                          : kInterrupted;
 }
 
 }  // namespace server::commands

@@ -10,7 +10,8 @@ struct ExportOptions {
   std::string file;   ///< where the copy goes; must not exist
 };
 
-/// Writes a consistent copy of a store, which may be in use by a running service. The copy is a store itself, in one file.
+/// Writes a consistent copy of a store, which may be in use by a running service. The copy is a store itself,
+/// in one file.
 /// @returns an exit code
 int export_store(const ExportOptions& options);
 

@@ -19,7 +19,9 @@ class EscapedMessage final : public spdlog::custom_flag_formatter {
     const std::string text = escape_for_log({message.payload.data(), message.payload.size()});
     line.append(text.data(), text.data() + text.size());
   }
-  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<EscapedMessage>(); }
+  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<EscapedMessage>();
+  }
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace server::commands {
 /// @param level  "debug", "info", "warning" or "error"
 void start_log(const std::string& level);
 
-/// The text with every byte that is no visible ASCII character or blank as \xNN: no line can be made up, and no terminal can be told to do
-/// something, by a name or a path.
+/// The text with every byte that is no visible ASCII character or blank as \xNN: no line can be made up, and
+/// no terminal can be told to do something, by a name or a path.
 [[nodiscard]] std::string escape_for_log(std::string_view text);
 
 }  // namespace server::commands

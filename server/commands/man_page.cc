@@ -49,7 +49,8 @@ std::string heading(const OptionEntry& option) {
 }
 
 void append_options_to(std::string& page, const CommandEntry& command) {
-  for (const OptionEntry& option : command.options) page += ".TP\n" + heading(option) + "\n" + describe(option) + "\n";
+  for (const OptionEntry& option : command.options)
+    page += ".TP\n" + heading(option) + "\n" + describe(option) + "\n";
 }
 
 void append_lines_to(std::string& page, const std::string& text) {
@@ -58,7 +59,8 @@ void append_lines_to(std::string& page, const std::string& text) {
 }
 
 std::string upper(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
 
@@ -66,7 +68,8 @@ std::string upper(std::string text) {
 
 std::string make_man_page(const std::vector<CommandEntry>& commands, const std::string& version) {
   const CommandEntry& program = commands.front();
-  std::string page = ".TH " + upper(program.name) + " 1 \"\" \"" + escaped(program.name + " " + version) + "\" \"User Commands\"\n";
+  std::string page = ".TH " + upper(program.name) + " 1 \"\" \"" + escaped(program.name + " " + version) +
+                     "\" \"User Commands\"\n";
   page += ".SH NAME\n" + escaped(program.name) + " \\- " + escaped(program.help) + "\n";
   page += ".SH SYNOPSIS\n" + bold(program.name) + " [OPTIONS] " + italic("command") + " ...\n";
   page += ".SH OPTIONS\nOf every command, beside its own.\n";

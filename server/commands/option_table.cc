@@ -36,8 +36,12 @@ OptionEntry describe_option(const CLI::Option& option) {
 }
 
 CommandEntry describe_command(const CLI::App& command) {
-  CommandEntry entry{.name = command.get_name(), .help = command.get_description(), .footer = command.get_footer(), .options = {}};
-  for (const CLI::Option* const option : command.get_options()) entry.options.push_back(describe_option(*option));
+  CommandEntry entry{.name = command.get_name(),
+                     .help = command.get_description(),
+                     .footer = command.get_footer(),
+                     .options = {}};
+  for (const CLI::Option* const option : command.get_options())
+    entry.options.push_back(describe_option(*option));
   return entry;
 }
 

@@ -10,7 +10,8 @@ class App;
 
 namespace server::commands {
 
-/// An option or an argument of a command, as it was declared to the parser, which prints --help from the same.
+/// An option or an argument of a command, as it was declared to the parser, which prints --help from the
+/// same.
 struct OptionEntry {
   std::string name;                  ///< "--port"; "file" for an argument
   bool argument = false;             ///< has no name on the command line
@@ -32,7 +33,8 @@ struct CommandEntry {
   std::vector<OptionEntry> options;
 };
 
-/// All that can be written on the command line: first the program with what goes with every command, then its commands.
+/// All that can be written on the command line: first the program with what goes with every command, then its
+/// commands.
 [[nodiscard]] std::vector<CommandEntry> describe_commands(const CLI::App& app);
 
 /// "rpsup serve [OPTIONS]", "rpsup cancel [OPTIONS] id...".

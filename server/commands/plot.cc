@@ -19,7 +19,8 @@ constexpr std::size_t kMargin = 10;          // characters for the numbers at th
 constexpr std::size_t kDotsAcross = 2, kDotsDown = 4;  // of one character
 
 /// Whether a channel of that name is there, and which one.
-std::optional<std::size_t> find_channel(const engine::Trajectory& trajectory, const std::function<bool(std::string_view)>& is_wanted) {
+std::optional<std::size_t> find_channel(const engine::Trajectory& trajectory,
+                                        const std::function<bool(std::string_view)>& is_wanted) {
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
     if (is_wanted(trajectory.channels[c].key)) return c;
   }
@@ -34,17 +35,22 @@ struct Drawn {
 };
 
 Drawn choose_drawn(const engine::Trajectory& trajectory) {
-  const auto named = [&](std::string_view name) { return find_channel(trajectory, [&](std::string_view key) { return key == name; }); };
+  const auto named = [&](std::string_view name) {
+    return find_channel(trajectory, [&](std::string_view key) { return key == name; });
+  };
   const auto least = named("slider_acceleration_min_m_s2");
   const auto most = named("slider_acceleration_max_m_s2");
-  if (least && most) return {trajectory.columns.at(*least), trajectory.columns.at(*most), AccelerationBand{}.title};
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kUnits{{{"_m_s2", "m/s^2"}, {"_rad_s2", "rad/s^2"}}};
+  if (least && most)
+    return {trajectory.columns.at(*least), trajectory.columns.at(*most), AccelerationBand{}.title};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kUnits{
+      {{"_m_s2", "m/s^2"}, {"_rad_s2", "rad/s^2"}}};
   for (const auto& [suffix, unit] : kUnits) {
     const auto found = find_channel(trajectory, [&](std::string_view key) { return key.ends_with(suffix); });
     if (!found) continue;
     const std::string& key = trajectory.channels[*found].key;
     const auto& values = trajectory.columns.at(*found);
-    return {values, values, "acceleration of " + key.substr(0, key.size() - suffix.size()) + ", " + std::string(unit)};
+    return {values, values,
+            "acceleration of " + key.substr(0, key.size() - suffix.size()) + ", " + std::string(unit)};
   }
   throw std::logic_error("the trajectory has no acceleration");
 }
@@ -89,7 +95,8 @@ class Canvas {
 
   void set(std::size_t x, std::size_t y) {
     // The order in which Unicode numbers the dots of a Braille character.
-    static constexpr std::array<std::array<unsigned, kDotsAcross>, kDotsDown> kBits{{{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
+    static constexpr std::array<std::array<unsigned, kDotsAcross>, kDotsDown> kBits{
+        {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
     cells_.at(y / kDotsDown * columns_ + x / kDotsAcross) |= kBits[y % kDotsDown][x % kDotsAcross];
   }
 
@@ -99,7 +106,9 @@ class Canvas {
       const unsigned dots = cells_[y * columns_ + x];
       if (dots == 0) text += ' ';
       else if (characters == Characters::kAscii) text += ascii(dots);
-      else text += {static_cast<char>(0xE2), static_cast<char>(0xA0 | dots >> 6), static_cast<char>(0x80 | (dots & 0x3F))};
+      else
+        text += {static_cast<char>(0xE2), static_cast<char>(0xA0 | dots >> 6),
+                 static_cast<char>(0x80 | (dots & 0x3F))};
     }
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
@@ -118,7 +127,8 @@ class Canvas {
 
 void draw(const AccelerationBand& band, const Axis& axis, Canvas& canvas) {
   const auto dot_of = [&](double value) {
-    const double down = (axis.top - value) / (axis.top - axis.bottom) * static_cast<double>(canvas.dots_down());
+    const double down =
+        (axis.top - value) / (axis.top - axis.bottom) * static_cast<double>(canvas.dots_down());
     return std::min(static_cast<std::size_t>(std::max(down, 0.0)), canvas.dots_down() - 1);
   };
   for (std::size_t x = 0; x < canvas.dots_across(); ++x) {
@@ -129,7 +139,9 @@ void draw(const AccelerationBand& band, const Axis& axis, Canvas& canvas) {
 
 std::size_t plot_rows(const TerminalSize& size) { return std::clamp<std::size_t>(size.rows, 10, 40) - 5; }
 
-std::string right_aligned(const std::string& text, std::size_t width) { return std::string(width - std::min(width, text.size()), ' ') + text; }
+std::string right_aligned(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, text.size()), ' ') + text;
+}
 
 }  // namespace
 
@@ -171,39 +183,49 @@ std::string draw_for_terminal(const AccelerationBand& band, const TerminalSize& 
   }
   const std::string begin = number(band.t_begin);
   const std::string end = number(band.t_end) + " s";
-  text += std::string(kMargin, ' ') + begin + right_aligned(end, plot_columns(size) / kDotsAcross - begin.size()) + "\n";
+  text += std::string(kMargin, ' ') + begin +
+          right_aligned(end, plot_columns(size) / kDotsAcross - begin.size()) + "\n";
   return text;
 }
 
 std::string draw_svg(const AccelerationBand& band) {
   constexpr double kLeft = 70, kTop = 30, kHeight = 320, kWidth = kSvgColumns;
   const Axis axis = make_axis(band);
-  const auto y_of = [&](double value) { return kTop + kHeight * (axis.top - value) / (axis.top - axis.bottom); };
+  const auto y_of = [&](double value) {
+    return kTop + kHeight * (axis.top - value) / (axis.top - axis.bottom);
+  };
   const auto text_at = [](double x, double y, const char* anchor, const std::string& text) {
-    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text + "</text>\n";
+    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text +
+           "</text>\n";
   };
   std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 400\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 400\" font-family=\"sans-serif\" "
+      "font-size=\"13\" fill=\"#222\">\n"
       "<rect width=\"900\" height=\"400\" fill=\"#fff\"/>\n";
   for (int i = 0; axis.bottom + i * axis.step <= axis.top + 0.5 * axis.step; ++i) {
     const double y = y_of(axis.bottom + i * axis.step);
-    svg += "<path d=\"M70 " + number(y) + "H870\" stroke=\"#ddd\"/>\n" + text_at(62, y + 4, "end", number(axis.bottom + i * axis.step));
+    svg += "<path d=\"M70 " + number(y) + "H870\" stroke=\"#ddd\"/>\n" +
+           text_at(62, y + 4, "end", number(axis.bottom + i * axis.step));
   }
   std::string path;
   for (std::size_t i = 0; i < band.least.size(); ++i) {
     const double x = kLeft + kWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(band.least.size());
     // Half a pixel more at both ends: a line that lies still would else be none.
-    path += "M" + number(x) + " " + number(y_of(band.most[i]) - 0.5) + "V" + number(y_of(band.least[i]) + 0.5);
+    path +=
+        "M" + number(x) + " " + number(y_of(band.most[i]) - 0.5) + "V" + number(y_of(band.least[i]) + 0.5);
   }
   const double stroke = band.least.empty() ? 1.0 : kWidth / static_cast<double>(band.least.size());
-  svg += "<path d=\"" + path + "\" stroke=\"#d95f02\" stroke-width=\"" + number(stroke) + "\" fill=\"none\"/>\n";
+  svg +=
+      "<path d=\"" + path + "\" stroke=\"#d95f02\" stroke-width=\"" + number(stroke) + "\" fill=\"none\"/>\n";
   for (int i = 0; i <= 4; ++i) {
     const double part = 0.25 * i;
-    svg += text_at(kLeft + part * kWidth, 368, "middle", number(band.t_begin + part * (band.t_end - band.t_begin)));
+    svg += text_at(kLeft + part * kWidth, 368, "middle",
+                   number(band.t_begin + part * (band.t_end - band.t_begin)));
   }
   std::string title = band.title;
   if (title.ends_with("^2")) title.replace(title.size() - 2, 2, "\u00b2");
-  return svg + text_at(kLeft + 0.5 * kWidth, 390, "middle", "time, s") + text_at(kLeft, 18, "start", title) + "</svg>\n";
+  return svg + text_at(kLeft + 0.5 * kWidth, 390, "middle", "time, s") + text_at(kLeft, 18, "start", title) +
+         "</svg>\n";
 }
 
 }  // namespace server::commands

@@ -26,14 +26,16 @@ void ProgressView::show(const nlohmann::json& sweep) {
   std::string text = std::to_string(ended) + " of " + std::to_string(count("total")) + " jobs";
   if (count("failed") > 0) text += ", " + std::to_string(count("failed")) + " failed";
   const auto& eta = sweep.at("eta_s");
-  if (ended < count("total") && eta.is_number()) text += ", about " + format_duration(eta.get<double>()) + " left";
+  if (ended < count("total") && eta.is_number())
+    text += ", about " + format_duration(eta.get<double>()) + " left";
   if (form_ == Form::kBar) {
     char percent[8];
     std::snprintf(percent, sizeof percent, "%3.0f %%", 100.0 * std::clamp(progress, 0.0, 1.0));
     text = bar(progress) + " " + percent + "  " + text;
     // Spaces over what a longer text has left.
     if (text != shown_) {
-      out_ << '\r' << text << std::string(shown_.size() > text.size() ? shown_.size() - text.size() : 0, ' ') << std::flush;
+      out_ << '\r' << text << std::string(shown_.size() > text.size() ? shown_.size() - text.size() : 0, ' ')
+           << std::flush;
     }
   } else if (shown_.empty() || ended != shown_ended_) {
     out_ << text << std::endl;

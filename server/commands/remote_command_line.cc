@@ -12,9 +12,14 @@ namespace server::commands {
 namespace {
 
 void add_remote_options(CLI::App& command, RemoteOptions& options) {
-  command.add_option("--url", options.url, "URL of the service")->type_name("URL")->capture_default_str()->envname("RPSUP_URL");
-  command.add_option("--token", options.token, "Token, sent as Authorization: Bearer; safer in the environment or in the configuration file, since other users see "
-                     "command lines")
+  command.add_option("--url", options.url, "URL of the service")
+      ->type_name("URL")
+      ->capture_default_str()
+      ->envname("RPSUP_URL");
+  command
+      .add_option("--token", options.token,
+                  "Token, sent as Authorization: Bearer; safer in the environment or in the configuration "
+                  "file, since other users see command lines")
       ->envname("RPSUP_TOKEN");
 }
 
@@ -34,16 +39,21 @@ Command make_command(CLI::App* line, std::shared_ptr<Options> options, int (*run
 
 Command add_submit(CLI::App& app) {
   const auto options = std::make_shared<SubmitOptions>();
-  CLI::App* const command = add_command(app, "submit", "Submit a sweep to a running service and print its id", *options);
-  command->add_option("file", options->file, "JSON file with the sweep request; - reads standard input")->required()->type_name("FILE");
-  command->add_flag("--job", options->job, "Job instead of a sweep: the file holds the parameters of one job");
+  CLI::App* const command =
+      add_command(app, "submit", "Submit a sweep to a running service and print its id", *options);
+  command->add_option("file", options->file, "JSON file with the sweep request; - reads standard input")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--job", options->job,
+                    "Job instead of a sweep: the file holds the parameters of one job");
   command->add_flag("--watch", options->watch, "Wait for the end, as rpsup watch does");
   return make_command(command, options, submit);
 }
 
 Command add_status(CLI::App& app) {
   const auto options = std::make_shared<StatusOptions>();
-  CLI::App* const command = add_command(app, "status", "Print the progress of a sweep or a job, or list the newest sweeps", *options);
+  CLI::App* const command = add_command(
+      app, "status", "Print the progress of a sweep or a job, or list the newest sweeps", *options);
   command->add_option("id", options->id, "Id of a sweep or a job; if left out, the newest sweeps are listed");
   command->add_flag("--json", options->json, "JSON of the service instead of text");
   return make_command(command, options, status);
@@ -51,16 +61,21 @@ Command add_status(CLI::App& app) {
 
 Command add_watch(CLI::App& app) {
   const auto options = std::make_shared<WatchOptions>();
-  CLI::App* const command = add_command(app, "watch", "Show the progress of a sweep or a job until it has ended", *options);
+  CLI::App* const command =
+      add_command(app, "watch", "Show the progress of a sweep or a job until it has ended", *options);
   command->add_option("id", options->id, "Id of a sweep or a job")->required();
   return make_command(command, options, watch);
 }
 
 Command add_results(CLI::App& app) {
   const auto options = std::make_shared<ResultsOptions>();
-  CLI::App* const command = add_command(app, "results", "Print the table of results of a sweep, also while it runs", *options);
+  CLI::App* const command =
+      add_command(app, "results", "Print the table of results of a sweep, also while it runs", *options);
   command->add_option("id", options->sweep, "Id of a sweep")->required();
-  command->add_option("--format", options->format, "Format of the table")->check(CLI::IsMember({"csv", "json", "ndjson"}))->capture_default_str()->envname("RPSUP_FORMAT");
+  command->add_option("--format", options->format, "Format of the table")
+      ->check(CLI::IsMember({"csv", "json", "ndjson"}))
+      ->capture_default_str()
+      ->envname("RPSUP_FORMAT");
   command->add_option("--output", options->output, "Output file; - writes standard output")
       ->type_name("FILE")
       ->capture_default_str()

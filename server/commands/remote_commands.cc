@@ -10,7 +10,8 @@ namespace server::commands {
 int submit(const SubmitOptions& options) {
   const auto request = read_json(options.file);
   RemoteService service(options.remote);
-  const auto resource = service.submit(options.job ? RemoteService::Kind::kJob : RemoteService::Kind::kSweep, request);
+  const auto resource =
+      service.submit(options.job ? RemoteService::Kind::kJob : RemoteService::Kind::kSweep, request);
   const auto id = resource.at("id").get<std::string>();
   write_text("-", id + "\n");
   return options.watch ? watch({.remote = options.remote, .id = id}) : kDone;
@@ -18,7 +19,9 @@ int submit(const SubmitOptions& options) {
 
 int results(const ResultsOptions& options) {
   if (options.output != "-") check_output_file("--output", options.output);
-  const std::string media_type = options.format == "csv" ? "text/csv" : options.format == "ndjson" ? "application/x-ndjson" : "application/json";
+  const std::string media_type = options.format == "csv"      ? "text/csv"
+                                 : options.format == "ndjson" ? "application/x-ndjson"
+                                                              : "application/json";
   write_text(options.output, RemoteService(options.remote).results(options.sweep, media_type));
   return kDone;
 }

@@ -8,7 +8,8 @@
 
 namespace server::commands {
 
-// The commands that speak to a service that runs. Each returns an exit code; they throw what RemoteService throws.
+// The commands that speak to a service that runs. Each returns an exit code; they throw what RemoteService
+// throws.
 
 struct SubmitOptions {
   RemoteOptions remote;
@@ -34,9 +35,10 @@ struct WatchOptions {
   std::string id;
 };
 
-/// Shows on standard error how far a sweep or a job is, until it has ended: a bar on a terminal, lines elsewhere. A service that
-/// does not answer for a while (it is started again, say) is asked again.
-/// @returns kJobFailed unless every job has succeeded; kInterrupted if the user ended the watching, not the sweep
+/// Shows on standard error how far a sweep or a job is, until it has ended: a bar on a terminal, lines
+/// elsewhere. A service that does not answer for a while (it is started again, say) is asked again.
+/// @returns kJobFailed unless every job has succeeded; kInterrupted if the user ended the watching, not the
+/// sweep
 int watch(const WatchOptions& options);
 
 struct ResultsOptions {

@@ -24,7 +24,8 @@ constexpr int kTooManyRequests = 429;
 
 ServiceUrl checked_url(const std::string& url) {
   const auto parsed = parse_service_url(url);
-  if (!parsed) throw BadInput("--url " + url + ": must be like http://127.0.0.1:8080 or https://lab.example.org/rpsup");
+  if (!parsed)
+    throw BadInput("--url " + url + ": must be like http://127.0.0.1:8080 or https://lab.example.org/rpsup");
   return *parsed;
 }
 
@@ -54,11 +55,14 @@ std::optional<Json> find_problem(const HttpClient::Answer& answer) {
 std::vector<jobs::Fault> faults_of(const Json& problem) {
   std::vector<jobs::Fault> faults;
   if (!problem.contains("errors")) return faults;
-  for (const Json& error : problem.at("errors")) faults.push_back({text_at(error, "pointer"), text_at(error, "detail")});
+  for (const Json& error : problem.at("errors"))
+    faults.push_back({text_at(error, "pointer"), text_at(error, "detail")});
   return faults;
 }
 
-const char* path_of(RemoteService::Kind kind) { return kind == RemoteService::Kind::kSweep ? "/v1/sweeps" : "/v1/jobs"; }
+const char* path_of(RemoteService::Kind kind) {
+  return kind == RemoteService::Kind::kSweep ? "/v1/sweeps" : "/v1/jobs";
+}
 
 /// The id, which is then safe as a segment of a path.
 const std::string& checked_id(const std::string& id) {
@@ -68,9 +72,12 @@ const std::string& checked_id(const std::string& id) {
 
 }  // namespace
 
-RemoteService::RemoteService(const RemoteOptions& options) : url_(options.url), client_(checked_url(options.url), checked_token(options.token)) {}
+RemoteService::RemoteService(const RemoteOptions& options)
+    : url_(options.url), client_(checked_url(options.url), checked_token(options.token)) {}
 
-Json RemoteService::submit(Kind kind, const Json& request) { return read(client_.post(path_of(kind), to_text(request))); }
+Json RemoteService::submit(Kind kind, const Json& request) {
+  return read(client_.post(path_of(kind), to_text(request)));
+}
 
 Json RemoteService::list_sweeps() { return read(client_.get("/v1/sweeps", "application/json")); }
 
@@ -91,7 +98,8 @@ std::string RemoteService::results(const std::string& sweep_id, const std::strin
   auto answer = client_.get("/v1/sweeps/" + checked_id(sweep_id) + "/results", media_type);
   check(answer);
   if (!answer.content_type.starts_with(media_type)) {
-    throw std::runtime_error(url_ + " answers, but not as this service does: no " + media_type + ". Is --url right?");
+    throw std::runtime_error(url_ + " answers, but not as this service does: no " + media_type +
+                             ". Is --url right?");
   }
   return std::move(answer.body);
 }
@@ -115,9 +123,11 @@ void RemoteService::check(const HttpClient::Answer& answer) const {
   if (answer.status == kUnauthorized || (answer.status == kForbidden && !problem)) {
     throw BadInput(url_ + " refuses the request (" + status + "): give the right --token or RPSUP_TOKEN");
   }
-  if (!problem) throw std::runtime_error(url_ + " answers " + status + ", but not as this service does. Is --url right?");
+  if (!problem)
+    throw std::runtime_error(url_ + " answers " + status + ", but not as this service does. Is --url right?");
   const std::string detail = text_at(*problem, "detail");
-  if (answer.status >= 500 || answer.status == kTooManyRequests) throw std::runtime_error(url_ + " cannot do it now (" + status + "): " + detail);
+  if (answer.status >= 500 || answer.status == kTooManyRequests)
+    throw std::runtime_error(url_ + " cannot do it now (" + status + "): " + detail);
   auto faults = faults_of(*problem);
   if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
   throw BadInput(detail);

@@ -16,8 +16,8 @@ struct RemoteOptions {
 };
 
 /// A service that runs elsewhere, as the commands use it. Its refusals become what run_guarded() tells:
-/// jobs::InvalidRequest where it names faults, BadInput for what else is the user's to mend, std::runtime_error for what
-/// is the service's or the network's.
+/// jobs::InvalidRequest where it names faults, BadInput for what else is the user's to mend,
+/// std::runtime_error for what is the service's or the network's.
 class RemoteService {
  public:
   enum class Kind { kSweep, kJob };
@@ -36,7 +36,8 @@ class RemoteService {
   /// The sweep or job of that id. @throws BadInput if there is neither
   [[nodiscard]] Resource find(const std::string& id);
   [[nodiscard]] Resource cancel(const std::string& id);
-  /// The table of results, byte for byte as the service gives it. @param media_type  text/csv, application/json or application/x-ndjson
+  /// The table of results, byte for byte as the service gives it. @param media_type  text/csv,
+  /// application/json or application/x-ndjson
   [[nodiscard]] std::string results(const std::string& sweep_id, const std::string& media_type);
 
  private:

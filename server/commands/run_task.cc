@@ -26,7 +26,8 @@ int number_in_environment(const char* name, int largest) {
   int number = -1;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error != std::errc() || end != digits.data() + digits.size() || number < 0 || number > largest) {
-    throw BadInput(std::string(name) + "=" + text + ": must be a number from 0 to " + std::to_string(largest));
+    throw BadInput(std::string(name) + "=" + text + ": must be a number from 0 to " +
+                   std::to_string(largest));
   }
   return number;
 }
@@ -35,17 +36,26 @@ int number_in_environment(const char* name, int largest) {
 
 int run_task(const RunTaskOptions& options) {
   constexpr int kLargestIndex = 100'000'000;
-  const int index = options.index >= 0 ? options.index : number_in_environment("SLURM_ARRAY_TASK_ID", kLargestIndex);
-  if (index < 0) throw BadInput("--index is missing, and there is no SLURM_ARRAY_TASK_ID: this is no task of an array of Slurm");
-  const int threads = options.threads > 0 ? options.threads : std::max(1, number_in_environment("SLURM_CPUS_PER_TASK", kMostThreads));
+  const int index =
+      options.index >= 0 ? options.index : number_in_environment("SLURM_ARRAY_TASK_ID", kLargestIndex);
+  if (index < 0)
+    throw BadInput(
+        "--index is missing, and there is no SLURM_ARRAY_TASK_ID: this is no task of an array of Slurm");
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, number_in_environment("SLURM_CPUS_PER_TASK", kMostThreads));
   const EndSignals signals;
   const jobs::Provenance& own = jobs::own_provenance();
-  std::cerr << "rpsup " << own.version << " (" << own.commit << "), engine " << own.engine << ", " << own.libm << ", "
-            << own.cpu << ", " << own.host << '\n';
-  const bool complete = jobs::cluster::run_task({.folder = options.folder, .generation = options.generation, .index = index, .threads = threads,
-                                                 .runner = jobs::engine_runner()},
-                                                [&] { return signals.arrived(); },
-                                                [](const std::string& message) { std::cerr << "rpsup: " << message << '\n'; });
+  std::cerr << "rpsup " << own.version << " (" << own.commit << "), engine " << own.engine << ", " << own.libm
+            << ", " << own.cpu << ", " << own.host << '\n';
+  const bool complete = jobs::cluster::run_task(
+      {.folder = options.folder,
+       .generation = options.generation,
+       .index = index,
+       .threads = threads,
+       .runner = jobs::engine_runner()},
+      [&] { return signals.arrived(); },
+      [](const std::string& message) { std::cerr << "rpsup: " << message << '\n'; });
   return complete ? kDone : kInterrupted;
 }
 

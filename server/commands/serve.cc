@@ -34,10 +34,13 @@ namespace {
 /// Without a token, whoever reaches the port may fill the disk and use the processors.
 std::string checked_address(const std::string& host, const std::string& token) {
   if (host == "localhost") return "127.0.0.1";
-  if (!is_address(host)) throw BadInput("--host " + host + ": must be an IP address of this machine, such as 127.0.0.1 or ::1");
+  if (!is_address(host))
+    throw BadInput("--host " + host + ": must be an IP address of this machine, such as 127.0.0.1 or ::1");
   if (token.empty() && !is_loopback(host)) {
-    throw BadInput("--host " + host + ": without a token only addresses of the loopback (127.0.0.1, ::1) are served, because whoever reaches "
-                   "another one could fill the disk; give it one by --token-file or RPSUP_TOKEN, or reach the service through an SSH tunnel");
+    throw BadInput("--host " + host +
+                   ": without a token only addresses of the loopback (127.0.0.1, ::1) are served, because "
+                   "whoever reaches another one could fill the disk; give it one by --token-file or "
+                   "RPSUP_TOKEN, or reach the service through an SSH tunnel");
   }
   return host;
 }
@@ -48,7 +51,9 @@ const std::vector<std::string>& checked_names(const std::vector<std::string>& na
     const bool good = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
       return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '-' || c == '.';
     });
-    if (!good && !is_address(name)) throw BadInput("--name " + name + ": must be like rpsup.example.org, in lower case, without a scheme and a port");
+    if (!good && !is_address(name))
+      throw BadInput("--name " + name +
+                     ": must be like rpsup.example.org, in lower case, without a scheme and a port");
   }
   return names;
 }
@@ -64,8 +69,11 @@ const std::vector<std::string>& checked_origins(const std::vector<std::string>& 
     const auto url = parse_service_url(origin);
     const bool upper = std::ranges::any_of(origin, [](unsigned char c) { return std::isupper(c) != 0; });
     if (!url || url->origin != origin || upper) {
-      throw BadInput("--cors-origin " + origin + ": must be like https://lab.example.org or http://127.0.0.1:3000, in lower case and without a path; "
-                     "there is no word for all of them, since whatever page a user opens could then use the service");
+      throw BadInput(
+          "--cors-origin " + origin +
+          ": must be like https://lab.example.org or http://127.0.0.1:3000, in lower case and without a "
+          "path; "
+          "there is no word for all of them, since whatever page a user opens could then use the service");
     }
   }
   return origins;
@@ -110,7 +118,8 @@ int serve(const ServeOptions& options) {
   const std::vector<std::string>& names = checked_names(options.names);
   const std::vector<std::string>& cors_origins = checked_origins(options.cors_origins);
   const jobs::cluster::Site site = make_site(options.cluster);
-  if (options.executor == "slurm" && site.folder.empty()) throw BadInput("--executor slurm needs --slurm-folder");
+  if (options.executor == "slurm" && site.folder.empty())
+    throw BadInput("--executor slurm needs --slurm-folder");
   start_log(options.log_level);
   raise_file_limit();
   keep_memory_reserve();
@@ -123,19 +132,27 @@ int serve(const ServeOptions& options) {
   service_options.job_limits = {.wall_time_s = options.job_time_s,
                                 .steps = options.job_steps,
                                 .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
-  service_options.store_quota = {.most_bytes = options.store_limit_mb * kMegabyte, .reserve_bytes = options.disk_reserve_mb * kMegabyte};
+  service_options.store_room = {.most_bytes = options.store_limit_mb * kMegabyte,
+                                .reserve_bytes = options.disk_reserve_mb * kMegabyte};
   service_options.site = site;
   service_options.executor = options.executor;
   service_options.start = jobs::Start::kWhenTold;
   service_options.log = [](const std::string& message) { spdlog::warn(message); };
   const auto metrics = std::make_shared<Metrics>();
-  service_options.ran = [metrics](const jobs::JobSpec& spec, const jobs::RunRecord& run) { metrics->add_run(spec, run); };
+  service_options.ran = [metrics](const jobs::JobSpec& spec, const jobs::RunRecord& run) {
+    metrics->add_run(spec, run);
+  };
   jobs::Service service(service_options);
   Routes routes(service, metrics);
-  HttpServer http(routes, {.address = address, .port = options.port, .cors_origins = cors_origins, .names = names, .token = token});
+  HttpServer http(routes, {.address = address,
+                           .port = options.port,
+                           .cors_origins = cors_origins,
+                           .names = names,
+                           .token = token});
   const int port = http.bind();
   if (port == 0) {
-    throw std::runtime_error("cannot listen on " + url(address, options.port) + ": another program has this port, "
+    throw std::runtime_error("cannot listen on " + url(address, options.port) +
+                             ": another program has this port, "
                              "or it is not this user's to take; --port 0 takes any free one");
   }
   service.start();  // not before it is sure that there will be a server

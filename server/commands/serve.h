@@ -10,12 +10,14 @@ namespace server::commands {
 
 struct ServeOptions {
   std::string store;               ///< SQLite file
-  std::string host = "127.0.0.1";  ///< an address of this machine; others than those of the loopback need a token
+  std::string host =
+      "127.0.0.1";  ///< an address of this machine; others than those of the loopback need a token
   int port = 8080;                 ///< 0: any free one
   int threads = 2;
   std::vector<std::string> cors_origins;  ///< other sites whose pages may ask
   std::vector<std::string> names;         ///< other names under which clients reach the service
-  std::string token_file;                 ///< with the token that clients must carry; empty: that of the environment, if there is one
+  std::string token_file;  ///< with the token that clients must carry; empty: that of the environment, if
+                           ///< there is one
   double job_time_s = 3600.0;             ///< most that a job may take; 0: no limit, as below
   long job_steps = 100'000'000;
   long job_memory_mb = 1024;

@@ -6,7 +6,8 @@
 
 namespace server::commands {
 
-/// Takes SIGINT and SIGTERM out of the hands of every thread that is started while it lives: they wait to be asked for.
+/// Takes SIGINT and SIGTERM out of the hands of every thread that is started while it lives: they wait to be
+/// asked for.
 class EndSignals {
  public:
   EndSignals();

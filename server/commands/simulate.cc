@@ -36,7 +36,8 @@ void check_trajectory_file(const std::string& path) {
 
 void check_plot_file(const std::string& plot) {
   if (plot.empty() || plot == "-") return;
-  if (!plot.ends_with(".svg")) throw BadInput("--plot " + plot + ": the name must end in .svg; - draws on the terminal");
+  if (!plot.ends_with(".svg"))
+    throw BadInput("--plot " + plot + ": the name must end in .svg; - draws on the terminal");
   check_output_file("--plot", plot);
 }
 
@@ -65,7 +66,8 @@ void plot_to_file(const std::string& file, const engine::Trajectory& trajectory)
 
 void plot_on_terminal(const engine::Trajectory& trajectory) {
   const TerminalSize size = terminal_size();
-  std::cerr << draw_for_terminal(calc_acceleration_band(trajectory, plot_columns(size)), size, terminal_characters());
+  std::cerr << draw_for_terminal(calc_acceleration_band(trajectory, plot_columns(size)), size,
+                                 terminal_characters());
 }
 
 void check_channels(const SimulateOptions& options, const jobs::JobSpec& spec) {
@@ -76,7 +78,8 @@ void check_channels(const SimulateOptions& options, const jobs::JobSpec& spec) {
   const auto channels = jobs::channel_table(spec);
   for (const auto& channel : channels) known += (known.empty() ? "" : ", ") + channel.key;
   for (const std::string& wanted : options.channels) {
-    const bool found = std::any_of(channels.begin(), channels.end(), [&](const auto& c) { return c.key == wanted; });
+    const bool found =
+        std::any_of(channels.begin(), channels.end(), [&](const auto& c) { return c.key == wanted; });
     if (!found) faults.push_back({"--channels", "there is no channel " + wanted + "; there are: " + known});
   }
   if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
@@ -111,7 +114,8 @@ int simulate(const SimulateOptions& options) {
   check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")));
   const jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
   if (!options.trajectory.empty()) {
-    const auto trajectory = select(jobs::rounded_to_stored(outcome.trajectory), options.channels);  // as the service would give it
+    const auto trajectory = select(jobs::rounded_to_stored(outcome.trajectory),
+                                   options.channels);  // as the service would give it
     write_text(options.trajectory, trajectory_text(options.trajectory, trajectory));
   }
   const bool on_terminal = options.plot == "-";

@@ -10,7 +10,8 @@ struct SimulateOptions {
   std::string file;                   ///< parameter object; "-": standard input
   std::string trajectory;             ///< where the trajectory goes, .csv, .json or .npz; empty: nowhere
   std::vector<std::string> channels;  ///< of the trajectory; empty: all
-  std::string plot;                   ///< .svg file for a picture of the slider's acceleration; "-": standard error; empty: none
+  std::string
+      plot;  ///< .svg file for a picture of the slider's acceleration; "-": standard error; empty: none
 };
 
 /// Computes one job on the spot and prints it as GET /v1/jobs/{id} would.

@@ -14,13 +14,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string text_or(const Json& value, const std::string& otherwise) { return value.is_string() ? value.get<std::string>() : otherwise; }
+std::string text_or(const Json& value, const std::string& otherwise) {
+  return value.is_string() ? value.get<std::string>() : otherwise;
+}
 
-std::string percent(const Json& sweep) { return std::to_string(std::lround(std::floor(100.0 * sweep.at("progress").get<double>()))) + " %"; }
+std::string percent(const Json& sweep) {
+  return std::to_string(std::lround(std::floor(100.0 * sweep.at("progress").get<double>()))) + " %";
+}
 
 std::string time_left(const Json& sweep) {
   const Json& eta = sweep.at("eta_s");
-  return eta.is_number() && sweep.at("progress").get<double>() < 1.0 ? format_duration(eta.get<double>()) : "-";
+  return eta.is_number() && sweep.at("progress").get<double>() < 1.0 ? format_duration(eta.get<double>())
+                                                                     : "-";
 }
 
 /// "3 succeeded, 1 failed", without what there is none of.
@@ -33,10 +38,13 @@ std::string describe_counts(const Json& counts) {
   return text;
 }
 
-void add_line_to(std::ostream& out, const std::string& key, const std::string& text) { out << std::left << std::setw(10) << key << text << '\n'; }
+void add_line_to(std::ostream& out, const std::string& key, const std::string& text) {
+  out << std::left << std::setw(10) << key << text << '\n';
+}
 
 std::string describe_times(const Json& resource) {
-  return text_or(resource.at("created_at"), "-") + ", started " + text_or(resource.at("started_at"), "-") + ", ended " + text_or(resource.at("ended_at"), "-");
+  return text_or(resource.at("created_at"), "-") + ", started " + text_or(resource.at("started_at"), "-") +
+         ", ended " + text_or(resource.at("ended_at"), "-");
 }
 
 std::string describe_sweep(const Json& sweep) {
@@ -44,7 +52,9 @@ std::string describe_sweep(const Json& sweep) {
   add_line_to(out, "sweep", sweep.at("id").get<std::string>() + "  " + sweep.at("name").get<std::string>());
   add_line_to(out, "state", sweep.at("state").get<std::string>());
   add_line_to(out, "progress", percent(sweep) + ", time left " + time_left(sweep));
-  add_line_to(out, "jobs", std::to_string(sweep.at("counts").at("total").get<long>()) + ": " + describe_counts(sweep.at("counts")));
+  add_line_to(out, "jobs",
+              std::to_string(sweep.at("counts").at("total").get<long>()) + ": " +
+                  describe_counts(sweep.at("counts")));
   add_line_to(out, "created", describe_times(sweep));
   return out.str();
 }
@@ -55,7 +65,8 @@ std::string describe_job(const Json& job) {
   add_line_to(out, "sweep", text_or(job.at("sweep_id"), "-"));
   add_line_to(out, "state", job.at("state").get<std::string>());
   const Json& error = job.at("error");
-  if (error.is_object()) add_line_to(out, "error", error.at("reason").get<std::string>() + ": " + text_or(error.at("detail"), ""));
+  if (error.is_object())
+    add_line_to(out, "error", error.at("reason").get<std::string>() + ": " + text_or(error.at("detail"), ""));
   add_line_to(out, "created", describe_times(job));
   add_line_to(out, "attempts", std::to_string(job.at("attempts").get<long>()));
   return out.str();
@@ -64,15 +75,16 @@ std::string describe_job(const Json& job) {
 /// A line a sweep, newest first; what takes any length comes last.
 std::string describe_list(const Json& items) {
   std::ostringstream out;
-  const auto add_row = [&](const std::string& id, const std::string& state, const std::string& progress, const std::string& left,
-                           const std::string& jobs, const std::string& name) {
-    out << std::left << std::setw(32) << id << std::setw(11) << state << std::right << std::setw(8) << progress << std::setw(16) << left
-        << std::setw(7) << jobs << "  " << name << '\n';
+  const auto add_row = [&](const std::string& id, const std::string& state, const std::string& progress,
+                           const std::string& left, const std::string& jobs, const std::string& name) {
+    out << std::left << std::setw(32) << id << std::setw(11) << state << std::right << std::setw(8)
+        << progress << std::setw(16) << left << std::setw(7) << jobs << "  " << name << '\n';
   };
   add_row("ID", "STATE", "PROGRESS", "TIME LEFT", "JOBS", "NAME");
   for (const Json& sweep : items) {
-    add_row(sweep.at("id").get<std::string>(), sweep.at("state").get<std::string>(), percent(sweep), time_left(sweep),
-            std::to_string(sweep.at("counts").at("total").get<long>()), sweep.at("name").get<std::string>());
+    add_row(sweep.at("id").get<std::string>(), sweep.at("state").get<std::string>(), percent(sweep),
+            time_left(sweep), std::to_string(sweep.at("counts").at("total").get<long>()),
+            sweep.at("name").get<std::string>());
   }
   return out.str();
 }
@@ -87,7 +99,8 @@ int status(const StatusOptions& options) {
     return kDone;
   }
   const auto [kind, resource] = service.find(options.id);
-  const std::string text = kind == RemoteService::Kind::kSweep ? describe_sweep(resource) : describe_job(resource);
+  const std::string text =
+      kind == RemoteService::Kind::kSweep ? describe_sweep(resource) : describe_job(resource);
   write_text("-", options.json ? to_text(resource, 2) + "\n" : text);
   return resource.at("state") == "failed" ? kJobFailed : kDone;
 }

@@ -19,7 +19,8 @@ namespace {
 
 /// Waits for the end of a sweep and shows its progress. False if the user ended it first.
 bool follow(jobs::Service& service, const std::string& id, const EndSignals& signals) {
-  ProgressView view(std::cerr, isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines);
+  ProgressView view(std::cerr,
+                    isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines);
   bool ended = false;
   bool interrupted = false;
   while (!ended && !interrupted) {
@@ -33,7 +34,8 @@ bool follow(jobs::Service& service, const std::string& id, const EndSignals& sig
 
 int interrupt(jobs::Service& service, const std::string& id) {
   try {
-    // What is left would start again with the store, beside the sweep that the same command submits next time.
+    // What is left would start again with the store, beside the sweep that the same command submits next
+    // time.
     service.cancel_sweep(id);
   } catch (const jobs::WrongState&) {
     // It has ended since the last look: nothing is left to cancel.

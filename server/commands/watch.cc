@@ -28,7 +28,8 @@ bool has_ended(const Json& resource) {
 
 /// A job as a sweep that has this one.
 Json as_sweep(const Json& job) {
-  Json counts = {{"queued", 0}, {"running", 0}, {"succeeded", 0}, {"failed", 0}, {"cancelled", 0}, {"total", 1}};
+  Json counts = {{"queued", 0}, {"running", 0},   {"succeeded", 0},
+                 {"failed", 0}, {"cancelled", 0}, {"total", 1}};
   counts[job.at("state").get<std::string>()] = 1;
   return {{"counts", counts}, {"progress", has_ended(job) ? 1.0 : 0.0}, {"eta_s", nullptr}};
 }
@@ -37,7 +38,10 @@ Json as_sweep(const Json& job) {
 class Watcher {
  public:
   Watcher(const RemoteOptions& remote, const std::string& id)
-      : service_(remote), id_(id), view_(std::cerr, isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines) {}
+      : service_(remote),
+        id_(id),
+        view_(std::cerr, isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines) {
+  }
 
   /// @returns the state that it ended in; empty if the user ended the watching
   std::optional<std::string> follow(const EndSignals& signals) {
@@ -68,7 +72,8 @@ class Watcher {
     if (!lost_since_) {
       lost_since_ = Clock::now();
       view_.finish();
-      std::cerr << "rpsup: " << error.what() << "; trying again for " << kPatience.count() << " s" << std::endl;
+      std::cerr << "rpsup: " << error.what() << "; trying again for " << kPatience.count() << " s"
+                << std::endl;
     }
     if (Clock::now() - *lost_since_ > kPatience) throw error;
   }

@@ -9,13 +9,15 @@
 
 namespace server {
 
-/// Limits the requests that wait at a time for the end of a job, a sweep or a study (`Prefer: wait=N`). Each holds
-/// a thread of the server.
+/// Limits the requests that wait at a time for the end of a job, a sweep or a study (`Prefer: wait=N`). Each
+/// holds a thread of the server.
 class LongPollLimit {
  public:
-  /// Calls wait_for() with the time for which the request prefers to wait, and says in the response that it did.
+  /// Calls wait_for() with the time for which the request prefers to wait, and says in the response that it
+  /// did.
   /// @returns false, at once, if the request does not prefer to wait or if too many wait
-  bool wait(const Request& request, Response& response, const std::function<void(std::chrono::seconds)>& wait_for);
+  bool wait(const Request& request, Response& response,
+            const std::function<void(std::chrono::seconds)>& wait_for);
 
  private:
   static constexpr int kMaxWaiting = 8;

@@ -19,12 +19,15 @@ namespace server {
 
 namespace {
 
-const prometheus::Histogram::BucketBoundaries kJobSeconds{0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000, 3600};
+const prometheus::Histogram::BucketBoundaries kJobSeconds{0.01, 0.03, 0.1, 0.3, 1,    3,
+                                                          10,   30,   100, 300, 1000, 3600};
 const prometheus::Histogram::BucketBoundaries kRequestSeconds{0.001, 0.003, 0.01, 0.03, 0.1, 0.25, 1, 3, 10};
 
 const char* kind_of(const jobs::JobSpec& spec) {
   if (spec.linkage) {
-    return std::ranges::any_of(spec.linkage->bodies, [](const auto& body) { return body.beam.has_value(); }) ? "flexible" : "rigid";
+    return std::ranges::any_of(spec.linkage->bodies, [](const auto& body) { return body.beam.has_value(); })
+               ? "flexible"
+               : "rigid";
   }
   const engine::RpsupParameters& p = spec.parameters;
   for (const engine::LinkModel link : {p.coupler, p.crank.model, p.rod.model, p.cross.model})
@@ -49,11 +52,14 @@ class Metrics::Impl {
         .Name("rpsup_build_info")
         .Help("Always 1; the labels say which program this is")
         .Register(registry_)
-        .Add({{"version", std::string(jobs::kProgramVersion)}, {"commit", std::string(jobs::kProgramCommit)}, {"compiler", std::string(jobs::kProgramCompiler)}})
+        .Add({{"version", std::string(jobs::kProgramVersion)},
+              {"commit", std::string(jobs::kProgramCommit)},
+              {"compiler", std::string(jobs::kProgramCompiler)}})
         .Set(1);
     // Series that may come are there from the beginning: a rate needs the zero before the first.
     for (const char* const kind : {"rigid", "flexible"}) job_seconds_.Add({{"kind", kind}}, kJobSeconds);
-    for (const char* const reason : {"internal", "time_limit", "memory_limit"}) failures_.Add({{"reason", reason}});
+    for (const char* const reason : {"internal", "time_limit", "memory_limit"})
+      failures_.Add({{"reason", reason}});
   }
 
   void add_run(const jobs::JobSpec& spec, const jobs::RunRecord& run) {
@@ -66,7 +72,10 @@ class Metrics::Impl {
 
   void add_request(const std::string& method, std::string_view route, int status, double seconds) {
     request_seconds_
-        .Add({{"method", known_method(method)}, {"route", route.empty() ? "none" : std::string(route)}, {"status", std::to_string(status)}}, kRequestSeconds)
+        .Add({{"method", known_method(method)},
+              {"route", route.empty() ? "none" : std::string(route)},
+              {"status", std::to_string(status)}},
+             kRequestSeconds)
         .Observe(seconds);
   }
 
@@ -84,37 +93,48 @@ class Metrics::Impl {
     const auto name = executor.at("name").get<std::string>();
     slots_.Add({{"executor", name}}).Set(executor.at("slots").get<double>());
     if (executor.at("tasks").is_null()) return;
-    for (const char* const state : {"pending", "running"}) tasks_.Add({{"executor", name}, {"state", state}}).Set(executor.at("tasks").at(state).get<double>());
+    for (const char* const state : {"pending", "running"})
+      tasks_.Add({{"executor", name}, {"state", state}}).Set(executor.at("tasks").at(state).get<double>());
     nodes_.Add({{"executor", name}}).Set(static_cast<double>(executor.at("nodes").size()));
     problems_.Add({{"executor", name}}).Set(static_cast<double>(executor.at("problems").size()));
   }
 
-  prometheus::Family<prometheus::Gauge>& add_gauges(const char* name, const char* help) { return prometheus::BuildGauge().Name(name).Help(help).Register(registry_); }
-  prometheus::Gauge& add_gauge(const char* name, const char* help) { return prometheus::BuildGauge().Name(name).Help(help).Register(registry_).Add({}); }
+  prometheus::Family<prometheus::Gauge>& add_gauges(const char* name, const char* help) {
+    return prometheus::BuildGauge().Name(name).Help(help).Register(registry_);
+  }
+  prometheus::Gauge& add_gauge(const char* name, const char* help) {
+    return prometheus::BuildGauge().Name(name).Help(help).Register(registry_).Add({});
+  }
 
   prometheus::Registry registry_;  // before all that stands in it
   std::mutex load_mutex_;          // guards the gauges of the load between being set and being written
   prometheus::Gauge& queued_ = add_gauge("rpsup_jobs_queued", "Jobs that wait");
   prometheus::Gauge& running_ = add_gauge("rpsup_jobs_running", "Jobs that are being computed");
   prometheus::Gauge& store_bytes_ = add_gauge("rpsup_store_bytes", "Size of the store on disk, with its log");
-  prometheus::Family<prometheus::Gauge>& slots_ = add_gauges("rpsup_executor_slots", "Jobs that an executor computes at a time");
-  prometheus::Family<prometheus::Gauge>& tasks_ = add_gauges("rpsup_executor_tasks", "Tasks in Slurm's queue, by state");
-  prometheus::Family<prometheus::Gauge>& nodes_ = add_gauges("rpsup_executor_nodes", "Machines of the cluster that compute now");
-  prometheus::Family<prometheus::Gauge>& problems_ = add_gauges("rpsup_executor_problems", "What somebody should look at; /v1/executors says what");
-  prometheus::Family<prometheus::Histogram>& job_seconds_ = prometheus::BuildHistogram()
-                                                                .Name("rpsup_job_duration_seconds")
-                                                                .Help("Time that jobs took on this machine, by kind of links: rigid, or with "
-                                                                      "a flexible one")
-                                                                .Register(registry_);
+  prometheus::Family<prometheus::Gauge>& slots_ =
+      add_gauges("rpsup_executor_slots", "Jobs that an executor computes at a time");
+  prometheus::Family<prometheus::Gauge>& tasks_ =
+      add_gauges("rpsup_executor_tasks", "Tasks in Slurm's queue, by state");
+  prometheus::Family<prometheus::Gauge>& nodes_ =
+      add_gauges("rpsup_executor_nodes", "Machines of the cluster that compute now");
+  prometheus::Family<prometheus::Gauge>& problems_ =
+      add_gauges("rpsup_executor_problems", "What somebody should look at; /v1/executors says what");
+  prometheus::Family<prometheus::Histogram>& job_seconds_ =
+      prometheus::BuildHistogram()
+          .Name("rpsup_job_duration_seconds")
+          .Help(
+              "Time that jobs took on this machine, by kind of links: rigid, or with a flexible one")
+          .Register(registry_);
   prometheus::Family<prometheus::Counter>& failures_ =
       prometheus::BuildCounter()
           .Name("rpsup_job_failures_total")
           .Help("Runs of jobs on this machine that failed since the program began, by reason")
           .Register(registry_);
-  prometheus::Family<prometheus::Histogram>& request_seconds_ = prometheus::BuildHistogram()
-                                                                    .Name("rpsup_http_request_duration_seconds")
-                                                                    .Help("Time in which requests were answered, from their last byte on")
-                                                                    .Register(registry_);
+  prometheus::Family<prometheus::Histogram>& request_seconds_ =
+      prometheus::BuildHistogram()
+          .Name("rpsup_http_request_duration_seconds")
+          .Help("Time in which requests were answered, from their last byte on")
+          .Register(registry_);
 };
 
 Metrics::Metrics() : impl_(std::make_unique<Impl>()) {}
@@ -132,6 +152,8 @@ void Metrics::add_request(const std::string& method, std::string_view route, int
   impl_->add_request(method, route, status, seconds);
 }
 
-std::string Metrics::text(const jobs::QueueStats& load, const nlohmann::json& executors) const { return impl_->text(load, executors); }
+std::string Metrics::text(const jobs::Load& load, const nlohmann::json& executors) const {
+  return impl_->text(load, executors);
+}
 
 }  // namespace server

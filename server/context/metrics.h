@@ -11,7 +11,8 @@
 
 namespace server {
 
-/// What a monitoring system asks a service for, in the text format of Prometheus. All members may be called from any thread.
+/// What a monitoring system asks a service for, in the text format of Prometheus. All members may be called
+/// from any thread.
 class Metrics {
  public:
   Metrics();
@@ -19,7 +20,8 @@ class Metrics {
   Metrics(const Metrics&) = delete;
   Metrics& operator=(const Metrics&) = delete;
 
-  /// Counts a run: what it took, by kind of links, and why it failed. One that was asked to stop is no job that has ended.
+  /// Counts a run: what it took, by kind of links, and why it failed. One that was asked to stop is no job
+  /// that has ended.
   void add_run(const jobs::JobSpec& spec, const jobs::RunRecord& run) noexcept;
 
   /// Counts a request that has been answered.
@@ -27,7 +29,8 @@ class Metrics {
   void add_request(const std::string& method, std::string_view route, int status, double seconds);
 
   /// Everything, with the load as it is now. @param executors  Service::list_executors()
-  [[nodiscard]] std::string text(const jobs::QueueStats& load, const nlohmann::json& executors = {{"items", nlohmann::json::array()}}) const;
+  [[nodiscard]] std::string text(const jobs::Load& load, const nlohmann::json& executors = {
+                                                             {"items", nlohmann::json::array()}}) const;
 
  private:
   class Impl;

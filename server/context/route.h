@@ -15,7 +15,8 @@ struct AnswerForm {
   std::string_view schema;
 };
 
-/// One route: method and pattern, handler, and entry of the OpenAPI document, which has no other source of routes.
+/// One route: method and pattern, handler, and entry of the OpenAPI document, which has no other source of
+/// routes.
 struct Route {
   std::string_view method;
   std::string_view pattern;         ///< {id} stands for one segment for which is_id() holds
@@ -28,7 +29,7 @@ struct Route {
   std::string_view body = {};                  ///< schema of the request's JSON; empty: no body
   int success = 200;
   std::vector<AnswerForm> answers = {};        ///< forms of the answer to success; empty: without a body
-  std::vector<int> bodiless = {};              ///< statuses of other answers without a body that are no problems
+  std::vector<int> bodiless = {};  ///< statuses of other answers without a body that are no problems
   std::vector<int> problems = {};              ///< statuses beside those of any request
 };
 

@@ -6,7 +6,8 @@
 
 namespace server {
 
-/// Limits copies of the store to one at a time: each takes as much of the disk as the store, until it has been sent.
+/// Limits copies of the store to one at a time: each takes as much of the disk as the store, until it has
+/// been sent.
 class StoreCopyLimit {
  public:
   /// @returns a permit, which is released by its destruction; null while there is another one

@@ -20,8 +20,9 @@ constexpr std::size_t kLongestToken = 512;
 /// What follows the name of a scheme, in whatever case that is written; empty for another scheme.
 std::string_view after_scheme(std::string_view authorization, std::string_view scheme) {
   if (authorization.size() <= scheme.size() || authorization[scheme.size()] != ' ') return {};
-  const bool same = std::equal(scheme.begin(), scheme.end(), authorization.begin(),
-                               [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+  const bool same =
+      std::equal(scheme.begin(), scheme.end(), authorization.begin(),
+                 [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
   if (!same) return {};
   const auto start = authorization.find_first_not_of(' ', scheme.size());
   return start == std::string_view::npos ? std::string_view() : authorization.substr(start);
@@ -31,7 +32,8 @@ std::string_view after_scheme(std::string_view authorization, std::string_view s
 std::string decode_base64(std::string_view text) {
   if (text.empty() || text.size() % 4 != 0) return "";
   std::vector<unsigned char> bytes(text.size() / 4 * 3);
-  const int size = EVP_DecodeBlock(bytes.data(), reinterpret_cast<const unsigned char*>(text.data()), static_cast<int>(text.size()));
+  const int size = EVP_DecodeBlock(bytes.data(), reinterpret_cast<const unsigned char*>(text.data()),
+                                   static_cast<int>(text.size()));
   if (size < 0) return "";
   const auto padding = static_cast<std::size_t>(std::ranges::count(text.substr(text.size() - 2), '='));
   return {bytes.begin(), bytes.begin() + size - static_cast<std::ptrdiff_t>(padding)};
@@ -59,9 +61,11 @@ bool AccessCheck::is_allowed(std::string_view path, const std::string& authoriza
 
 std::string describe_token_fault(std::string_view token) {
   if (token.size() < kShortestToken || token.size() > kLongestToken) {
-    return "must have " + std::to_string(kShortestToken) + " to " + std::to_string(kLongestToken) + " characters; openssl rand -hex 24 makes a good one";
+    return "must have " + std::to_string(kShortestToken) + " to " + std::to_string(kLongestToken) +
+           " characters; openssl rand -hex 24 makes a good one";
   }
-  const bool good = std::ranges::all_of(token, [](char c) { return c > ' ' && c < '\x7f' && c != '"' && c != ',' && c != ':'; });
+  const bool good = std::ranges::all_of(
+      token, [](char c) { return c > ' ' && c < '\x7f' && c != '"' && c != ',' && c != ':'; });
   return good ? "" : "must be of visible ASCII characters, without a quote, a comma or a colon";
 }
 

@@ -48,7 +48,8 @@ ConnectionAcceptor::ConnectionAcceptor(const Limits& limits, std::function<void(
   epoll_fd_ = ::epoll_create1(EPOLL_CLOEXEC);
   wakeup_fd_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (epoll_fd_ >= 0 && wakeup_fd_ >= 0 && add_to_epoll(epoll_fd_, wakeup_fd_, this)) return;
-  throw std::runtime_error("the system has no file descriptors left to wait for clients with: raise its limit (ulimit -n)");
+  throw std::runtime_error(
+      "the system has no file descriptors left to wait for clients with: raise its limit (ulimit -n)");
 }
 
 ConnectionAcceptor::~ConnectionAcceptor() {
@@ -78,7 +79,8 @@ bool ConnectionAcceptor::run(int listening) {
 
 bool ConnectionAcceptor::serve_events(int listening) {
   std::array<epoll_event, 64> events{};
-  const int ready = ::epoll_wait(epoll_fd_, events.data(), static_cast<int>(events.size()), poll_timeout_ms());
+  const int ready =
+      ::epoll_wait(epoll_fd_, events.data(), static_cast<int>(events.size()), poll_timeout_ms());
   if (ready < 0) return errno == EINTR;
   bool new_connection = false;
   for (int i = 0; i < ready; ++i) {
@@ -108,12 +110,14 @@ bool ConnectionAcceptor::accept_next(int listening) {
     return true;
   }
   // Most clients have sent their head by now.
-  if (read_some(pending_.back()) || !add_to_epoll(epoll_fd_, socket, &pending_.back())) close(std::prev(pending_.end()));
+  if (read_some(pending_.back()) || !add_to_epoll(epoll_fd_, socket, &pending_.back()))
+    close(std::prev(pending_.end()));
   return true;
 }
 
 void ConnectionAcceptor::read_ready(const PendingConnection* ready) {
-  const auto connection = std::ranges::find_if(pending_, [&](const PendingConnection& each) { return &each == ready; });
+  const auto connection =
+      std::ranges::find_if(pending_, [&](const PendingConnection& each) { return &each == ready; });
   if (read_some(*connection)) close(connection);
 }
 
@@ -125,7 +129,8 @@ bool ConnectionAcceptor::read_some(PendingConnection& connection) {
   try {
     // The empty line may straddle two reads.
     std::string& received = connection.received;
-    const std::size_t searched = received.size() < kEndOfHead.size() ? 0 : received.size() - kEndOfHead.size() + 1;
+    const std::size_t searched =
+        received.size() < kEndOfHead.size() ? 0 : received.size() - kEndOfHead.size() + 1;
     received.append(bytes.data(), static_cast<std::size_t>(got));
     const bool complete = received.find(kEndOfHead, searched) != std::string::npos;
     if (!complete && received.size() <= limits_.head_bytes) return false;

@@ -37,8 +37,8 @@ class ConnectionAcceptor {
   ConnectionAcceptor(const ConnectionAcceptor&) = delete;
   ConnectionAcceptor& operator=(const ConnectionAcceptor&) = delete;
 
-  /// Accepts on a listening socket until stop(), then closes it. Connections that have begun to send then have
-  /// the drain time left.
+  /// Accepts on a listening socket until stop(), then closes it. Connections that have begun to send then
+  /// have the drain time left.
   /// @returns false if accepting failed for good
   bool run(int listening);
 

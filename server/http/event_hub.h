@@ -25,7 +25,8 @@ class EventHub {
   EventHub(const EventHub&) = delete;
   EventHub& operator=(const EventHub&) = delete;
 
-  /// Reserves one of kMaxStreams streams for these events, for as long as they exist. False if all are reserved.
+  /// Reserves one of kMaxStreams streams for these events, for as long as they exist. False if all are
+  /// reserved.
   [[nodiscard]] bool reserve(const std::shared_ptr<EventSource>& events);
 
   /// Takes over the connection of events with a reservation; the head of the answer has been sent. Closes the

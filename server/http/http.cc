@@ -26,8 +26,8 @@ namespace {
 // Nothing but what this server itself sends runs in its page, and no other page shows it in a frame.
 const httplib::Headers kSecurityHeaders = {
     {"Content-Security-Policy",
-     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self'; base-uri 'none'; "
-     "form-action 'none'; frame-ancestors 'none'"},
+     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self'; base-uri "
+     "'none'; form-action 'none'; frame-ancestors 'none'"},
     {"Cross-Origin-Resource-Policy", "same-origin"},
     {"Referrer-Policy", "no-referrer"},
     {"X-Content-Type-Options", "nosniff"},
@@ -37,11 +37,13 @@ const httplib::Headers kSecurityHeaders = {
 void set_file(httplib::Response& to, const std::string& content_type, std::shared_ptr<FileBody> file) {
   static constexpr std::size_t kPiece = 64 * 1024;
   const std::size_t size = file->size();
-  to.set_content_provider(size, content_type, [file = std::move(file)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-    std::vector<char> piece(std::min(length, kPiece));
-    const std::size_t got = file->read(offset, piece.data(), piece.size());
-    return got > 0 && sink.write(piece.data(), got);
-  });
+  to.set_content_provider(
+      size, content_type,
+      [file = std::move(file)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        std::vector<char> piece(std::min(length, kPiece));
+        const std::size_t got = file->read(offset, piece.data(), piece.size());
+        return got > 0 && sink.write(piece.data(), got);
+      });
 }
 
 /// Sends the head alone; the events follow on another thread.
@@ -64,13 +66,17 @@ void copy_to(httplib::Response& to, Response from) {
     to.set_header("Content-Type", from.content_type);
   }
   for (const auto& [name, value] : from.headers) {
-    if (kSecurityHeaders.contains(name)) to.headers.erase(name);  // in the place of the one that every answer has
+    if (kSecurityHeaders.contains(name))
+      to.headers.erase(name);  // in the place of the one that every answer has
     to.set_header(name, value);
   }
 }
 
-/// Only browsers send these. Another site's page can have them send a form or plain text without asking, but not JSON.
-bool is_of_a_page(const httplib::Request& request) { return request.has_header("Origin") || request.has_header("Sec-Fetch-Site"); }
+/// Only browsers send these. Another site's page can have them send a form or plain text without asking, but
+/// not JSON.
+bool is_of_a_page(const httplib::Request& request) {
+  return request.has_header("Origin") || request.has_header("Sec-Fetch-Site");
+}
 
 bool is_json(const std::string& content_type) {
   const std::string media_type = content_type.substr(0, content_type.find_first_of("; \t"));
@@ -79,13 +85,15 @@ bool is_json(const std::string& content_type) {
 
 /// Of programs the media type is not looked at beyond this: `curl -d` calls every body a form.
 std::optional<Refusal> find_media_fault(const httplib::Request& request) {
-  if (request.is_multipart_form_data()) return Refusal{415, "send the JSON text itself, not as a part of a form"};
+  if (request.is_multipart_form_data())
+    return Refusal{415, "send the JSON text itself, not as a part of a form"};
   const bool empty = request.get_header_value("Content-Length") == "0";
   if (!empty && is_of_a_page(request) && !is_json(request.get_header_value("Content-Type"))) {
     return Refusal{415, "a page sends JSON with Content-Type: application/json"};
   }
   const std::string encoding = request.get_header_value("Content-Encoding");
-  if (encoding.empty() || encoding == "identity" || encoding == "gzip" || encoding == "deflate") return std::nullopt;
+  if (encoding.empty() || encoding == "identity" || encoding == "gzip" || encoding == "deflate")
+    return std::nullopt;
   return Refusal{415, "the Content-Encoding is not supported; gzip and deflate are"};
 }
 
@@ -103,18 +111,23 @@ class HttpServer::Impl {
         routes_(routes),
         origin_check_(options.address, options.cors_origins, options.names),
         access_check_(options.token),
-        guard(http_limits, [this](int status, const std::string& detail) { return make_refusal(status, detail); }) {
+        guard(http_limits,
+              [this](int status, const std::string& detail) { return make_refusal(status, detail); }) {
     guard.set_default_headers(kSecurityHeaders);
     guard.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       return route_without_body(request, response);
     });
-    // All of them with a reader of our own: the library refuses forms above 8 KiB, and that is what `curl -d` sends.
-    guard.Post(R"([\s\S]*)", [this](const httplib::Request& request, httplib::Response& response,
-                                    const httplib::ContentReader& reader) { route_with_body(request, response, reader); });
-    guard.set_error_handler([](const httplib::Request&, httplib::Response& response) { complete_error(response); });
-    guard.set_exception_handler([this](const httplib::Request&, httplib::Response& response, const std::exception_ptr& error) {
-      copy_to(response, make_error_answer(error, request_ids_.next()));
-    });
+    // All of them with a reader of our own: the library refuses forms above 8 KiB, and that is what `curl -d`
+    // sends.
+    guard.Post(R"([\s\S]*)",
+               [this](const httplib::Request& request, httplib::Response& response,
+                      const httplib::ContentReader& reader) { route_with_body(request, response, reader); });
+    guard.set_error_handler(
+        [](const httplib::Request&, httplib::Response& response) { complete_error(response); });
+    guard.set_exception_handler(
+        [this](const httplib::Request&, httplib::Response& response, const std::exception_ptr& error) {
+          copy_to(response, make_error_answer(error, request_ids_.next()));
+        });
     guard.set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       tidy_headers(response);
       if (!response.has_header("X-Request-Id")) response.set_header("X-Request-Id", request_ids_.next());
@@ -137,7 +150,8 @@ class HttpServer::Impl {
 
   /// The library ends some requests itself, with a status and no body.
   static void complete_error(httplib::Response& response) {
-    if (response.body.empty()) copy_to(response, make_problem(response.status, "the request cannot be understood"));
+    if (response.body.empty())
+      copy_to(response, make_problem(response.status, "the request cannot be understood"));
   }
 
   static void tidy_headers(httplib::Response& response) {
@@ -152,7 +166,8 @@ class HttpServer::Impl {
     const std::string origin = request.get_header_value("Origin");
     if (!origin_check_.is_allowed(origin)) return;
     response.set_header("Access-Control-Allow-Origin", origin);
-    response.set_header("Access-Control-Expose-Headers", "Content-Disposition, ETag, Location, Preference-Applied, Retry-After, X-Request-Id");
+    response.set_header("Access-Control-Expose-Headers",
+                        "Content-Disposition, ETag, Location, Preference-Applied, Retry-After, X-Request-Id");
   }
 
   /// What a browser asks on behalf of such a page before it sends the request itself.
@@ -164,13 +179,16 @@ class HttpServer::Impl {
   static void answer_preflight(const httplib::Request& request, httplib::Response& response) {
     response.status = 204;
     response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
-    response.set_header("Access-Control-Allow-Headers", "Authorization, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID, Prefer");
+    response.set_header("Access-Control-Allow-Headers",
+                        "Authorization, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID, Prefer");
     response.set_header("Access-Control-Max-Age", "600");
     // Chrome asks this where a page from elsewhere speaks to this machine.
-    if (request.has_header("Access-Control-Request-Private-Network")) response.set_header("Access-Control-Allow-Private-Network", "true");
+    if (request.has_header("Access-Control-Request-Private-Network"))
+      response.set_header("Access-Control-Allow-Private-Network", "true");
   }
 
-  /// The second challenge makes a browser ask its user for a name, which may be anything, and a password, which is the token.
+  /// The second challenge makes a browser ask its user for a name, which may be anything, and a password,
+  /// which is the token.
   static Response make_access_problem() {
     Response response = make_problem(401, "this service asks for its token: Authorization: Bearer TOKEN");
     response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"rpsup\"");
@@ -188,7 +206,8 @@ class HttpServer::Impl {
       return Handled::Handled;
     }
     if (!access_check_.is_allowed(request.path, request.get_header_value("Authorization"))) {
-      spdlog::info("refused without the token: {} {} of {}", request.method, request.path, request.remote_addr);
+      spdlog::info("refused without the token: {} {} of {}", request.method, request.path,
+                   request.remote_addr);
       copy_to(response, make_access_problem());
       return Handled::Handled;
     }
@@ -201,7 +220,8 @@ class HttpServer::Impl {
                        const httplib::ContentReader& reader) {
     std::string body;
     if (has_body(request)) {
-      if (const auto fault = find_media_fault(request)) return copy_to(response, make_problem(fault->status, fault->detail));
+      if (const auto fault = find_media_fault(request))
+        return copy_to(response, make_problem(fault->status, fault->detail));
       if (const auto fault = read_body(reader, body)) {
         return copy_to(response, make_problem(fault->status, fault->detail));
       }
@@ -216,7 +236,8 @@ class HttpServer::Impl {
       if (!too_large) body.append(data, size);
       return !too_large;
     });
-    if (too_large) return Refusal{413, "the body is larger than " + std::to_string(limits.body_bytes) + " bytes"};
+    if (too_large)
+      return Refusal{413, "the body is larger than " + std::to_string(limits.body_bytes) + " bytes"};
     if (!complete) return Refusal{400, "the body is incomplete, malformed or did not come in time"};
     return std::nullopt;
   }
@@ -240,16 +261,19 @@ class HttpServer::Impl {
     request.if_none_match = from.get_header_value("If-None-Match");
     request.prefer = from.get_header_value("Prefer");
     request.last_event_id = from.get_header_value("Last-Event-ID");
-    if (from.has_header("Idempotency-Key")) request.idempotency_key = from.get_header_value("Idempotency-Key");
+    if (from.has_header("Idempotency-Key"))
+      request.idempotency_key = from.get_header_value("Idempotency-Key");
     request.body = std::move(body);
     request.id = request_ids_.next();
     Response response = routes_.answer(request);
-    if (response.events && !guard.reserve_event_stream(response.events)) response = make_retry_later(503, "too many clients follow events");
+    if (response.events && !guard.reserve_event_stream(response.events))
+      response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();
     copy_to(to, std::move(response));
     to.set_header("X-Request-Id", request.id);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, request.path, to.status, took.count());
+    spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, request.path, to.status,
+                  took.count());
   }
 
   const Routes& routes_;
@@ -261,7 +285,8 @@ class HttpServer::Impl {
   GuardedServer guard;  // last: its handlers use what stands above
 };
 
-HttpServer::HttpServer(const Routes& routes, const HttpOptions& options) : HttpServer(routes, options, HttpLimits{}) {}
+HttpServer::HttpServer(const Routes& routes, const HttpOptions& options)
+    : HttpServer(routes, options, HttpLimits{}) {}
 
 HttpServer::HttpServer(const Routes& routes, const HttpOptions& options, const HttpLimits& limits)
     : impl_(std::make_unique<Impl>(routes, options, limits)) {}

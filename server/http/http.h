@@ -12,8 +12,10 @@ namespace server {
 struct HttpOptions {
   std::string address = "127.0.0.1";  ///< an IP address, not a name
   int port = 8080;                    ///< 0: any free one
-  std::vector<std::string> cors_origins{};  ///< other sites whose pages may ask, as "https://lab.example.org", in lower case
-  std::vector<std::string> names{};         ///< other names under which clients reach this server, as "rpsup.example.org", in lower case
+  std::vector<std::string>
+      cors_origins{};  ///< other sites whose pages may ask, as "https://lab.example.org", in lower case
+  std::vector<std::string>
+      names{};  ///< other names under which clients reach this server, as "rpsup.example.org", in lower case
   std::string token{};                      ///< that every request must carry, see AccessCheck; empty: none
 };
 
@@ -36,7 +38,8 @@ class HttpServer {
   /// Serves until stop(). False if it could not.
   bool listen();
 
-  /// Ends listen() within HttpLimits::drain_time, after the answers that are under way. From any thread; bind() came before.
+  /// Ends listen() within HttpLimits::drain_time, after the answers that are under way. From any thread;
+  /// bind() came before.
   void stop();
 
  private:

@@ -14,7 +14,10 @@ namespace {
 constexpr time_t kConnectSeconds = 5;
 constexpr time_t kAnswerSeconds = 60;  // as long as the service itself takes at most for an answer
 
-bool is_host_character(unsigned char c) { return std::isalnum(c) != 0 || std::string_view(".-_:[]").find(static_cast<char>(c)) != std::string_view::npos; }
+bool is_host_character(unsigned char c) {
+  return std::isalnum(c) != 0 ||
+         std::string_view(".-_:[]").find(static_cast<char>(c)) != std::string_view::npos;
+}
 
 bool is_path_character(unsigned char c) { return c > ' ' && c < 0x7f && c != '?' && c != '#' && c != '\\'; }
 
@@ -31,8 +34,10 @@ bool is_of_another_host(Error error) {
 std::string describe(httplib::Error error) {
   if (is_of_another_host(error)) error = httplib::Error::SSLServerVerification;
   switch (error) {
-    case httplib::Error::Connection: return "nothing answers there; is the service running (rpsup serve), and is --url or RPSUP_URL right?";
-    case httplib::Error::ConnectionTimeout: return "no connection within " + std::to_string(kConnectSeconds) + " s";
+    case httplib::Error::Connection:
+      return "nothing answers there; is the service running (rpsup serve), and is --url or RPSUP_URL right?";
+    case httplib::Error::ConnectionTimeout:
+      return "no connection within " + std::to_string(kConnectSeconds) + " s";
     case httplib::Error::SSLServerVerification: return "its certificate is not one that this machine trusts";
     case httplib::Error::SSLConnection:
     case httplib::Error::SSLLoadingCerts: return "no secure connection";
@@ -51,7 +56,8 @@ std::optional<ServiceUrl> parse_service_url(const std::string& url) {
   const auto path_begin = std::min(url.find('/', host_begin), url.size());
   const std::string host = url.substr(host_begin, path_begin - host_begin);
   std::string prefix = url.substr(path_begin);
-  if (host.empty() || host.front() == ':' || !std::ranges::all_of(host, is_host_character)) return std::nullopt;
+  if (host.empty() || host.front() == ':' || !std::ranges::all_of(host, is_host_character))
+    return std::nullopt;
   if (!std::ranges::all_of(prefix, is_path_character)) return std::nullopt;
   while (prefix.ends_with('/')) prefix.pop_back();
   return ServiceUrl{.origin = scheme + "://" + host, .prefix = std::move(prefix)};
@@ -75,18 +81,26 @@ class HttpClient::Impl {
 
  private:
   [[nodiscard]] Answer take(const httplib::Result& result) const {
-    if (!result) throw Unreachable("no answer from " + url_.origin + url_.prefix + ": " + describe(result.error()));
-    return {.status = result->status, .content_type = result->get_header_value("Content-Type"), .body = result->body};
+    if (!result)
+      throw Unreachable("no answer from " + url_.origin + url_.prefix + ": " + describe(result.error()));
+    return {.status = result->status,
+            .content_type = result->get_header_value("Content-Type"),
+            .body = result->body};
   }
 
   ServiceUrl url_;
   httplib::Client client_;
 };
 
-HttpClient::HttpClient(const ServiceUrl& url, const std::string& token) : impl_(std::make_unique<Impl>(url, token)) {}
+HttpClient::HttpClient(const ServiceUrl& url, const std::string& token)
+    : impl_(std::make_unique<Impl>(url, token)) {}
 HttpClient::~HttpClient() = default;
 
-HttpClient::Answer HttpClient::get(const std::string& path, const std::string& accept) { return impl_->get(path, accept); }
-HttpClient::Answer HttpClient::post(const std::string& path, const std::string& body) { return impl_->post(path, body); }
+HttpClient::Answer HttpClient::get(const std::string& path, const std::string& accept) {
+  return impl_->get(path, accept);
+}
+HttpClient::Answer HttpClient::post(const std::string& path, const std::string& body) {
+  return impl_->post(path, body);
+}
 
 }  // namespace server

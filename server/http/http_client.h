@@ -11,7 +11,8 @@ namespace server {
 /// The parts of a service's URL.
 struct ServiceUrl {
   std::string origin;  ///< "http://127.0.0.1:8080"
-  std::string prefix;  ///< path in front of every route, "/lab" say, where a proxy serves more than this; no slash at its end
+  std::string prefix;  ///< path in front of every route, "/lab" say, where a proxy serves more than this; no
+                       ///< slash at its end
 };
 
 /// Takes the URL of a service apart: http or https, a host, perhaps a port and a path.

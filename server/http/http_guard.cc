@@ -13,8 +13,10 @@
 #include "server/messages/problem.h"
 #include "server/messages/safe_log.h"
 
-// The packaged library is built with these; without them its classes have another layout and the program crashes.
-#if !defined(CPPHTTPLIB_OPENSSL_SUPPORT) || !defined(CPPHTTPLIB_ZLIB_SUPPORT) || !defined(CPPHTTPLIB_BROTLI_SUPPORT)
+// The packaged library is built with these; without them its classes have another layout and the program
+// crashes.
+#if !defined(CPPHTTPLIB_OPENSSL_SUPPORT) || !defined(CPPHTTPLIB_ZLIB_SUPPORT) || \
+    !defined(CPPHTTPLIB_BROTLI_SUPPORT)
 #error "compile with the flags of pkg-config --cflags cpp-httplib"
 #endif
 
@@ -23,7 +25,7 @@ namespace server {
 namespace {
 
 constexpr std::size_t kThreads = 32;  // they wait for clients most of the time
-constexpr int kBacklog = 511;         // the library's 5 makes clients wait for a second when a few come at once
+constexpr int kBacklog = 511;  // the library's 5 makes clients wait for a second when a few come at once
 
 void set_reuse_address(socket_t socket) {
   // Not SO_REUSEPORT, the library's choice: with it a second server on the port would start without a word.
@@ -31,8 +33,9 @@ void set_reuse_address(socket_t socket) {
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// Copies the head that the client has sent to the library's request, without Range: the library would answer any
-/// number of ranges, and refuse those that it does not understand; a server without ranges ignores the header.
+/// Copies the head that the client has sent to the library's request, without Range: the library would answer
+/// any number of ranges, and refuse those that it does not understand; a server without ranges ignores the
+/// header.
 void fill(httplib::Request& request, RequestHead head) {
   head.headers.erase("range");
   if (auto encoding = head.headers.extract("accept-encoding")) {
@@ -44,13 +47,14 @@ void fill(httplib::Request& request, RequestHead head) {
   request.headers = {head.headers.begin(), head.headers.end()};
 }
 
-/// Event stream that follows the head of the answer, set by the handler. The library calls a handler on the thread
-/// that serves the connection, and does not tell the handler which connection that is.
+/// Event stream that follows the head of the answer, set by the handler. The library calls a handler on the
+/// thread that serves the connection, and does not tell the handler which connection that is.
 thread_local std::shared_ptr<EventSource> events_of_this_connection;
 
 /// Head of the answer as HTTP/1.1 text: status line, headers, empty line.
 std::string head_of(const Response& response) {
-  std::string text = "HTTP/1.1 " + std::to_string(response.status) + " " + std::string(status_phrase(response.status)) +
+  std::string text = "HTTP/1.1 " + std::to_string(response.status) + " " +
+                     std::string(status_phrase(response.status)) +
                      "\r\nConnection: close\r\nContent-Type: " + response.content_type +
                      "\r\nContent-Length: " + std::to_string(response.body.size()) + "\r\n";
   for (const auto& [name, value] : response.headers) text += name + ": " + value + "\r\n";
@@ -61,16 +65,20 @@ std::string text_of(const Response& response) { return head_of(response) + respo
 
 }  // namespace
 
-GuardedServer::GuardedServer(const HttpLimits& limits, std::function<Response(int, const std::string&)> make_refusal)
+GuardedServer::GuardedServer(const HttpLimits& limits,
+                             std::function<Response(int, const std::string&)> make_refusal)
     : limits_(limits),
       make_refusal_(std::move(make_refusal)),
-      no_memory_answer_(text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
+      no_memory_answer_(
+          text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
       pool_(kThreads),
-      acceptor_({.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
-                 [this](PendingConnection connection) { queue_connection(std::move(connection)); },
-                 [this](const std::string& received) {
-                   return refusal_text(408, "the head of the request did not come in time", received.starts_with("HEAD "));
-                 }) {
+      acceptor_(
+          {.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
+          [this](PendingConnection connection) { queue_connection(std::move(connection)); },
+          [this](const std::string& received) {
+            return refusal_text(408, "the head of the request did not come in time",
+                                received.starts_with("HEAD "));
+          }) {
   set_socket_options(set_reuse_address);
   set_tcp_nodelay(true);
   set_payload_max_length(limits.body_bytes);
@@ -101,7 +109,8 @@ void GuardedServer::queue_connection(PendingConnection connection) noexcept {
   const int socket = connection.socket;
   ++queued_;
   try {
-    pool_.add([this, connection = std::move(connection)]() mutable { serve_and_close(std::move(connection)); });
+    pool_.add(
+        [this, connection = std::move(connection)]() mutable { serve_and_close(std::move(connection)); });
   } catch (const std::bad_alloc&) {
     --queued_;
     log_error("a connection is closed: no memory");
@@ -135,7 +144,9 @@ void GuardedServer::serve_guarded(HttpStream& stream) noexcept {
   }
 }
 
-void GuardedServer::stream_events(std::shared_ptr<EventSource> events) { events_of_this_connection = std::move(events); }
+void GuardedServer::stream_events(std::shared_ptr<EventSource> events) {
+  events_of_this_connection = std::move(events);
+}
 
 void GuardedServer::serve(HttpStream& stream) {
   switch (stream.read_head()) {
@@ -151,15 +162,16 @@ void GuardedServer::serve(HttpStream& stream) {
   if (const auto fault = find_fault_in_head(stream.head(), limits_.body_bytes)) {
     return refuse(stream, fault->status, fault->detail);
   }
-  // Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or refuse
-  // and in how they parse a query. The library therefore parses method and version alone; fill() sets the rest.
+  // Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or
+  // refuse and in how they parse a query. The library therefore parses method and version alone; fill() sets
+  // the rest.
   RequestHead head = read_head(stream.head());
   stream.replace_head(head.request_line + "\r\n\r\n");
   process_with_library(*this, stream, [&head](httplib::Request& request) { fill(request, std::move(head)); });
 }
 
-/// Lets the library serve a request. Older versions ask the stream for the addresses of its ends; newer versions
-/// take them as arguments.
+/// Lets the library serve a request. Older versions ask the stream for the addresses of its ends; newer
+/// versions take them as arguments.
 /// @param self  this object, as a template's argument: the overload that the library lacks is then no error
 template <typename Self, typename Fill>
 void GuardedServer::process_with_library(Self& self, HttpStream& stream, const Fill& fill_request) {

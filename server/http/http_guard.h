@@ -15,19 +15,21 @@
 
 namespace server {
 
-/// Name of the Accept-Encoding header in the requests that GuardedServer gives to the library: under its own name
-/// the header would make the library compress, with brotli at its slowest setting. No client can send a name
-/// with blanks.
+/// Name of the Accept-Encoding header in the requests that GuardedServer gives to the library: under its own
+/// name the header would make the library compress, with brotli at its slowest setting. No client can send a
+/// name with blanks.
 inline constexpr const char* kAcceptEncoding = "Accept-Encoding of the client";
 
-/// cpp-httplib's server with limits. The library by itself reads heads of any length, waits without end, serves any
-/// number of Range headers, keeps its few threads for clients that do nothing, and ends when it cannot accept a
-/// connection or has no memory for one. Here a connection carries one request, within HttpLimits, and is closed.
+/// cpp-httplib's server with limits. The library by itself reads heads of any length, waits without end,
+/// serves any number of Range headers, keeps its few threads for clients that do nothing, and ends when it
+/// cannot accept a connection or has no memory for one. Here a connection carries one request, within
+/// HttpLimits, and is closed.
 class GuardedServer final : public httplib::Server {
  public:
   /// @param limits        of every connection
   /// @param make_refusal  turns a status and a sentence into the answer to a request whose head is not served
-  GuardedServer(const HttpLimits& limits, std::function<Response(int status, const std::string& detail)> make_refusal);
+  GuardedServer(const HttpLimits& limits,
+                std::function<Response(int status, const std::string& detail)> make_refusal);
 
   ~GuardedServer() override;
 
@@ -36,7 +38,8 @@ class GuardedServer final : public httplib::Server {
   /// @returns the port; 0 if it could not be bound, because another process has it say
   int bind(const std::string& address, int port);
 
-  /// Accepts connections until stop_accepting(), and returns when all of them have been served. False if it could not go on.
+  /// Accepts connections until stop_accepting(), and returns when all of them have been served. False if it
+  /// could not go on.
   bool accept_connections();
   /// From any thread, also before accept_connections(); bind() came before.
   void stop_accepting();
@@ -52,8 +55,8 @@ class GuardedServer final : public httplib::Server {
     return event_hub_.reserve(events);
   }
 
-  /// Makes the answer of the request that this thread handles an event stream: once its head has been sent, the
-  /// connection stays open and carries the events. For handlers of requests.
+  /// Makes the answer of the request that this thread handles an event stream: once its head has been sent,
+  /// the connection stays open and carries the events. For handlers of requests.
   static void stream_events(std::shared_ptr<EventSource> events);
 
  private:

@@ -14,11 +14,14 @@ struct HttpLimits {
   std::chrono::milliseconds head_time{5'000};
   std::chrono::milliseconds body_time{10'000};
   std::chrono::milliseconds response_time{60'000};
-  std::size_t response_bytes_per_s = 256 * 1024; ///< bytes that extend response_time by 1 s: stores have gigabytes
-  std::chrono::milliseconds stall_time{10'000};  ///< sum of the waits until the client takes more of the answer
+  std::size_t response_bytes_per_s =
+      256 * 1024;  ///< bytes that extend response_time by 1 s: stores have gigabytes
+  std::chrono::milliseconds stall_time{
+      10'000};  ///< sum of the waits until the client takes more of the answer
   std::size_t least_bytes_per_s = 1024;          ///< bytes that extend stall_time by 1 s
   std::chrono::milliseconds linger_time{2'000};  ///< wait for the client to close its end
-  std::chrono::milliseconds crowded_time{500};   ///< each longer wait, while other connections queue for a thread
+  std::chrono::milliseconds crowded_time{
+      500};  ///< each longer wait, while other connections queue for a thread
   std::chrono::milliseconds drain_time{1'000};   ///< time left to every connection once the server is ending
 };
 

@@ -45,8 +45,8 @@ void read_address(NameOf name_of, int socket, std::string& ip, int& port) {
 
 }  // namespace
 
-HttpStream::HttpStream(PendingConnection connection, const HttpLimits& limits, const std::atomic<bool>& draining,
-                       const std::atomic<int>& queued)
+HttpStream::HttpStream(PendingConnection connection, const HttpLimits& limits,
+                       const std::atomic<bool>& draining, const std::atomic<int>& queued)
     : socket_(connection.socket),
       limits_(limits),
       draining_(draining),
@@ -99,7 +99,9 @@ void HttpStream::lingering_close() {
   }
 }
 
-bool HttpStream::is_readable() const { return consumed_ < buffer_.size() || wait_for(POLLIN, read_deadline_); }
+bool HttpStream::is_readable() const {
+  return consumed_ < buffer_.size() || wait_for(POLLIN, read_deadline_);
+}
 
 bool HttpStream::is_writable() const { return wait_for(POLLOUT, write_deadline()); }
 
@@ -164,7 +166,9 @@ bool HttpStream::wait_for(short events, Clock::time_point deadline) const {
 
 HttpStream::Clock::time_point HttpStream::write_deadline() const {
   const auto now = Clock::now();
-  const auto earned = [this](std::size_t bytes_per_s) { return std::chrono::milliseconds(1000 * sent_bytes_ / bytes_per_s); };
+  const auto earned = [this](std::size_t bytes_per_s) {
+    return std::chrono::milliseconds(1000 * sent_bytes_ / bytes_per_s);
+  };
   return std::min(write_start_.value_or(now) + limits_.response_time + earned(limits_.response_bytes_per_s),
                   now + limits_.stall_time + earned(limits_.least_bytes_per_s) - waited_);
 }

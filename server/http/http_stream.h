@@ -41,8 +41,8 @@ class HttpStream final : public httplib::Stream {
   /// Sends all of a text. False if the client is gone or too slow.
   bool send_all(std::string_view text);
 
-  /// Lingering close (RFC 9112, section 9.6): reads and discards until the client has closed its end, so that it
-  /// sees the whole answer. A plain close with unread bytes would reset the connection.
+  /// Lingering close (RFC 9112, section 9.6): reads and discards until the client has closed its end, so that
+  /// it sees the whole answer. A plain close with unread bytes would reset the connection.
   void lingering_close();
 
   bool is_readable() const override;
@@ -58,7 +58,8 @@ class HttpStream final : public httplib::Stream {
 
   /// Waits until the socket has one of these poll events. False when the deadline passes first.
   bool wait_for(short events, Clock::time_point deadline) const;
-  /// End of the wait for a client that takes nothing: by stall_time or by response_time, whichever ends first.
+  /// End of the wait for a client that takes nothing: by stall_time or by response_time, whichever ends
+  /// first.
   [[nodiscard]] Clock::time_point write_deadline() const;
   /// Like recv(), after waiting. 0: closed by the client; negative: deadline or error.
   ssize_t receive(char* to, std::size_t size, Clock::time_point deadline) const;

@@ -13,7 +13,8 @@ namespace server {
 
 namespace {
 
-// So large that the allocator gives it back to the system, where every thread can have it. Nothing is written to it.
+// So large that the allocator gives it back to the system, where every thread can have it. Nothing is written
+// to it.
 constexpr std::size_t kReserveBytes = 8 << 20;
 constexpr std::size_t kLargestSmallBytes = 1 << 20;
 constexpr int kMostTries = 20;
@@ -59,7 +60,9 @@ void* operator new(std::size_t size) {
 }
 
 // Whoever asks in this way has another one.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(std::max<std::size_t>(size, 1)); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return std::malloc(std::max<std::size_t>(size, 1));
+}
 
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }

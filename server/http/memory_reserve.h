@@ -3,12 +3,13 @@
 
 namespace server {
 
-/// From now on, a small allocation that fails is tried again for a moment, and has a reserve to fall back on, before it throws std::bad_alloc.
-/// What a request takes is given back when it is refused, but the destructors of JSON values allocate, too: one that could not would end the
-/// process.
+/// From now on, a small allocation that fails is tried again for a moment, and has a reserve to fall back on,
+/// before it throws std::bad_alloc. What a request takes is given back when it is refused, but the
+/// destructors of JSON values allocate, too: one that could not would end the process.
 void keep_memory_reserve();
 
-/// Fills the reserve again if it has been used. False if there is no memory for it: then nothing new should be begun.
+/// Fills the reserve again if it has been used. False if there is no memory for it: then nothing new should
+/// be begun.
 [[nodiscard]] bool refill_memory_reserve();
 
 }  // namespace server

@@ -16,12 +16,14 @@ namespace {
 
 std::string lower(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return result;
 }
 
 bool has_control_character(std::string_view line) {
-  return std::any_of(line.begin(), line.end(), [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
+  return std::any_of(line.begin(), line.end(),
+                     [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
 }
 
 /// Characters of a token, the form of header names (RFC 9110, section 5.6.2).
@@ -52,7 +54,8 @@ std::optional<Refusal> read_header_line(std::string_view line, Framing& framing)
     ++framing.length_count;
     framing.length = value;
   }
-  // A proxy may drop headers without a value: the request would come as one without a key, and be stored twice.
+  // A proxy may drop headers without a value: the request would come as one without a key, and be stored
+  // twice.
   if (name == "idempotency-key" && value.empty()) return Refusal{400, "Idempotency-Key has no value"};
   if (name == "transfer-encoding") {
     ++framing.encoding_count;
@@ -75,7 +78,8 @@ std::optional<Refusal> find_fault_in_length(const std::string& text, std::size_t
 
 std::optional<Refusal> find_fault_in_framing(const Framing& framing, std::size_t body_bytes) {
   if (framing.host_count != 1) return Refusal{400, "a request must have exactly one Host header"};
-  if (framing.length_count + framing.encoding_count > 1) return Refusal{400, "the length of the body is given twice"};
+  if (framing.length_count + framing.encoding_count > 1)
+    return Refusal{400, "the length of the body is given twice"};
   if (framing.encoding_count == 1 && framing.encoding != "chunked") {
     return Refusal{501, "the Transfer-Encoding is not supported; chunked is"};
   }
@@ -164,7 +168,8 @@ std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t bod
     if (has_control_character(line)) return Refusal{400, "the head holds a control character"};
     if (line.empty()) break;
     if (line.size() > kMaxLineBytes) {
-      return Refusal{first ? 414 : 431, "a line of the head is longer than " + std::to_string(kMaxLineBytes) + " bytes"};
+      return Refusal{first ? 414 : 431,
+                     "a line of the head is longer than " + std::to_string(kMaxLineBytes) + " bytes"};
     }
     auto fault = first ? find_fault_in_request_line(line) : read_header_line(line, framing);
     if (fault) return fault;
@@ -190,13 +195,17 @@ RequestHead read_head(std::string_view head) {
   return result;
 }
 
-OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed, std::vector<std::string> names)
+OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed,
+                         std::vector<std::string> names)
     : bound_host_(lower(bound_host)), allowed_(std::move(allowed)), names_(std::move(names)) {}
 
-bool OriginCheck::is_allowed(const std::string& origin) const { return std::ranges::find(allowed_, lower(origin)) != allowed_.end(); }
+bool OriginCheck::is_allowed(const std::string& origin) const {
+  return std::ranges::find(allowed_, lower(origin)) != allowed_.end();
+}
 
 std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
-  if (!names_this_server(headers.host)) return Refusal{403, "this service does not answer under the name in Host"};
+  if (!names_this_server(headers.host))
+    return Refusal{403, "this service does not answer under the name in Host"};
   if (is_allowed(headers.origin)) return std::nullopt;
   if (!headers.origin.empty() && !is_own(headers.origin, headers.host)) {
     return Refusal{403, "requests of other sites are refused"};
@@ -204,21 +213,23 @@ std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
   const std::string& site = headers.fetch_site;
   if (site.empty() || site == "same-origin" || site == "none") return std::nullopt;
   // A link on another page may be followed: it changes nothing and the other page does not see the answer.
-  const bool follows_link = (headers.method == "GET" || headers.method == "HEAD") && headers.fetch_mode == "navigate";
+  const bool follows_link =
+      (headers.method == "GET" || headers.method == "HEAD") && headers.fetch_mode == "navigate";
   if (follows_link) return std::nullopt;
   return Refusal{403, "requests of other sites are refused"};
 }
 
 bool OriginCheck::names_this_server(const std::string& host) const {
   const std::string name = bare_host(host);
-  return name == "localhost" || name == "127.0.0.1" || name == "::1" || (!name.empty() && name == bound_host_) ||
-         std::ranges::find(names_, name) != names_.end();
+  return name == "localhost" || name == "127.0.0.1" || name == "::1" ||
+         (!name.empty() && name == bound_host_) || std::ranges::find(names_, name) != names_.end();
 }
 
 bool OriginCheck::is_own(const std::string& origin, const std::string& host) const {
   if (lower(origin) == "http://" + lower(host)) return true;
   // A proxy that speaks https passes its own name on.
-  return std::ranges::find(names_, bare_host(host)) != names_.end() && lower(origin) == "https://" + lower(host);
+  return std::ranges::find(names_, bare_host(host)) != names_.end() &&
+         lower(origin) == "https://" + lower(host);
 }
 
 bool is_address(const std::string& host) {

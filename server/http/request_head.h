@@ -21,14 +21,15 @@ struct Refusal {
 inline constexpr std::size_t kMaxPathBytes = 512;
 inline constexpr std::size_t kMaxLineBytes = 8000;
 
-/// Examines the head of a request as it came off the wire, before anything else reads it: two readers that understand
-/// a head differently are how one request is smuggled inside another.
+/// Examines the head of a request as it came off the wire, before anything else reads it: two readers that
+/// understand a head differently are how one request is smuggled inside another.
 /// @param head        request line and header lines, up to and with the empty line
 /// @param body_bytes  largest Content-Length
 /// @returns what is wrong with it, if anything
 [[nodiscard]] std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes);
 
-/// A head that has passed find_fault_in_head, taken literally: nothing but the target is decoded, and that once.
+/// A head that has passed find_fault_in_head, taken literally: nothing but the target is decoded, and that
+/// once.
 struct RequestHead {
   std::string request_line;  ///< without its line end, and with "/" in the place of the target
   std::string path;          ///< percent-decoded
@@ -40,14 +41,17 @@ struct RequestHead {
 
 [[nodiscard]] RequestHead read_head(std::string_view head);
 
-/// Examines what names this server and where a request comes from. A page of another site that a user's browser shows
-/// must not reach this service, neither under a name that resolves to it nor by a form or a script.
+/// Examines what names this server and where a request comes from. A page of another site that a user's
+/// browser shows must not reach this service, neither under a name that resolves to it nor by a form or a
+/// script.
 class OriginCheck {
  public:
   /// @param bound_host  the address the server is bound to; it and the names of the loopback are good
   /// @param allowed     other sites whose pages may ask, as "https://lab.example.org"
-  /// @param names       other names under which clients reach this server, perhaps through a proxy that speaks https, in lower case
-  explicit OriginCheck(std::string bound_host, std::vector<std::string> allowed = {}, std::vector<std::string> names = {});
+  /// @param names       other names under which clients reach this server, perhaps through a proxy that
+  /// speaks https, in lower case
+  explicit OriginCheck(std::string bound_host, std::vector<std::string> allowed = {},
+                       std::vector<std::string> names = {});
 
   /// What a request says about its origin; an empty text is a header that is missing.
   struct Headers {

@@ -12,10 +12,13 @@ namespace server {
 
 WorkerPool::WorkerPool(std::size_t threads) {
   try {
-    for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+    for (std::size_t i = 0; i < threads; ++i)
+      threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
   } catch (const std::system_error&) {
-    throw std::runtime_error("the system allows no more than " + std::to_string(threads_.size()) + " of the " + std::to_string(threads) +
-                             " threads that serve clients: raise its limit on memory (ulimit -v) or on processes (ulimit -u)");
+    throw std::runtime_error(
+        "the system allows no more than " + std::to_string(threads_.size()) + " of the " +
+        std::to_string(threads) +
+        " threads that serve clients: raise its limit on memory (ulimit -v) or on processes (ulimit -u)");
   }
 }
 

@@ -12,7 +12,8 @@
 
 namespace server {
 
-/// Threads that run tasks in the order of add(). Without memory for a task, add() waits; the process does not end.
+/// Threads that run tasks in the order of add(). Without memory for a task, add() waits; the process does not
+/// end.
 class WorkerPool {
  public:
   using Task = std::function<void()>;

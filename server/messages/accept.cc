@@ -31,7 +31,8 @@ std::string_view take_until(char separator, std::string_view& text) {
 
 std::string to_small_letters(std::string_view text) {
   std::string small(text);
-  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(small, small.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return small;
 }
 
@@ -43,7 +44,9 @@ double find_weight(std::string_view parameters) {
     if (name != "q" && name != "Q") continue;
     double weight = 1.0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), weight);
-    return error == std::errc{} && end == value.data() + value.size() && weight >= 0.0 && weight <= 1.0 ? weight : 1.0;
+    return error == std::errc{} && end == value.data() + value.size() && weight >= 0.0 && weight <= 1.0
+               ? weight
+               : 1.0;
   }
   return 1.0;
 }
@@ -58,7 +61,8 @@ std::vector<MediaRange> read_ranges(std::string_view accept) {
   return ranges;
 }
 
-/// The place of the narrowest range that a type is in: itself, its kind, or all; past the end if there is none.
+/// The place of the narrowest range that a type is in: itself, its kind, or all; past the end if there is
+/// none.
 std::size_t find_range(const std::vector<MediaRange>& ranges, std::string_view media_type) {
   const std::string kind = std::string(media_type.substr(0, media_type.find('/'))) + "/*";
   for (const std::string_view name : {media_type, std::string_view(kind), std::string_view("*/*")}) {
@@ -70,14 +74,16 @@ std::size_t find_range(const std::vector<MediaRange>& ranges, std::string_view m
 
 }  // namespace
 
-std::optional<std::size_t> find_accepted(std::string_view accept, std::span<const std::string_view> media_types) {
+std::optional<std::size_t> find_accepted(std::string_view accept,
+                                         std::span<const std::string_view> media_types) {
   const std::vector<MediaRange> ranges = read_ranges(accept);
   std::optional<std::size_t> best;
   std::size_t best_place = 0;
   for (std::size_t i = 0; i < media_types.size(); ++i) {
     const std::size_t place = find_range(ranges, media_types[i]);
     if (place == ranges.size() || ranges[place].weight == 0.0) continue;
-    const bool wins = !best || ranges[place].weight > ranges[best_place].weight || (ranges[place].weight == ranges[best_place].weight && place < best_place);
+    const bool wins = !best || ranges[place].weight > ranges[best_place].weight ||
+                      (ranges[place].weight == ranges[best_place].weight && place < best_place);
     if (!wins) continue;
     best = i;
     best_place = place;

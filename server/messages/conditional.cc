@@ -11,7 +11,8 @@ namespace server {
 
 namespace {
 
-/// Whether a list of tags has this one, or is "*". Tags marked as weak count: bodies are the same to the byte or differ.
+/// Whether a list of tags has this one, or is "*". Tags marked as weak count: bodies are the same to the byte
+/// or differ.
 bool has_tag(std::string_view list, std::string_view tag) {
   while (!list.empty()) {
     const auto comma = std::min(list.find(','), list.size());
@@ -28,7 +29,8 @@ bool has_tag(std::string_view list, std::string_view tag) {
 }  // namespace
 
 Response with_etag(const Request& request, Response response) {
-  const std::string tag = "\"" + jobs::sha256_hex(response.content_type + "\n", response.body).substr(0, 32) + "\"";
+  const std::string tag =
+      "\"" + jobs::sha256_hex(response.content_type + "\n", response.body).substr(0, 32) + "\"";
   response.headers.emplace_back("Cache-Control", "private, no-cache");
   return with_etag(request, std::move(response), tag);
 }

@@ -7,8 +7,9 @@
 
 namespace server {
 
-/// Marks an answer about something that has ended with what names its content, and turns it into 304 without a body if the client has
-/// that content. A retry or an extension may start it again, so the client has to ask each time.
+/// Marks an answer about something that has ended with what names its content, and turns it into 304 without
+/// a body if the client has that content. A retry or an extension may start it again, so the client has to
+/// ask each time.
 [[nodiscard]] Response with_etag(const Request& request, Response response);
 
 /// The same with a tag that is known already, in its quotes. Cache-Control is the caller's.

@@ -15,8 +15,10 @@ namespace {
 /// A database error names files and statements: those go to the log, the user gets a number to ask with.
 Response make_storage_problem(const jobs::StorageError& error, const std::string& request_id) {
   log_error("request {}: storage error {}: {}", request_id, error.code, error.what());
-  if (error.full) return make_problem(507, "the disk that holds the store is full (request " + request_id + ")");
-  return make_retry_later(503, "the store cannot be read or written at the moment (request " + request_id + ")");
+  if (error.full)
+    return make_problem(507, "the disk that holds the store is full (request " + request_id + ")");
+  return make_retry_later(503,
+                          "the store cannot be read or written at the moment (request " + request_id + ")");
 }
 
 Response make_internal_problem(const char* what, const std::string& request_id) {
@@ -47,7 +49,8 @@ Response make_error_answer(const std::exception_ptr& error, const std::string& r
     return make_storage_problem(storage_error, request_id);
   } catch (const std::bad_alloc&) {
     log_error("request {}: no memory", request_id);
-    return make_retry_later(503, "the machine has no memory left for this at the moment (request " + request_id + ")");
+    return make_retry_later(
+        503, "the machine has no memory left for this at the moment (request " + request_id + ")");
   } catch (const std::exception& other) {
     return make_internal_problem(other.what(), request_id);
   } catch (...) {

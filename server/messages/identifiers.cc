@@ -23,7 +23,8 @@ std::string find_idempotency_key(const Request& request) {
   if (key.size() > 2 && key.front() == '"' && key.back() == '"') key = key.substr(1, key.size() - 2);
   const bool visible = std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7f'; });
   if (key.empty() || key.size() > kLongest || !visible) {
-    throw HttpError(400, "Idempotency-Key must be 1 to " + std::to_string(kLongest) + " visible ASCII characters");
+    throw HttpError(400,
+                    "Idempotency-Key must be 1 to " + std::to_string(kLongest) + " visible ASCII characters");
   }
   return std::string(key);
 }

@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 4> kNonFiniteWords{"NaN", "-Infinity", "Infinity", "-NaN"};
 
-/// Reads a text without keeping it, and ends at the first thing that passes a bound. A part of it that is no JSON is for the next reader to tell.
+/// Reads a text without keeping it, and ends at the first thing that passes a bound. A part of it that is no
+/// JSON is for the next reader to tell.
 class Bounds : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return true; }
@@ -41,7 +42,8 @@ class Bounds : public nlohmann::json_sax<Json> {
  private:
   bool open() {
     open_.emplace_back();
-    if (open_.size() > kMaxJsonDepth) throw BadJson("nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+    if (open_.size() > kMaxJsonDepth)
+      throw BadJson("nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
     return true;
   }
 
@@ -53,8 +55,8 @@ class Bounds : public nlohmann::json_sax<Json> {
   std::vector<std::set<std::string>> open_;  ///< the keys met so far, of every object or array that is open
 };
 
-/// The text with the words NaN and Infinity, which Python and others write for numbers that JSON cannot hold, as null:
-/// then the fault is reported where it stands, as any other value of a wrong type.
+/// The text with the words NaN and Infinity, which Python and others write for numbers that JSON cannot hold,
+/// as null: then the fault is reported where it stands, as any other value of a wrong type.
 std::string without_non_finite_words(std::string_view text) {
   std::string result;
   bool in_string = false;
@@ -64,7 +66,8 @@ std::string without_non_finite_words(std::string_view text) {
     } else if (text[i] == '"') {
       in_string = !in_string;
     } else if (!in_string) {
-      const auto word = std::ranges::find_if(kNonFiniteWords, [&](std::string_view w) { return text.substr(i).starts_with(w); });
+      const auto word = std::ranges::find_if(
+          kNonFiniteWords, [&](std::string_view w) { return text.substr(i).starts_with(w); });
       if (word != kNonFiniteWords.end()) {
         result += "null";
         i += word->size() - 1;
@@ -83,7 +86,8 @@ std::string plain_message(const std::string& what) {
 }
 
 Json parse_strictly(std::string_view text) {
-  // Twice: a callback of the parser could watch it, but then the parser looks, for every object that ends, at all before it in their list.
+  // Twice: a callback of the parser could watch it, but then the parser looks, for every object that ends, at
+  // all before it in their list.
   Bounds bounds;
   Json::sax_parse(text.begin(), text.end(), &bounds);
   try {
@@ -100,7 +104,8 @@ Json parse_strictly(std::string_view text) {
 nlohmann::ordered_json parse_json(std::string_view text) {
   if (text.empty()) throw BadJson("there is no JSON: the text is empty");
   // The parser takes it for the end of the text, whatever comes after.
-  if (const auto nul = text.find('\0'); nul != std::string_view::npos) throw BadJson("not JSON at byte " + std::to_string(nul + 1) + ": a NUL character");
+  if (const auto nul = text.find('\0'); nul != std::string_view::npos)
+    throw BadJson("not JSON at byte " + std::to_string(nul + 1) + ": a NUL character");
   try {
     return parse_strictly(text);
   } catch (const BadJson&) {

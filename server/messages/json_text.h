@@ -21,10 +21,12 @@ inline constexpr std::size_t kMaxJsonDepth = 32;
 /// Keys of one object that are read: an object that keeps its order is searched from its front.
 inline constexpr std::size_t kMaxObjectKeys = 1024;
 
-/// Reads JSON text, keeping the order of keys (the axes of a sweep multiply in the order in which they are given).
-/// NaN and Infinity, which are no JSON but which many programs write, are read as null.
-/// @throws BadJson with the position in bytes for text that is no JSON; also for a number that no double holds,
-///         a key that an object has twice, more than kMaxJsonDepth levels, more than kMaxObjectKeys keys in an object.
+/// Reads JSON text, keeping the order of keys (the axes of a sweep multiply in the order in which they are
+/// given). NaN and Infinity, which are no JSON but which many programs write, are read as null.
+/// @throws BadJson with the position in bytes for text that is no JSON; also for a number that no double
+/// holds,
+///         a key that an object has twice, more than kMaxJsonDepth levels, more than kMaxObjectKeys keys in
+///         an object.
 [[nodiscard]] nlohmann::ordered_json parse_json(std::string_view text);
 
 /// JSON text of a value; bytes that are no UTF-8 become U+FFFD.

@@ -31,7 +31,8 @@ class FileBody {
  public:
   /// @param descriptor  of a file that has no name any more; becomes this object's
   /// @param permit      let go once the file is gone
-  explicit FileBody(int descriptor, std::shared_ptr<const void> permit) : permit_(std::move(permit)), descriptor_(descriptor) {}
+  explicit FileBody(int descriptor, std::shared_ptr<const void> permit)
+      : permit_(std::move(permit)), descriptor_(descriptor) {}
   ~FileBody();
   FileBody(const FileBody&) = delete;
   FileBody& operator=(const FileBody&) = delete;
@@ -71,7 +72,8 @@ struct Response {
 
 /// Answer with a JSON text as its body.
 [[nodiscard]] inline Response json_response(int status, std::string text) {
-  return {.status = status, .content_type = "application/json", .body = std::move(text) + "\n", .headers = {}};
+  return {
+      .status = status, .content_type = "application/json", .body = std::move(text) + "\n", .headers = {}};
 }
 
 }  // namespace server

@@ -15,7 +15,8 @@ constexpr std::chrono::seconds kLongest{60};
 
 /// Whether an item is the preference `wait`; names of preferences ignore case (RFC 7240).
 bool names_wait(std::string_view item) {
-  return std::ranges::equal(item.substr(0, 4), std::string_view("wait"), [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+  return std::ranges::equal(item.substr(0, 4), std::string_view("wait"),
+                            [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ std::optional<std::chrono::seconds> find_wait(std::string_view prefer) {
     item = trimmed(item.substr(1));
     unsigned seconds = 0;
     const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), seconds);
-    if (error == std::errc{} && end == item.data() + item.size()) return std::min(kLongest, std::chrono::seconds(seconds));
+    if (error == std::errc{} && end == item.data() + item.size())
+      return std::min(kLongest, std::chrono::seconds(seconds));
   }
   return std::nullopt;
 }

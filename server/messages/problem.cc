@@ -39,13 +39,20 @@ std::string_view status_phrase(int status) {
 
 Response make_problem(int status, const std::string& detail, const std::vector<jobs::Fault>& faults) {
   constexpr std::size_t kMostFaults = 100;  // a request of 8 MiB may have a million of them
-  const std::string more = faults.size() > kMostFaults ? "; " + std::to_string(faults.size() - kMostFaults) + " more are left out here" : "";
-  nlohmann::ordered_json problem = {
-      {"type", "about:blank"}, {"title", status_phrase(status)}, {"status", status}, {"detail", detail + more}};
+  const std::string more = faults.size() > kMostFaults ? "; " + std::to_string(faults.size() - kMostFaults) +
+                                                             " more are left out here"
+                                                       : "";
+  nlohmann::ordered_json problem = {{"type", "about:blank"},
+                                    {"title", status_phrase(status)},
+                                    {"status", status},
+                                    {"detail", detail + more}};
   for (std::size_t i = 0; i < std::min(faults.size(), kMostFaults); ++i) {
     problem["errors"].push_back({{"pointer", faults[i].pointer}, {"detail", faults[i].detail}});
   }
-  return {.status = status, .content_type = "application/problem+json", .body = to_text(problem) + "\n", .headers = {}};
+  return {.status = status,
+          .content_type = "application/problem+json",
+          .body = to_text(problem) + "\n",
+          .headers = {}};
 }
 
 }  // namespace server

@@ -23,7 +23,9 @@ class HttpError : public std::runtime_error {
 [[nodiscard]] std::string_view status_phrase(int status);
 
 /// An answer of type application/problem+json (RFC 9457).
-/// @param faults  every fault of the request; left out when empty. Of more than a hundred the first are shown, and the detail says how many more there are
-[[nodiscard]] Response make_problem(int status, const std::string& detail, const std::vector<jobs::Fault>& faults = {});
+/// @param faults  every fault of the request; left out when empty. Of more than a hundred the first are
+/// shown, and the detail says how many more there are
+[[nodiscard]] Response make_problem(int status, const std::string& detail,
+                                    const std::vector<jobs::Fault>& faults = {});
 
 }  // namespace server

@@ -27,9 +27,11 @@ std::optional<Number> whole_text_as(const std::string& text) {
 
 }  // namespace
 
-Query::Query(const Request& request, std::initializer_list<std::string_view> allowed) : Query(request, allowed, Others::kRefused) {}
+Query::Query(const Request& request, std::initializer_list<std::string_view> allowed)
+    : Query(request, allowed, Others::kRefused) {}
 
-Query::Query(const Request& request, std::initializer_list<std::string_view> allowed, Others others) : request_(request) {
+Query::Query(const Request& request, std::initializer_list<std::string_view> allowed, Others others)
+    : request_(request) {
   std::set<std::string_view> seen;
   for (const auto& [key, value] : request.query) {
     const bool known = std::find(allowed.begin(), allowed.end(), key) != allowed.end();

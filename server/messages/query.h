@@ -15,7 +15,8 @@
 
 namespace server {
 
-/// The query string of one request, read key by key. Faults are collected, so that a user sees all of them at once.
+/// The query string of one request, read key by key. Faults are collected, so that a user sees all of them at
+/// once.
 class Query {
  public:
   /// @param allowed  the keys that the route knows; any other is a fault that names them
@@ -30,7 +31,8 @@ class Query {
 
   /// The value of a key, if it stands in the query.
   [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
-  /// The same, split at its commas; empty if the key is missing. An empty item is no name: the service refuses it.
+  /// The same, split at its commas; empty if the key is missing. An empty item is no name: the service
+  /// refuses it.
   [[nodiscard]] std::vector<std::string> list(std::string_view key) const;
   /// The same as it stands, for lists whose items may have commas; an empty text is a fault.
   [[nodiscard]] std::string names(std::string_view key);
@@ -42,12 +44,15 @@ class Query {
   [[nodiscard]] std::optional<std::size_t> count(std::string_view key);
   [[nodiscard]] std::optional<std::size_t> count_in(std::string_view key, const jobs::Range& range);
   /// The same as one of the words given; anything else is a fault.
-  [[nodiscard]] std::optional<std::string> word(std::string_view key, std::initializer_list<std::string_view> words);
+  [[nodiscard]] std::optional<std::string> word(std::string_view key,
+                                                std::initializer_list<std::string_view> words);
 
-  /// @throws jobs::InvalidRequest with every fault met so far, if there is any. Call it once all keys are read.
+  /// @throws jobs::InvalidRequest with every fault met so far, if there is any. Call it once all keys are
+  /// read.
   void check() const;
 
-  /// Asks what the query is for, also if it has faults: the service finds more of them, and a user sees all at once.
+  /// Asks what the query is for, also if it has faults: the service finds more of them, and a user sees all
+  /// at once.
   /// @returns what the service answers
   /// @throws jobs::InvalidRequest with the faults met so far and those that the service finds
   template <typename Ask>

@@ -18,45 +18,67 @@ Json rows_of(Json properties) {
 }
 
 Json make_sensitivity() {
-  Json properties{{"metric", kText}, {"parameter", kText}, {"blocks", described(kCount, "of the design, those in which every point has a value")},
-                  {"blocks_missing", kCount}, {"mean", kNumberOrNull}, {"deviation", kNumberOrNull},
-                  {"noise", described(kNumberOrNull, "the part of the variance that lies between replicates")}};
-  for (const char* const key : {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"}) {
+  Json properties{
+      {"metric", kText},
+      {"parameter", kText},
+      {"blocks", described(kCount, "of the design, those in which every point has a value")},
+      {"blocks_missing", kCount},
+      {"mean", kNumberOrNull},
+      {"deviation", kNumberOrNull},
+      {"noise", described(kNumberOrNull, "the part of the variance that lies between replicates")}};
+  for (const char* const key :
+       {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"}) {
     properties[key] = described(kNumberOrNull,
-        "of a morris design: what the whole range of the parameter changes, in the metric's unit; low and high: 95 %");
+                                "of a morris design: what the whole range of the parameter changes, in the "
+                                "metric's unit; low and high: 95 %");
   }
-  for (const char* const key : {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"}) {
+  for (const char* const key :
+       {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"}) {
     properties[key] = described(kNumberOrNull,
-        "of a saltelli design: the part of the metric's variance that the parameter makes, alone and in total; low and high: 95 %");
+                                "of a saltelli design: the part of the metric's variance that the parameter "
+                                "makes, alone and in total; low and high: 95 %");
   }
   return rows_of(std::move(properties));
 }
 
 Json make_flexibility() {
-  Json properties{{"metric", kText}, {"ratio", described(kNumberOrNull, "flexible over rigid mean")},
-                  {"ratio_least", described(kNumberOrNull, "least flexible over largest rigid value")}, {"ratio_largest", kNumberOrNull},
-                  {"verdict", {{"enum", {"helps", "harms", "either", nullptr}}}}, {"along", or_null(kText)},
-                  {"reverses_from", described(kNumberOrNull,
-                  "the last value of the parameter `along` at which the ratio was not 1 within 0.1 %, if it was on the other side of 1 there")},
-                  {"coupler_loss_j", described(kNumberOrNull, "energy that the coupler's dampers take")},
-                  {"coupler_loss_part", described(kNumberOrNull, "its part of all losses")}};
+  Json properties{
+      {"metric", kText},
+      {"ratio", described(kNumberOrNull, "flexible over rigid mean")},
+      {"ratio_least", described(kNumberOrNull, "least flexible over largest rigid value")},
+      {"ratio_largest", kNumberOrNull},
+      {"verdict", {{"enum", {"helps", "harms", "either", nullptr}}}},
+      {"along", or_null(kText)},
+      {"reverses_from", described(kNumberOrNull,
+                                  "the last value of the parameter `along` at which the ratio was not 1 "
+                                  "within 0.1 %, if it was on the other side of 1 there")},
+      {"coupler_loss_j", described(kNumberOrNull, "energy that the coupler's dampers take")},
+      {"coupler_loss_part", described(kNumberOrNull, "its part of all losses")}};
   for (const std::string coupler : {"rigid", "flexible"}) {
     properties[coupler + "_count"] = kCount;
-    for (const char* const part : {"_mean", "_spread", "_min", "_max"}) properties[coupler + part] = kNumberOrNull;
+    for (const char* const part : {"_mean", "_spread", "_min", "_max"})
+      properties[coupler + part] = kNumberOrNull;
   }
   return rows_of(std::move(properties));
 }
 
 Json make_paper() {
-  Json row = object_of({{"statement", kText}, {"text", kText},
-                        {"number", described({{"type", {"integer", "null"}}}, "1 to 7; null: the same ratio at a velocity of which the paper says nothing")},
-                        {"paper", described(kNumberOrNull, "the paper's ratio; null: it says that the ratio is below 1")},
-                        {"found_least", described(kNumberOrNull, "least of the statement's ratios, of medians over replicates; over several settings their median")},
-                        {"found_largest", described(kNumberOrNull, "the largest one")},
-                        {"settings", described(kCount, "of what else the sweep varies, those that have every peak")},
-                        {"share", described(kNumberOrNull, "part of the settings in which the statement holds")},
-                        {"holds", or_null({{"type", "boolean"}})}});
-  row["additionalProperties"] = described(kNumberOrNull, "index.PARAMETER: first-order sensitivity index of the ratio's logarithm, from 50 settings on");
+  Json row = object_of(
+      {{"statement", kText},
+       {"text", kText},
+       {"number", described({{"type", {"integer", "null"}}},
+                            "1 to 7; null: the same ratio at a velocity of which the paper says nothing")},
+       {"paper", described(kNumberOrNull, "the paper's ratio; null: it says that the ratio is below 1")},
+       {"found_least", described(kNumberOrNull,
+                                 "least of the statement's ratios, of medians over replicates; over several "
+                                 "settings their median")},
+       {"found_largest", described(kNumberOrNull, "the largest one")},
+       {"settings", described(kCount, "of what else the sweep varies, those that have every peak")},
+       {"share", described(kNumberOrNull, "part of the settings in which the statement holds")},
+       {"holds", or_null({{"type", "boolean"}})}});
+  row["additionalProperties"] = described(
+      kNumberOrNull,
+      "index.PARAMETER: first-order sensitivity index of the ratio's logarithm, from 50 settings on");
   return list_of(std::move(row));
 }
 
@@ -69,32 +91,58 @@ Json make_bifurcation() {
 }
 
 Json make_lyapunov() {
-  return rows_of({{"pairs", described(kCount, "of a perturbed run and the one that is not")},
-      {"pairs_diverged", described(kCount, "those whose distance grew as far as the motion allows")},
-                  {"exponent_1_s", described(kNumberOrNull, "mean over those")}, {"exponent_low_1_s", kNumberOrNull},
-                  {"exponent_high_1_s", kNumberOrNull},
-                  {"from_s", described(kNumberOrNull, "with to_s: where it was measured, on the mean")}, {"to_s", kNumberOrNull}});
+  return rows_of(
+      {{"pairs", described(kCount, "of a perturbed run and the one that is not")},
+       {"pairs_diverged", described(kCount, "those whose distance grew as far as the motion allows")},
+       {"exponent_1_s", described(kNumberOrNull, "mean over those")},
+       {"exponent_low_1_s", kNumberOrNull},
+       {"exponent_high_1_s", kNumberOrNull},
+       {"from_s", described(kNumberOrNull, "with to_s: where it was measured, on the mean")},
+       {"to_s", kNumberOrNull}});
 }
 
 Json make_surrogate() {
-  Json input = object_of({{"parameter", kText}, {"from", kNumber}, {"to", kNumber}, {"scale", {{"type", "string"}, {"enum", {"linear", "log"}}}},
-      {"middle", kNumber}});
-  Json at{{"type", "object"}, {"required", {"value", "left_out_prediction"}}, {"additionalProperties", kNumberOrNull},
+  Json input = object_of({{"parameter", kText},
+                          {"from", kNumber},
+                          {"to", kNumber},
+                          {"scale", {{"type", "string"}, {"enum", {"linear", "log"}}}},
+                          {"middle", kNumber}});
+  Json at{{"type", "object"},
+          {"required", {"value", "left_out_prediction"}},
+          {"additionalProperties", kNumberOrNull},
           {"description", "the inputs, the value there, and what is predicted from all other points"}};
-  Json surface = object_of({{"where", {{"type", "object"}}}, {"points", kCount}, {"degree", or_null(kCount)}, {"terms", or_null(kCount)},
-                            {"cross_validation_error",
-                            described(kNumberOrNull, "root mean square, each point predicted from all others; in the metric's unit")},
-                            {"predicted_part", described(kNumberOrNull, "of the variance, the same way")},
-                            {"x_values", list_of(kNumber)}, {"y_values", list_of(kNumber)}, {"values", or_null(list_of(list_of(kNumberOrNull)))},
-                            {"at", list_of(std::move(at))}});
-  return object_of({{"metric", kText}, {"x", kText}, {"y", or_null(kText)}, {"inputs", list_of(std::move(input))},
-      {"surfaces", list_of(std::move(surface))}});
+  Json surface =
+      object_of({{"where", {{"type", "object"}}},
+                 {"points", kCount},
+                 {"degree", or_null(kCount)},
+                 {"terms", or_null(kCount)},
+                 {"cross_validation_error",
+                  described(kNumberOrNull,
+                            "root mean square, each point predicted from all others; in the metric's unit")},
+                 {"predicted_part", described(kNumberOrNull, "of the variance, the same way")},
+                 {"x_values", list_of(kNumber)},
+                 {"y_values", list_of(kNumber)},
+                 {"values", or_null(list_of(list_of(kNumberOrNull)))},
+                 {"at", list_of(std::move(at))}});
+  return object_of({{"metric", kText},
+                    {"x", kText},
+                    {"y", or_null(kText)},
+                    {"inputs", list_of(std::move(input))},
+                    {"surfaces", list_of(std::move(surface))}});
 }
 
 Json make_wear() {
-  Json properties{{"ring", kCount}, {"position_mm", kNumber}, {"angle_rad", kNumber}, {"sliding_work_j", kNumber}, {"depth_um", kNumber},
+  Json properties{
+      {"ring", kCount},
+      {"position_mm", kNumber},
+      {"angle_rad", kNumber},
+      {"sliding_work_j", kNumber},
+      {"depth_um", kNumber},
       {"rate_um_h", kNumber},
-                  {"life_h", described(kNumberOrNull, "until the clearance there is worn_clearance_mm; null without it, or where nothing is worn")}};
+      {"life_h",
+       described(
+           kNumberOrNull,
+           "until the clearance there is worn_clearance_mm; null without it, or where nothing is worn")}};
   return list_of(object_of(std::move(properties)));
 }
 
@@ -106,10 +154,14 @@ Json make_columns() {
 }  // namespace
 
 Json make_analysis_schemas() {
-  return {{"SensitivityRows", make_sensitivity()}, {"Surrogate", make_surrogate()}, {"FlexibilityRows", make_flexibility()},
+  return {{"SensitivityRows", make_sensitivity()},
+          {"Surrogate", make_surrogate()},
+          {"FlexibilityRows", make_flexibility()},
           {"PaperRows", make_paper()},
-          {"BifurcationRows", make_bifurcation()}, {"LyapunovRows", make_lyapunov()}, {"Columns", make_columns()},
-                   {"WearRows", make_wear()}};
+          {"BifurcationRows", make_bifurcation()},
+          {"LyapunovRows", make_lyapunov()},
+          {"Columns", make_columns()},
+          {"WearRows", make_wear()}};
 }
 
 }  // namespace server::openapi

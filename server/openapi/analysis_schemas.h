@@ -5,8 +5,8 @@
 
 namespace server::openapi {
 
-/// The schemas of what is worked out of results, by name: SensitivityRows, Surrogate, FlexibilityRows, BifurcationRows, LyapunovRows, Columns,
-/// WearRows.
+/// The schemas of what is worked out of results, by name: SensitivityRows, Surrogate, FlexibilityRows,
+/// BifurcationRows, LyapunovRows, Columns, WearRows.
 [[nodiscard]] Json make_analysis_schemas();
 
 }  // namespace server::openapi

@@ -39,18 +39,29 @@ std::string problem_name(int status) {
 /// The headers of answers beside those that HTTP itself and browsers' safety need.
 Json make_headers() {
   const Json text{{"type", "string"}};
-  return {{"Location", {{"description", "The path of what was made"}, {"required", true}, {"schema", {{"type", "string"}, {"pattern", "^/v1/"}}}}},
-          {"ETag", {{"description", "For If-None-Match; only on what has ended"}, {"schema", text}}},
-          {"Preference-Applied", {{"description", "The wait that was done; without it there was none"}, {"schema", {{"type", "string"}, {"pattern", "^wait=[0-9]+$"}}}}},
-          {"Content-Disposition", {{"description", "A name for the file, in forms that are saved rather than read"}, {"schema", text}}},
-          {"Retry-After", {{"description", "Seconds after which to try again"}, {"schema", {{"type", "integer"}}}}},
-          {"X-Request-Id", {{"description", "What the log calls the request"}, {"schema", text}}}};
+  return {
+      {"Location",
+       {{"description", "The path of what was made"},
+        {"required", true},
+        {"schema", {{"type", "string"}, {"pattern", "^/v1/"}}}}},
+      {"ETag", {{"description", "For If-None-Match; only on what has ended"}, {"schema", text}}},
+      {"Preference-Applied",
+       {{"description", "The wait that was done; without it there was none"},
+        {"schema", {{"type", "string"}, {"pattern", "^wait=[0-9]+$"}}}}},
+      {"Content-Disposition",
+       {{"description", "A name for the file, in forms that are saved rather than read"}, {"schema", text}}},
+      {"Retry-After",
+       {{"description", "Seconds after which to try again"}, {"schema", {{"type", "integer"}}}}},
+      {"X-Request-Id", {{"description", "What the log calls the request"}, {"schema", text}}}};
 }
 
-void add_header_to(Json& answer, const std::string& name) { answer["headers"][name] = {{"$ref", "#/components/headers/" + name}}; }
+void add_header_to(Json& answer, const std::string& name) {
+  answer["headers"][name] = {{"$ref", "#/components/headers/" + name}};
+}
 
 Json make_problem_answer(int status) {
-  Json answer{{"description", status_phrase(status)}, {"content", {{"application/problem+json", {{"schema", ref("Problem")}}}}}};
+  Json answer{{"description", status_phrase(status)},
+              {"content", {{"application/problem+json", {{"schema", ref("Problem")}}}}}};
   add_header_to(answer, "X-Request-Id");
   if (status == 429 || status == 503) add_header_to(answer, "Retry-After");
   return answer;
@@ -58,7 +69,8 @@ Json make_problem_answer(int status) {
 
 /// Whether browsers save an answer of this form instead of showing it.
 bool is_saved(const AnswerForm& form) {
-  constexpr std::array<std::string_view, 3> kSaved{"text/csv", "application/x-npz", "application/vnd.sqlite3"};
+  constexpr std::array<std::string_view, 3> kSaved{"text/csv", "application/x-npz",
+                                                   "application/vnd.sqlite3"};
   return std::ranges::find(kSaved, form.media_type) != kSaved.end();
 }
 
@@ -68,43 +80,52 @@ Json make_answer(const Route& route, int status) {
   add_header_to(answer, "X-Request-Id");
   if (status == 201) add_header_to(answer, "Location");
   if (std::ranges::find(route.bodiless, 304) != route.bodiless.end()) add_header_to(answer, "ETag");
-  if (std::ranges::find(route.headers, "prefer") != route.headers.end()) add_header_to(answer, "Preference-Applied");
+  if (std::ranges::find(route.headers, "prefer") != route.headers.end())
+    add_header_to(answer, "Preference-Applied");
   if (std::ranges::any_of(route.answers, is_saved)) add_header_to(answer, "Content-Disposition");
   return answer;
 }
 
 Json make_success(const Route& route) {
   Json answer = make_answer(route, route.success);
-  for (const AnswerForm& form : route.answers) answer["content"][std::string(form.media_type)]["schema"] = ref(form.schema);
+  for (const AnswerForm& form : route.answers)
+    answer["content"][std::string(form.media_type)]["schema"] = ref(form.schema);
   return answer;
 }
 
 Json make_operation(const Route& route) {
   Json operation{{"operationId", route.operation_id}, {"tags", {route.tag}}, {"summary", route.summary}};
-  if (route.pattern.find("{id}") != std::string_view::npos) operation["parameters"].push_back({{"$ref", "#/components/parameters/id"}});
+  if (route.pattern.find("{id}") != std::string_view::npos)
+    operation["parameters"].push_back({{"$ref", "#/components/parameters/id"}});
   for (const auto* ids : {&route.query, &route.headers}) {
-    for (const std::string_view id : *ids) operation["parameters"].push_back({{"$ref", "#/components/parameters/" + std::string(id)}});
+    for (const std::string_view id : *ids)
+      operation["parameters"].push_back({{"$ref", "#/components/parameters/" + std::string(id)}});
   }
   if (!route.body.empty()) {
-    operation["requestBody"] = {{"required", true}, {"content", {{"application/json", {{"schema", ref(route.body)}}}}}};
+    operation["requestBody"] = {{"required", true},
+                                {"content", {{"application/json", {{"schema", ref(route.body)}}}}}};
   }
   operation["responses"][std::to_string(route.success)] = make_success(route);
-  for (const int status : route.bodiless) operation["responses"][std::to_string(status)] = make_answer(route, status);
+  for (const int status : route.bodiless)
+    operation["responses"][std::to_string(status)] = make_answer(route, status);
   for (const int status : problems_of(route)) {
-    operation["responses"][std::to_string(status)] = {{"$ref", "#/components/responses/" + problem_name(status)}};
+    operation["responses"][std::to_string(status)] = {
+        {"$ref", "#/components/responses/" + problem_name(status)}};
   }
   return operation;
 }
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return lower;
 }
 
 Json make_paths(std::span<const Route> routes) {
   Json paths = Json::object();
-  for (const Route& route : routes) paths[std::string(route.pattern)][lower_case(route.method)] = make_operation(route);
+  for (const Route& route : routes)
+    paths[std::string(route.pattern)][lower_case(route.method)] = make_operation(route);
   return paths;
 }
 
@@ -112,7 +133,10 @@ Json make_parameters() {
   Json parameters{{"id", {{"name", "id"}, {"in", "path"}, {"required", true}, {"schema", ref("Id")}}}};
   for (const RequestParameter& parameter : request_parameters()) {
     Json& made = parameters[std::string(parameter.id)];
-    made = {{"name", parameter.name}, {"in", parameter.in}, {"description", parameter.help}, {"schema", parameter.schema}};
+    made = {{"name", parameter.name},
+            {"in", parameter.in},
+            {"description", parameter.help},
+            {"schema", parameter.schema}};
     // Lists are one key with commas; of an object each member is a key.
     if (parameter.in == "query") made["explode"] = parameter.schema.value("type", "") == "object";
   }
@@ -135,8 +159,14 @@ Json make_schemas() {
 
 /// None is needed where the service was started without a token.
 Json make_security_schemes() {
-  return {{"bearer", {{"type", "http"}, {"scheme", "bearer"}, {"description", "The token that the service was started with, if it was"}}},
-          {"basic", {{"type", "http"}, {"scheme", "basic"}, {"description", "The same token as the password of any user"}}}};
+  return {{"bearer",
+           {{"type", "http"},
+            {"scheme", "bearer"},
+            {"description", "The token that the service was started with, if it was"}}},
+          {"basic",
+           {{"type", "http"},
+            {"scheme", "basic"},
+            {"description", "The same token as the password of any user"}}}};
 }
 
 }  // namespace
@@ -146,13 +176,17 @@ nlohmann::ordered_json make_document(std::span<const Route> routes) {
           {"info",
            {{"title", "RPSUP parameter studies"},
             {"version", jobs::kProgramVersion},
-            {"description", "Simulates the RPSUP linkage over sweeps of its parameters, keeps peaks and trajectories, and hands them out. Units stand in "
-                            "the names; whatever answers GET answers HEAD, too."}}},
+            {"description",
+             "Simulates the RPSUP linkage over sweeps of its parameters, keeps peaks and trajectories, and "
+             "hands them out. Units stand in the names; whatever answers GET answers HEAD, too."}}},
           {"servers", {{{"url", "/"}}}},
           {"security", {Json::object(), {{"bearer", Json::array()}}, {{"basic", Json::array()}}}},
           {"paths", make_paths(routes)},
           {"components",
-           {{"schemas", make_schemas()}, {"parameters", make_parameters()}, {"headers", make_headers()}, {"responses", make_problem_answers(routes)},
+           {{"schemas", make_schemas()},
+            {"parameters", make_parameters()},
+            {"headers", make_headers()},
+            {"responses", make_problem_answers(routes)},
             {"securitySchemes", make_security_schemes()}}}};
 }
 

@@ -9,7 +9,8 @@
 
 namespace server::openapi {
 
-/// The OpenAPI 3.1 document of the service, made of the tables that the service works with: routes, parameters, metrics, channels.
+/// The OpenAPI 3.1 document of the service, made of the tables that the service works with: routes,
+/// parameters, metrics, channels.
 [[nodiscard]] nlohmann::ordered_json make_document(std::span<const Route> routes);
 
 }  // namespace server::openapi

@@ -43,7 +43,8 @@ Json schema_of(const engine::QuantityInfo& quantity, const ValueSchema& value) {
 
 Json properties_of(std::span<const engine::QuantityInfo> quantities, const ValueSchema& value) {
   Json properties = Json::object();
-  for (const engine::QuantityInfo& quantity : quantities) properties[quantity.key] = schema_of(quantity, value);
+  for (const engine::QuantityInfo& quantity : quantities)
+    properties[quantity.key] = schema_of(quantity, value);
   return properties;
 }
 
@@ -71,8 +72,8 @@ Json patterns_of(std::span<const engine::QuantityInfo> quantities, const ValueSc
   return patterns;
 }
 
-/// Quantities of a linkage whose names are placeholders: a body on a driven cylindrical joint, another on a revolute
-/// joint, both joined by a revolute joint with clearance and by a spring.
+/// Quantities of a linkage whose names are placeholders: a body on a driven cylindrical joint, another on a
+/// revolute joint, both joined by a revolute joint with clearance and by a spring.
 engine::LinkageTables make_sample_tables() {
   const auto make_joint = [](engine::JointKind kind, const char* from, const char* to) {
     engine::LinkageJoint joint;
@@ -99,7 +100,8 @@ engine::LinkageTables make_sample_tables() {
 const engine::LinkageTables& sample_tables() {
   static const engine::LinkageTables tables = [] {
     engine::LinkageTables made = make_sample_tables();
-    std::erase_if(made.channels, [](const engine::QuantityInfo& channel) { return channel.key.starts_with("pose_other"); });
+    std::erase_if(made.channels,
+                  [](const engine::QuantityInfo& channel) { return channel.key.starts_with("pose_other"); });
     return made;
   }();
   return tables;
@@ -114,7 +116,8 @@ std::vector<engine::QuantityInfo> all_channels() {
     link->model = engine::LinkModel::kFlexible;
     link->diameter = 0.01;
   }
-  parameters.wear_depth.assign(static_cast<std::size_t>(parameters.radial_levels), std::vector<double>(16, 0.0));
+  parameters.wear_depth.assign(static_cast<std::size_t>(parameters.radial_levels),
+                               std::vector<double>(16, 0.0));
   for (engine::QuantityInfo& channel : engine::channel_table(parameters)) {
     const bool known = std::ranges::find(channels, channel.key, &engine::QuantityInfo::key) != channels.end();
     if (!known && !channel.key.starts_with("pose_")) channels.push_back(std::move(channel));
@@ -134,6 +137,8 @@ Json channel_properties(const ValueSchema& value) { return properties_of(all_cha
 
 Json linkage_metric_patterns(const ValueSchema& value) { return patterns_of(sample_tables().metrics, value); }
 
-Json linkage_channel_patterns(const ValueSchema& value) { return patterns_of(sample_tables().channels, value); }
+Json linkage_channel_patterns(const ValueSchema& value) {
+  return patterns_of(sample_tables().channels, value);
+}
 
 }  // namespace server::openapi

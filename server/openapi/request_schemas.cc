@@ -18,17 +18,24 @@ namespace {
 const Json kScale{{"type", "string"}, {"enum", {"linear", "log"}}, {"default", "linear"}};
 
 Json integer_in(const jobs::Range& range) {
-  return {{"type", "integer"}, {"minimum", static_cast<std::int64_t>(range.minimum)}, {"maximum", static_cast<std::int64_t>(range.maximum)}};
+  return {{"type", "integer"},
+          {"minimum", static_cast<std::int64_t>(range.minimum)},
+          {"maximum", static_cast<std::int64_t>(range.maximum)}};
 }
 
 Json make_span() {
-  Json span = object_of({{"from", {{"type", "number"}}}, {"to", {{"type", "number"}}}, {"count", integer_in(jobs::kCountRange)}, {"scale", kScale}}, {"scale"});
+  Json span = object_of({{"from", {{"type", "number"}}},
+                         {"to", {{"type", "number"}}},
+                         {"count", integer_in(jobs::kCountRange)},
+                         {"scale", kScale}},
+                        {"scale"});
   span["description"] = "count values in equal steps, or in equal ratios, both ends included";
   return span;
 }
 
 Json make_range() {
-  Json range = object_of({{"from", {{"type", "number"}}}, {"to", {{"type", "number"}}}, {"scale", kScale}}, {"scale"});
+  Json range =
+      object_of({{"from", {{"type", "number"}}}, {"to", {{"type", "number"}}}, {"scale", kScale}}, {"scale"});
   range["description"] = "what lies between two values; of integers both ends, too";
   return range;
 }
@@ -36,7 +43,9 @@ Json make_range() {
 /// The keys of a parameter each, and of numbers inside a described linkage.
 Json by_paths(Json properties, Json of_linkage) {
   Json schema = options_of(std::move(properties));
-  schema["patternProperties"] = {{"^linkage\\.", described(std::move(of_linkage), "a number inside the linkage that parameters describe")}};
+  schema["patternProperties"] = {
+      {"^linkage\\.",
+       described(std::move(of_linkage), "a number inside the linkage that parameters describe")}};
   return schema;
 }
 
@@ -48,7 +57,8 @@ Json make_lists(std::string_view instead) {
     list["minItems"] = 1;
     return numeric ? Json{{"anyOf", Json::array({std::move(list), ref(instead)})}} : std::move(list);
   };
-  for (const std::string& path : jobs::known_paths()) properties[path] = list_or_instead(list_of(parameter_ref(path)), jobs::is_numeric(path));
+  for (const std::string& path : jobs::known_paths())
+    properties[path] = list_or_instead(list_of(parameter_ref(path)), jobs::is_numeric(path));
   return by_paths(std::move(properties), list_or_instead(list_of({{"type", "number"}}), true));
 }
 
@@ -94,13 +104,18 @@ Json make_replicates() {
   Json seed = integer_in(jobs::kSeedRange);
   seed["default"] = defaults.seed;
   const jobs::Range& perturbation = jobs::kPerturbationRange;
-  Json replicates = object_of({{"count", integer_in(jobs::kCountRange)},
-                               {"perturbation", {{"type", "number"}, {"exclusiveMinimum", perturbation.minimum}, {"maximum", perturbation.maximum},
-                                                 {"default", defaults.perturbation}}},
-                               {"seed", std::move(seed)},
-                               {"only", described({{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}},
-                                                  "lists of values by parameter: sets without one of them are run once")}},
-                              {"perturbation", "seed", "only"});
+  Json replicates = object_of(
+      {{"count", integer_in(jobs::kCountRange)},
+       {"perturbation",
+        {{"type", "number"},
+         {"exclusiveMinimum", perturbation.minimum},
+         {"maximum", perturbation.maximum},
+         {"default", defaults.perturbation}}},
+       {"seed", std::move(seed)},
+       {"only",
+        described({{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}},
+                  "lists of values by parameter: sets without one of them are run once")}},
+      {"perturbation", "seed", "only"});
   replicates["description"] = "each set again with its contact stiffness changed by that relative amount";
   return replicates;
 }
@@ -120,7 +135,9 @@ Json make_priority() {
 }
 
 Json make_executor() {
-  return {{"type", "string"}, {"enum", jobs::kExecutorNames}, {"description", "who computes it; whichever the service has chosen if left out"}};
+  return {{"type", "string"},
+          {"enum", jobs::kExecutorNames},
+          {"description", "who computes it; whichever the service has chosen if left out"}};
 }
 
 Json make_move() { return object_of({{"executor", make_executor()}}); }
@@ -134,18 +151,26 @@ Json make_extension() {
 }
 
 Json make_sweep_request() {
-  Json request = options_of({{"name", {{"type", "string"}, {"maxLength", jobs::kLongestName}}},
-                             {"parameters", ref("Parameters")},
-                             {"sweep", ref("Axes")},
-                             {"design", ref("Design")},
-                             {"cases", make_cases()},
-                             {"replicates", make_replicates()},
-                             {"priority", make_priority()},
-                             {"executor", make_executor()},
-                             {"reuse", {{"type", "boolean"}, {"default", true}, {"description", "whether what was computed before is taken from the store"}}}});
-  request["description"] = "A job for every combination of the cases, the points of the design, the values of the axes and the replicates";
-  request["examples"] = Json::array({{{"name", "first look"}, {"parameters", {{"duration_s", 0.6}, {"run_up_s", 0.3}}},
-                                      {"sweep", {{"clearance_mm", {0, 0.25}}, {"coupler", {"rigid", "flexible"}}}}}});
+  Json request =
+      options_of({{"name", {{"type", "string"}, {"maxLength", jobs::kLongestName}}},
+                  {"parameters", ref("Parameters")},
+                  {"sweep", ref("Axes")},
+                  {"design", ref("Design")},
+                  {"cases", make_cases()},
+                  {"replicates", make_replicates()},
+                  {"priority", make_priority()},
+                  {"executor", make_executor()},
+                  {"reuse",
+                   {{"type", "boolean"},
+                    {"default", true},
+                    {"description", "whether what was computed before is taken from the store"}}}});
+  request["description"] =
+      "A job for every combination of the cases, the points of the design, the values of the axes and the "
+      "replicates";
+  request["examples"] =
+      Json::array({{{"name", "first look"},
+                    {"parameters", {{"duration_s", 0.6}, {"run_up_s", 0.3}}},
+                    {"sweep", {{"clearance_mm", {0, 0.25}}, {"coupler", {"rigid", "flexible"}}}}}});
   return request;
 }
 
@@ -154,12 +179,20 @@ Json make_search_path() {
   Json first = integer_in(jobs::kFirstRange);
   first["default"] = jobs::kDefaultFirst;
   first["description"] = "how many values are tried before the first crossing is looked at closely";
-  Json path = object_of({{"from", {{"type", "number"}}}, {"to", {{"type", "number"}}}, {"scale", kScale},
-                         {"tolerance", {{"type", "number"}, {"exclusiveMinimum", jobs::kToleranceRange.minimum},
-                                        {"description", "how exact the limit has to be, in the parameter's unit; a hundredth of the way if left out"}}},
-                         {"first", std::move(first)}},
-                        {"scale", "tolerance", "first"});
-  path["description"] = "from the value where the metric is expected within its bound to the farthest one of interest, which may be the smaller one";
+  Json path = object_of(
+      {{"from", {{"type", "number"}}},
+       {"to", {{"type", "number"}}},
+       {"scale", kScale},
+       {"tolerance",
+        {{"type", "number"},
+         {"exclusiveMinimum", jobs::kToleranceRange.minimum},
+         {"description",
+          "how exact the limit has to be, in the parameter's unit; a hundredth of the way if left out"}}},
+       {"first", std::move(first)}},
+      {"scale", "tolerance", "first"});
+  path["description"] =
+      "from the value where the metric is expected within its bound to the farthest one of interest, which "
+      "may be the smaller one";
   return path;
 }
 
@@ -173,20 +206,30 @@ Json make_search_request() {
   Json over = options_of(std::move(paths));
   over["minProperties"] = over["maxProperties"] = 1;
   const Json all = make_sweep_request().at("properties");
-  Json request = object_of({{"name", all.at("name")}, {"parameters", all.at("parameters")}, {"over", std::move(over)},
-                            {"metric", {{"type", "string"}, {"enum", std::move(metrics)}}},
-                            {"bound", {{"type", "number"}, {"description", "in the unit of the metric"}}},
-                            {"quantile", {{"type", "number"}, {"exclusiveMinimum", jobs::kQuantileRange.minimum},
-                            {"maximum", jobs::kQuantileRange.maximum},
-                                          {"default", jobs::LimitRule{}.quantile},
-                                          {"description", "the part of the replicates that must not be above the bound"}}},
-                            {"sweep", all.at("sweep")}, {"replicates", all.at("replicates")}, {"priority", all.at("priority")},
-                            {"reuse", all.at("reuse")}},
-                           {"name", "parameters", "quantile", "sweep", "replicates", "priority", "reuse"});
-  request["description"] = "How far a parameter may go, for each combination of the axes, until a metric exceeds its bound";
-  request["examples"] = Json::array({{{"parameters", {{"duration_s", 0.6}, {"run_up_s", 0.3}}},
-                                      {"over", {{"clearance_mm", {{"from", 0.05}, {"to", 0.5}, {"tolerance", 0.01}}}}},
-                                      {"metric", "peak_slider_acceleration_m_s2"}, {"bound", 100}}});
+  Json request =
+      object_of({{"name", all.at("name")},
+                 {"parameters", all.at("parameters")},
+                 {"over", std::move(over)},
+                 {"metric", {{"type", "string"}, {"enum", std::move(metrics)}}},
+                 {"bound", {{"type", "number"}, {"description", "in the unit of the metric"}}},
+                 {"quantile",
+                  {{"type", "number"},
+                   {"exclusiveMinimum", jobs::kQuantileRange.minimum},
+                   {"maximum", jobs::kQuantileRange.maximum},
+                   {"default", jobs::LimitRule{}.quantile},
+                   {"description", "the part of the replicates that must not be above the bound"}}},
+                 {"sweep", all.at("sweep")},
+                 {"replicates", all.at("replicates")},
+                 {"priority", all.at("priority")},
+                 {"reuse", all.at("reuse")}},
+                {"name", "parameters", "quantile", "sweep", "replicates", "priority", "reuse"});
+  request["description"] =
+      "How far a parameter may go, for each combination of the axes, until a metric exceeds its bound";
+  request["examples"] =
+      Json::array({{{"parameters", {{"duration_s", 0.6}, {"run_up_s", 0.3}}},
+                    {"over", {{"clearance_mm", {{"from", 0.05}, {"to", 0.5}, {"tolerance", 0.01}}}}},
+                    {"metric", "peak_slider_acceleration_m_s2"},
+                    {"bound", 100}}});
   return request;
 }
 
@@ -195,11 +238,18 @@ Json make_search_request() {
 Json make_request_schemas() {
   Json parameters = jobs::parameter_schema();
   parameters.erase("$schema");
-  return {{"Parameters", std::move(parameters)}, {"SweepRequest", make_sweep_request()}, {"Extension", make_extension()},
+  return {{"Parameters", std::move(parameters)},
+          {"SweepRequest", make_sweep_request()},
+          {"Extension", make_extension()},
           {"Move", make_move()},
-          {"Axes", make_lists("Span")},          {"Span", make_span()},                  {"Design", make_designs()},
-          {"Ranges", make_lists("Range")},       {"Range", make_range()},                {"Values", make_values()},
-          {"SearchRequest", make_search_request()}, {"SearchPath", make_search_path()}};
+          {"Axes", make_lists("Span")},
+          {"Span", make_span()},
+          {"Design", make_designs()},
+          {"Ranges", make_lists("Range")},
+          {"Range", make_range()},
+          {"Values", make_values()},
+          {"SearchRequest", make_search_request()},
+          {"SearchPath", make_search_path()}};
 }
 
 }  // namespace server::openapi

@@ -18,16 +18,24 @@ namespace {
 
 enum class Detail { kFull, kListing };
 
-const Json kTime{{"type", "string"}, {"format", "date-time"}, {"pattern", "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]{3}Z$"}};
+const Json kTime{{"type", "string"},
+                 {"format", "date-time"},
+                 {"pattern", "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]{3}Z$"}};
 
 Json make_problem_schema() {
-  return object_of({{"type", kText}, {"title", kText}, {"status", {{"type", "integer"}, {"minimum", 400}, {"maximum", 599}}}, {"detail", kText},
-                    {"errors", list_of(object_of({{"pointer", described(kText, "where, a JSON pointer into the request")},
-                                                  {"detail", described(kText, "what is wrong, and what is allowed")}}))}},
-                   {"errors"});
+  return object_of(
+      {{"type", kText},
+       {"title", kText},
+       {"status", {{"type", "integer"}, {"minimum", 400}, {"maximum", 599}}},
+       {"detail", kText},
+       {"errors", list_of(object_of({{"pointer", described(kText, "where, a JSON pointer into the request")},
+                                     {"detail", described(kText, "what is wrong, and what is allowed")}}))}},
+      {"errors"});
 }
 
-Json metric_value(const engine::QuantityInfo& metric) { return {{"type", {metric.integer ? "integer" : "number", "null"}}}; }
+Json metric_value(const engine::QuantityInfo& metric) {
+  return {{"type", {metric.integer ? "integer" : "number", "null"}}};
+}
 
 Json column_of_numbers(const engine::QuantityInfo& = {}) { return list_of({{"type", {"number", "null"}}}); }
 
@@ -41,15 +49,24 @@ Json make_metrics() {
 }
 
 Json make_error() {
-  return object_of({{"reason", described(kText, "non_finite, step_limit, time_limit, memory_limit, ...")}, {"detail", kText}, {"t_s", or_null(kNumber)}});
+  return object_of({{"reason", described(kText, "non_finite, step_limit, time_limit, memory_limit, ...")},
+                    {"detail", kText},
+                    {"t_s", or_null(kNumber)}});
 }
 
 Json make_run() {
-  return object_of({{"wall_time_s", kNumber}, {"cpu_time_s", kNumber}, {"attempts", kCount}, {"host", kText}, {"cpu", kText},
-                    {"libm", or_null(described(kText, "the mathematical library that was used"))},
-                    {"numerics", or_null({{"type", "string"}, {"enum", {"native", "portable", nullptr}}})},
-                    {"program", object_of({{"version", kText}, {"commit", kText}, {"compiler", kText}, {"engine", kText}})},
-                    {"reused", {{"type", "boolean"}, {"description", "whether the result was computed for another job"}}}});
+  return object_of(
+      {{"wall_time_s", kNumber},
+       {"cpu_time_s", kNumber},
+       {"attempts", kCount},
+       {"host", kText},
+       {"cpu", kText},
+       {"libm", or_null(described(kText, "the mathematical library that was used"))},
+       {"numerics", or_null({{"type", "string"}, {"enum", {"native", "portable", nullptr}}})},
+       {"program",
+        object_of({{"version", kText}, {"commit", kText}, {"compiler", kText}, {"engine", kText}})},
+       {"reused",
+        {{"type", "boolean"}, {"description", "whether the result was computed for another job"}}}});
 }
 
 Json make_job(Detail detail) {
@@ -68,7 +85,8 @@ Json make_job(Detail detail) {
     properties["parameters"] = ref("Parameters");
     properties["metrics"] = or_null(ref("Metrics"));
   }
-  return detail == Detail::kFull ? object_of(std::move(properties), {"replicate"}) : options_of(std::move(properties));
+  return detail == Detail::kFull ? object_of(std::move(properties), {"replicate"})
+                                 : options_of(std::move(properties));
 }
 
 Json make_counts() {
@@ -79,21 +97,28 @@ Json make_counts() {
 }
 
 Json make_sweep(Detail detail) {
-  Json properties{{"id", ref("Id")},
-                  {"name", kText},
-                  {"state", ref("State")},
-                  {"counts", make_counts()},
-                  {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
-                  {"eta_s", described(or_null(kNumber), "seconds until the last job ends; null while that is not known")},
-                  {"eta_low_s", described(or_null(kNumber), "eta_s less two standard deviations")},
-                  {"eta_high_s", described(or_null(kNumber), "eta_s and two standard deviations")},
-                  {"priority", {{"type", "integer"}}},
-                  {"executor", {{"type", "string"}, {"enum", jobs::kExecutorNames}}},
-                  {"created_at", kTime},
-                  {"started_at", or_null(kTime)},
-                  {"ended_at", or_null(kTime)},
-                  {"axes", described(list_of(kText), "the parameters that differ from job to job")},
-                  {"links", object_of({{"self", kText}, {"results", kText}, {"events", kText}, {"cancel", kText}, {"retry", kText}, {"extend", kText}, {"move", kText}})}};
+  Json properties{
+      {"id", ref("Id")},
+      {"name", kText},
+      {"state", ref("State")},
+      {"counts", make_counts()},
+      {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
+      {"eta_s", described(or_null(kNumber), "seconds until the last job ends; null while that is not known")},
+      {"eta_low_s", described(or_null(kNumber), "eta_s less two standard deviations")},
+      {"eta_high_s", described(or_null(kNumber), "eta_s and two standard deviations")},
+      {"priority", {{"type", "integer"}}},
+      {"executor", {{"type", "string"}, {"enum", jobs::kExecutorNames}}},
+      {"created_at", kTime},
+      {"started_at", or_null(kTime)},
+      {"ended_at", or_null(kTime)},
+      {"axes", described(list_of(kText), "the parameters that differ from job to job")},
+      {"links", object_of({{"self", kText},
+                           {"results", kText},
+                           {"events", kText},
+                           {"cancel", kText},
+                           {"retry", kText},
+                           {"extend", kText},
+                           {"move", kText}})}};
   if (detail == Detail::kFull) properties["request"] = ref("SweepRequest");
   return detail == Detail::kFull ? object_of(std::move(properties)) : options_of(std::move(properties));
 }
@@ -101,30 +126,43 @@ Json make_sweep(Detail detail) {
 Json make_executors() {
   const Json tasks = object_of({{"pending", kCount}, {"running", kCount}});
   const Json waiting = object_of({{"reason", described(kText, "in Slurm's words")}, {"tasks", kCount}});
-  const Json executor = object_of({{"name", {{"type", "string"}, {"enum", jobs::kExecutorNames}}},
-                                   {"slots", described(kCount, "jobs that it computes at a time")},
-                                   {"tasks", described(or_null(tasks), "of this service in Slurm's queue; null where there is none")},
-                                   {"nodes", described(list_of(kText), "machines that compute now")},
-                                   {"waiting", described(list_of(waiting), "why tasks wait")},
-                                   {"problems", described(list_of(kText), "what somebody should look at")}});
-  return object_of({{"items", described(list_of(executor), "first the one that takes sweeps which name none")}});
+  const Json executor = object_of(
+      {{"name", {{"type", "string"}, {"enum", jobs::kExecutorNames}}},
+       {"slots", described(kCount, "jobs that it computes at a time")},
+       {"tasks", described(or_null(tasks), "of this service in Slurm's queue; null where there is none")},
+       {"nodes", described(list_of(kText), "machines that compute now")},
+       {"waiting", described(list_of(waiting), "why tasks wait")},
+       {"problems", described(list_of(kText), "what somebody should look at")}});
+  return object_of(
+      {{"items", described(list_of(executor), "first the one that takes sweeps which name none")}});
 }
 
 Json make_page(std::string_view item) {
-  return object_of({{"items", list_of(ref(item))}, {"next_cursor", described(kText, "for the next page; empty on the last one")}});
+  return object_of({{"items", list_of(ref(item))},
+                    {"next_cursor", described(kText, "for the next page; empty on the last one")}});
 }
 
 Json make_result_row() {
   Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", kCount}};
-  for (const std::string& path : jobs::known_paths()) properties[path] = or_null(parameter_ref(path));  // null: of jobs of another linkage
+  for (const std::string& path : jobs::known_paths())
+    properties[path] = or_null(parameter_ref(path));  // null: of jobs of another linkage
   properties.update(metric_properties(metric_value));
-  properties["replicates_count"] = described(kCount, "of the row's set, those that have succeeded; the statistics are of their " + std::string(jobs::kReplicateMetric));
-  for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"}) properties[key] = or_null(kNumber);
-  for (const std::string_view column : jobs::kErrorColumns) properties[std::string(column)] = described(or_null(kText), "why a job failed; only if it is named");
-  properties["linkage"] = described(kText, "of a described one its name, with a number if another one of the sweep has that name");
+  properties["replicates_count"] =
+      described(kCount, "of the row's set, those that have succeeded; the statistics are of their " +
+                            std::string(jobs::kReplicateMetric));
+  for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"})
+    properties[key] = or_null(kNumber);
+  for (const std::string_view column : jobs::kErrorColumns)
+    properties[std::string(column)] = described(or_null(kText), "why a job failed; only if it is named");
+  properties["linkage"] = described(
+      kText, "of a described one its name, with a number if another one of the sweep has that name");
   Json row = options_of(std::move(properties));
-  row["additionalProperties"] = described(or_null(kNumber), "numbers swept inside a described linkage, and its metrics, which go by the names of its joints");
-  return described(std::move(row), "Every key stands in every row, save those that fields leaves out, those of what the sweep does not vary, and of errors");
+  row["additionalProperties"] = described(
+      or_null(kNumber),
+      "numbers swept inside a described linkage, and its metrics, which go by the names of its joints");
+  return described(std::move(row),
+                   "Every key stands in every row, save those that fields leaves out, those of what the "
+                   "sweep does not vary, and of errors");
 }
 
 Json make_trajectory() {

@@ -5,7 +5,8 @@
 
 namespace server::openapi {
 
-/// The schemas of what is answered, by name: Sweep, Job, their pages, ResultRows, Trajectory, Problem and what stands in them.
+/// The schemas of what is answered, by name: Sweep, Job, their pages, ResultRows, Trajectory, Problem and
+/// what stands in them.
 [[nodiscard]] Json make_resource_schemas();
 
 }  // namespace server::openapi

@@ -12,7 +12,10 @@ Json object_of(Json properties, std::initializer_list<std::string_view> optional
   for (const auto& [key, schema] : properties.items()) {
     if (std::ranges::find(optional, key) == optional.end()) required.push_back(key);
   }
-  return {{"type", "object"}, {"additionalProperties", false}, {"required", std::move(required)}, {"properties", std::move(properties)}};
+  return {{"type", "object"},
+          {"additionalProperties", false},
+          {"required", std::move(required)},
+          {"properties", std::move(properties)}};
 }
 
 Json options_of(Json properties) {
@@ -30,7 +33,9 @@ Json or_null(Json schema) { return {{"anyOf", Json::array({std::move(schema), {{
 
 Json parameter_ref(std::string_view path) {
   std::string pointer = jobs::pointer_of_path(path);
-  for (std::size_t slash = 0; (slash = pointer.find('/', slash)) != std::string::npos; slash += sizeof "/properties") pointer.insert(slash, "/properties");
+  for (std::size_t slash = 0; (slash = pointer.find('/', slash)) != std::string::npos;
+       slash += sizeof "/properties")
+    pointer.insert(slash, "/properties");
   return {{"$ref", "#/components/schemas/Parameters" + pointer}};
 }
 

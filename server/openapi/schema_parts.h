@@ -16,7 +16,9 @@ inline const Json kNumber{{"type", "number"}};
 inline const Json kCount{{"type", "integer"}, {"minimum", 0}};
 
 /// A schema of the document, by its name.
-[[nodiscard]] inline Json ref(std::string_view schema) { return {{"$ref", "#/components/schemas/" + std::string(schema)}}; }
+[[nodiscard]] inline Json ref(std::string_view schema) {
+  return {{"$ref", "#/components/schemas/" + std::string(schema)}};
+}
 
 /// An object of exactly these properties, all of which are there unless `optional` names them.
 [[nodiscard]] Json object_of(Json properties, std::initializer_list<std::string_view> optional = {});

@@ -5,7 +5,8 @@
 
 namespace server::openapi {
 
-/// The schemas of what is answered about searches, by name: Search, SearchPage, LimitRows and what stands in them.
+/// The schemas of what is answered about searches, by name: Search, SearchPage, LimitRows and what stands in
+/// them.
 [[nodiscard]] Json make_search_schemas();
 
 }  // namespace server::openapi

@@ -5,8 +5,8 @@
 
 namespace server::openapi {
 
-/// The schemas of what is asked and answered about wear studies, by name: WearStudyRequest, WearStudy, WearStudyPage, WearCycleRows and what
-/// stands in them.
+/// The schemas of what is asked and answered about wear studies, by name: WearStudyRequest, WearStudy,
+/// WearStudyPage, WearCycleRows and what stands in them.
 [[nodiscard]] Json make_wear_schemas();
 
 }  // namespace server::openapi

@@ -22,16 +22,19 @@ namespace server::report {
 
 namespace {
 
-
-constexpr std::array<std::string_view, 4> kMetrics{"peak_slider_acceleration_m_s2", "peak_contact_force_n", "impact_count", "peak_crank_torque_n_m"};
-constexpr std::array<const char*, 8> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f", "#444444"};
+constexpr std::array<std::string_view, 4> kMetrics{"peak_slider_acceleration_m_s2", "peak_contact_force_n",
+                                                   "impact_count", "peak_crank_torque_n_m"};
+constexpr std::array<const char*, 8> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                              "#e69f00", "#56b4e9", "#8c6d1f", "#444444"};
 constexpr std::size_t kMostPointsWithLines = 200;
 
 /// The first axis with different numbers.
 std::optional<std::string> find_number(const nlohmann::json& axes, const jobs::ResultTable& results) {
   for (const auto& axis : axes) {
     const auto path = axis.get<std::string>();
-    if (jobs::is_numeric(path) && jobs::group_rows(results, {jobs::find_column(results, path, "")}).size() > 1) return path;
+    if (jobs::is_numeric(path) &&
+        jobs::group_rows(results, {jobs::find_column(results, path, "")}).size() > 1)
+      return path;
   }
   return std::nullopt;
 }
@@ -46,7 +49,9 @@ void add_line(const std::string& label, const Line& line, const char* colour, ch
     const auto statistics = jobs::calc_replicate_statistics(values);
     means.x.push_back(x);
     means.y.push_back(*statistics.mean);
-    if (values.size() > 1) chart.series.push_back({.x = {x, x}, .y = {*statistics.min, *statistics.max}, .colour = colour, .width = 2.0});
+    if (values.size() > 1)
+      chart.series.push_back(
+          {.x = {x, x}, .y = {*statistics.min, *statistics.max}, .colour = colour, .width = 2.0});
   }
   chart.series.push_back(std::move(means));
 }
@@ -74,10 +79,12 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
   if (!along) return "";
   const std::size_t x = jobs::find_column(results, *along, "");
   std::vector<std::size_t> others;
-  const bool designed = sweep.at("request").contains("design");  // its points lie beside each other: the other numbers make no lines
+  const bool designed = sweep.at("request").contains(
+      "design");  // its points lie beside each other: the other numbers make no lines
   for (const auto& axis : sweep.at("axes")) {
     const auto path = axis.get<std::string>();
-    if (path != *along && !(designed && jobs::is_numeric(path))) others.push_back(jobs::find_column(results, path, ""));
+    if (path != *along && !(designed && jobs::is_numeric(path)))
+      others.push_back(jobs::find_column(results, path, ""));
   }
   const auto groups = jobs::group_rows(results, others);
   std::vector<charts::Chart> charts;
@@ -88,7 +95,8 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
       Line line;
       for (const std::size_t r : groups[g].rows) {
         const auto place = jobs::number_in(results.rows[r][x]);  // jobs of another linkage may have none
-        if (const auto value = jobs::number_in(results.rows[r][column]); value && place) line[*place].push_back(*value);
+        if (const auto value = jobs::number_in(results.rows[r][column]); value && place)
+          line[*place].push_back(*value);
       }
       std::string label;
       for (std::size_t i = 0; i < others.size(); ++i) {
@@ -102,8 +110,10 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
     charts.push_back(std::move(chart));
   }
   if (charts.empty()) return "";
-  const std::string more = groups.size() > kColours.size() ? " The first " + std::to_string(kColours.size()) + " of " +
-      std::to_string(groups.size()) + " combinations are drawn." : "";
+  const std::string more = groups.size() > kColours.size()
+                               ? " The first " + std::to_string(kColours.size()) + " of " +
+                                     std::to_string(groups.size()) + " combinations are drawn."
+                               : "";
   return "<figure>" + charts::draw(charts, 2) + "<figcaption>Means over " + escape(*along) +
       "; bars reach from the least to the largest value of what lies together." +
          more + "</figcaption></figure>\n";

@@ -9,8 +9,8 @@
 
 namespace server::report {
 
-/// Metrics over the first number that a sweep varies, a line for each combination of what else it varies: means with the least and the largest
-/// of what lies together. Empty if it varies no number.
+/// Metrics over the first number that a sweep varies, a line for each combination of what else it varies:
+/// means with the least and the largest of what lies together. Empty if it varies no number.
 [[nodiscard]] std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& results);
 
 }  // namespace server::report

@@ -12,10 +12,12 @@ namespace server::report {
 namespace {
 
 constexpr std::string_view kStyle = R"(
-body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 70rem;
+       margin: 2rem auto; padding: 0 1rem; }
 h2 { margin-top: 2rem; border-bottom: 1px solid #ccc; break-after: avoid; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.85rem; }
-th, td { padding: 0.2rem 0.8rem 0.2rem 0; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; }
+th, td { padding: 0.2rem 0.8rem 0.2rem 0; border-bottom: 1px solid #ddd; text-align: left;
+         vertical-align: top; }
 td.number { text-align: right; }
 thead { display: table-header-group; }
 pre { background: #f4f4f4; padding: 0.8rem; white-space: pre-wrap; overflow-wrap: anywhere; }
@@ -60,14 +62,17 @@ std::string cell_text(const nlohmann::json& cell) {
   return text.data();
 }
 
-std::string make_table(const std::vector<std::string>& headings, const std::vector<std::vector<nlohmann::json>>& rows) {
+std::string make_table(const std::vector<std::string>& headings,
+                       const std::vector<std::vector<nlohmann::json>>& rows) {
   // What may be wider than the window is reached with the keyboard, too.
-  std::string html = "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\"><table><thead><tr>";
+  std::string html =
+      "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\"><table><thead><tr>";
   for (const std::string& heading : headings) html += "<th scope=\"col\">" + escape(heading) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& row : rows) {
     html += "<tr>";
-    for (const auto& cell : row) html += (cell.is_number() ? "<td class=\"number\">" : "<td>") + escape(cell_text(cell)) + "</td>";
+    for (const auto& cell : row)
+      html += (cell.is_number() ? "<td class=\"number\">" : "<td>") + escape(cell_text(cell)) + "</td>";
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
@@ -76,13 +81,15 @@ std::string make_table(const std::vector<std::string>& headings, const std::vect
 std::string make_page(const std::string& title, const std::string& body) {
   return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-" +
-         style_hash() + "'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" + escape(title) +
-             "</title>\n<style>" +
-         std::string(kStyle) + "</style>\n</head>\n<body>\n" + body + "</body>\n</html>\n";
+         style_hash() +
+         "'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         escape(title) + "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n" + body +
+         "</body>\n</html>\n";
 }
 
 std::string page_policy() {
-  return "default-src 'none'; style-src 'sha256-" + style_hash() + "'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+  return "default-src 'none'; style-src 'sha256-" + style_hash() +
+         "'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
 }  // namespace server::report

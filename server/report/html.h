@@ -15,12 +15,14 @@ namespace server::report {
 [[nodiscard]] std::string cell_text(const nlohmann::json& cell);
 
 /// A table with a heading for each column.
-[[nodiscard]] std::string make_table(const std::vector<std::string>& headings, const std::vector<std::vector<nlohmann::json>>& rows);
+[[nodiscard]] std::string make_table(const std::vector<std::string>& headings,
+                                     const std::vector<std::vector<nlohmann::json>>& rows);
 
 /// A whole page with its one style, and without anything that runs or is fetched.
 [[nodiscard]] std::string make_page(const std::string& title, const std::string& body);
 
-/// The policy under which a page of make_page() shows as it is, and nothing else: its style is named by its hash.
+/// The policy under which a page of make_page() shows as it is, and nothing else: its style is named by its
+/// hash.
 [[nodiscard]] std::string page_policy();
 
 }  // namespace server::report

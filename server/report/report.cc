@@ -29,17 +29,19 @@ std::string heading(const std::string& text) { return "<h2>" + escape(text) + "<
 
 std::string make_summary(const json& sweep) {
   std::vector<std::vector<json>> rows;
-  for (const char* const key : {"id", "state", "created_at", "started_at", "ended_at"}) rows.push_back({key, sweep.at(key)});
+  for (const char* const key : {"id", "state", "created_at", "started_at", "ended_at"})
+    rows.push_back({key, sweep.at(key)});
   for (const auto& [state, count] : sweep.at("counts").items()) {
     if (count != 0) rows.push_back({"jobs, " + state, count});
   }
   return make_table({"", ""}, rows);
 }
 
-/// A row for each set of parameters: the peak over its replicates, and means of other metrics. Of a described linkage: its first metrics.
+/// A row for each set of parameters: the peak over its replicates, and means of other metrics. Of a described
+/// linkage: its first metrics.
 std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
-  constexpr std::array<std::string_view, 5> kMeans{"amplification", "peak_contact_force_n", "max_penetration_um", "impact_count",
-                                                   "peak_crank_torque_n_m"};
+  constexpr std::array<std::string_view, 5> kMeans{
+      "amplification", "peak_contact_force_n", "max_penetration_um", "impact_count", "peak_crank_torque_n_m"};
   std::vector<std::string> headings = sweep.at("axes").get<std::vector<std::string>>();
   std::vector<std::size_t> swept;
   for (const std::string& path : headings) swept.push_back(jobs::find_column(results, path, ""));
@@ -52,7 +54,8 @@ std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
   const auto statistics_of = [&](const jobs::RowGroup& group, const std::string& column) {
     std::vector<double> values;
     for (const std::size_t r : group.rows) {
-      if (const auto value = jobs::number_in(results.rows[r][jobs::find_column(results, column, "")])) values.push_back(*value);
+      if (const auto value = jobs::number_in(results.rows[r][jobs::find_column(results, column, "")]))
+        values.push_back(*value);
     }
     return jobs::calc_replicate_statistics(values);
   };
@@ -61,12 +64,15 @@ std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
   for (std::size_t g = 0; g < std::min(groups.size(), kMostSets); ++g) {
     std::vector<json> cells = groups[g].values;
     const auto peak = statistics_of(groups[g], metric);
-    cells.insert(cells.end(), {peak.count, value_or_null(peak.mean), value_or_null(peak.spread), value_or_null(peak.min), value_or_null(peak.max)});
+    cells.insert(cells.end(), {peak.count, value_or_null(peak.mean), value_or_null(peak.spread),
+                               value_or_null(peak.min), value_or_null(peak.max)});
     for (const std::string& mean : means) cells.push_back(value_or_null(statistics_of(groups[g], mean).mean));
     rows.push_back(std::move(cells));
   }
-  const std::string more = groups.size() > kMostSets ? "<p class=\"quiet\">The first " + std::to_string(kMostSets) + " of " +
-      std::to_string(groups.size()) + " sets; all are in the CSV.</p>\n" : "";
+  const std::string more = groups.size() > kMostSets
+                               ? "<p class=\"quiet\">The first " + std::to_string(kMostSets) + " of " +
+                                     std::to_string(groups.size()) + " sets; all are in the CSV.</p>\n"
+                               : "";
   return make_table(headings, rows) + more;
 }
 
@@ -88,10 +94,14 @@ std::string make_analyses(const json& sweep, const jobs::ResultTable& results) {
 std::string make_provenance(const Provenance& provenance, std::size_t jobs) {
   std::vector<std::vector<json>> rows;
   for (const json& setup : provenance.setups) {
-    rows.push_back({setup.at("jobs"), setup.at("version"), setup.at("commit"), setup.at("engine"), setup.at("compiler"), setup.at("host"), setup.at("cpu")});
+    rows.push_back({setup.at("jobs"), setup.at("version"), setup.at("commit"), setup.at("engine"),
+                    setup.at("compiler"), setup.at("host"), setup.at("cpu")});
   }
-  const std::string some = provenance.jobs_examined < jobs ? "<p class=\"quiet\">Of the first " + std::to_string(provenance.jobs_examined) + " of " +
-      std::to_string(jobs) + " jobs.</p>\n" : "";
+  const std::string some = provenance.jobs_examined < jobs
+                               ? "<p class=\"quiet\">Of the first " +
+                                     std::to_string(provenance.jobs_examined) + " of " +
+                                     std::to_string(jobs) + " jobs.</p>\n"
+                               : "";
   return make_table({"jobs", "version", "commit", "engine", "compiler", "host", "processor"}, rows) + some;
 }
 
@@ -129,7 +139,8 @@ std::string make_report(const json& sweep, const jobs::ResultTable& results, con
   body += heading("Request") + "<pre>" + escape(to_text(request, 1)) + "</pre>\n";
   body += heading("Provenance") + make_provenance(provenance, results.rows.size());
   body += heading("Reproduction") +
-      "<p>The command submits the sweep to the service at RPSUP_URL, by default on this machine; the same engine gives the same bytes.</p>\n<pre id=\"command\">" +
+          "<p>The command submits the sweep to the service at RPSUP_URL, by default on this machine; the "
+          "same engine gives the same bytes.</p>\n<pre id=\"command\">" +
           escape(make_command(request)) + "</pre>\n";
   return make_page(title, body);
 }

@@ -16,12 +16,15 @@ struct Provenance {
   std::size_t jobs_examined = 0;       ///< fewer than all, of large sweeps
 };
 
-/// Report of a sweep as one self-contained page: request, figures, tables, provenance, and the command that repeats it.
+/// Report of a sweep as one self-contained page: request, figures, tables, provenance, and the command that
+/// repeats it.
 /// @param sweep    its resource
 /// @param results  all its rows
-[[nodiscard]] std::string make_report(const nlohmann::json& sweep, const jobs::ResultTable& results, const Provenance& provenance);
+[[nodiscard]] std::string make_report(const nlohmann::json& sweep, const jobs::ResultTable& results,
+                                      const Provenance& provenance);
 
-/// A sweep's request with its axes, and those of its design, in the order in which they were given: points depend on it.
+/// A sweep's request with its axes, and those of its design, in the order in which they were given: points
+/// depend on it.
 [[nodiscard]] nlohmann::ordered_json request_in_order(const nlohmann::json& sweep);
 
 /// The command that submits a request anew, to the service that RPSUP_URL names or the one on this machine.

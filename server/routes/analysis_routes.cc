@@ -39,7 +39,8 @@ struct SweepAndResults {
   jobs::ResultTable results;
 };
 
-std::optional<SweepAndResults> find_sweep_and_results(const RequestContext& context, const jobs::ResultQuery& query = {}) {
+std::optional<SweepAndResults> find_sweep_and_results(const RequestContext& context,
+                                                      const jobs::ResultQuery& query = {}) {
   auto sweep = context.service.find_sweep(context.id);
   auto results = sweep ? context.service.find_results(context.id, query) : std::nullopt;
   return results ? std::optional(SweepAndResults{std::move(*sweep), std::move(*results)}) : std::nullopt;
@@ -69,37 +70,48 @@ auto run_analysis(const RequestContext& context, Query& query,
   return std::move(*outcome);
 }
 
-std::optional<SweepAndResults> find_with_all_columns(const RequestContext& context) { return find_sweep_and_results(context); }
+std::optional<SweepAndResults> find_with_all_columns(const RequestContext& context) {
+  return find_sweep_and_results(context);
+}
 
-Response make_rows(const RequestContext& context, TableFormat format, const jobs::ResultTable& table, const std::string& name) {
-  return with_etag_if(table.ended, context.request, make_table(format, to_text(table, format), name + "-" + context.id));
+Response make_rows(const RequestContext& context, TableFormat format, const jobs::ResultTable& table,
+                   const std::string& name) {
+  return with_etag_if(table.ended, context.request,
+                      make_table(format, to_text(table, format), name + "-" + context.id));
 }
 
 /// The metric that a query asks for, of those that the sweep's linkages have.
-std::string metric_of(const Query& query, const SweepAndResults& found) { return jobs::choose_metric(found.results, query.text("metric").value_or("")); }
+std::string metric_of(const Query& query, const SweepAndResults& found) {
+  return jobs::choose_metric(found.results, query.text("metric").value_or(""));
+}
 
 /// Channels of a job's trajectory, for an analysis of channels that only jobs of the RPSUP linkage have.
 /// @param what  name of the quantity in the error for a job of another linkage
-std::optional<engine::Trajectory> find_rpsup_trajectory(const RequestContext& context, const std::string& id, const jobs::TrajectoryQuery& part, const char* what) {
+std::optional<engine::Trajectory> find_rpsup_trajectory(const RequestContext& context, const std::string& id,
+                                                        const jobs::TrajectoryQuery& part, const char* what) {
   try {
     return context.service.find_trajectory(id, part);
   } catch (const jobs::InvalidRequest& invalid) {
     const bool known = !invalid.faults().front().pointer.starts_with("/channels");
     const auto job = known ? std::nullopt : context.service.find_job(id);
     if (!job || !jobs::describes_linkage(job->at("parameters"))) throw;
-    throw jobs::WrongState(std::string("only jobs of the RPSUP linkage have ") + what + "; job " + id + " describes its own linkage");
+    throw jobs::WrongState(std::string("only jobs of the RPSUP linkage have ") + what + "; job " + id +
+                           " describes its own linkage");
   }
 }
 
 jobs::FindTrajectory trajectory_finder(const RequestContext& context, const char* what) {
-  return [&context, what](const std::string& job, const jobs::TrajectoryQuery& query) { return find_rpsup_trajectory(context, job, query, what); };
+  return [&context, what](const std::string& job, const jobs::TrajectoryQuery& query) {
+    return find_rpsup_trajectory(context, job, query, what);
+  };
 }
 
 constexpr const char* kSection = "crank_angle_rad, which Poincare sections need";
 
 /// The error for a job without a trajectory, or for no job.
 HttpError no_trajectory(const RequestContext& context) {
-  return {404, context.service.find_job(context.id) ? "job " + context.id + " has no trajectory" : "there is no job " + context.id};
+  return {404, context.service.find_job(context.id) ? "job " + context.id + " has no trajectory"
+                                                    : "there is no job " + context.id};
 }
 
 /// Runs a query of a single channel. A fault of /channels/0 becomes one of /channel, the key of the query.
@@ -117,7 +129,8 @@ auto with_one_channel(const Ask& ask) {
 }
 
 /// Channels of a wear map. Older programs did not keep all of them.
-std::optional<engine::Trajectory> find_wear_trajectory(const RequestContext& context, const jobs::TrajectoryQuery& part) {
+std::optional<engine::Trajectory> find_wear_trajectory(const RequestContext& context,
+                                                       const jobs::TrajectoryQuery& part) {
   try {
     return find_rpsup_trajectory(context, context.id, part, "a map of the bore's wear");
   } catch (const jobs::InvalidRequest& invalid) {
@@ -127,9 +140,14 @@ std::optional<engine::Trajectory> find_wear_trajectory(const RequestContext& con
   }
 }
 
-Response make_columns(const RequestContext& context, TableFormat format, const engine::Trajectory& table, const std::string& name) {
-  std::string text = format == TableFormat::kCsv ? jobs::to_csv(table) : format == TableFormat::kNpz ? jobs::to_npz(table) : to_json_columns(table);
-  return with_etag(context.request, make_table(format, std::move(text), name + "-" + context.id));  // only what has ended has a trajectory
+Response make_columns(const RequestContext& context, TableFormat format, const engine::Trajectory& table,
+                      const std::string& name) {
+  std::string text = format == TableFormat::kCsv   ? jobs::to_csv(table)
+                     : format == TableFormat::kNpz ? jobs::to_npz(table)
+                                                   : to_json_columns(table);
+  return with_etag(
+      context.request,
+      make_table(format, std::move(text), name + "-" + context.id));  // only what has ended has a trajectory
 }
 
 /// Programs and machines of the first jobs of a sweep.
@@ -161,34 +179,41 @@ report::Provenance find_provenance(const RequestContext& context, const jobs::Re
 Response get_sensitivity(const RequestContext& context) {
   Query query(context.request, {"metric", "format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = run_analysis(context, query, find_with_all_columns,
-                              [&](const SweepAndResults& found) { return jobs::calc_sensitivity(found.sweep, found.results, metric_of(query, found)); });
+  const auto table = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
+    return jobs::calc_sensitivity(found.sweep, found.results, metric_of(query, found));
+  });
   return make_rows(context, format, table, "sensitivity");
 }
 
 Response get_surrogate(const RequestContext& context) {
   Query query(context.request, {"metric", "x", "y"});
   bool ended = false;
-  const auto surrogate = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
-    const jobs::SurrogateQuery wanted{.metric = metric_of(query, found), .x = query.text("x").value_or(""), .y = query.text("y").value_or("")};
-    ended = found.results.ended;
-    return make_surrogate(found.sweep, found.results, wanted);
-  });
+  const auto surrogate =
+      run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
+        const jobs::SurrogateQuery wanted{.metric = metric_of(query, found),
+                                          .x = query.text("x").value_or(""),
+                                          .y = query.text("y").value_or("")};
+        ended = found.results.ended;
+        return make_surrogate(found.sweep, found.results, wanted);
+      });
   return with_etag_if(ended, context.request, json_response(200, to_text(surrogate)));
 }
 
 Response get_flexibility(const RequestContext& context) {
   Query query(context.request, {"metric", "format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = run_analysis(context, query, find_with_all_columns,
-                              [&](const SweepAndResults& found) { return jobs::compare_couplers(found.sweep, found.results, metric_of(query, found)); });
+  const auto table = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
+    return jobs::compare_couplers(found.sweep, found.results, metric_of(query, found));
+  });
   return make_rows(context, format, table, "flexibility");
 }
 
 Response get_paper(const RequestContext& context) {
   Query query(context.request, {"format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = run_analysis(context, query, find_with_all_columns, [](const SweepAndResults& found) { return jobs::hold_against_paper(found.results); });
+  const auto table = run_analysis(context, query, find_with_all_columns, [](const SweepAndResults& found) {
+    return jobs::hold_against_paper(found.results);
+  });
   return make_rows(context, format, table, "paper");
 }
 
@@ -200,7 +225,10 @@ Response get_bifurcation(const RequestContext& context) {
   wanted.phase = query.number("phase_rad").value_or(wanted.phase);
   wanted.from = query.number("from");
   const auto table = run_analysis(context, query, find_with_run_up, [&](const SweepAndResults& found) {
-    return with_one_channel([&] { return make_bifurcation(found.sweep.at("axes"), found.results, wanted, trajectory_finder(context, kSection)); });
+    return with_one_channel([&] {
+      return make_bifurcation(found.sweep.at("axes"), found.results, wanted,
+                              trajectory_finder(context, kSection));
+    });
   });
   return make_rows(context, format, table, "bifurcation");
 }
@@ -209,7 +237,8 @@ Response get_lyapunov(const RequestContext& context) {
   Query query(context.request, {"format"});
   const TableFormat format = find_row_format(context.request, query);
   const auto table = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
-    return make_lyapunov(found.sweep.at("axes"), found.results, trajectory_finder(context, "a journal, whose positions this analysis compares"));
+    return make_lyapunov(found.sweep.at("axes"), found.results,
+                         trajectory_finder(context, "a journal, whose positions this analysis compares"));
   });
   return make_rows(context, format, table, "lyapunov");
 }
@@ -230,14 +259,19 @@ Response get_spectrum(const RequestContext& context) {
   Query query(context.request, {"channel", "window", "from", "to", "format"});
   const TableFormat format = find_column_format(context.request, query);
   const std::string channel = query.text("channel").value_or("slider_acceleration_m_s2");
-  const jobs::TrajectoryQuery wanted{.channels = {channel}, .from = query.number("from"), .to = query.number("to")};
-  const auto window = query.word("window", {jobs::kWindowNames[0], jobs::kWindowNames[1], jobs::kWindowNames[2]});
+  const jobs::TrajectoryQuery wanted{
+      .channels = {channel}, .from = query.number("from"), .to = query.number("to")};
+  const auto window =
+      query.word("window", {jobs::kWindowNames[0], jobs::kWindowNames[1], jobs::kWindowNames[2]});
   const auto run = query.check_and([&] {
-    if (channel == "t_s") throw jobs::InvalidRequest(std::vector<jobs::Fault>{{"/channel", "must be a channel other than t_s"}});
+    if (channel == "t_s")
+      throw jobs::InvalidRequest(std::vector<jobs::Fault>{{"/channel", "must be a channel other than t_s"}});
     return with_one_channel([&] { return context.service.find_trajectory(context.id, wanted); });
   });
   if (!run) throw no_trajectory(context);
-  return make_columns(context, format, jobs::make_spectrum(*run, jobs::find_window(window.value_or("hann")).value()), "spectrum");
+  return make_columns(context, format,
+                      jobs::make_spectrum(*run, jobs::find_window(window.value_or("hann")).value()),
+                      "spectrum");
 }
 
 Response get_poincare(const RequestContext& context) {
@@ -250,16 +284,19 @@ Response get_poincare(const RequestContext& context) {
   wanted.from = query.number("from");
   wanted.to = query.number("to");
   const double phase = query.number("phase_rad").value_or(0.0);
-  const auto run = query.check_and([&] { return find_rpsup_trajectory(context, context.id, wanted, kSection); });
+  const auto run =
+      query.check_and([&] { return find_rpsup_trajectory(context, context.id, wanted, kSection); });
   if (!run) throw no_trajectory(context);
   return make_columns(context, format, jobs::take_section(*run, phase), "poincare");
 }
 
 Response get_wear(const RequestContext& context) {
-  Query query(context.request, {"wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "format"});
+  Query query(context.request,
+              {"wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "format"});
   const TableFormat format = find_row_format(context.request, query);
   jobs::WearQuery wanted;
-  wanted.wear_coefficient = query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
+  wanted.wear_coefficient =
+      query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
   wanted.sectors = query.count_in("sectors", jobs::kSectorsRange).value_or(wanted.sectors);
   wanted.worn_clearance = query.number("worn_clearance_mm");
   jobs::TrajectoryQuery part{.channels = {}, .from = query.number("from"), .to = query.number("to")};

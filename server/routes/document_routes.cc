@@ -20,9 +20,12 @@ Response get_openapi(const RequestContext& context) {
 
 Response get_docs(const RequestContext& context) {
   if (find_web_file("/docs/swagger-ui-bundle.js") == nullptr) {
-    throw HttpError(404, "this program was built without the page to try the interface with; GET /v1/openapi.json describes the interface");
+    throw HttpError(404,
+                    "this program was built without the page to try the interface with; GET /v1/openapi.json "
+                    "describes the interface");
   }
-  return make_file_answer(context.request, context.request.path == "/docs" ? "/docs/index.html" : context.request.path);
+  return make_file_answer(context.request,
+                          context.request.path == "/docs" ? "/docs/index.html" : context.request.path);
 }
 
 }  // namespace server

@@ -31,7 +31,8 @@ LastEvent read_last_event(std::string_view last_event_id) {
   if (last.done) last_event_id.remove_suffix(kDoneSuffix.size());
   const char* const end = last_event_id.data() + last_event_id.size();
   const auto [stop, error] = std::from_chars(last_event_id.data(), end, last.change);
-  if (error != std::errc{} || stop != end || last.change < 0) throw HttpError(400, "Last-Event-ID must be the id of an event of this stream");
+  if (error != std::errc{} || stop != end || last.change < 0)
+    throw HttpError(400, "Last-Event-ID must be the id of an event of this stream");
   return last;
 }
 
@@ -41,7 +42,8 @@ std::string event_text(const char* name, const nlohmann::json& data, const std::
 
 class Events final : public EventSource {
  public:
-  Events(const jobs::Service& service, FindNews find_news, std::int64_t after) : service_(service), find_news_(std::move(find_news)), after_(after) {}
+  Events(const jobs::Service& service, FindNews find_news, std::int64_t after)
+      : service_(service), find_news_(std::move(find_news)), after_(after) {}
 
   std::string next() override {
     const std::uint64_t activity = service_.activity();
@@ -54,10 +56,12 @@ class Events final : public EventSource {
     }
     std::string text;
     for (std::size_t i = 0; i < news->jobs.size(); ++i) {
-      // Jobs that ended in one change share its number: only the last of them carries it as its id, so that a client
-      // that resumes from it has received all of them.
-      const bool last_of_change = i + 1 == news->jobs.size() || news->jobs[i + 1].change != news->jobs[i].change;
-      text += event_text("job", news->jobs[i].job, last_of_change ? std::to_string(news->jobs[i].change) : "");
+      // Jobs that ended in one change share its number: only the last of them carries it as its id, so that a
+      // client that resumes from it has received all of them.
+      const bool last_of_change =
+          i + 1 == news->jobs.size() || news->jobs[i + 1].change != news->jobs[i].change;
+      text +=
+          event_text("job", news->jobs[i].job, last_of_change ? std::to_string(news->jobs[i].change) : "");
       after_ = news->jobs[i].change;
     }
     if (news->progress != progress_) text += event_text("progress", progress_ = news->progress, "");
@@ -84,8 +88,12 @@ Response answer_events(const RequestContext& context, FindNews find_news, const 
   const LastEvent last = read_last_event(context.request.last_event_id);
   const auto news = find_news(last.change);
   if (!news) throw missing;
-  if (last.done && news->ended && news->jobs.empty()) return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
-  Response response{.status = 200, .content_type = "text/event-stream", .body = {}, .headers = {{"Cache-Control", "no-store"}}};
+  if (last.done && news->ended && news->jobs.empty())
+    return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
+  Response response{.status = 200,
+                    .content_type = "text/event-stream",
+                    .body = {},
+                    .headers = {{"Cache-Control", "no-store"}}};
   response.events = std::make_shared<Events>(context.service, std::move(find_news), last.change);
   return response;
 }

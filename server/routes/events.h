@@ -21,9 +21,10 @@ using FindNews = std::function<std::optional<jobs::SweepNews>(std::int64_t after
 ///     job        a job that has ended; at first those that had ended before
 ///     done       progress at the end; the last event
 ///
-/// Last-Event-ID resumes after the id of a `job` or of `done`. A client that resumes after `done` gets 204, which makes
-/// a browser's EventSource stop.
+/// Last-Event-ID resumes after the id of a `job` or of `done`. A client that resumes after `done` gets 204,
+/// which makes a browser's EventSource stop.
 /// @param missing  thrown if there is no such sweep or study
-[[nodiscard]] Response answer_events(const RequestContext& context, FindNews find_news, const HttpError& missing);
+[[nodiscard]] Response answer_events(const RequestContext& context, FindNews find_news,
+                                     const HttpError& missing);
 
 }  // namespace server

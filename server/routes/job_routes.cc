@@ -24,13 +24,16 @@ namespace {
 
 HttpError no_such_job(const std::string& id) { return {404, "there is no job " + id}; }
 
-bool has_ended(const nlohmann::json& job) { return job.at("state") != "queued" && job.at("state") != "running"; }
+bool has_ended(const nlohmann::json& job) {
+  return job.at("state") != "queued" && job.at("state") != "running";
+}
 
 Resource job_resource(const RequestContext& context) {
   jobs::Service& service = context.service;
   return {.path = "/v1/jobs/",
           .find = [&service](const std::string& id) { return service.find_job(id); },
-          .wait_for = [&service](const std::string& id, std::chrono::seconds at_most) { service.wait_for_job(id, at_most); },
+          .wait_for = [&service](const std::string& id,
+                                 std::chrono::seconds at_most) { service.wait_for_job(id, at_most); },
           .has_ended = has_ended,
           .missing = no_such_job};
 }
@@ -44,11 +47,15 @@ std::string trajectory_text(const engine::Trajectory& trajectory, TableFormat fo
 
 Response post_job(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_created(context, job_resource(context), context.service.submit_job(parse_json(context.request.body), find_idempotency_key(context.request)));
+  return respond_created(
+      context, job_resource(context),
+      context.service.submit_job(parse_json(context.request.body), find_idempotency_key(context.request)));
 }
 
 Response get_jobs(const RequestContext& context) {
-  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) { return context.service.list_jobs(page); })));
+  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) {
+                         return context.service.list_jobs(page);
+                       })));
 }
 
 Response get_job(const RequestContext& context) {
@@ -69,7 +76,8 @@ Response get_trajectory(const RequestContext& context) {
   wanted.from = query.number("from");
   wanted.to = query.number("to");
   wanted.points = query.count("points");
-  const auto trajectory = query.check_and([&] { return context.service.find_trajectory(context.id, wanted); });
+  const auto trajectory =
+      query.check_and([&] { return context.service.find_trajectory(context.id, wanted); });
   if (!trajectory) {
     const auto job = context.service.find_job(context.id);
     if (!job) throw no_such_job(context.id);
@@ -77,7 +85,8 @@ Response get_trajectory(const RequestContext& context) {
                              " and has no trajectory");
   }
   // Only what has ended has a trajectory.
-  return with_etag(context.request, make_table(format, trajectory_text(*trajectory, format), "job-" + context.id));
+  return with_etag(context.request,
+                   make_table(format, trajectory_text(*trajectory, format), "job-" + context.id));
 }
 
 Response get_parameters(const RequestContext& context) {

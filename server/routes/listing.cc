@@ -3,7 +3,8 @@
 
 namespace server {
 
-nlohmann::json list_page(const Request& request, const std::function<nlohmann::json(const jobs::PageQuery&)>& list) {
+nlohmann::json list_page(const Request& request,
+                         const std::function<nlohmann::json(const jobs::PageQuery&)>& list) {
   Query query(request, {"state", "limit", "cursor", "fields"});
   jobs::PageQuery page;
   page.state = query.text("state").value_or("");

@@ -15,7 +15,8 @@ namespace server {
 /// The page of a listing that `?state=&limit=&cursor=&fields=` asks for.
 /// @param list  the service's listing
 /// @throws jobs::InvalidRequest with every fault of the query
-[[nodiscard]] nlohmann::json list_page(const Request& request, const std::function<nlohmann::json(const jobs::PageQuery&)>& list);
+[[nodiscard]] nlohmann::json list_page(const Request& request,
+                                       const std::function<nlohmann::json(const jobs::PageQuery&)>& list);
 
 /// The rows and columns of a table of results that `?fields=&order_by=&limit=` and filters ask for.
 /// @param query  which keeps its others

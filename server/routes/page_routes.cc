@@ -18,9 +18,11 @@ Response make_file_answer(const Request& request, std::string_view path) {
   const WebFile* file = find_web_file(path);
   if (file == nullptr) throw HttpError(404, "there is nothing at " + std::string(path));
   const bool packed = wants_gzip(request.accept_encoding);
-  Response response{.status = 200, .content_type = std::string(file->content_type), .body = {}, .headers = {}};
+  Response response{
+      .status = 200, .content_type = std::string(file->content_type), .body = {}, .headers = {}};
   const bool lasts = file->kind == WebFile::Path::kHashed;
-  response.headers.emplace_back("Cache-Control", lasts ? "public, max-age=31536000, immutable" : "private, no-cache");
+  response.headers.emplace_back("Cache-Control",
+                                lasts ? "public, max-age=31536000, immutable" : "private, no-cache");
   response.headers.emplace_back("Vary", "Accept-Encoding");
   response = with_etag(request, std::move(response), packed ? file->gzip_etag : file->etag);
   if (response.status == 304) return response;
@@ -31,7 +33,10 @@ Response make_file_answer(const Request& request, std::string_view path) {
 
 bool is_page_file(std::string_view path) { return find_web_file(path) != nullptr; }
 
-Response get_page_file(const RequestContext& context) { return make_file_answer(context.request, context.request.path == "/" ? "/index.html" : context.request.path); }
+Response get_page_file(const RequestContext& context) {
+  return make_file_answer(context.request,
+                          context.request.path == "/" ? "/index.html" : context.request.path);
+}
 
 Response get_health(const RequestContext&) { return json_response(200, R"({"status":"ok"})"); }
 

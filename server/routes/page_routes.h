@@ -15,9 +15,11 @@ namespace server {
 /// Whether there is a file of web/ of that path.
 [[nodiscard]] bool is_page_file(std::string_view path);
 
-Response get_page_file(const RequestContext& context);  ///< a file of the page, by its path; it is part of the program
+Response get_page_file(
+    const RequestContext& context);  ///< a file of the page, by its path; it is part of the program
 Response get_health(const RequestContext& context);     ///< 200 as long as the program answers at all
-Response get_readiness(const RequestContext& context);  ///< 200 if requests can be served: the store reads, and the service is not ending
+Response get_readiness(const RequestContext& context);  ///< 200 if requests can be served: the store reads,
+                                                        ///< and the service is not ending
 Response get_metrics(const RequestContext& context);    ///< what Metrics has counted, for Prometheus
 
 }  // namespace server

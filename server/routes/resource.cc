@@ -11,8 +11,10 @@ namespace server {
 namespace {
 
 /// Waits for the end if the client prefers to. True if it waited.
-bool wait_as_preferred(const RequestContext& context, const Resource& resource, const std::string& id, Response& response) {
-  return context.long_poll_limit.wait(context.request, response, [&](std::chrono::seconds time) { resource.wait_for(id, time); });
+bool wait_as_preferred(const RequestContext& context, const Resource& resource, const std::string& id,
+                       Response& response) {
+  return context.long_poll_limit.wait(context.request, response,
+                                      [&](std::chrono::seconds time) { resource.wait_for(id, time); });
 }
 
 }  // namespace
@@ -35,7 +37,8 @@ Response respond_found(const RequestContext& context, const Resource& resource) 
   return with_etag_if(resource.has_ended(*found), context.request, std::move(response));
 }
 
-Response respond_updated(const RequestContext& context, const Resource& resource, const std::optional<nlohmann::json>& updated) {
+Response respond_updated(const RequestContext& context, const Resource& resource,
+                         const std::optional<nlohmann::json>& updated) {
   if (!updated) throw resource.missing(context.id);
   return json_response(200, to_text(*updated));
 }

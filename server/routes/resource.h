@@ -23,18 +23,21 @@ struct Resource {
   std::function<HttpError(const std::string& id)> missing;
 };
 
-/// Answers 201 with the Location; with the state at the end, if the client prefers to wait and the end comes by then.
+/// Answers 201 with the Location; with the state at the end, if the client prefers to wait and the end comes
+/// by then.
 /// @param created  state at its creation
-[[nodiscard]] Response respond_created(const RequestContext& context, const Resource& resource, nlohmann::json created);
+[[nodiscard]] Response respond_created(const RequestContext& context, const Resource& resource,
+                                       nlohmann::json created);
 
-/// Answers with the resource that the path names, with an ETag once it has ended; waits for its end if the client
-/// prefers to wait.
+/// Answers with the resource that the path names, with an ETag once it has ended; waits for its end if the
+/// client prefers to wait.
 /// @throws HttpError 404 if there is none
 [[nodiscard]] Response respond_found(const RequestContext& context, const Resource& resource);
 
 /// Answers with the resource that the path names, as the request has changed it.
 /// @param updated  empty: there is none
 /// @throws HttpError 404 if there is none
-[[nodiscard]] Response respond_updated(const RequestContext& context, const Resource& resource, const std::optional<nlohmann::json>& updated);
+[[nodiscard]] Response respond_updated(const RequestContext& context, const Resource& resource,
+                                       const std::optional<nlohmann::json>& updated);
 
 }  // namespace server

@@ -43,7 +43,8 @@ Response make_wrong_method(const std::string& allowed) {
 
 }  // namespace
 
-Routes::Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics) : service_(service), metrics_(std::move(metrics)) {
+Routes::Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics)
+    : service_(service), metrics_(std::move(metrics)) {
   remove_left_over_copy(service.store_file());
 }
 
@@ -73,10 +74,13 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
     if (!id) continue;
     pattern = route.pattern;
     if (route.method == method) {
-      if (draining_ && changes_something(method)) return make_retry_later(503, "the service is shutting down");
-      return route.handler({service_, request, std::move(*id), draining_, *metrics_, long_poll_limit_, store_copy_limit_});
+      if (draining_ && changes_something(method))
+        return make_retry_later(503, "the service is shutting down");
+      return route.handler(
+          {service_, request, std::move(*id), draining_, *metrics_, long_poll_limit_, store_copy_limit_});
     }
-    allowed += (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
+    allowed +=
+        (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }
   // What the page is made of; only the page names it.
   if (allowed.empty() && is_page_file(request.path)) {

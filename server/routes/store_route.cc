@@ -21,7 +21,8 @@ namespace {
 std::filesystem::path copy_of(const std::filesystem::path& store) { return store.string() + ".rpsup-copy"; }
 
 /// Opens a file and takes its name away: it is gone when it is closed, whatever happens.
-std::shared_ptr<FileBody> open_nameless(const std::filesystem::path& file, std::shared_ptr<const void> permit) {
+std::shared_ptr<FileBody> open_nameless(const std::filesystem::path& file,
+                                        std::shared_ptr<const void> permit) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   std::filesystem::remove(file);
   if (descriptor < 0) throw jobs::StorageError("the copy of the store cannot be opened");

@@ -11,6 +11,7 @@ namespace server {
 /// Removes the copy that a process left when it died; its name is this service's own. Nobody may be copying.
 void remove_left_over_copy(const std::filesystem::path& store);
 
-Response get_store(const RequestContext& context);  ///< a consistent copy of the whole store, as an SQLite file
+Response get_store(
+    const RequestContext& context);  ///< a consistent copy of the whole store, as an SQLite file
 
 }  // namespace server

@@ -29,16 +29,21 @@ struct KindOfStudy {
 };
 
 constexpr KindOfStudy kind_of_study(Study study) {
-  return study == Study::kLimit ? KindOfStudy{"search", "/v1/searches/"} : KindOfStudy{"wear study", "/v1/wear-studies/"};
+  return study == Study::kLimit ? KindOfStudy{"search", "/v1/searches/"}
+                                : KindOfStudy{"wear study", "/v1/wear-studies/"};
 }
 
-HttpError no_such(Study study, const std::string& id) { return {404, std::string("there is no ") + kind_of_study(study).name + " " + id}; }
+HttpError no_such(Study study, const std::string& id) {
+  return {404, std::string("there is no ") + kind_of_study(study).name + " " + id};
+}
 
 Resource study_resource(Study study, const RequestContext& context) {
   jobs::Service& service = context.service;
   return {.path = kind_of_study(study).path,
           .find = [&service, study](const std::string& id) { return service.find_study(study, id); },
-          .wait_for = [&service, study](const std::string& id, std::chrono::seconds at_most) { service.wait_for_study(study, id, at_most); },
+          .wait_for = [&service, study](
+                          const std::string& id,
+                          std::chrono::seconds at_most) { service.wait_for_study(study, id, at_most); },
           .has_ended = [](const nlohmann::json& found) { return found.at("state") != "running"; },
           .missing = [study](const std::string& id) { return no_such(study, id); }};
 }
@@ -48,12 +53,16 @@ Resource study_resource(Study study, const RequestContext& context) {
 template <Study kStudy>
 Response post_study(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_created(context, study_resource(kStudy, context), context.service.submit_study(kStudy, parse_json(context.request.body), find_idempotency_key(context.request)));
+  return respond_created(context, study_resource(kStudy, context),
+                         context.service.submit_study(kStudy, parse_json(context.request.body),
+                                                      find_idempotency_key(context.request)));
 }
 
 template <Study kStudy>
 Response get_studies(const RequestContext& context) {
-  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) { return context.service.list_studies(kStudy, page); })));
+  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) {
+                         return context.service.list_studies(kStudy, page);
+                       })));
 }
 
 template <Study kStudy>
@@ -74,7 +83,8 @@ Response get_study_results(const RequestContext& context) {
   Query query(context.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
   const TableFormat format = find_row_format(context.request, query);
   const jobs::ResultQuery wanted = read_result_query(query);
-  const auto table = query.check_and([&] { return context.service.find_study_table(kStudy, context.id, wanted); });
+  const auto table =
+      query.check_and([&] { return context.service.find_study_table(kStudy, context.id, wanted); });
   if (!table) throw no_such(kStudy, context.id);
   const std::string name = (kStudy == Study::kLimit ? "search-" : "wear-study-") + context.id;
   return with_etag_if(table->ended, context.request, make_table(format, to_text(*table, format), name));
@@ -82,20 +92,24 @@ Response get_study_results(const RequestContext& context) {
 
 template <Study kStudy>
 Response get_study_events(const RequestContext& context) {
-  const auto find_news = [&service = context.service, id = context.id](std::int64_t after) { return service.find_study_news(kStudy, id, after); };
+  const auto find_news = [&service = context.service, id = context.id](std::int64_t after) {
+    return service.find_study_news(kStudy, id, after);
+  };
   return answer_events(context, find_news, no_such(kStudy, context.id));
 }
 
 template <Study kStudy>
 Response cancel_study(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_updated(context, study_resource(kStudy, context), context.service.cancel_study(kStudy, context.id));
+  return respond_updated(context, study_resource(kStudy, context),
+                         context.service.cancel_study(kStudy, context.id));
 }
 
 template <Study kStudy>
 Response retry_study(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_updated(context, study_resource(kStudy, context), context.service.retry_study(kStudy, context.id));
+  return respond_updated(context, study_resource(kStudy, context),
+                         context.service.retry_study(kStudy, context.id));
 }
 
 template Response post_study<Study::kLimit>(const RequestContext&);

@@ -31,7 +31,8 @@ Resource sweep_resource(const RequestContext& context) {
   jobs::Service& service = context.service;
   return {.path = "/v1/sweeps/",
           .find = [&service](const std::string& id) { return service.find_sweep(id); },
-          .wait_for = [&service](const std::string& id, std::chrono::seconds at_most) { service.wait_for_sweep(id, at_most); },
+          .wait_for = [&service](const std::string& id,
+                                 std::chrono::seconds at_most) { service.wait_for_sweep(id, at_most); },
           .has_ended = have_all_ended,
           .missing = no_such_sweep};
 }
@@ -40,11 +41,15 @@ Resource sweep_resource(const RequestContext& context) {
 
 Response post_sweep(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_created(context, sweep_resource(context), context.service.submit_sweep(parse_json(context.request.body), find_idempotency_key(context.request)));
+  return respond_created(
+      context, sweep_resource(context),
+      context.service.submit_sweep(parse_json(context.request.body), find_idempotency_key(context.request)));
 }
 
 Response get_sweeps(const RequestContext& context) {
-  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) { return context.service.list_sweeps(page); })));
+  return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) {
+                         return context.service.list_sweeps(page);
+                       })));
 }
 
 Response get_sweep(const RequestContext& context) {
@@ -64,11 +69,14 @@ Response get_results(const RequestContext& context) {
   const jobs::ResultQuery wanted = read_result_query(query);
   const auto table = query.check_and([&] { return context.service.find_results(context.id, wanted); });
   if (!table) throw no_such_sweep(context.id);
-  return with_etag_if(table->ended, context.request, make_table(format, to_text(*table, format), "sweep-" + context.id));
+  return with_etag_if(table->ended, context.request,
+                      make_table(format, to_text(*table, format), "sweep-" + context.id));
 }
 
 Response get_events(const RequestContext& context) {
-  const auto find_news = [&service = context.service, id = context.id](std::int64_t after) { return service.find_news(id, after); };
+  const auto find_news = [&service = context.service, id = context.id](std::int64_t after) {
+    return service.find_news(id, after);
+  };
   return answer_events(context, find_news, no_such_sweep(context.id));
 }
 
@@ -84,12 +92,14 @@ Response retry_sweep(const RequestContext& context) {
 
 Response extend_sweep(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_updated(context, sweep_resource(context), context.service.extend_sweep(context.id, parse_json(context.request.body)));
+  return respond_updated(context, sweep_resource(context),
+                         context.service.extend_sweep(context.id, parse_json(context.request.body)));
 }
 
 Response move_sweep(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_updated(context, sweep_resource(context), context.service.move_sweep(context.id, parse_json(context.request.body)));
+  return respond_updated(context, sweep_resource(context),
+                         context.service.move_sweep(context.id, parse_json(context.request.body)));
 }
 
 Response get_executors(const RequestContext& context) {

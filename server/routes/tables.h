@@ -11,11 +11,19 @@ namespace server {
 
 enum class TableFormat { kJson, kCsv, kNdjson, kNpz };
 
-/// The format that a request for rows asks for: `?format=csv|json|ndjson` first, then the Accept header, then JSON.
+/// The format that a request for rows asks for: `?format=csv|json|ndjson` first, then the Accept header, then
+/// JSON.
 /// @param query  one that allows the key `format`; a wrong word is a fault of it
 [[nodiscard]] TableFormat find_row_format(const Request& request, Query& query);
 /// The same for a trajectory: `?format=csv|json|npz`.
 [[nodiscard]] TableFormat find_column_format(const Request& request, Query& query);
+
+/// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each
+/// has, after the metrics, replicates_count, _mean, _spread, _min and _max of its set.
+[[nodiscard]] std::string to_json_rows(const jobs::ResultTable& table);
+
+/// The same objects, each on a line of its own and nothing between them: NDJSON.
+[[nodiscard]] std::string to_json_lines(const jobs::ResultTable& table);
 
 /// A table as text in one of the formats of rows.
 [[nodiscard]] std::string to_text(const jobs::ResultTable& table, TableFormat format);
