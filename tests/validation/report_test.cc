@@ -18,11 +18,14 @@
 namespace validation {
 namespace {
 
-Check some_check(double found) { return compare("frequency of |x|", "closed form", found, 81.4994, 1e-3, "Hz", "four digits were published"); }
+Check some_check(double found) {
+  return compare("frequency of |x|", "closed form", found, 81.4994, 1e-3, "Hz", "four digits were published");
+}
 
 std::vector<ComputedChapter> chapters_of(const Check& check) {
   Table table{.caption = "A table", .head = {"n", "error"}, .rows = {{"4", "0.25"}}};
-  return {{{.title = "Waves", .text = "Two lines\nof text", .parts = {}}, {{.checks = {check}, .tables = {table}, .figures = {}}}}};
+  return {{{.title = "Waves", .text = "Two lines\nof text", .parts = {}},
+           {{.checks = {check}, .tables = {table}, .figures = {}}}}};
 }
 
 std::vector<std::string> texts_of(const std::vector<ReportLine>& lines) {
@@ -43,7 +46,8 @@ TEST(Report, SaysHowManyComparisonsFail) {
   EXPECT_EQ(count_checks(chapters_of(some_check(81.4994))).failed, 0u);
   EXPECT_EQ(count_checks(chapters_of(some_check(90.0))).failed, 1u);
   std::string all;
-  for (const ReportLine& line : write_report(chapters_of(some_check(90.0)), "figures")) all += line.text + "\n";
+  for (const ReportLine& line : write_report(chapters_of(some_check(90.0)), "figures"))
+    all += line.text + "\n";
   EXPECT_NE(all.find("**FAILED**"), std::string::npos);
   EXPECT_NE(all.find("| frequency of \\|x\\| | closed form | 90 | 81.4994 |"), std::string::npos) << all;
 }
@@ -56,8 +60,11 @@ TEST(Report, OfTheSameRunHasNoDifferences) {
 TEST(Report, AllowsANumberToMoveByItsBoundAndNoMore) {
   // Both hold their bound of 1e-3, one on each side.
   const auto lines = write_report(chapters_of(some_check(81.5003)), "figures");
-  EXPECT_TRUE(find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4995)), "figures"))).empty());
-  EXPECT_EQ(find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4985)), "figures"))).size(), 1u);
+  EXPECT_TRUE(
+      find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4995)), "figures"))).empty());
+  EXPECT_EQ(
+      find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4985)), "figures"))).size(),
+      1u);
 }
 
 TEST(Report, FindsALoosenedBoundAndAnotherNumberInTheWords) {
@@ -69,7 +76,8 @@ TEST(Report, FindsALoosenedBoundAndAnotherNumberInTheWords) {
   reworded.why = "five digits, 1.0001, were published";
   const auto with_number = write_report(chapters_of(reworded), "figures");
   reworded.why = "five digits, 1.0002, were published";
-  EXPECT_EQ(find_differences(with_number, texts_of(write_report(chapters_of(reworded), "figures"))).size(), 1u);
+  EXPECT_EQ(find_differences(with_number, texts_of(write_report(chapters_of(reworded), "figures"))).size(),
+            1u);
 }
 
 TEST(Report, ComparesResidualsByAFactorAndNotAtAllBelowRounding) {
@@ -109,8 +117,15 @@ TEST(Report, KeepsWhatIsSaidOfPlantedFaults) {
 
 TEST(Chart, PutsPointsWhereTheAxesSay) {
   // A box from x = 62 to 386 and y = 28 to 260: 1 to 100 on a logarithmic axis, 0 to 10 on a linear one.
-  const charts::Chart chart{.title = "a < b", .x_label = "n", .y_label = "error", .x_scale = charts::Scale::kLog, .x_min = 1.0, .x_max = 100.0, .y_min = 0.0,
-                    .y_max = 10.0, .series = {{.label = "one", .x = {1.0, 10.0, 100.0}, .y = {0.0, 5.0, 10.0}}}};
+  const charts::Chart chart{.title = "a < b",
+                            .x_label = "n",
+                            .y_label = "error",
+                            .x_scale = charts::Scale::kLog,
+                            .x_min = 1.0,
+                            .x_max = 100.0,
+                            .y_min = 0.0,
+                            .y_max = 10.0,
+                            .series = {{.label = "one", .x = {1.0, 10.0, 100.0}, .y = {0.0, 5.0, 10.0}}}};
   const std::string svg = charts::draw({chart}, 1, 400, 300);
   EXPECT_NE(svg.find("M62.0 260.0L224.0 144.0L386.0 28.0"), std::string::npos) << svg;
   EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
@@ -118,14 +133,19 @@ TEST(Chart, PutsPointsWhereTheAxesSay) {
 
 TEST(Chart, BreaksALineWhereThereIsNoNumber) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const charts::Chart chart{.x_min = 0.0, .x_max = 4.0, .y_min = 0.0, .y_max = 1.0, .series = {{.x = {0.0, 1.0, 2.0, 3.0}, .y = {0.5, none, 0.5, 0.5}}}};
+  const charts::Chart chart{.x_min = 0.0,
+                            .x_max = 4.0,
+                            .y_min = 0.0,
+                            .y_max = 1.0,
+                            .series = {{.x = {0.0, 1.0, 2.0, 3.0}, .y = {0.5, none, 0.5, 0.5}}}};
   const std::string svg = charts::draw({chart}, 1, 400, 300);
   EXPECT_NE(svg.find("M62.0 144.0M224.0 144.0L305.0 144.0"), std::string::npos) << svg;
 }
 
 /// A chart of values from `least` to `most`, and nothing asked of its axes.
 std::string draw_between(double least, double most, charts::Scale scale = charts::Scale::kLinear) {
-  return charts::draw({{.y_scale = scale, .series = {{.x = {0.0, 1.0, 2.0}, .y = {least, most, least}}}}}, 1, 400, 300);
+  return charts::draw({{.y_scale = scale, .series = {{.x = {0.0, 1.0, 2.0}, .y = {least, most, least}}}}}, 1,
+                      400, 300);
 }
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -135,19 +155,24 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(Chart, HasFewTicksHoweverCloseAndHoweverFarItsValuesLie) {
-  constexpr double kLeastNumber = std::numeric_limits<double>::denorm_min(), kLargest = std::numeric_limits<double>::max();
+  constexpr double kLeastNumber = std::numeric_limits<double>::denorm_min(),
+                   kLargest = std::numeric_limits<double>::max();
   const std::size_t of_x = 5;  // 0, 0.5, 1, 1.5, 2
   for (const double value : {1.0, -3.7, 772.62, 1e5, 1e17, -1e200, 0.1 + 0.2, 1e-30}) {
     for (const double relative : {0.0, 2.3e-16, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0}) {
       const std::string svg = draw_between(value, value * (1.0 + relative));
       const std::size_t ticks = count(svg, "#e4e4e4") - of_x;
-      EXPECT_TRUE(ticks >= 2 && ticks <= 11) << ticks << " ticks from " << value << " on over " << relative << " of it";
+      EXPECT_TRUE(ticks >= 2 && ticks <= 11)
+          << ticks << " ticks from " << value << " on over " << relative << " of it";
       EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0U) << svg;
     }
   }
   for (const charts::Scale scale : {charts::Scale::kLinear, charts::Scale::kLog}) {
-    for (const auto& [least, most] : {std::pair{-kLargest, kLargest}, {0.0, kLeastNumber}, {kLeastNumber, 3.0 * kLeastNumber},
-                                      {kLeastNumber, 1e306}, {-9e299, 9e299}}) {
+    for (const auto& [least, most] : {std::pair{-kLargest, kLargest},
+                                      {0.0, kLeastNumber},
+                                      {kLeastNumber, 3.0 * kLeastNumber},
+                                      {kLeastNumber, 1e306},
+                                      {-9e299, 9e299}}) {
       const std::string svg = draw_between(least, most, scale);
       EXPECT_LE(count(svg, "#e4e4e4"), of_x + 11) << least << " to " << most;
       EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0U) << svg;
@@ -157,7 +182,11 @@ TEST(Chart, HasFewTicksHoweverCloseAndHoweverFarItsValuesLie) {
 
 /// A chart of a line from 1e5 to 2e5, with limits asked for.
 std::string draw_within(double y_min, double y_max, charts::Scale scale = charts::Scale::kLinear) {
-  return charts::draw({{.y_scale = scale, .y_min = y_min, .y_max = y_max, .series = {{.x = {0.0, 1.0, 2.0}, .y = {1e5, 2e5, 1e5}}}}}, 1, 400, 300);
+  return charts::draw({{.y_scale = scale,
+                        .y_min = y_min,
+                        .y_max = y_max,
+                        .series = {{.x = {0.0, 1.0, 2.0}, .y = {1e5, 2e5, 1e5}}}}},
+                      1, 400, 300);
 }
 
 TEST(Chart, HasNoTicksBetweenLimitsThatNumbersCannotDivide) {
@@ -187,7 +216,8 @@ TEST(Chart, TellsTicksFromTheirNeighbours) {
 
 TEST(Chart, HasRoomForLongLabels) {
   const std::string svg = draw_between(1000.0, 1000.005);
-  EXPECT_NE(svg.find("<text x=\"59.0\" y=\"255.4\" text-anchor=\"end\">1000<"), std::string::npos) << svg;  // eight characters of 7 pixels, and 3
+  EXPECT_NE(svg.find("<text x=\"59.0\" y=\"255.4\" text-anchor=\"end\">1000<"), std::string::npos)
+      << svg;  // eight characters of 7 pixels, and 3
 }
 
 }  // namespace

@@ -20,9 +20,10 @@ namespace {
 constexpr double kRingMass = 0.8;    // [kg]
 constexpr double kRingSpeed = 0.05;  // [m/s]
 
-/// Rebound ratio of a ring of infinitely many elements, each with the damping of its own onset: f = s (x - y) (1 + c v / v(y)), never
-/// negative, for the element that is met at the depth y. A shallow arc has elements at equal distances of sqrt(y), so the ratio depends
-/// on c alone. By steps of its own: m v dv = -F dx has no closed form here.
+/// Rebound ratio of a ring of infinitely many elements, each with the damping of its own onset: f = s (x - y)
+/// (1 + c v / v(y)), never negative, for the element that is met at the depth y. A shallow arc has elements
+/// at equal distances of sqrt(y), so the ratio depends on c alone. By steps of its own: m v dv = -F dx has no
+/// closed form here.
 double ring_rebound(double c) {
   constexpr int kElements = 2000;
   constexpr double kStep = 2e-4;
@@ -62,7 +63,9 @@ Impact simulate_ring_impact(int n_ce, double pitches, double speed = kRingSpeed,
     joint.n_ce = n_ce;
     joint.K /= std::sqrt(joint.r_b / joint.r_j());  // as stiff as the continuum in a shallow arc
   }
-  return simulate_impact(make_sliding_mass(joint, kRingMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6, speed, time);
+  return simulate_impact(
+      make_sliding_mass(joint, kMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6, speed,
+      time);
 }
 
 /// Rebound ratio of 1440 elements in the limit of a shallow arc: from two speeds, as the depth goes to zero.
@@ -78,28 +81,32 @@ double shallow_ring_rebound(double k_r) {
 
 Findings compute_impacts_of_a_ring() {
   Findings findings;
-  Table table{
-      .caption =
-          "One impact of a mass of 0.8 kg at 0.05 m/s, k_r = 0.9, no friction. Each element has the damping of its own onset, and those at the "
-          "edge of the arc meet the bore later and slower: the rebound is 0.9119 in place of 0.9132. The ring's K is divided by "
-          "sqrt(r_b / r_j), so that its stiffness is the continuum's.",
-      .head = {"contact", "towards", "rebound ratio", "largest force [N]", "largest penetration [um]", "contact time [us]"},
-      .rows = {}};
+  Table table{.caption =
+                  "One impact of a mass of 0.8 kg at 0.05 m/s, k_r = 0.9, no friction. Each element has the "
+                  "damping of its own onset, and those at the "
+                  "edge of the arc meet the bore later and slower: the rebound is 0.9119 in place of 0.9132. "
+                  "The ring's K is divided by "
+                  "sqrt(r_b / r_j), so that its stiffness is the continuum's.",
+              .head = {"contact", "towards", "rebound ratio", "largest force [N]", "largest penetration [um]",
+                       "contact time [us]"},
+              .rows = {}};
   const auto add = [&table](const std::string& contact, const std::string& towards, const Impact& impact) {
-    table.rows.push_back({contact, towards, number(impact.speed / kRingSpeed, 6), number(impact.force, 4), number(1e6 * impact.depth, 4),
-                          number(1e6 * impact.contact_time, 5)});
+    table.rows.push_back({contact, towards, number(impact.speed / kSpeed, 6), number(impact.force, 4),
+                          number(1e6 * impact.depth, 4), number(1e6 * impact.contact_time, 5)});
   };
   const Impact continuum = simulate_ring_impact(0, 0.0);
   add("continuum", "", continuum);
   for (const int n_ce : {36, 72, 180, 720})
     for (const double pitches : {0.0, 0.5})
-      add(std::to_string(n_ce) + " elements", pitches == 0.0 ? "an element" : "between two", simulate_ring_impact(n_ce, pitches));
+      add(std::to_string(n_ce) + " elements", pitches == 0.0 ? "an element" : "between two",
+          simulate_ring_impact(n_ce, pitches));
   findings.tables.push_back(std::move(table));
   for (const double k_r : {0.9, 0.3})
-    findings.checks.push_back(compare("rebound ratio of a ring of 1440 elements, k_r = " + number(k_r) + ", as the depth goes to zero",
-                                      "a shallow arc of infinitely many elements, each with its own onset rate, by other steps",
-                                      shallow_ring_rebound(k_r), ring_rebound(0.75 * (1.0 - k_r * k_r)), 3e-6, "1",
-                                      "second order in the depth, and 1440 elements: 1e-6 each"));
+    findings.checks.push_back(compare(
+        "rebound ratio of a ring of 1440 elements, k_r = " + number(k_r) + ", as the depth goes to zero",
+        "a shallow arc of infinitely many elements, each with its own onset rate, by other steps",
+        shallow_ring_rebound(k_r), ring_rebound(0.75 * (1.0 - k_r * k_r)), 3e-6, "1",
+        "second order in the depth, and 1440 elements: 1e-6 each"));
   return findings;
 }
 

@@ -46,10 +46,11 @@ void add_case(const std::string& name, const RpsupParameters& parameters, Table&
     choice.choose(chosen);
     const RunResult run = run_rpsup(chosen, {.duration = 4.0, .output_rate = 10.0});
     residual.take(metric(run, "energy_residual"));
-    table.rows.push_back({name, choice.name, number(metric(run, "peak_slider_acceleration_m_s2"), 4),
-                          number(metric(run, "rms_slider_acceleration_m_s2"), 4), number(metric(run, "peak_contact_force_n"), 4),
-                          number(metric(run, "max_penetration_um"), 3), number(1e3 * metric(run, "friction_work_j"), 3),
-                          number(1e3 * metric(run, "impact_loss_j"), 3)});
+    table.rows.push_back(
+        {name, choice.name, number(metric(run, "peak_slider_acceleration_m_s2"), 4),
+         number(metric(run, "rms_slider_acceleration_m_s2"), 4),
+         number(metric(run, "peak_contact_force_n"), 4), number(metric(run, "max_penetration_um"), 3),
+         number(1e3 * metric(run, "friction_work_j"), 3), number(1e3 * metric(run, "impact_loss_j"), 3)});
   }
 }
 
@@ -57,10 +58,12 @@ void add_case(const std::string& name, const RpsupParameters& parameters, Table&
 
 Findings compare_laws() {
   Findings findings;
-  Table table{.caption = "The joint's laws one at a time, 4 s; peak and root mean square of the slider's acceleration for t > 2 s. Laws of the normal "
-                         "force with k_r = 0.9, other parameters at their defaults.",
-              .head = {"case", "law", "peak [m/s^2]", "RMS [m/s^2]", "largest contact force [N]", "deepest [um]", "friction work [mJ]",
-                       "impact loss [mJ]"},
+  Table table{.caption =
+                  "The joint's laws one at a time, 4 s; peak and root mean square of the slider's "
+                  "acceleration for t > 2 s. Laws of the normal "
+                  "force with k_r = 0.9, other parameters at their defaults.",
+              .head = {"case", "law", "peak [m/s^2]", "RMS [m/s^2]", "largest contact force [N]",
+                       "deepest [um]", "friction work [mJ]", "impact loss [mJ]"},
               .rows = {},
               .reproducible_to = 0.2};
   Largest residual;
@@ -69,7 +72,8 @@ Findings compare_laws() {
   flexible.coupler = Coupler::kFlexible;
   flexible.crank_velocity = 5.0;
   add_case("flexible, 0.25 mm, 5 rad/s", flexible, table, residual);
-  findings.checks.push_back(limit("energy account of the study with every law", "E - work + losses is constant", residual.value(), 1e-5, "1",
+  findings.checks.push_back(limit("energy account of the study with every law",
+                                  "E - work + losses is constant", residual.value(), 1e-5, "1",
                                   "what a job's account may be out by at default settings"));
   findings.tables.push_back(std::move(table));
   return findings;

@@ -50,7 +50,8 @@ struct Line {
   }
 };
 
-void add_run(Line& line, const std::string& setting, const RpsupParameters& parameters, const RunOptions& options) {
+void add_run(Line& line, const std::string& setting, const RpsupParameters& parameters,
+             const RunOptions& options) {
   const RunResult run = run_rpsup(parameters, options);
   line.add(setting, options.duration / metric(run, "steps"), metric(run, "energy_residual"));
 }
@@ -84,7 +85,9 @@ Line run_equal_steps(const RpsupParameters& parameters, const std::vector<double
     double kinetic = 0.0;
     for (int instant = 1; instant <= 7; ++instant) {
       const double duration = 0.2 * instant;
-      const EnergyAccount account = take_equal_steps(rpsup.mechanism, assembled, duration, static_cast<int>(std::lround(duration / step))).energy;
+      const EnergyAccount account = take_equal_steps(rpsup.mechanism, assembled, duration,
+                                                     static_cast<int>(std::lround(duration / step)))
+                                        .energy;
       drift.take(account.calc_balance() - before);
       kinetic = account.kinetic;
     }
@@ -95,7 +98,8 @@ Line run_equal_steps(const RpsupParameters& parameters, const std::vector<double
 
 void add_rows(Table& table, const std::string& name, const Line& line) {
   for (std::size_t k = 0; k < line.steps.size(); ++k)
-    table.rows.push_back({name, line.settings[k], number(1e6 * line.steps[k], 4), number(line.residuals[k], 2)});
+    table.rows.push_back(
+        {name, line.settings[k], number(1e6 * line.steps[k], 4), number(line.residuals[k], 2)});
 }
 
 charts::Series make_series(const std::string& label, const Line& line, const char* colour) {
@@ -111,25 +115,32 @@ Findings compute_residual_orders() {
   const Line ideal_rk4 = run_rk4(ideal, kIdealDuration, {2e-3, 1e-3, 5e-4, 2.5e-4});
   const Line ideal_dopri5 = run_equal_steps(ideal, {2e-3, 1e-3, 5e-4});
   const Line contact_rk4 = run_rk4(across_rpsup(), kContactDuration, {2e-5, 1e-5, 5e-6, 2.5e-6});
-  const Line contact_dopri5 = run_dopri5(across_rpsup(), kContactDuration, {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10});
+  const Line contact_dopri5 =
+      run_dopri5(across_rpsup(), kContactDuration, {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10});
 
   const char* reference = "the method's order";
   const char* smooth = "the next term of the error, one order higher: a part of the longest step, 2 ms";
   Findings findings;
   const std::string residual = "exponent of the energy residual over the ";
-  const std::string ideal_case = "ideal rigid linkage, rod by the cycloidal law, ", contact_case = "second geometry, rigid, 0.25 mm, 0.3 s, ";
+  const std::string ideal_case = "ideal rigid linkage, rod by the cycloidal law, ",
+                    contact_case = "second geometry, rigid, 0.25 mm, 0.3 s, ";
   findings.checks.push_back(compare(ideal_case + "rk4: " + residual + "step, 2 to 0.25 ms", reference,
                                     ideal_rk4.slope(), 4.0, 0.15, "1", smooth));
-  findings.checks.push_back(compare(ideal_case + "dopri5 in equal steps: " + residual + "step, 2 to 0.5 ms", reference, ideal_dopri5.slope(),
-                                    5.0, 0.15, "1", smooth));
-  findings.checks.push_back(compare(contact_case + "dopri5: " + residual + "mean step, tolerance 1e-5 to 1e-10", reference,
-                                    contact_dopri5.slope(), 5.0, 0.5, "1", "which step falls on which impact: a factor of two at either end is 0.3"));
+  findings.checks.push_back(compare(ideal_case + "dopri5 in equal steps: " + residual + "step, 2 to 0.5 ms",
+                                    reference, ideal_dopri5.slope(), 5.0, 0.15, "1", smooth));
+  findings.checks.push_back(
+      compare(contact_case + "dopri5: " + residual + "mean step, tolerance 1e-5 to 1e-10", reference,
+              contact_dopri5.slope(), 5.0, 0.5, "1",
+              "which step falls on which impact: a factor of two at either end is 0.3"));
   const double rk4_slope = contact_rk4.slope();
-  findings.checks.push_back(limit(contact_case + "rk4: how far the " + residual + "step, 20 to 2.5 us, lies outside 2 to 2.5",
-                                  "what an onset inside a step leaves", std::max({0.0, 2.0 - rk4_slope, rk4_slope - 2.5}), 0.3, "1",
-                                  "which step falls on which impact: a factor of two at an end is 0.3"));
-  Table table{.caption = "Energy residual over the step. Ideal joint, rod by the cycloidal law: 1 s (equal steps: 1.4 s); with clearance: the "
-                         "second geometry's first 0.3 s, in which the journal falls and bounces.",
+  findings.checks.push_back(
+      limit(contact_case + "rk4: how far the " + residual + "step, 20 to 2.5 us, lies outside 2 to 2.5",
+            "what an onset inside a step leaves", std::max({0.0, 2.0 - rk4_slope, rk4_slope - 2.5}), 0.3, "1",
+            "which step falls on which impact: a factor of two at an end is 0.3"));
+  Table table{.caption =
+                  "Energy residual over the step. Ideal joint, rod by the cycloidal law: 1 s (equal steps: "
+                  "1.4 s); with clearance: the "
+                  "second geometry's first 0.3 s, in which the journal falls and bounces.",
               .head = {"case", "integrator", "mean step [us]", "residual"},
               .reproducible_to = 0.3};
   add_rows(table, "ideal, rigid", ideal_rk4);
@@ -137,14 +148,20 @@ Findings compute_residual_orders() {
   add_rows(table, "second geometry, rigid, 0.25 mm", contact_rk4);
   add_rows(table, "second geometry, rigid, 0.25 mm", contact_dopri5);
   findings.tables.push_back(std::move(table));
-  charts::Chart chart{.title = "energy residual", .x_label = "step, or mean step [s]", .y_label = "", .x_scale = charts::Scale::kLog, .y_scale = charts::Scale::kLog,
-              .y_min = 2e-13, .y_max = 1e-1};
+  charts::Chart chart{.title = "energy residual",
+                      .x_label = "step, or mean step [s]",
+                      .y_label = "",
+                      .x_scale = charts::Scale::kLog,
+                      .y_scale = charts::Scale::kLog,
+                      .y_min = 2e-13,
+                      .y_max = 1e-1};
   chart.series.push_back(make_series("rk4, with clearance", contact_rk4, charts::kBlue));
   chart.series.push_back(make_series("dopri5, with clearance", contact_dopri5, charts::kOrange));
   chart.series.push_back(make_series("rk4, ideal joint", ideal_rk4, charts::kPurple));
   chart.series.push_back(make_series("dopri5 in equal steps, ideal joint", ideal_dopri5, charts::kGreen));
   findings.figures.push_back({"energy_residual.svg",
-                              "The energy account closes as the steps become smaller (ideal joint: rod by the cycloidal law; with clearance: the "
+                              "The energy account closes as the steps become smaller (ideal joint: rod by "
+                              "the cycloidal law; with clearance: the "
                               "second geometry).",
                               charts::draw({chart}, 1)});
   return findings;

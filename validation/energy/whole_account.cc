@@ -51,25 +51,41 @@ Findings compute_whole_account() {
   const double sum = record.impact.back() + record.friction.back() + record.structural.back();
   const double scale = *std::max_element(record.work.begin(), record.work.end());
   Findings findings;
-  findings.checks.push_back(compare("flexible, 0.25 mm, 10 rad/s, 0.5 s, tolerance 1e-8: impact, friction and structural loss together",
-                                    "work of the drives less the change of energy", sum, record.work.back() - record.change.back(), 1e-7 * scale, "J",
-                                    "ten times the tolerance, of the work done"));
+  findings.checks.push_back(compare(
+      "flexible, 0.25 mm, 10 rad/s, 0.5 s, tolerance 1e-8: impact, friction and structural loss together",
+      "work of the drives less the change of energy", sum, record.work.back() - record.change.back(),
+      1e-7 * scale, "J", "ten times the tolerance, of the work done"));
   Table table{.caption = "Where the work goes: flexible, 0.25 mm, 10 rad/s, after 0.5 s.",
-              .head = {"work of the drives [mJ]", "change of energy [mJ]", "impact loss [mJ]", "friction loss [mJ]", "structural loss [mJ]"},
+              .head = {"work of the drives [mJ]", "change of energy [mJ]", "impact loss [mJ]",
+                       "friction loss [mJ]", "structural loss [mJ]"},
               .reproducible_to = 0.05};
-  table.rows.push_back({number(1e3 * record.work.back(), 6), number(1e3 * record.change.back(), 6), number(1e3 * record.impact.back(), 3),
-                        number(1e3 * record.friction.back(), 3), number(1e3 * record.structural.back(), 3)});
-  charts::Chart energies{.title = "work and energy", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.5, .y_max = 8.0};
-  energies.series.push_back({.label = "change of energy", .x = record.t, .y = in_millijoule(record.change), .colour = charts::kGrey, .width = 4.0});
-  energies.series.push_back({.label = "work of the drives", .x = record.t, .y = in_millijoule(record.work), .colour = charts::kBlue});
-  charts::Chart losses{.title = "losses", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.01, .y_max = 0.28};
-  losses.series.push_back({.label = "impact", .x = record.t, .y = in_millijoule(record.impact), .colour = charts::kOrange});
-  losses.series.push_back({.label = "friction", .x = record.t, .y = in_millijoule(record.friction), .colour = charts::kBlue});
-  losses.series.push_back({.label = "structure", .x = record.t, .y = in_millijoule(record.structural), .colour = charts::kGreen});
+  table.rows.push_back({number(1e3 * record.work.back(), 6), number(1e3 * record.change.back(), 6),
+                        number(1e3 * record.impact.back(), 3), number(1e3 * record.friction.back(), 3),
+                        number(1e3 * record.structural.back(), 3)});
+  charts::Chart energies{
+      .title = "work and energy", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.5, .y_max = 8.0};
+  energies.series.push_back({.label = "change of energy",
+                             .x = record.t,
+                             .y = in_millijoule(record.change),
+                             .colour = charts::kGrey,
+                             .width = 4.0});
+  energies.series.push_back({.label = "work of the drives",
+                             .x = record.t,
+                             .y = in_millijoule(record.work),
+                             .colour = charts::kBlue});
+  charts::Chart losses{
+      .title = "losses", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.01, .y_max = 0.28};
+  losses.series.push_back(
+      {.label = "impact", .x = record.t, .y = in_millijoule(record.impact), .colour = charts::kOrange});
+  losses.series.push_back(
+      {.label = "friction", .x = record.t, .y = in_millijoule(record.friction), .colour = charts::kBlue});
+  losses.series.push_back(
+      {.label = "structure", .x = record.t, .y = in_millijoule(record.structural), .colour = charts::kGreen});
   findings.tables.push_back(std::move(table));
-  findings.figures.push_back({"energy_account.svg",
-                              "The account of one run: flexible, 0.25 mm, 10 rad/s. The losses are what work and energy differ by.",
-                              charts::draw({energies, losses}, 2)});
+  findings.figures.push_back(
+      {"energy_account.svg",
+       "The account of one run: flexible, 0.25 mm, 10 rad/s. The losses are what work and energy differ by.",
+       charts::draw({energies, losses}, 2)});
   return findings;
 }
 

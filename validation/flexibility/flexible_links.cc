@@ -23,13 +23,16 @@ constexpr double kLinkGravity = 9.81;  // [m/s^2]
 
 LinkInertia& link_of(RpsupParameters& p, Link link) { return p.links[static_cast<std::size_t>(link)]; }
 
-/// First frequency of a link clamped at its root, over that of Euler and Bernoulli's beam: (1.875 / l)^2 sqrt(E I l / m).
+/// First frequency of a link clamped at its root, over that of Euler and Bernoulli's beam: (1.875 / l)^2
+/// sqrt(E I l / m).
 double calc_frequency_ratio(const FlexibleLink& link, int segments) {
   RpsupParameters p = with_flexible(link, segments);
   LinkInertia& inertia = link_of(p, link.link);
-  inertia.inertia *= 1e-4;  // hardly any rotary inertia; across the link the divided beam has that of its mass and length
+  inertia.inertia *=
+      1e-4;  // hardly any rotary inertia; across the link the divided beam has that of its mass and length
   const double l = p.*link.length;
-  const double beam = std::pow(1.8751040687119612 / l, 2) * std::sqrt(calc_EI(p.*link.form) * l / inertia.mass) / (2.0 * std::numbers::pi);
+  const double beam = std::pow(1.8751040687119612 / l, 2) *
+                      std::sqrt(calc_EI(p.*link.form) * l / inertia.mass) / (2.0 * std::numbers::pi);
   const Mechanism clamped = clamp_link(build_rpsup(p));
   return calc_frequencies(calc_mass_matrix(clamped), stiffness_matrix(clamped), {})[0] / beam;
 }
@@ -44,8 +47,8 @@ RpsupParameters standing() {
   return p;
 }
 
-/// Sag of a clamped beam's end under its own weight, an end load and an end moment: each joint, in the middle of a segment, is bent by the
-/// moment there.
+/// Sag of a clamped beam's end under its own weight, an end load and an end moment: each joint, in the middle
+/// of a segment, is bent by the moment there.
 double calc_sag(double weight, double force, double moment, double l, double EI, int segments) {
   double sag = 0.0;
   for (int k = 0; k < segments; ++k) {
@@ -65,20 +68,28 @@ double find_sag(const RpsupParameters& p, const std::string& link) {
 
 Findings compute_link_frequencies() {
   Findings findings;
-  Table table{.caption = "First frequency of crank, rod and cross link (0.1 m), each cut out of the linkage and clamped at its root, over that of "
-                         "Euler and Bernoulli's beam.",
-              .head = {"link", "3 segments", "8", "16", "32", "limit"}, .rows = {}, .reproducible_to = 1e-6};
+  Table table{.caption =
+                  "First frequency of crank, rod and cross link (0.1 m), each cut out of the linkage and "
+                  "clamped at its root, over that of "
+                  "Euler and Bernoulli's beam.",
+              .head = {"link", "3 segments", "8", "16", "32", "limit"},
+              .rows = {},
+              .reproducible_to = 1e-6};
   for (const FlexibleLink& link : kFlexibleLinks) {
-    const double at_8 = calc_frequency_ratio(link, 8), at_16 = calc_frequency_ratio(link, 16), at_32 = calc_frequency_ratio(link, 32);
+    const double at_8 = calc_frequency_ratio(link, 8), at_16 = calc_frequency_ratio(link, 16),
+                 at_32 = calc_frequency_ratio(link, 32);
     const double coarse = (4.0 * at_16 - at_8) / 3.0, fine = (4.0 * at_32 - at_16) / 3.0;
     const double in_the_limit = (16.0 * fine - coarse) / 15.0;
     const std::string of = std::string(" of the clamped ") + link.name;
-    findings.checks.push_back(compare("limit of the first frequency" + of + ", over the beam's", "Euler and Bernoulli's clamped beam",
-                                      in_the_limit, 1.0, 1e-5, "1", "extrapolated from 8, 16 and 32 segments; the rotary inertia that is left"));
-    findings.checks.push_back(compare("order of the error of the first frequency" + of + ", 8 to 32 segments", "2",
-                                      std::log2((at_16 - at_8) / (at_32 - at_16)), 2.0, 0.05, "1", "terms of n^-4"));
-    table.rows.push_back({link.name, number(calc_frequency_ratio(link, 3), 8), number(at_8, 8), number(at_16, 8), number(at_32, 8),
-                          number(in_the_limit, 8)});
+    findings.checks.push_back(
+        compare("limit of the first frequency" + of + ", over the beam's",
+                "Euler and Bernoulli's clamped beam", in_the_limit, 1.0, 1e-5, "1",
+                "extrapolated from 8, 16 and 32 segments; the rotary inertia that is left"));
+    findings.checks.push_back(compare("order of the error of the first frequency" + of + ", 8 to 32 segments",
+                                      "2", std::log2((at_16 - at_8) / (at_32 - at_16)), 2.0, 0.05, "1",
+                                      "terms of n^-4"));
+    table.rows.push_back({link.name, number(calc_frequency_ratio(link, 3), 8), number(at_8, 8),
+                          number(at_16, 8), number(at_32, 8), number(in_the_limit, 8)});
   }
   findings.tables.push_back(std::move(table));
   return findings;
@@ -92,21 +103,27 @@ Findings compute_link_sags() {
   RpsupParameters of_crank = standing();
   of_crank.crank.model = LinkModel::kFlexible;
   of_crank.crank.elements = kSegments + 1;
-  of_crank.rod_length = of_crank.rod_start = 0.3;  // its middle is 0.05 m before the crank's end, the ball 0.1 m beyond it
+  of_crank.rod_length = of_crank.rod_start =
+      0.3;  // its middle is 0.05 m before the crank's end, the ball 0.1 m beyond it
   link_of(of_crank, Link::k12) = rod_inertia(0.6, 0.3, 3e-5);
-  const double rod = 0.6 * kLinkGravity, ball = 0.5 * 0.306 * kLinkGravity;
-  const double crank_sag = 1e3 * calc_sag(0.471 * kLinkGravity, rod + ball, -0.05 * rod + 0.1 * ball, 0.2, calc_EI(of_crank.crank), kSegments);
-  findings.checks.push_back(compare("sag of the crank's end in the linkage at rest, under its weight, the rod's and half the coupler's, 16 segments",
-                                    "moments over springs: F l^3 / (3 E I) and the like as n grows", find_sag(of_crank, "crank"), crank_sag,
-                                    1e-6 * crank_sag, "mm", why));
+  const double rod = 0.6 * kGravity, ball = 0.5 * 0.306 * kGravity;
+  const double crank_sag = 1e3 * calc_sag(0.471 * kGravity, rod + ball, -0.05 * rod + 0.1 * ball, 0.2,
+                                          calc_EI(of_crank.crank), kSegments);
+  findings.checks.push_back(
+      compare("sag of the crank's end in the linkage at rest, under its weight, the rod's and half the "
+              "coupler's, 16 segments",
+              "moments over springs: F l^3 / (3 E I) and the like as n grows", find_sag(of_crank, "crank"),
+              crank_sag, 1e-6 * crank_sag, "mm", why));
   RpsupParameters of_rod = standing();
   of_rod.rod_start = of_rod.rod_length;
   of_rod.rod.model = LinkModel::kFlexible;
   of_rod.rod.elements = kSegments + 1;
-  const double rod_sag = 1e3 * calc_sag(0.490 * kLinkGravity, 0.5 * 0.306 * kLinkGravity, 0.0, 0.2, calc_EI(of_rod.rod), kSegments);
-  findings.checks.push_back(compare("sag of the rod's end in the linkage at rest, under its weight and half the coupler's, 16 segments",
-                                    "moments over springs: F l^3 / (3 E I) and the like as n grows", find_sag(of_rod, "rod"), rod_sag, 1e-6 * rod_sag,
-                                    "mm", why));
+  const double rod_sag =
+      1e3 * calc_sag(0.490 * kGravity, 0.5 * 0.306 * kGravity, 0.0, 0.2, calc_EI(of_rod.rod), kSegments);
+  findings.checks.push_back(compare(
+      "sag of the rod's end in the linkage at rest, under its weight and half the coupler's, 16 segments",
+      "moments over springs: F l^3 / (3 E I) and the like as n grows", find_sag(of_rod, "rod"), rod_sag,
+      1e-6 * rod_sag, "mm", why));
   return findings;
 }
 
@@ -128,8 +145,10 @@ Findings compute_stiff_links() {
       const std::vector<double>& b = column(rigid, key);
       for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
     }
-    findings.checks.push_back(limit(std::string("slider and ball with a ") + link.name + " ten thousand times as stiff as steel, over 0.3 s",
-                                    "the same linkage with a rigid one", 1e6 * largest, 0.1, "um", "a bend of 1 mm / 10,000"));
+    findings.checks.push_back(limit(std::string("slider and ball with a ") + link.name +
+                                        " ten thousand times as stiff as steel, over 0.3 s",
+                                    "the same linkage with a rigid one", 1e6 * largest, 0.1, "um",
+                                    "a bend of 1 mm / 10,000"));
   }
   return findings;
 }

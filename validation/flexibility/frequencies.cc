@@ -18,19 +18,24 @@ namespace validation {
 
 namespace {
 
-const Rod kStudyRod{.mass = 0.306, .I_x = 3.829e-6};  // the study's coupler: Table 1 of the paper, rounded to three digits
+const Rod kStudyRod{.mass = 0.306,
+                    .I_x = 3.829e-6};  // the study's coupler: Table 1 of the paper, rounded to three digits
 constexpr double kDensity = 7801.0;                   // [kg/m^3]; the paper's links are of 7800
 
-constexpr const char* kGiven = "value given by an independent computation of the same model, to the digits shown";
+constexpr const char* kGiven =
+    "value given by an independent computation of the same model, to the digits shown";
 
-/// Values given by an independent computation of the same model, a rod of the coupler's E, diameter and length, and half of their last digits.
-/// The density was not given with them: 7801 kg/m^3 (0.306345 kg) was fitted and gives all eight, 7800.98 and 7801.02 do not. So one of the
-/// eight numbers is used up, and seven are left to compare.
+/// Values given by an independent computation of the same model, a rod of the coupler's E, diameter and
+/// length, and half of their last digits. The density was not given with them: 7801 kg/m^3 (0.306345 kg) was
+/// fitted and gives all eight, 7800.98 and 7801.02 do not. So one of the eight numbers is used up, and seven
+/// are left to compare.
 struct Known {
   double limit, limit_digit, three_segments, three_digit;  ///< [Hz]
 };
-constexpr std::array<Known, 4> kFrequencyKnown{
-    {{81.4994, 5e-5, 81.4009, 5e-5}, {29.0339, 5e-5, 29.7900, 5e-5}, {181.95, 5e-3, 199.51, 5e-3}, {184.750, 5e-4, 185.038, 5e-4}}};
+constexpr std::array<Known, 4> kKnown{{{81.4994, 5e-5, 81.4009, 5e-5},
+                                       {29.0339, 5e-5, 29.7900, 5e-5},
+                                       {181.95, 5e-3, 199.51, 5e-3},
+                                       {184.750, 5e-4, 185.038, 5e-4}}};
 
 /// Limit of a sequence whose error goes with n^-2, n^-4, ..., from three terms.
 double extrapolate(double at_10, double at_20, double at_40) {
@@ -39,7 +44,8 @@ double extrapolate(double at_10, double at_20, double at_40) {
   return (16.0 * fine - coarse) / 15.0;
 }
 double extrapolated_frequency(const Rod& rod, const BendingMode& mode) {
-  return extrapolate(engine_frequency(rod, 10, mode), engine_frequency(rod, 20, mode), engine_frequency(rod, 40, mode));
+  return extrapolate(engine_frequency(rod, 10, mode), engine_frequency(rod, 20, mode),
+                     engine_frequency(rod, 40, mode));
 }
 
 charts::Chart make_chart(const char* title) {
@@ -56,13 +62,15 @@ charts::Chart make_chart(const char* title) {
 Findings compute_frequencies_of_three_segments() {
   Findings findings;
   const Rod rod = solid_rod(kDensity);
-  Table table{
-      .caption =
-          "Frequencies in bending of the coupler divided into 3 segments (n_rfe = 4), [Hz]. The given values, these four and the four limits of the "
-          "next table's rod, come from an independent computation of the same model, to the digits shown. One number, the density of 7801 kg/m^3 "
-          "(0.306345 kg), was fitted to them; seven are then left to compare. The study's coupler has 0.306 kg.",
-      .head = {"ends", "given", "7801 kg/m^3", "7801 kg/m^3 as bars", "0.306 kg", "0.306 kg as bars"},
-      .rows = {}};
+  Table table{.caption =
+                  "Frequencies in bending of the coupler divided into 3 segments (n_rfe = 4), [Hz]. The "
+                  "given values, these four and the four limits of the "
+                  "next table's rod, come from an independent computation of the same model, to the digits "
+                  "shown. One number, the density of 7801 kg/m^3 "
+                  "(0.306345 kg), was fitted to them; seven are then left to compare. The study's coupler "
+                  "has 0.306 kg.",
+              .head = {"ends", "given", "7801 kg/m^3", "7801 kg/m^3 as bars", "0.306 kg", "0.306 kg as bars"},
+              .rows = {}};
   for (std::size_t k = 0; k < std::size(kBendingModes); ++k) {
     const BendingMode& mode = kBendingModes[k];
     const std::string at = std::string(", 3 segments, ") + mode.name;
@@ -71,16 +79,17 @@ Findings compute_frequencies_of_three_segments() {
     const double of_study = engine_frequency(kStudyRod, 3, mode);
     const double other_of_study = bars_frequency(kStudyRod, 3, mode);
     const std::string route = "bars with the displacements of their ends as unknowns";
-    findings.checks.push_back(
-        compare("frequency, rod of 7801 kg/m^3" + at, kGiven, found, kFrequencyKnown[k].three_segments, kFrequencyKnown[k].three_digit, "Hz", "its digits"));
-    findings.checks.push_back(
-        compare("frequency, rod of 7801 kg/m^3" + at, route, found, other, 1e-11 * other, "Hz", "rounding in two eigenproblems"));
-    findings.checks.push_back(
-        compare("frequency, the study's coupler" + at, route, of_study, other_of_study, 1e-11 * other, "Hz", "rounding in two eigenproblems"));
-    findings.checks.push_back(compare("frequency in the x-z plane, the study's coupler" + at, "its frequency in the x-y plane",
-                                      engine_frequency(kStudyRod, 3, mode, Plane::kXZ), of_study, 1e-11 * of_study, "Hz", "rounding"));
-    table.rows.push_back(
-        {mode.name, number(kFrequencyKnown[k].three_segments, 6), number(found, 7), number(other, 7), number(of_study, 7), number(other_of_study, 7)});
+    findings.checks.push_back(compare("frequency, rod of 7801 kg/m^3" + at, kGiven, found,
+                                      kKnown[k].three_segments, kKnown[k].three_digit, "Hz", "its digits"));
+    findings.checks.push_back(compare("frequency, rod of 7801 kg/m^3" + at, route, found, other,
+                                      1e-11 * other, "Hz", "rounding in two eigenproblems"));
+    findings.checks.push_back(compare("frequency, the study's coupler" + at, route, of_study, other_of_study,
+                                      1e-11 * other, "Hz", "rounding in two eigenproblems"));
+    findings.checks.push_back(compare(
+        "frequency in the x-z plane, the study's coupler" + at, "its frequency in the x-y plane",
+        engine_frequency(kStudyRod, 3, mode, Plane::kXZ), of_study, 1e-11 * of_study, "Hz", "rounding"));
+    table.rows.push_back({mode.name, number(kKnown[k].three_segments, 6), number(found, 7), number(other, 7),
+                          number(of_study, 7), number(other_of_study, 7)});
   }
   findings.tables.push_back(std::move(table));
   return findings;
@@ -90,31 +99,35 @@ Findings compute_frequency_limits() {
   Findings findings;
   const Rod thin = slender(solid_rod(kDensity));
   const std::string richardson = "extrapolated from 10, 20 and 40 segments: terms of n^-6";
-  Table table{
-      .caption =
-          "Error of the frequency in bending of the coupler without rotary inertia (Euler and Bernoulli's rod) over the number of segments, [1]. "
-          "It falls like n^-2 where an end is clamped, like n^-4 where both are pinned or free. With its rotary inertia the study's coupler "
-          "tends to Rayleigh's rod, with a small error of n^-2 in all modes (figure).",
-      .head = {"ends", "3", "5", "10", "20", "40", "order, 20 to 40", "limit, 0.306 kg [Hz]", "Euler and Bernoulli", "limit with rotary inertia",
-               "Rayleigh"},
-      .rows = {},
-      .reproducible_to = 1e-2};
+  Table table{.caption =
+                  "Error of the frequency in bending of the coupler without rotary inertia (Euler and "
+                  "Bernoulli's rod) over the number of segments, [1]. "
+                  "It falls like n^-2 where an end is clamped, like n^-4 where both are pinned or free. With "
+                  "its rotary inertia the study's coupler "
+                  "tends to Rayleigh's rod, with a small error of n^-2 in all modes (figure).",
+              .head = {"ends", "3", "5", "10", "20", "40", "order, 20 to 40", "limit, 0.306 kg [Hz]",
+                       "Euler and Bernoulli", "limit with rotary inertia", "Rayleigh"},
+              .rows = {},
+              .reproducible_to = 1e-2};
   charts::Chart without = make_chart("Without rotary inertia");
   charts::Chart with = make_chart("With rotary inertia");
   const char* colours[] = {charts::kBlue, charts::kOrange, charts::kGreen, charts::kPurple};
   for (std::size_t k = 0; k < std::size(kBendingModes); ++k) {
     const BendingMode& mode = kBendingModes[k];
     const std::string at = std::string(", ") + mode.name;
-    findings.checks.push_back(compare("limit of the frequency, rod of 7801 kg/m^3 without rotary inertia" + at, kGiven,
-                                      extrapolated_frequency(thin, mode), kFrequencyKnown[k].limit, kFrequencyKnown[k].limit_digit, "Hz", "its digits"));
+    findings.checks.push_back(compare(
+        "limit of the frequency, rod of 7801 kg/m^3 without rotary inertia" + at, kGiven,
+        extrapolated_frequency(thin, mode), kKnown[k].limit, kKnown[k].limit_digit, "Hz", "its digits"));
     const double euler = euler_bernoulli_frequency(kStudyRod, mode);
     const double rayleigh = rayleigh_frequency(kStudyRod, mode);
     const double limit_without = extrapolated_frequency(slender(kStudyRod), mode);
     const double limit_with = extrapolated_frequency(kStudyRod, mode);
-    findings.checks.push_back(compare("limit of the frequency, the study's coupler without rotary inertia" + at,
-                                      "Euler and Bernoulli's rod of 0.306 kg", limit_without, euler, 1e-6 * euler, "Hz", richardson));
-    findings.checks.push_back(compare("limit of the frequency, the study's coupler" + at, "Rayleigh's rod of 0.306 kg: sections that turn",
-                                      limit_with, rayleigh, 1e-6 * rayleigh, "Hz", richardson));
+    findings.checks.push_back(compare(
+        "limit of the frequency, the study's coupler without rotary inertia" + at,
+        "Euler and Bernoulli's rod of 0.306 kg", limit_without, euler, 1e-6 * euler, "Hz", richardson));
+    findings.checks.push_back(compare("limit of the frequency, the study's coupler" + at,
+                                      "Rayleigh's rod of 0.306 kg: sections that turn", limit_with, rayleigh,
+                                      1e-6 * rayleigh, "Hz", richardson));
     charts::Series line{.label = mode.name, .x = {}, .y = {}, .colour = colours[k], .markers = true};
     charts::Series line_with = line;
     std::vector<std::string> row{mode.name};
@@ -128,19 +141,25 @@ Findings compute_frequency_limits() {
     }
     const double order = std::log2(line.y[4] / line.y[5]);
     const bool clamped = mode.ends == Ends::kClampedFree;
-    findings.checks.push_back(compare("order of the frequency's error, 20 to 40 segments, without rotary inertia" + at, clamped ? "2" : "4", order,
-                                      clamped ? 2.0 : 4.0, clamped ? 0.01 : 0.2, "1", clamped ? "terms of n^-4" : "terms of n^-6"));
-    row.insert(row.end(), {number(order, 3), number(limit_without, 7), number(euler, 7), number(limit_with, 7), number(rayleigh, 7)});
+    findings.checks.push_back(compare(
+        "order of the frequency's error, 20 to 40 segments, without rotary inertia" + at, clamped ? "2" : "4",
+        order, clamped ? 2.0 : 4.0, clamped ? 0.01 : 0.2, "1", clamped ? "terms of n^-4" : "terms of n^-6"));
+    row.insert(row.end(), {number(order, 3), number(limit_without, 7), number(euler, 7),
+                           number(limit_with, 7), number(rayleigh, 7)});
     table.rows.push_back(row);
     without.series.push_back(std::move(line));
     with.series.push_back(std::move(line_with));
   }
   for (charts::Chart* chart : {&without, &with})
     for (const double order : {2.0, 4.0})
-      chart->series.push_back({.label = "n^-" + number(order), .x = {2.0, 40.0}, .y = {0.5, 0.5 * std::pow(20.0, -order)}, .colour = charts::kGrey});
+      chart->series.push_back({.label = "n^-" + number(order),
+                               .x = {2.0, 40.0},
+                               .y = {0.5, 0.5 * std::pow(20.0, -order)},
+                               .colour = charts::kGrey});
   findings.tables.push_back(std::move(table));
   findings.figures.push_back({.file = "coupler_frequencies.svg",
-                              .caption = "Error of the divided coupler's frequencies in bending against Euler and Bernoulli's and Rayleigh's rod.",
+                              .caption = "Error of the divided coupler's frequencies in bending against "
+                                         "Euler and Bernoulli's and Rayleigh's rod.",
                               .svg = charts::draw({without, with}, 2)});
   return findings;
 }
@@ -158,19 +177,25 @@ Findings compute_torsion() {
   for (const int n : {1, 3, 10, 20, 40}) {
     const Mechanism mechanism = cut_coupler(rod, n, NearEnd::kClamped);
     std::vector<Eigen::Index> about_x;
-    for (Eigen::Index i = 2; i < static_cast<Eigen::Index>(mechanism.coordinates.size()); i += 3) about_x.push_back(i);
+    for (Eigen::Index i = 2; i < static_cast<Eigen::Index>(mechanism.coordinates.size()); i += 3)
+      about_x.push_back(i);
     const double found =
-        calc_frequencies(calc_mass_matrix(mechanism)(about_x, about_x), stiffness_matrix(mechanism)(about_x, about_x), Eigen::MatrixXd(0, n))[0];
-    const double expected = n / (std::numbers::pi * Rod::kLength) * wave_speed * std::sin(std::numbers::pi / (4.0 * n));
-    findings.checks.push_back(compare("frequency in torsion, one end fixed, " + std::to_string(n) + " segments",
-                                      "chain of discs: n / (pi l) sqrt(G / rho) sin(pi / (4 n))", found, expected, 1e-10 * expected, "Hz",
-                                      "rounding in the eigenproblem"));
+        calc_frequencies(calc_mass_matrix(mechanism)(about_x, about_x),
+                         stiffness_matrix(mechanism)(about_x, about_x), Eigen::MatrixXd(0, n))[0];
+    const double expected =
+        n / (std::numbers::pi * Rod::kLength) * wave_speed * std::sin(std::numbers::pi / (4.0 * n));
+    findings.checks.push_back(
+        compare("frequency in torsion, one end fixed, " + std::to_string(n) + " segments",
+                "chain of discs: n / (pi l) sqrt(G / rho) sin(pi / (4 n))", found, expected, 1e-10 * expected,
+                "Hz", "rounding in the eigenproblem"));
     table.rows.push_back({std::to_string(n), number(found, 8), number(expected, 8)});
     if (n == 20) at_20 = found;
     if (n == 40) at_40 = found;
   }
-  findings.checks.push_back(compare("limit of the frequency in torsion, one end fixed", "sqrt(G / rho) / (4 l)", (4.0 * at_40 - at_20) / 3.0,
-                                    limit_frequency, 1e-7 * limit_frequency, "Hz", "extrapolated from 20 and 40 segments: terms of n^-4"));
+  findings.checks.push_back(compare("limit of the frequency in torsion, one end fixed",
+                                    "sqrt(G / rho) / (4 l)", (4.0 * at_40 - at_20) / 3.0, limit_frequency,
+                                    1e-7 * limit_frequency, "Hz",
+                                    "extrapolated from 20 and 40 segments: terms of n^-4"));
   findings.tables.push_back(std::move(table));
   return findings;
 }

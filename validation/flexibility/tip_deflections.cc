@@ -24,8 +24,8 @@ struct TipMotion {
   double twist = 0.0;                           ///< about x, [rad]
 };
 
-/// Static equilibrium under a force and a moment at the tip: Newton's method on forces(q) + K q = 0 with the springs as slope, which is exact
-/// for small loads.
+/// Static equilibrium under a force and a moment at the tip: Newton's method on forces(q) + K q = 0 with the
+/// springs as slope, which is exact for small loads.
 TipMotion find_equilibrium(int segments, const Wrench& at_tip) {
   const Mechanism mechanism = cut_coupler(kTipStudyRod, segments, NearEnd::kClamped);
   const auto n = static_cast<Eigen::Index>(mechanism.coordinates.size());
@@ -41,7 +41,8 @@ TipMotion find_equilibrium(int segments, const Wrench& at_tip) {
     at.q = -inverse_dynamics.calc(at.frames).cwiseQuotient(K);
   }
   const FrameMotion& end = at.frames.back();
-  return {end.p + reach * end.R.col(0) - Eigen::Vector3d(Rod::kLength, 0.0, 0.0), std::atan2(end.R(2, 1), end.R(1, 1))};
+  return {end.p + reach * end.R.col(0) - Eigen::Vector3d(Rod::kLength, 0.0, 0.0),
+          std::atan2(end.R(2, 1), end.R(1, 1))};
 }
 
 }  // namespace
@@ -51,30 +52,39 @@ Findings compute_tip_deflections() {
   constexpr double kMoment = 1e-4;  // [N m]
   Findings findings;
   Table table{.caption = "Deflection of the clamped coupler's tip under a force at it, over P l^3 / (3 E I).",
-              .head = {"segments", "from Jacobian and springs", "from static equilibrium, along y", "along z", "1 - 1 / (4 n^2)"},
+              .head = {"segments", "from Jacobian and springs", "from static equilibrium, along y", "along z",
+                       "1 - 1 / (4 n^2)"},
               .rows = {}};
   const double rod_deflection = kForce * std::pow(Rod::kLength, 3) / (3.0 * Rod::EI());
   const std::string reference = "(1 - 1 / (4 n^2)) P l^3 / (3 E I)";
   for (const int n : {1, 3, 9}) {
     const Mechanism mechanism = cut_coupler(kTipStudyRod, n, NearEnd::kClamped);
     const Eigen::MatrixXd J = calc_tip_jacobian(mechanism);
-    const double linear = kForce * (J.row(1).array().square().transpose() / stiffness_matrix(mechanism).diagonal().array()).sum();
+    const double linear =
+        kForce *
+        (J.row(1).array().square().transpose() / stiffness_matrix(mechanism).diagonal().array()).sum();
     const double along_y = find_equilibrium(n, {{0.0, kForce, 0.0}, Eigen::Vector3d::Zero()}).p.y();
     const double along_z = find_equilibrium(n, {{0.0, 0.0, kForce}, Eigen::Vector3d::Zero()}).p.z();
     const double twist = find_equilibrium(n, {Eigen::Vector3d::Zero(), {kMoment, 0.0, 0.0}}).twist;
     const double expected = (1.0 - 1.0 / (4.0 * n * n)) * rod_deflection;
     const std::string at = ", " + std::to_string(n) + (n == 1 ? " segment" : " segments");
     const auto add = [&](const std::string& what, double found, double relative, const std::string& why) {
-      findings.checks.push_back(compare(what + at, reference, 1e6 * found, 1e6 * expected, relative * 1e6 * expected, "um", why));
+      findings.checks.push_back(
+          compare(what + at, reference, 1e6 * found, 1e6 * expected, relative * 1e6 * expected, "um", why));
     };
-    add("tip deflection of the clamped coupler under 0.01 N, from Jacobian and springs", linear, 1e-13, "rounding");
-    add("tip deflection of the clamped coupler in static equilibrium under 0.01 N along y", along_y, 1e-9, "second order in the slope, 1e-5 squared");
-    add("tip deflection of the clamped coupler in static equilibrium under 0.01 N along z", along_z, 1e-9, "second order in the slope, 1e-5 squared");
+    add("tip deflection of the clamped coupler under 0.01 N, from Jacobian and springs", linear, 1e-13,
+        "rounding");
+    add("tip deflection of the clamped coupler in static equilibrium under 0.01 N along y", along_y, 1e-9,
+        "second order in the slope, 1e-5 squared");
+    add("tip deflection of the clamped coupler in static equilibrium under 0.01 N along z", along_z, 1e-9,
+        "second order in the slope, 1e-5 squared");
     const double expected_twist = kMoment * Rod::kLength / Rod::GJ();
-    findings.checks.push_back(compare("twist of the clamped coupler under 1e-4 N m at its tip" + at, "T l / (G J)", 1e6 * twist, 1e6 * expected_twist,
+    findings.checks.push_back(compare("twist of the clamped coupler under 1e-4 N m at its tip" + at,
+                                      "T l / (G J)", 1e6 * twist, 1e6 * expected_twist,
                                       1e-12 * 1e6 * expected_twist, "urad", "rounding"));
-    table.rows.push_back({std::to_string(n), number(linear / rod_deflection, 9), number(along_y / rod_deflection, 9),
-                          number(along_z / rod_deflection, 9), number(1.0 - 1.0 / (4.0 * n * n), 9)});
+    table.rows.push_back({std::to_string(n), number(linear / rod_deflection, 9),
+                          number(along_y / rod_deflection, 9), number(along_z / rod_deflection, 9),
+                          number(1.0 - 1.0 / (4.0 * n * n), 9)});
   }
   findings.tables.push_back(std::move(table));
   return findings;

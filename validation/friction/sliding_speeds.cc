@@ -29,7 +29,8 @@ class SlidingRecord : public QuietObserver {
     const double to = end.joints[0].load.friction_power;
     returned_ += dt * std::max(0.0, -0.5 * (from + to));
     friction_loss_ = end.energy.friction_loss;
-    ratio = std::max(ratio, end.joints[0].load.friction_sum / std::max(end.joints[0].load.radial_normal_sum, 1e-9));
+    ratio = std::max(ratio,
+                     end.joints[0].load.friction_sum / std::max(end.joints[0].load.radial_normal_sum, 1e-9));
     work_ += (end.energy.drive_work - start.energy.drive_work).cwiseAbs().sum();
     if (steps_++ == 0) first_balance_ = start.energy.calc_balance();
     imbalance_ = std::max(imbalance_, std::abs(end.energy.calc_balance() - first_balance_));
@@ -40,7 +41,9 @@ class SlidingRecord : public QuietObserver {
   [[nodiscard]] double mean() const { return path_ / time_; }        ///< [m/s]
   [[nodiscard]] double share_beyond() const { return beyond_ / time_; }
   [[nodiscard]] double share_returned() const { return returned_ / friction_loss_; }
-  [[nodiscard]] double residual() const { return imbalance_ / work_; }  ///< of the energy account, over the work done
+  [[nodiscard]] double residual() const {
+    return imbalance_ / work_;
+  }  ///< of the energy account, over the work done
 
  private:
   void take_ring(const JournalMotion& journal, int ring, double dt) {
@@ -72,10 +75,12 @@ struct RunCase {
 
 Findings compute_sliding_speeds() {
   Findings findings;
-  Table table{.caption = "How fast the journal slides where it touches the bore (rigid coupler, defaults). Energy returned: by bristles that "
-                         "spring back, as a share of the energy lost to friction.",
-              .head = {"clearance [mm]", "crank [rad/s]", "seconds", "largest speed [m/s]", "mean [m/s]", "contact time beyond 0.16 m/s",
-                       "largest friction / normal force", "energy returned"},
+  Table table{.caption =
+                  "How fast the journal slides where it touches the bore (rigid coupler, defaults). Energy "
+                  "returned: by bristles that "
+                  "spring back, as a share of the energy lost to friction.",
+              .head = {"clearance [mm]", "crank [rad/s]", "seconds", "largest speed [m/s]", "mean [m/s]",
+                       "contact time beyond 0.16 m/s", "largest friction / normal force", "energy returned"},
               .reproducible_to = 0.05};
   for (const RunCase& c : {RunCase{0.25e-3, 10.0, 4.0}, RunCase{0.5e-3, 15.0, 4.0}}) {
     RpsupParameters parameters;
@@ -84,10 +89,12 @@ Findings compute_sliding_speeds() {
     const Rpsup rpsup = build_rpsup(parameters);
     SlidingRecord record(*rpsup.mechanism.cut_joints[0].clearance);
     (void)simulate(rpsup.mechanism, {.duration = c.duration, .output_rate = 10.0}, record);
-    table.rows.push_back({number(1e3 * c.c_r), number(c.crank_velocity), number(c.duration), number(record.largest), number(record.mean()),
+    table.rows.push_back({number(1e3 * c.c_r), number(c.crank_velocity), number(c.duration),
+                          number(record.largest), number(record.mean()),
                           number(100.0 * record.share_beyond(), 2) + " %", number(record.ratio),
                           number(100.0 * record.share_returned(), 2) + " %"});
-    findings.checks.push_back(limit("rigid, " + number(1e3 * c.c_r) + " mm, " + number(c.crank_velocity) + " rad/s, " + number(c.duration) +
+    findings.checks.push_back(limit("rigid, " + number(1e3 * c.c_r) + " mm, " + number(c.crank_velocity) +
+                                        " rad/s, " + number(c.duration) +
                                         " s: change of energy less work plus losses, over the work",
                                     "none: friction loses what its force does", record.residual(), 1e-6, "1",
                                     "tolerance of the integration, 1e-6"));
