@@ -16,7 +16,8 @@ awk -F, 'NR > 1 {
     if ($8 != "" && $9 != "") { n[6]++; if ($8 < 0.999 && $9 < 0.999) held[6]++ }
     if ($10 != "" && $11 != "") { n[7]++; if ($10 < 0.999 && $11 < 0.999) held[7]++ }
   }
-  END { for (i = 2; i <= 7; ++i) print i, n[i] > 0 ? 100 * held[i] / n[i] : "none" }' "$rows" >shares
+  END { for (i = 2; i <= 7; ++i) print i, (n[i] > 0 ? 100 * held[i] / n[i] : "none") }' "$rows" >shares
+expect_equal "$(wc -l <shares)" 6 "statements with a share"
 while read -r number expected; do
   found=$(share "$number")
   [ -n "$found" ] && [ "$expected" != none ] || fail "statement $number: no share in $text or no rows of it"
