@@ -25,6 +25,13 @@ while read -r number expected; do
     fail "statement $number: $text has $found %, its rows $expected %"
 done <shares
 
+echo "the report has the same shares"
+report=$(dirname "$text")/VALIDATION.md
+paste -sd ' ' "$report" | sed -n 's/.*statements 2 to 7 in \([0-9., and]*\) %.*/\1/p' | tr -s ', and' '\n' >reported
+paste -d ' ' <(awk '{ print $2 }' shares) reported |
+  awk '{ d = $1 - $2; if (d < 0) d = -d; if ($2 != "" && d <= 0.15) n++ } END { exit !(n == 6 && NR == 6) }' ||
+  fail "$report has other shares: $(paste -sd ' ' reported)"
+
 echo "the first settings again"
 jq '.design.count = 6' "$request" >few.json
 expect_code 0 "$rpsup" sweep few.json --db few.db --results few.results.json

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The validation as a whole: every comparison within its bound, and the report says what a fresh run finds.
+# The validation as a whole: every comparison is within its bound, and report and rows agree with a fresh run.
 #   validate_test.sh RPSUP REPORT   rpsup-validate stands beside RPSUP
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 report=$(realpath "$2")
@@ -38,7 +38,8 @@ SECONDS=0
 expect_code 0 "$validate" --check "$report" --report new.md --threads 2
 echo "took $SECONDS s"
 expect_text out '^[0-9]+ comparisons, 0 outside their bounds$'
-expect_text out "says what this run has found"
+expect_text out "$(basename "$report") agrees with this run"
+expect_text out "rows.csv agrees with this run"
 
 echo "its figures are those beside the report"
 fresh=figures

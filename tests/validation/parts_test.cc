@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "validation/chapters.h"
-#include "validation/report.h"
+#include "validation/report/report.h"
 
 namespace validation {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report itself: what it writes, what it lets pass as the same, and its charts.
+// Report and rows: their text, the differences they let pass, and charts.
 
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,25 +12,43 @@
 
 #include "charts/chart.h"
 #include "validation/findings.h"
-#include "validation/report.h"
+#include "validation/report/report.h"
+#include "validation/report/report_line.h"
+#include "validation/report/rows.h"
 
 namespace validation {
 namespace {
 
 Check some_check(double found) {
-  return compare("frequency of |x|", "closed form", found, 81.4994, 1e-3, "Hz", "four digits were published");
+  return compare("frequency of |x|, \"slow\"", "closed form", found, 81.4994, 1e-3, "Hz",
+                 "four digits were published");
 }
 
-std::vector<ComputedChapter> chapters_of(const Check& check) {
-  Table table{.caption = "A table", .head = {"n", "error"}, .rows = {{"4", "0.25"}}};
-  return {{{.title = "Waves", .text = "Two lines\nof text", .parts = {}},
-           {{.checks = {check}, .tables = {table}, .figures = {}}}}};
+std::vector<ComputedChapter> chapters_of(const std::vector<Check>& checks, Place place = Place::kBeside) {
+  const Table table{.caption = "A table",
+                    .head = {"n", "error [m]"},
+                    .rows = {{"4", "0.25"}, {"8", "0.06"}},
+                    .place = place};
+  const Figure figure{.file = "waves.svg", .caption = "Three waves", .svg = "", .place = place};
+  const Part part{.name = "long_waves", .compute = nullptr};
+  return {{{.name = "waves", .title = "Waves", .text = "Two lines\nof text", .parts = {part}},
+           {{.checks = checks, .tables = {table}, .figures = {figure}}}}};
 }
 
 std::vector<std::string> texts_of(const std::vector<ReportLine>& lines) {
   std::vector<std::string> texts;
   for (const ReportLine& line : lines) texts.push_back(line.text);
   return texts;
+}
+
+std::string report_of(const std::vector<ComputedChapter>& chapters) {
+  return to_text(write_report(chapters, "figures"));
+}
+
+/// Differences between the rows of two runs.
+std::vector<std::string> differences_of_rows(const Check& fresh, const Check& written) {
+  const auto rows = write_rows(chapters_of({written}));
+  return find_differences(write_rows(chapters_of({fresh})), texts_of(rows), split_csv);
 }
 
 TEST(Check, HoldsUpToItsBoundAndNeverWithoutANumber) {
@@ -42,42 +59,100 @@ TEST(Check, HoldsUpToItsBoundAndNeverWithoutANumber) {
   EXPECT_FALSE(limit("drift", "zero", -2.0, 1.0, "m", "").holds());
 }
 
-TEST(Report, SaysHowManyComparisonsFail) {
-  EXPECT_EQ(count_checks(chapters_of(some_check(81.4994))).failed, 0u);
-  EXPECT_EQ(count_checks(chapters_of(some_check(90.0))).failed, 1u);
-  std::string all;
-  for (const ReportLine& line : write_report(chapters_of(some_check(90.0)), "figures"))
-    all += line.text + "\n";
-  EXPECT_NE(all.find("**FAILED**"), std::string::npos);
-  EXPECT_NE(all.find("| frequency of \\|x\\| | closed form | 90 | 81.4994 |"), std::string::npos) << all;
+TEST(Report, CountsComparisonsAndNamesThoseThatFail) {
+  EXPECT_EQ(count_checks(chapters_of({some_check(81.4994)})).failed, 0u);
+  EXPECT_EQ(count_checks(chapters_of({some_check(90.0)})).failed, 1u);
+  const std::string good = report_of(chapters_of({some_check(81.4994)}));
+  EXPECT_NE(good.find("1 comparisons, all within their bounds."), std::string::npos) << good;
+  EXPECT_EQ(good.find("FAILED"), std::string::npos) << good;
+  const std::string bad = report_of(chapters_of({some_check(90.0)}));
+  EXPECT_NE(bad.find("1 comparisons, 1 **outside their bounds**."), std::string::npos) << bad;
+  EXPECT_NE(bad.find("- FAILED  frequency of |x|"), std::string::npos) << bad;
 }
 
-TEST(Report, OfTheSameRunHasNoDifferences) {
-  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
-  EXPECT_TRUE(find_differences(lines, texts_of(lines)).empty());
+TEST(Report, HasARowForEachChapterWithItsWorstComparison) {
+  const Check none = limit("a drift", "zero", 0.0, 0.0, "m", "no drift");
+  const Check worse = limit("another drift", "zero", 3.0, 4.0, "m", "some drift");
+  const std::string report = report_of(chapters_of({none, worse, some_check(81.4995)}));
+  const char* row = "| 1 | Waves | `waves` | 3 | 0 | 0.75 | another drift |\n";
+  EXPECT_NE(report.find(row), std::string::npos) << report;
+  const Check unknown = limit("no number", "zero", std::numeric_limits<double>::quiet_NaN(), 1.0, "m", "");
+  const std::string failed = report_of(chapters_of({worse, unknown, some_check(81.4995)}));
+  EXPECT_NE(failed.find("| 1 | Waves | `waves` | 3 | 1 | inf | no number |\n"), std::string::npos) << failed;
 }
 
-TEST(Report, AllowsANumberToMoveByItsBoundAndNoMore) {
+TEST(Report, LetsTheWorstComparisonBeAnotherButNotItsShare) {
+  const auto lines_with = [](const char* what, double difference) {
+    return write_report(chapters_of({limit(what, "zero", difference, 1.0, "m", "")}), "figures");
+  };
+  const auto fresh = lines_with("a drift", 0.5);
+  EXPECT_TRUE(find_differences(fresh, texts_of(lines_with("another drift", 0.51)), split_markdown).empty());
+  EXPECT_EQ(find_differences(fresh, texts_of(lines_with("a drift", 0.01)), split_markdown).size(), 1u);
+}
+
+TEST(Report, ShowsOnlyTablesAndFiguresThatBelongThere) {
+  const std::string beside = report_of(chapters_of({}));
+  EXPECT_EQ(beside.find("A table"), std::string::npos) << beside;
+  EXPECT_NE(beside.find("- [Three waves](figures/waves.svg)\n"), std::string::npos) << beside;
+  const std::string inside = report_of(chapters_of({}, Place::kInReport));
+  const char* table = "A table\n\n| n | error [m] |\n|---|---|\n| 4 | 0.25 |\n";
+  EXPECT_NE(inside.find(table), std::string::npos) << inside;
+  EXPECT_NE(inside.find("![waves.svg](figures/waves.svg)\n\n*Three waves*\n"), std::string::npos) << inside;
+}
+
+TEST(Report, FindsAnotherWordAnotherTableAndAMissingLine) {
+  const auto lines = write_report(chapters_of({some_check(81.4998)}, Place::kInReport), "figures");
+  EXPECT_TRUE(find_differences(lines, texts_of(lines), split_markdown).empty());
+  auto written = texts_of(lines);
+  for (std::string& line : written)
+    if (line == "of text") line = "of other text";
+  EXPECT_EQ(find_differences(lines, written, split_markdown).size(), 1u);
+  written = texts_of(lines);
+  for (std::string& line : written)
+    if (line == "| 4 | 0.25 |") line = "| 4 | 0.26 |";
+  EXPECT_EQ(find_differences(lines, written, split_markdown).size(), 1u);
+  written = texts_of(lines);
+  written.pop_back();
+  EXPECT_EQ(find_differences(lines, written, split_markdown).size(), 1u);
+}
+
+TEST(Rows, HoldEveryComparisonAndEveryNumberOfATable) {
+  EXPECT_EQ(to_text(write_rows(chapters_of({some_check(90.0)}))),
+            "chapter,section,case,quantity,unit,ours,reference,source,difference,bound,holds,note\n"
+            "waves,long_waves,,\"frequency of |x|, \"\"slow\"\"\",Hz,90,81.4994,closed form,8.5,0.001,no,"
+            "four digits were published\n"
+            "waves,long_waves,n 4,error,m,0.25,,,,,,A table\n"
+            "waves,long_waves,n 8,error,m,0.06,,,,,,\n");
+}
+
+TEST(Rows, AreSplitIntoTheirFields) {
+  EXPECT_EQ(split_csv("a,,\"b, \"\"c\"\"\",d"), (std::vector<std::string>{"a", "", "b, \"c\"", "d"}));
+  EXPECT_EQ(split_csv("\"\"\"\","), (std::vector<std::string>{"\"", ""}));
+}
+
+TEST(Rows, AllowANumberToMoveByItsBoundAndNoMore) {
   // Both hold their bound of 1e-3, one on each side.
-  const auto lines = write_report(chapters_of(some_check(81.5003)), "figures");
-  EXPECT_TRUE(
-      find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4995)), "figures"))).empty());
-  EXPECT_EQ(
-      find_differences(lines, texts_of(write_report(chapters_of(some_check(81.4985)), "figures"))).size(),
-      1u);
+  EXPECT_TRUE(differences_of_rows(some_check(81.5003), some_check(81.5003)).empty());
+  EXPECT_TRUE(differences_of_rows(some_check(81.5003), some_check(81.4995)).empty());
+  EXPECT_EQ(differences_of_rows(some_check(81.5003), some_check(81.4985)).size(), 1u);
 }
 
-TEST(Report, FindsALoosenedBoundAndAnotherNumberInTheWords) {
-  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
+TEST(Rows, ShowALoosenedBoundAndAnotherNumberInTheWords) {
   Check loosened = some_check(81.4998);
   loosened.bound = 1e-2;
-  EXPECT_FALSE(find_differences(lines, texts_of(write_report(chapters_of(loosened), "figures"))).empty());
-  Check reworded = some_check(81.4998);
-  reworded.why = "five digits, 1.0001, were published";
-  const auto with_number = write_report(chapters_of(reworded), "figures");
-  reworded.why = "five digits, 1.0002, were published";
-  EXPECT_EQ(find_differences(with_number, texts_of(write_report(chapters_of(reworded), "figures"))).size(),
-            1u);
+  EXPECT_EQ(differences_of_rows(some_check(81.4998), loosened).size(), 1u);
+  Check first = some_check(81.4998);
+  first.why = "five digits, 1.0001, were published";
+  Check second = first;
+  second.why = "five digits, 1.0002, were published";
+  EXPECT_EQ(differences_of_rows(first, second).size(), 1u);
+}
+
+TEST(Rows, ShowAnotherNumberOfATable) {
+  const auto rows = write_rows(chapters_of({}));
+  auto written = texts_of(rows);
+  written.back() = "waves,long_waves,n 8,error,m,0.07,,,,,,";
+  EXPECT_EQ(find_differences(rows, written, split_csv).size(), 1u);
 }
 
 TEST(Report, ComparesResidualsByAFactorAndNotAtAllBelowRounding) {
@@ -87,32 +162,6 @@ TEST(Report, ComparesResidualsByAFactorAndNotAtAllBelowRounding) {
   EXPECT_FALSE(residual.allows(3e-4, -3e-4));
   EXPECT_TRUE(residual.allows(0.0, -3e-13));
   EXPECT_FALSE(residual.allows(10.307, 1030.7));
-}
-
-TEST(Report, FindsAnotherWordAnotherTableAndAMissingLine) {
-  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
-  auto written = texts_of(lines);
-  for (std::string& line : written)
-    if (line == "of text") line = "of other text";
-  EXPECT_EQ(find_differences(lines, written).size(), 1u);
-  written = texts_of(lines);
-  for (std::string& line : written)
-    if (line == "| 4 | 0.25 |") line = "| 4 | 0.26 |";
-  EXPECT_EQ(find_differences(lines, written).size(), 1u);
-  written = texts_of(lines);
-  written.pop_back();
-  EXPECT_EQ(find_differences(lines, written).size(), 1u);
-}
-
-TEST(Report, KeepsWhatIsSaidOfPlantedFaults) {
-  const auto lines = write_report(chapters_of(some_check(81.4998)), "figures");
-  const std::vector<std::string> faults{"", "90 of 90 planted faults were found."};
-  std::vector<std::string> written;
-  std::istringstream text(to_text(lines, faults));
-  for (std::string line; std::getline(text, line);) written.push_back(line);
-  const WrittenReport report = take_faults(written);
-  EXPECT_EQ(report.faults, faults);
-  EXPECT_EQ(report.lines, texts_of(lines));
 }
 
 TEST(Chart, PutsPointsWhereTheAxesSay) {

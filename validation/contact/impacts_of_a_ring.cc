@@ -89,7 +89,8 @@ Findings compute_impacts_of_a_ring() {
                   "sqrt(r_b / r_j), so that its stiffness is the continuum's.",
               .head = {"contact", "towards", "rebound ratio", "largest force [N]", "largest penetration [um]",
                        "contact time [us]"},
-              .rows = {}};
+              .rows = {},
+              .keys = 2};
   const auto add = [&table](const std::string& contact, const std::string& towards, const Impact& impact) {
     table.rows.push_back({contact, towards, number(impact.speed / kSpeed, 6), number(impact.force, 4),
                           number(1e6 * impact.depth, 4), number(1e6 * impact.contact_time, 5)});

@@ -65,7 +65,8 @@ Findings compare_laws() {
               .head = {"case", "law", "peak [m/s^2]", "RMS [m/s^2]", "largest contact force [N]",
                        "deepest [um]", "friction work [mJ]", "impact loss [mJ]"},
               .rows = {},
-              .reproducible_to = 0.2};
+              .reproducible_to = 0.2,
+              .keys = 2};
   Largest residual;
   add_case("rigid, 0.25 mm, 10 rad/s", {}, table, residual);
   RpsupParameters flexible;

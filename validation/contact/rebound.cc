@@ -97,15 +97,15 @@ double simulate_face_rebound(double k_r, double gap, const RunOptions& steps) {
 }
 
 void add_face_rebounds(Findings& findings) {
-  Table table{
-      .caption =
-          "Rebound of a mass of 0.8 kg that meets a face of the bearing at 0.1 m/s, K_a = 1e8 N/m. Steps do "
-          "not end at the onset "
-          "there, error control alone makes them short: with the default tolerances the rebound is less "
-          "exact than at the bore.",
-      .head = {"k_r", "tolerance 1e-13", "closed form", "default tolerances, largest error for 20 gaps"},
-      .rows = {},
-      .reproducible_to = 0.1};
+  Table table{.caption =
+                  "Rebound of a mass of 0.8 kg that meets a face of the bearing at 0.1 m/s, K_a = 1e8 N/m. "
+                  "Steps do not end at the onset "
+                  "there, error control alone makes them short: with the default tolerances the rebound is "
+                  "less exact than at the bore.",
+              .head = {"k_r", "face: tolerance 1e-13", "face: closed form",
+                       "face: default tolerances, largest error for 20 gaps"},
+              .rows = {},
+              .reproducible_to = 0.1};
   for (const double k_r : {0.9, 0.5, 0.3}) {
     const double e = rebound_ratio(0.75 * (1.0 - k_r * k_r));
     const std::string at = " at a face of the bearing, K_a = 1e8 N/m, k_r = " + number(k_r);

@@ -218,7 +218,8 @@ Findings compute_ring_of_elements() {
                   "error of a sum any more.",
               .head = {"depth [um]", "n_ce", "elements that touch", "least", "most", "mean",
                        "largest error [%]", "its estimate [%]"},
-              .rows = {}};
+              .rows = {},
+              .keys = 2};
   charts::Chart chart{.title = "Ring of elements: error of the force",
               .x_label = "n_ce",
               .y_label = "largest error over directions",

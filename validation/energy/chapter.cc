@@ -4,29 +4,25 @@
 
 namespace validation {
 
-namespace {
-
-constexpr const char* kText =
-    R"(The account: kinetic and potential energy (gravity, the coupler's springs, the elastic part of the contact), less the work of the drives,
-plus what impacts, friction and the coupler's dampers have taken, is constant. Work and losses are integrated beside the motion, each from
-its own force; error control does not look at them. What the account fails to close by is the metric `energy_residual`, over the work turned
-over, so it is a second opinion on every run.
-
-Orders over the step are those of smooth drives: the ideal linkage's rod moves by the cycloidal law there, and the case with clearance is the second
-geometry's.
-
-How fast it falls with the step says whether force, motion and account belong together. With an ideal joint it has the order of the method,
-4 and 5. With clearance the force sets in as the penetration to the power 1.5: its higher derivatives jump there, and a step that contains
-the onset has not the method's order. `dopri5` ends its steps there and keeps order 5; `rk4` does not, and keeps 2.5 of an onset on the
-bore, where the energy goes wrong as force times displacement, and 2 of one on a face, whose force is linear.
-
-The three losses are told apart by turning their causes off, by closed forms, and by integrals over samples of force and motion.)";
-
-}  // namespace
-
 Chapter energy_chapter() {
-  return {.title = "Energy",
-          .text = kText,
+  return {.name = "energy",
+          .title = "Energy",
+          .text = R"(The energy account is constant: kinetic and potential energy (gravity, springs of the
+coupler, elastic part of the contact), less the work of the drives, plus the losses to impacts, friction and
+the coupler's dampers. Work and losses are integrated beside the motion, each from its own force; error
+control does not see them. The metric `energy_residual` is the error of the account over the work turned
+over: a second opinion on every run.
+
+The order of the residual over the step shows whether force, motion and account belong together. With an
+ideal joint the order is that of the method, 4 or 5. With clearance the force begins as the penetration to
+the power 1.5: its higher derivatives jump at the onset, and a step across the onset does not have the order
+of the method. `dopri5` ends its steps at the onset and keeps order 5. `rk4` does not: it keeps 2.5 of an
+onset on the bore, where the energy errs as force times displacement, and 2 of an onset on a face, whose
+force is linear. Orders are measured with smooth drives: the ideal linkage's rod follows the cycloidal law,
+and the case with clearance has the second geometry.
+
+Three routes tell the losses apart: removal of their causes, closed forms, and integrals over samples of
+force and motion.)",
           .parts = {{"orders_of_the_energy_residual", compute_residual_orders},
                     {"orders_of_an_onset_inside_a_step", compute_onset_orders},
                     {"each_loss_has_its_cause", compute_causes_of_loss},

@@ -142,7 +142,8 @@ Findings compute_residual_orders() {
                   "1.4 s); with clearance: the "
                   "second geometry's first 0.3 s, in which the journal falls and bounces.",
               .head = {"case", "integrator", "mean step [us]", "residual"},
-              .reproducible_to = 0.3};
+              .reproducible_to = 0.3,
+              .keys = 3};
   add_rows(table, "ideal, rigid", ideal_rk4);
   add_rows(table, "ideal, rigid", ideal_dopri5);
   add_rows(table, "second geometry, rigid, 0.25 mm", contact_rk4);

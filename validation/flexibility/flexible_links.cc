@@ -72,7 +72,7 @@ Findings compute_link_frequencies() {
                   "First frequency of crank, rod and cross link (0.1 m), each cut out of the linkage and "
                   "clamped at its root, over that of "
                   "Euler and Bernoulli's beam.",
-              .head = {"link", "3 segments", "8", "16", "32", "limit"},
+              .head = {"link", "3 segments", "8 segments", "16 segments", "32 segments", "limit"},
               .rows = {},
               .reproducible_to = 1e-6};
   for (const FlexibleLink& link : kFlexibleLinks) {

@@ -105,8 +105,9 @@ Findings compute_frequency_limits() {
                   "It falls like n^-2 where an end is clamped, like n^-4 where both are pinned or free. With "
                   "its rotary inertia the study's coupler "
                   "tends to Rayleigh's rod, with a small error of n^-2 in all modes (figure).",
-              .head = {"ends", "3", "5", "10", "20", "40", "order, 20 to 40", "limit, 0.306 kg [Hz]",
-                       "Euler and Bernoulli", "limit with rotary inertia", "Rayleigh"},
+              .head = {"ends", "3 segments", "5 segments", "10 segments", "20 segments", "40 segments",
+                       "order, 20 to 40", "limit, 0.306 kg [Hz]", "Euler and Bernoulli",
+                       "limit with rotary inertia", "Rayleigh"},
               .rows = {},
               .reproducible_to = 1e-2};
   charts::Chart without = make_chart("Without rotary inertia");

@@ -92,9 +92,10 @@ Findings compute_sag_and_decay() {
                   "its ratio is zeta omega / omega_1. The swing of "
                   "0.16 mm at 9.81 m/s^2 is not quite linear: under a tenth of gravity the damping ratio's "
                   "difference is a hundredth.",
-              .head = {"zeta asked for", "gravity [m/s^2]", "frequency found [Hz]", "expected", "zeta found",
-                       "expected"},
-              .rows = {}};
+              .head = {"zeta asked for", "gravity [m/s^2]", "frequency found [Hz]", "frequency expected [Hz]",
+                       "zeta found", "zeta expected"},
+              .rows = {},
+              .keys = 2};
   struct Case {
     double zeta, gravity, bound;
   };

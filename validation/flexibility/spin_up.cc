@@ -129,7 +129,7 @@ Findings compute_spin_up() {
   findings.tables.push_back({.caption = "Largest lag of the tip in the hub's frame: beam of 10 m, E I = "
                                         "1.4e4 N m^2, 1.2 kg/m, hub driven to 6 rad/s in 15 s by the "
                                         "cycloidal law.",
-                             .head = {"segments", "largest lag [m]", "at [s]"},
+                             .head = {"segments", "largest lag [m]", "time of the largest lag [s]"},
                              .rows = {{"5", number(five.largest, 5), number(five.at, 4)},
                                       {"10", number(ten.largest, 5), number(ten.at, 4)},
                                       {"20", number(twenty.largest, 5), number(twenty.at, 4)},

@@ -52,8 +52,8 @@ Findings compute_tip_deflections() {
   constexpr double kMoment = 1e-4;  // [N m]
   Findings findings;
   Table table{.caption = "Deflection of the clamped coupler's tip under a force at it, over P l^3 / (3 E I).",
-              .head = {"segments", "from Jacobian and springs", "from static equilibrium, along y", "along z",
-                       "1 - 1 / (4 n^2)"},
+              .head = {"segments", "from Jacobian and springs", "from static equilibrium, along y",
+                       "from static equilibrium, along z", "1 - 1 / (4 n^2)"},
               .rows = {}};
   const double rod_deflection = kForce * std::pow(Rod::kLength, 3) / (3.0 * Rod::EI());
   const std::string reference = "(1 - 1 / (4 n^2)) P l^3 / (3 E I)";

@@ -81,7 +81,7 @@ Findings compute_frictional_lag() {
       .title = "friction force over velocity", .x_label = "velocity [mm/s]", .y_label = "[N]"};
   Table table{.caption = "Loops of the friction force over a velocity that swings between 0.1 and 2.5 mm/s.",
               .head = {"frequency [rad/s]", "integral of F dv [N m/s]", "force at 1.3 mm/s, rising [N]",
-                       "falling [N]"}};
+                       "force at 1.3 mm/s, falling [N]"}};
   const std::array<const char*, 3> colours{charts::kBlue, charts::kOrange, charts::kGreen};
   double last_width = 0.0;
   double narrower = 0.0;

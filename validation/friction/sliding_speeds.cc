@@ -79,9 +79,10 @@ Findings compute_sliding_speeds() {
                   "How fast the journal slides where it touches the bore (rigid coupler, defaults). Energy "
                   "returned: by bristles that "
                   "spring back, as a share of the energy lost to friction.",
-              .head = {"clearance [mm]", "crank [rad/s]", "seconds", "largest speed [m/s]", "mean [m/s]",
+              .head = {"clearance [mm]", "crank [rad/s]", "duration [s]", "largest speed [m/s]", "mean [m/s]",
                        "contact time beyond 0.16 m/s", "largest friction / normal force", "energy returned"},
-              .reproducible_to = 0.05};
+              .reproducible_to = 0.05,
+              .keys = 3};
   for (const RunCase& c : {RunCase{0.25e-3, 10.0, 4.0}, RunCase{0.5e-3, 15.0, 4.0}}) {
     RpsupParameters parameters;
     parameters.c_r = c.c_r;

@@ -4,44 +4,54 @@
 
 namespace validation {
 
-namespace {
-
-constexpr const char* kIntegratorsText =
-    R"(Four integrators: `rk4`, the paper's classical Runge-Kutta method of order 4 in equal steps; `dopri5`, Dormand and Prince's method of order 5
-with error control; and two implicit ones with error control, `radau5` (Radau IIA of order 5) and `rodas5` (a Rosenbrock method of order 5).
-The default is `radau5`. The steps of all but `rk4` end where a ring of the journal meets or leaves the bore, and where the rod's
+Chapter integrators_chapter() {
+  return {.name = "integrators",
+          .title = "Integrators",
+          .text = R"(`rk4` is the paper's classical Runge-Kutta method of order 4 in equal steps. `dopri5` is
+the method of Dormand and Prince of order 5 with error control. Three implicit methods have error control as
+well: `radau5`, the default (Radau IIA of order 5), `rodas5` and `rodas4` (Rosenbrock methods of orders 5 and
+4). The steps of all but `rk4` end where a ring of the journal meets or leaves the bore, and where the rod's
 acceleration jumps.
 
-- Where the motion is smooth `rk4` and `dopri5` have the order that their names promise: on a pendulum against elliptic functions, on the ideal linkage
-  (constraints, multipliers, drives; the rod by the cycloidal law) against the closed form of its crank, rod and slider.
-- A mass that flies across the clearance meets the bore at gap / speed and leaves it after the time that Hertz's law gives. `dopri5` ends
-  its steps within 1e-10 m of both; `rk4` comes upon them within a step, which is what limits it in a joint with clearance.
-- Where a case converges, all give the same peak at the same instant. They are compared on the second geometry of the linkage, with which
-  other codes were run too: its rod moves by the cycloidal law, so that `rk4` meets no jumps. Its flexible cases above 5 rad/s do not
-  converge with any method: their peaks are samples, and reported as distributions. The study's geometry has a table of its own, of
-  `dopri5` and the default.
+- In smooth motion `rk4` and `dopri5` have the order that their names promise. One reference is a pendulum
+  (elliptic functions), the other the closed form of the ideal linkage's crank, rod and slider (with
+  constraints, multipliers and drives; the rod follows the cycloidal law).
+- A mass that flies across the clearance meets the bore at gap / speed and leaves it after the time of
+  Hertz's law. `dopri5` ends its steps within 1e-10 m of both instants. `rk4` meets them inside a step, which
+  limits it in joints with clearance.
+- Where a case converges, all methods give the same peak at the same instant. The comparison uses the second
+  geometry, which other codes ran as well; its rod follows the cycloidal law, so that `rk4` meets no jumps.
+  Flexible cases of the second geometry above 5 rad/s converge with no method: their peaks are samples,
+  reported as distributions. A table of its own compares `dopri5` and the default on the study's geometry.
 
-Cost is counted in evaluations of the equations of motion: the same on every machine. Run time is proportional to it; what `radau5` solves
-beside them costs about half as much again, and the Jacobian that `rodas5` makes at each step about as much again. The default
-tolerance is chosen so that nearly all cases that converge have their peaks within a thousandth: in a joint with clearance the default divides the
-tolerances that are asked for by 2, in worn bores by 7.5; where friction is other than the study's (stiffer bristles, other laws, or none) by 30, of
-contact elements by 7.5. The case without friction, second geometry, 0.1 mm, shows what that is good for. Little damps the journal on its bore there:
-what the error of one step sets off is left seconds later, when the journal leaves the bore, and shows in the peak.
-`radau5` damps vibrations of which a step holds several periods. Stiff bristles, and a force that jumps with
-the velocity, set off those of the journal on its bore, which count though they decay: there its steps are 0.1 ms at most.
-Friction also feeds fast vibrations of flexible links, until the joint bounds them. Their size hangs on what they grow from; that they are
-there does not: steps of `radau5` with flexible links and clearance are 0.4 ms at most, which damps them little.
-`dopri5` at 1e-6, with 1e-7 absolute, is at the loosest of the decades at which both cases of the last table are
-right to five digits.
-At 10 rad/s, where hard impacts make the peak, `rk4` takes more work for less: the caption of that table gives the ratios. At 5 rad/s,
-where the journal stays on the bore, it is as good for its work. It has no way to say that its step is too long. A tighter tolerance
-costs more and changes nothing that the study looks at.)";
+Cost is counted in evaluations of the equations of motion, the same on every machine; run time is
+proportional to it. The linear systems of `radau5` cost about half as much again; the Jacobian of `rodas5`
+and `rodas4`, new at each step, about as much again. The default tolerance is chosen such that nearly all
+converging cases have their peaks within a thousandth. For this, the default divides the given tolerances in
+joints with clearance:
 
-}  // namespace
+| case | divisor |
+|---|---|
+| the study's friction | 2 |
+| worn bores | 7.5 |
+| other friction (stiffer bristles, other laws, or none) | 30 |
+| other friction, contact elements | 7.5 |
 
-Chapter integrators_chapter() {
-  return {.title = "Integrators",
-          .text = kIntegratorsText,
+The case without friction (second geometry, 0.1 mm) shows the need: little damps the journal on its bore, so
+that the error of one step is left seconds later, when the journal leaves the bore, and shows in the peak.
+`radau5` damps vibrations of which a step holds several periods. Two kinds of vibration limit its steps:
+
+- Stiff bristles, and forces that jump with the velocity, excite the journal on its bore. These vibrations
+  count although they decay: the steps are 0.1 ms at most.
+- Friction feeds fast vibrations of flexible links until the joint bounds them. Their size depends on the
+  disturbances they grow from; their presence does not. With flexible links and clearance the steps are
+  0.4 ms at most, which damps these vibrations little.
+
+Section `work_and_precision` compares cost and error. `dopri5` at 1e-6, with 1e-7 absolute, is the loosest
+decade at which both of its cases are right to five digits. At 10 rad/s, where hard impacts make the peak,
+`rk4` needs more work for a worse peak: the `note` of the table gives the ratios. At 5 rad/s, where the
+journal stays on the bore, `rk4` is as good for its work. `rk4` cannot tell that its step is too long. A
+tighter tolerance costs more and changes nothing in the study's results.)",
           .parts = {{"order_on_a_pendulum", compute_order_on_a_pendulum},
                     {"order_on_the_ideal_linkage", compute_order_on_the_linkage},
                     {"instants_of_contact", compute_contact_instants},

@@ -35,12 +35,13 @@ std::string name_of(const PeakCase& c) {
 
 Findings compare_peaks(const std::vector<PeakCase>& cases) {
   Findings findings;
-  Table table{.caption =
-                  "Largest slider acceleration in [2 s, 3 s] of the second geometry by three methods that "
-                  "share neither formula nor step.",
-              .head = {"case", "dopri5, 1e-6 [m/s²]", "at [s]", "rk4, 5 us [m/s²]", "at [s]",
-                       "default [m/s²]", "at [s]"},
-              .reproducible_to = 1e-3};
+  Table table{
+      .caption =
+          "Largest slider acceleration in [2 s, 3 s] of the second geometry by three methods that share "
+          "neither formula nor step.",
+      .head = {"case", "dopri5, 1e-6: peak [m/s²]", "dopri5, 1e-6: time [s]", "rk4, 5 us: peak [m/s²]",
+               "rk4, 5 us: time [s]", "default: peak [m/s²]", "default: time [s]"},
+      .reproducible_to = 1e-3};
   for (const PeakCase& c : cases) {
     const RpsupParameters parameters = contact_of(c);
     const RunResult dopri5 = run_rpsup(parameters, {.duration = 3.0,
@@ -113,7 +114,8 @@ Findings compute_peaks_of_the_study() {
                   "Largest slider acceleration in [2 s, 4 s] of the study's geometry, in cases that "
                   "converge. Rigid, 0.5 mm, 15 rad/s does "
                   "not: the least change of the clearance can give it another peak.",
-              .head = {"case", "dopri5, 1e-8 [m/s²]", "at [s]", "default [m/s²]", "at [s]"},
+              .head = {"case", "dopri5, 1e-8: peak [m/s²]", "dopri5, 1e-8: time [s]", "default: peak [m/s²]",
+                       "default: time [s]"},
               .reproducible_to = 1e-3};
   std::vector<PeakCase> cases{{Coupler::kFlexible, 0.1e-3, 5.0}, {Coupler::kFlexible, 0.25e-3, 5.0}};
   for (const double c_r : {0.1e-3, 0.25e-3, 0.5e-3})

@@ -5,32 +5,36 @@
 namespace validation {
 
 Chapter kinematics_chapter() {
-  return {.title = "Kinematics, reactions and constraints",
-          .text =
-              "Without clearance and with a rigid coupler the two drives alone decide the motion: the coupler's end lies on the guide. From "
-              "that closed form follow, with exact derivatives (arithmetic of Taylor polynomials of degree 6), poses, velocities and "
-              "accelerations of all links, and with Newton's and Euler's laws link after link the joint's reactions, the crank's torque and "
-              "the rod's force. None of it uses the engine.\n"
-              "\n"
-              "In the study's geometry the cross link turns about the slider's guide, gravity acts along the crank's axis, and the rod moves by its "
-              "cosine law, whose acceleration jumps where a rise begins and a return ends. A sample at a jump is from before it. The second geometry, "
-              "which other codes were run with (their chapter tells it in full), has the cross link across the guide, gravity across the crank's "
-              "axis, and a rod with the cycloidal law. `rk4` does not end its steps at jumps: its cases have the cycloidal law.\n"
-              "\n"
-              "Where constraints are integrated, with multipliers and Baumgarte's stabilisation (alpha = beta = 100 1/s), the loop opens a "
-              "little. By how much can be said beforehand: if the constraints would open with the acceleration gamma at constant rates, a "
-              "step h of rk4 leaves e_q = alpha beta^2 gamma h^5 / 48 in Phi and e_v = (alpha^2 beta^2 / 24 - beta^4 / 96) gamma h^5 in its "
-              "rate, and rounding adds to both; the stabilisation keeps of all steps' errors at most (2 alpha e_q + e_v) / (h beta^2) and "
-              "(e_q + 2 e_v / (e alpha)) / h. At 0.1 ms both parts are about 1e-12 m; at 0.01 ms only rounding is left, more of it the "
-              "smaller the step. With the flexible coupler rk4 runs with 0.05 ms and less.",
-          .parts = {{"drive_laws_have_their_features", compute_drive_laws},
-                    {"slider_follows_the_closed_form", compute_closed_form},
-                    {"locked_rod_is_a_slider_crank", compute_slider_crank},
-                    {"reactions_and_drive_forces_equal_inverse_dynamics", compute_reactions},
-                    {"constraint_drift_is_bounded", compute_constraint_drift},
-                    {"constraint_drift_of_whole_runs_is_bounded", compute_long_constraint_drift, Cost::kHeavy},
-                    {"violations_decay_as_baumgarte_says", compute_violation_decay},
-                    {"baumgarte_drives_tend_to_prescribed_ones", compute_drive_enforcement}}};
+  return {
+      .name = "kinematics",
+      .title = "Kinematics, reactions and constraints",
+      .text = R"(Without clearance and with a rigid coupler, the two drives alone decide the motion: the
+coupler's end lies on the guide. The reference is this closed form. Its exact derivatives (Taylor polynomials
+of degree 6) are the poses, velocities and accelerations of all links. Newton's and Euler's laws, link after
+link, then give the reactions of the joint, the torque of the crank and the force of the rod. The reference
+uses no part of the engine.
+
+In the study's geometry the cross link turns about the slider's guide, gravity acts along the crank's axis,
+and the rod follows its cosine law. The acceleration of this law jumps where a rise begins and where a return
+ends; a sample at a jump belongs to the time before. In the second geometry, which other codes ran (chapter
+8), the cross link turns across the guide, gravity acts across the crank's axis, and the rod follows the
+cycloidal law. `rk4` does not end its steps at jumps, so its cases have the cycloidal law.
+
+Integrated constraints (multipliers with Baumgarte's stabilisation, alpha = beta = 100 1/s) drift a little.
+The bound of the drift is known beforehand. Let gamma be the acceleration with which the constraints would
+open at constant rates. A step h of `rk4` leaves e_q = alpha beta^2 gamma h^5 / 48 in Phi and
+e_v = (alpha^2 beta^2 / 24 - beta^4 / 96) gamma h^5 in its rate, and rounding adds to both. The stabilisation
+keeps at most (2 alpha e_q + e_v) / (h beta^2) of all steps' errors in Phi, and (e_q + 2 e_v / (e alpha)) / h
+in its rate. At 0.1 ms both parts are about 1e-12 m. At 0.01 ms only rounding is left, and shorter steps
+leave more of it. With the flexible coupler the steps of `rk4` are 0.05 ms at most.)",
+      .parts = {{"drive_laws_have_their_features", compute_drive_laws},
+                {"slider_follows_the_closed_form", compute_closed_form},
+                {"locked_rod_is_a_slider_crank", compute_slider_crank},
+                {"reactions_and_drive_forces_equal_inverse_dynamics", compute_reactions},
+                {"constraint_drift_is_bounded", compute_constraint_drift},
+                {"constraint_drift_of_whole_runs_is_bounded", compute_long_constraint_drift, Cost::kHeavy},
+                {"violations_decay_as_baumgarte_says", compute_violation_decay},
+                {"baumgarte_drives_tend_to_prescribed_ones", compute_drive_enforcement}}};
 }
 
 }  // namespace validation

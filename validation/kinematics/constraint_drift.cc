@@ -133,7 +133,7 @@ Findings measure_all(const std::vector<DriftRun>& runs, RpsupParameters p, doubl
                            number(p.run_up) + " s";
   Table table{.caption = "Largest violation of the constraints of ideal joint and drives over " + span +
                          ", alpha = beta = 100 1/s. Lengths in m, angles in rad.",
-              .head = {"run", "|Phi|", "bound", "|dPhi/dt| [1/s]", "bound"},
+              .head = {"run", "|Phi|", "bound of |Phi|", "|dPhi/dt| [1/s]", "bound of |dPhi/dt| [1/s]"},
               .rows = {},
               .reproducible_to = 10.0};
   Table openings{

@@ -12,31 +12,36 @@
 namespace {
 
 void add_options(CLI::App& app, validation::program::ValidateOptions& options) {
-  app.add_option("--report", options.report, "Markdown file for the report; figures go into the folder figures beside it")
+  app.add_option("--report", options.report,
+                 "Markdown file for the report, with rows.csv and figures beside it")
       ->type_name("FILE")
       ->envname("RPSUP_REPORT");
-  app.add_option("--check", options.check, "Report whose numbers must be those of this run")->type_name("FILE")->envname("RPSUP_CHECK");
-  app.add_option("--db", options.store, "SQLite file that keeps the study's jobs for the next time; a temporary one if left out")
+  app.add_option("--check", options.check, "Report that must agree with this run, with rows.csv beside it")
+      ->type_name("FILE")
+      ->envname("RPSUP_CHECK");
+  app.add_option("--db", options.store, "SQLite file for the study's jobs; a temporary one if left out")
       ->type_name("FILE")
       ->envname("RPSUP_STUDY_DB");
   app.add_option("--threads", options.threads, "Jobs computed at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str()
       ->envname("RPSUP_THREADS");
-  app.add_flag("--quick", options.quick, "Leave out the study and whatever else takes long")->envname("RPSUP_QUICK");
-  app.footer("Exit codes: 0 all within their bounds, 1 a comparison failed or the report says something else, 2 bad input, 3 the machine failed, "
-             "130 interrupted.");
+  app.add_flag("--quick", options.quick, "Only light parts: without the study")->envname("RPSUP_QUICK");
+  app.footer(
+      "Exit codes: 0 all within their bounds, 1 a comparison failed or the report differs, 2 bad input, "
+      "3 the machine failed, 130 interrupted.");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file that may not grow any more is an error to be told, not the end of the program.
+  // A file that may not grow any more is an error to report, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"Compare the engine with closed forms, published numbers and other codes", "rpsup-validate"};
   validation::program::ValidateOptions options;
   add_options(app, options);
-  app.set_version_flag("--version", "rpsup-validate " + std::string(jobs::kProgramVersionText), "Print the version and exit");
+  const std::string version = "rpsup-validate " + std::string(jobs::kProgramVersionText);
+  app.set_version_flag("--version", version, "Print the version and exit");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

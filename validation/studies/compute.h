@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "validation/report.h"
+#include "validation/report/report.h"
 
 namespace validation::studies {
 

@@ -25,7 +25,7 @@ void add_case(const StudyTable& table, const StudyCase& c, Findings& findings) {
 ComputedChapter energy_of_the_grid(const Study& study) {
   Findings findings;
   findings.tables.push_back({.caption = "What was lost in 5 s, and what the account leaves open.",
-                             .head = {"case", "impact, J", "friction, J", "structure, J", "residual"},
+                             .head = {"case", "impact [J]", "friction [J]", "structure [J]", "residual"},
                              .rows = {},
                              .row_reproducible_to = {}});
   for (const std::string coupler : kCouplers) {
@@ -34,12 +34,11 @@ ComputedChapter energy_of_the_grid(const Study& study) {
       for (const double velocity : kCrankVelocities)
         add_case(study.clearance, {clearance, velocity, coupler}, findings);
   }
-  return {{.title = "Energy over the paper's grid",
-           .text = "Energy less the work of the drives plus the losses to impacts, friction and the "
-                   "coupler's dampers is constant. The residual is the\n"
-                   "largest departure in a whole run of 5 s at default settings, over the work turned over "
-                   "in it (drives and losses, counted\n"
-                   "without sign).",
+  return {{.name = "energy_of_the_grid",
+           .title = "Energy over the paper's grid",
+           .text = R"(The energy, less the work of the drives, plus the losses to impacts, friction and the
+coupler's dampers, is constant. The residual is the largest departure in a whole run of 5 s at default
+settings, over the work turned over in the run (drives and losses, without sign).)",
            .parts = {}},
           {findings}};
 }

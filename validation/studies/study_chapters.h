@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "validation/report.h"
+#include "validation/report/report.h"
 #include "validation/studies/study.h"
 
 namespace validation::studies {
