@@ -36,7 +36,7 @@ struct RoundLink {
 };
 
 /// Everything that defines one RPSUP linkage, its drives and its clearance joint, in SI units.
-/// The values below are the defaults of the study; the README says where each comes from.
+/// The values below are the defaults of the study; jobs/parameters/README.md says where each comes from.
 struct RpsupParameters {
   // Links
   Coupler coupler = Coupler::kRigid;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs the snippets in other languages that README.md shows below a line `<!-- run by a test, in LANGUAGE -->`, against a service that
-# has a sweep.   readme_snippets.sh RPSUP README
+# Runs the snippets in other languages that a document shows below a line `<!-- run by a test, in LANGUAGE -->`, against a service that
+# has a sweep.   readme_snippets.sh RPSUP DOCUMENT
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 readme=$2
 
@@ -51,4 +51,4 @@ fi
 stop_service TERM
 expect_equal "$code" 0 "exit code of the service"
 [ -z "$skipped" ] || { echo "skipped, because not installed:$skipped (script/setup all)"; exit 77; }
-echo "the snippets of README.md work"
+echo "the snippets of $readme work"
