@@ -37,9 +37,30 @@ build_benches() {
     { tail -n 40 "$tree/build/bench/build.log" >&2; echo "script/bench: the build failed" >&2; exit 1; }
 }
 
+describe_commit() {
+  git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown
+}
+
 describe_machine() {
   echo "bench: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) cores, load $(cut -d' ' -f1 /proc/loadavg)," \
-    "$(c++ --version | head -n 1), commit $(git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)"
+    "$(c++ --version | head -n 1), commit $(describe_commit)"
+}
+
+# record OUTPUT WHAT [ARGUMENT...]: puts the tables of the file OUTPUT between the marks of WHAT in
+# tests/bench/README.md, with command, commit and date
+record() {
+  local output=$1 readme=$root/tests/bench/README.md
+  shift
+  grep -qxF "<!-- script/bench $1 -->" "$readme" || { echo "script/bench: $readme has no place for $1" >&2; exit 2; }
+  {
+    sed "/^<!-- script\/bench $1 -->\$/q" "$readme"
+    echo
+    echo "\`script/bench $*\`, $(date --utc +%F), commit $(describe_commit), load $(cut -d' ' -f1 /proc/loadavg)"
+    cat "$output"
+    echo
+    sed "1,/^<!-- script\/bench $1 -->\$/d" "$readme" | sed -n '/^<!-- end -->$/,$p'
+  } >"$output.readme"
+  cp "$output.readme" "$readme"
 }
 
 # run_bench PROGRAM ARGUMENT...
