@@ -23,10 +23,8 @@ constexpr double kContender = 0.99;
 constexpr double kNegligibleAcceleration = 1e-9;  // [m/s^2]: accelerations that gravity's rounding may spoil
 constexpr long kSolvesBetweenQueries = 1024;
 
-/// Search in intervals so short that a quadratic describes the acceleration inside; locates the extrema that
-/// may be the largest. Not an observer of run_kinematics(), which solves for forces as well and resolves
-/// every quantity: that takes 10 to 27 ms instead of 0.7 ms for 5 s of the default motion, and differs in the
-/// 11th digit.
+/// Goes through the motion in intervals so short that a quadratic tells the acceleration inside; locates its
+/// extremes where they contend.
 class IdealPeakSearch {
  public:
   IdealPeakSearch(const RpsupParameters& parameters, const std::function<bool(double)>& stop_requested)
@@ -107,11 +105,11 @@ class IdealPeakSearch {
     return longest;
   }
 
-  /// Position, velocity and acceleration at t, from those of two instants: see LoopClosure::lead.
+  /// Position, velocity and acceleration at t, from those of two instants: see LoopClosure::extrapolate.
   [[nodiscard]] bool solve(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) {
     if (++solves_ % kSolvesBetweenQueries == 0 && stop_requested_ && stop_requested_(t)) stopped_ = true;
     if (stopped_) return false;
-    closure_.lead(t, before, nearby, at);
+    closure_.extrapolate(t, before, nearby, at);
     return closure_.solve_motion(t, at);
   }
 

@@ -33,7 +33,8 @@ template <typename Holds>
 std::vector<FrameIndex> find_coordinates(const Mechanism& mechanism, const Holds& holds) {
   std::vector<FrameIndex> found;
   for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) {
-    const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
+    const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(),
+                                    [i](const Drive& d) { return d.coordinate == i; });
     if (!driven && holds(mechanism.coordinates[static_cast<std::size_t>(i)])) found.push_back(i);
   }
   return found;
@@ -75,7 +76,10 @@ Eigen::Index rank_of(const Eigen::MatrixXd& J) { return J.size() == 0 ? 0 : deco
 }  // namespace
 
 LoopClosure::LoopClosure(const Mechanism& mechanism)
-    : ideal_(make_ideal(mechanism)), unknown_(find_coordinates(ideal_, is_found_by_loops)), constraints_(ideal_), inverse_dynamics_(ideal_),
+    : ideal_(make_ideal(mechanism)),
+      unknown_(find_coordinates(ideal_, is_found_by_loops)),
+      constraints_(ideal_),
+      inverse_dynamics_(ideal_),
       J_(unknown_.size()) {
   Eigen::Index row = 0;
   for (const CutJoint& joint : mechanism.cut_joints)
@@ -88,7 +92,8 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
 
 bool LoopClosure::is_determined() const {
   const auto at_rest = [](const Coordinate& c) { return c.stiffness == 0.0 && c.damping == 0.0; };
-  return ideal_.springs.empty() && std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
+  return ideal_.springs.empty() &&
+         std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
          constraints_.count() == static_cast<Eigen::Index>(unknown_.size()) &&
          unknown_.size() + ideal_.drives.size() == ideal_.coordinates.size();
 }
@@ -156,7 +161,8 @@ bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& 
   if (rows.empty()) return true;
   const double given = constraints_.Phi_d(rows).cwiseAbs().maxCoeff();
   if (!open.empty()) {
-    const Eigen::VectorXd rates = -decompose(calc_columns(open)(rows, Eigen::all)).solve(constraints_.Phi_d(rows));
+    const Eigen::VectorXd rates =
+        -decompose(calc_columns(open)(rows, Eigen::all)).solve(constraints_.Phi_d(rows));
     for (std::size_t k = 0; k < open.size(); ++k) at.qd[open[k]] = rates[static_cast<Eigen::Index>(k)];
     calc_rates(at);
   }
@@ -197,7 +203,7 @@ bool LoopClosure::closes_from_perturbed(const Eigen::VectorXd& q) {
     calc_positions(at);
     const Eigen::VectorXd gaps = constraints_.Phi(rigid_rows_);
     if (gaps.cwiseAbs().maxCoeff() < kMeets) return true;
-    const Eigen::VectorXd step = follow(gaps);
+    const Eigen::VectorXd step = minimum_norm_correction(gaps);
     const double size = step.cwiseAbs().maxCoeff();
     if (size == 0.0) return false;
     at.q += std::min(1.0, kMaxStep / size) * step;
@@ -216,7 +222,8 @@ Eigen::VectorXd LoopClosure::minimum_norm_correction(const Eigen::VectorXd& gaps
 
 Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordinates) const {
   Eigen::MatrixXd columns(constraints_.count(), static_cast<Eigen::Index>(coordinates.size()));
-  for (std::size_t k = 0; k < coordinates.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(coordinates[k]);
+  for (std::size_t k = 0; k < coordinates.size(); ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(coordinates[k]);
   return columns;
 }
 
@@ -254,7 +261,7 @@ bool LoopClosure::solve_motion(double t, Evaluation& at) {
   solve_rates(at);
   calc_rates(at);
   step_ = constraints_.bias;
-  take_step(at.qdd);
+  apply_newton_step(at.qdd);
   return at.qdd.allFinite();
 }
 
@@ -271,7 +278,8 @@ void LoopClosure::predict(double t, Evaluation& at) const {
 /// coordinates.
 void LoopClosure::apply_newton_step(Eigen::VectorXd& coordinates) {
   J_.solve_in_place(step_.data());
-  for (std::size_t k = 0; k < unknown_.size(); ++k) coordinates[unknown_[k]] -= step_[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < unknown_.size(); ++k)
+    coordinates[unknown_[k]] -= step_[static_cast<Eigen::Index>(k)];
 }
 
 /// Newton's method from the predicted position. The solution is near only if the steps contract from the
@@ -286,7 +294,7 @@ bool LoopClosure::close_position(Evaluation& at) {
     if (!factor()) return false;
     if (residual() < kClosed) return true;
     step_ = constraints_.Phi;
-    take_step(at.q);
+    apply_newton_step(at.q);
     const double size = step_.cwiseAbs().maxCoeff();
     if (size <= kRounding * at.q.cwiseAbs().maxCoeff()) {
       calc_positions(at);
@@ -301,7 +309,8 @@ bool LoopClosure::close_position(Evaluation& at) {
 /// Factors Phi_q of the unknown coordinates. False if it is singular.
 bool LoopClosure::factor() {
   for (std::size_t r = 0; r < J_.size(); ++r)
-    for (std::size_t k = 0; k < J_.size(); ++k) J_(r, k) = constraints_.Phi_q(static_cast<Eigen::Index>(r), unknown_[k]);
+    for (std::size_t k = 0; k < J_.size(); ++k)
+      J_(r, k) = constraints_.Phi_q(static_cast<Eigen::Index>(r), unknown_[k]);
   return J_.factor();
 }
 
@@ -309,7 +318,7 @@ bool LoopClosure::factor() {
 void LoopClosure::solve_rates(Evaluation& at) {
   for (const FrameIndex i : unknown_) at.qd[i] = 0.0;
   step_.noalias() = constraints_.Phi_q * at.qd;
-  take_step(at.qd);
+  apply_newton_step(at.qd);
 }
 
 /// With all accelerations known the recursion gives every generalised force. On the unknown coordinates the
@@ -318,7 +327,8 @@ void LoopClosure::solve_forces(Evaluation& at) {
   calc_frame_rates(ideal_, at.qd, at.qdd, at.frames);
   const Eigen::VectorXd& forces = inverse_dynamics_.calc(at.frames);
   Eigen::VectorXd& lambda = step_;
-  for (std::size_t k = 0; k < unknown_.size(); ++k) lambda[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
+  for (std::size_t k = 0; k < unknown_.size(); ++k)
+    lambda[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
   J_.solve_transposed_in_place(lambda.data());
   for (std::size_t k = 0; k < at.joints.size(); ++k) {
     const auto [force, moment] = constraints_.calc_reaction(k, lambda, at.frames);

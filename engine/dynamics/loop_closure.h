@@ -50,7 +50,8 @@ class LoopClosure {
   /// is not before `nearby`, or t is far from both, the motion is that of `nearby`.
   void extrapolate(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) const;
 
-  /// Position, velocity, acceleration, joint reactions and drive forces at time t of a determined mechanism: solve_motion, then solve_forces.
+  /// Position, velocity, acceleration, joint reactions and drive forces at time t of a determined mechanism:
+  /// solve_motion, then solve_forces.
   [[nodiscard]] bool solve(double t, Evaluation& at);
 
   /// Position, velocity and acceleration at time t of a determined mechanism. Newton's method starts from the
@@ -68,7 +69,9 @@ class LoopClosure {
   [[nodiscard]] double determinant() const { return J_.determinant(); }
 
   /// Largest entry of Phi after the last attempt, [m] or [1].
-  [[nodiscard]] double residual() const { return constraints_.Phi.size() ? constraints_.Phi.cwiseAbs().maxCoeff() : 0.0; }
+  [[nodiscard]] double residual() const {
+    return constraints_.Phi.size() ? constraints_.Phi.cwiseAbs().maxCoeff() : 0.0;
+  }
 
  private:
   [[nodiscard]] bool assemble_rates(Evaluation& at);
@@ -83,7 +86,7 @@ class LoopClosure {
   void calc_rates(Evaluation& at);
   [[nodiscard]] bool close_position(Evaluation& at);
   void solve_rates(Evaluation& at);
-  void take_step(Eigen::VectorXd& coordinates);
+  void apply_newton_step(Eigen::VectorXd& coordinates);
   [[nodiscard]] bool factor();
 
   Mechanism ideal_;

@@ -14,7 +14,7 @@ namespace engine {
 namespace {
 
 constexpr double kFirstStep = 1e-6;     // [s]; the step control finds its own within some steps
-// A longer step that lacks bristles may have overshot: a shorter one is tried first.
+// A longer step without bristles may have overshot: a shorter one is tried first.
 constexpr double kWidenBelow = 1e-5;  // [s]
 constexpr int kMaxLandings = 6;         // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;

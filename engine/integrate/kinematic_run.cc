@@ -100,7 +100,7 @@ class KinematicRun {
 
   /// Solves for everything at time t, from the motion at two instants: see LoopClosure::extrapolate.
   [[nodiscard]] bool solve(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) {
-    closure_.lead(t, before, nearby, at);
+    closure_.extrapolate(t, before, nearby, at);
     if (!closure_.solve(t, at)) return false;
     at.energy.kinetic = calc_kinetic_energy(mechanism_, at.frames);
     at.energy.potential = calc_potential_energy(mechanism_, at.frames, at.q);

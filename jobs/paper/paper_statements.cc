@@ -45,7 +45,7 @@ struct PaperCase {
 /// The peaks of one setting, each the median of its replicates.
 using Peaks = std::map<PaperCase, double>;
 
-/// Ratios of peaks that one statement speaks of; empty if the setting lacks a peak of them.
+/// Ratios of peaks that one statement speaks of; empty if the setting has no peak for them.
 using Ratios = std::vector<double>;
 
 std::optional<double> ratio_of(const Peaks& peaks, const PaperCase& over, const PaperCase& under) {

@@ -58,7 +58,7 @@ class WearRates {
     if (!blob) return std::nullopt;
     try {
       return make_rates(std::as_bytes(std::span(*blob)), depth_um, study);
-    } catch (const WrongState&) {  // it lacks the channels of wear
+    } catch (const WrongState&) {  // it has no channels of wear
     } catch (const DamagedTrajectory&) {
     }
     return std::nullopt;

@@ -28,8 +28,8 @@ void add_numerics_option(CLI::App& command, std::string& numerics) {
 void check_processor() {
   if (!engine::instruction_sets().empty()) return;
   throw std::runtime_error(
-      "this program was built for the processor of another machine, which has instructions that this one "
-      "lacks; build it here, or there with script/build, which serves every x86-64");
+      "this program was built for the processor of another machine, whose instructions this one does not "
+      "have; build it here, or there with script/build, which serves every x86-64");
 }
 
 void enter_numerics(const std::string& numerics, char** arguments) {

@@ -132,7 +132,7 @@ int serve(const ServeOptions& options) {
   service_options.job_limits = {.wall_time_s = options.job_time_s,
                                 .steps = options.job_steps,
                                 .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
-  service_options.store_room = {.most_bytes = options.store_limit_mb * kMegabyte,
+  service_options.store_quota = {.most_bytes = options.store_limit_mb * kMegabyte,
                                 .reserve_bytes = options.disk_reserve_mb * kMegabyte};
   service_options.site = site;
   service_options.executor = options.executor;

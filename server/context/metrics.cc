@@ -152,7 +152,7 @@ void Metrics::add_request(const std::string& method, std::string_view route, int
   impl_->add_request(method, route, status, seconds);
 }
 
-std::string Metrics::text(const jobs::Load& load, const nlohmann::json& executors) const {
+std::string Metrics::text(const jobs::QueueStats& load, const nlohmann::json& executors) const {
   return impl_->text(load, executors);
 }
 

@@ -29,7 +29,7 @@ class Metrics {
   void add_request(const std::string& method, std::string_view route, int status, double seconds);
 
   /// Everything, with the load as it is now. @param executors  Service::list_executors()
-  [[nodiscard]] std::string text(const jobs::Load& load, const nlohmann::json& executors = {
+  [[nodiscard]] std::string text(const jobs::QueueStats& load, const nlohmann::json& executors = {
                                                              {"items", nlohmann::json::array()}}) const;
 
  private:

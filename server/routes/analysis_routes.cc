@@ -144,7 +144,7 @@ Response make_columns(const RequestContext& context, TableFormat format, const e
                       const std::string& name) {
   std::string text = format == TableFormat::kCsv   ? jobs::to_csv(table)
                      : format == TableFormat::kNpz ? jobs::to_npz(table)
-                                                   : to_json_columns(table);
+                                                   : jobs::to_json_columns(table);
   return with_etag(
       context.request,
       make_table(format, std::move(text), name + "-" + context.id));  // only what has ended has a trajectory

@@ -51,7 +51,7 @@ Response get_metrics(const RequestContext& context) {
   Query(context.request, {}).check();
   return {.status = 200,
           .content_type = "text/plain; version=0.0.4; charset=utf-8",
-          .body = context.metrics.text(context.service.find_load(), context.service.list_executors()),
+          .body = context.metrics.text(context.service.read_queue_stats(), context.service.list_executors()),
           .headers = {{"Cache-Control", "no-store"}}};
 }
 

@@ -89,7 +89,7 @@ TEST(LoopClosure, AllocatesNothing) {
   ASSERT_TRUE(closure.solve(1e-3, at));
   const long before = allocations;
   for (int i = 2; i < 100; ++i) {
-    closure.lead(1e-3 * i, earlier, at, earlier);
+    closure.extrapolate(1e-3 * i, earlier, at, earlier);
     ASSERT_TRUE(closure.solve(1e-3 * i, earlier));
     std::swap(earlier, at);
   }

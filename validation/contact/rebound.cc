@@ -44,8 +44,8 @@ std::vector<Form> forms() {
   linear.form = RadialForm::kElements;
   linear.n_ce = kFewElements;
   return {
-      {"exponent 1.5 (continuum)", hertz, calc_hertz_time(hertz.K, kMass, kSpeed)},
-      {"exponent 1 (one element)", linear, std::numbers::pi * std::sqrt(kMass / element_stiffness(linear))}};
+      {"exponent 1.5 (continuum)", hertz, calc_hertz_time(hertz.K, kReboundMass, kReboundSpeed)},
+      {"exponent 1 (one element)", linear, std::numbers::pi * std::sqrt(kReboundMass / element_stiffness(linear))}};
 }
 
 /// Rebound ratios known to four digits, against a slip in the equation that the others are solved from.
@@ -68,7 +68,7 @@ Check compare_floor() {
   joint.minimum_onset_rate = 1e-3;
   const double v0 = 0.4e-3;
   const double e =
-      simulate_impact(make_sliding_mass(joint, kMass), 1e-6, v0, calc_hertz_time(joint.K, kMass, v0)).speed /
+      simulate_impact(make_sliding_mass(joint, kReboundMass), 1e-6, v0, calc_hertz_time(joint.K, kReboundMass, v0)).speed /
       v0;
   return compare("rebound ratio at 0.4 mm/s, below the floor of 1 mm/s of the latched rate, k_r = 0.5",
                  "c (1 + e) = ln((1 + c) / (1 - c e)) with c = 0.4 * 3/4 (1 - k_r^2)", e,
@@ -92,8 +92,8 @@ double simulate_face_rebound(double k_r, double gap, const RunOptions& steps) {
   options.duration = gap / kReboundSpeed + 3.0 * std::numbers::pi * std::sqrt(kReboundMass / joint.K_a);
   LastRate observer;
   (void)run_from(mass, options, Eigen::VectorXd::Constant(1, kReach - gap),
-                 Eigen::VectorXd::Constant(1, kSpeed), observer);
-  return -observer.rate / kSpeed;
+                 Eigen::VectorXd::Constant(1, kReboundSpeed), observer);
+  return -observer.rate / kReboundSpeed;
 }
 
 void add_face_rebounds(Findings& findings) {
@@ -109,7 +109,7 @@ void add_face_rebounds(Findings& findings) {
   for (const double k_r : {0.9, 0.5, 0.3}) {
     const double e = rebound_ratio(0.75 * (1.0 - k_r * k_r));
     const std::string at = " at a face of the bearing, K_a = 1e8 N/m, k_r = " + number(k_r);
-    const double found = simulate_face_rebound(k_r, kGap, kTightSteps);
+    const double found = simulate_face_rebound(k_r, kReboundGap, kTightSteps);
     findings.checks.push_back(compare(
         "rebound ratio" + at, "c (1 + e) = ln((1 + c) / (1 - c e)), c = 3/4 (1 - k_r^2)", found, e, 1e-8, "1",
         "a tolerance of 1e-13 makes the step of the onset so short that its error is no larger"));
@@ -167,13 +167,13 @@ Findings compute_rebounds() {
     for (Form& form : forms()) {
       form.joint.chi = calc_damping_factor(NormalForceLaw::kLankaraniNikravesh, known.k_r);
       const Impact impact =
-          simulate_impact(make_sliding_mass(form.joint, kMass), kGap, kSpeed, form.contact_time);
-      const double found = impact.speed / kSpeed;
+          simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap, kReboundSpeed, form.contact_time);
+      const double found = impact.speed / kReboundSpeed;
       const std::string at = ", k_r = " + number(known.k_r) + ", " + form.name;
       findings.checks.push_back(compare(
           "rebound ratio" + at, "c (1 + e) = ln((1 + c) / (1 - c e)), c = 3/4 (1 - k_r^2)", found, e, 1e-8,
           "1", "some hundred steps with a tolerance of 1e-13; contact begins up to 1e-10 m late"));
-      const double loss = 0.5 * kMass * kSpeed * kSpeed * (1.0 - e * e);
+      const double loss = 0.5 * kReboundMass * kReboundSpeed * kReboundSpeed * (1.0 - e * e);
       findings.checks.push_back(compare("impact loss in the energy account" + at,
                                         "m v0^2 (1 - e^2) / 2 with the e of the closed form",
                                         1e3 * impact.loss, 1e3 * loss, 3e-8 * 1e3 * loss, "mJ",
@@ -223,29 +223,29 @@ Findings compute_elastic_impacts() {
     ClearanceParameters joint = one_ring(c_r);
     joint.chi = 0.0;
     const std::string at = ", elastic, Hertz, c_r = " + number(1e3 * c_r) + " mm";
-    const double time = calc_hertz_time(joint.K, kMass, kSpeed);
-    const Impact impact = simulate_impact(make_sliding_mass(joint, kMass), kGap, kSpeed, time);
+    const double time = calc_hertz_time(joint.K, kReboundMass, kReboundSpeed);
+    const Impact impact = simulate_impact(make_sliding_mass(joint, kReboundMass), kReboundGap, kReboundSpeed, time);
     add("largest penetration" + at, "(5 m v0^2 / (4 K))^(2/5)", 1e6 * impact.depth,
-        1e6 * std::pow(1.25 * kMass * kSpeed * kSpeed / joint.K, 0.4), 1e-6, "um",
+        1e6 * std::pow(1.25 * kReboundMass * kReboundSpeed * kReboundSpeed / joint.K, 0.4), 1e-6, "um",
         "the turn lies between two steps, where the velocity is read as linear");
     add("contact time" + at, "2.94328 delta_max / v0, 2.94328 = 0.8 Gamma(2/5) Gamma(1/2) / Gamma(9/10)",
         1e6 * impact.contact_time, 1e6 * time, 1e-6, "us", at_onset);
-    add("speed after parting" + at, "v0", impact.speed, kSpeed, 1e-8, "m/s", of_dopri);
-    add("onset of contact" + at, "gap / v0", 1e6 * impact.onset_time, 1e6 * kGap / kSpeed, 1e-9, "us",
+    add("speed after parting" + at, "v0", impact.speed, kReboundSpeed, 1e-8, "m/s", of_dopri);
+    add("onset of contact" + at, "gap / v0", 1e6 * impact.onset_time, 1e6 * kReboundGap / kReboundSpeed, 1e-9, "us",
         of_dopri);
   }
   Form form = forms().back();
   form.joint.chi = 0.0;
   const double s = element_stiffness(form.joint);
   const Impact impact =
-      simulate_impact(make_sliding_mass(form.joint, kMass), kGap, kSpeed, form.contact_time);
+      simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap, kReboundSpeed, form.contact_time);
   add("largest penetration, elastic, one element", "v0 sqrt(m / s)", 1e6 * impact.depth,
-      1e6 * kSpeed * std::sqrt(kMass / s), 1e-6, "um",
+      1e6 * kReboundSpeed * std::sqrt(kReboundMass / s), 1e-6, "um",
       "the turn lies between two steps, where the velocity is read as linear");
   add("contact time, elastic, one element", "half a period, pi sqrt(m / s)", 1e6 * impact.contact_time,
       1e6 * form.contact_time, 1e-6, "us", at_onset);
-  add("speed after parting, elastic, one element", "v0", impact.speed, kSpeed, 1e-8, "m/s", of_dopri);
-  add("onset of contact, one element", "gap / v0", 1e6 * impact.onset_time, 1e6 * kGap / kSpeed, 1e-9, "us",
+  add("speed after parting, elastic, one element", "v0", impact.speed, kReboundSpeed, 1e-8, "m/s", of_dopri);
+  add("onset of contact, one element", "gap / v0", 1e6 * impact.onset_time, 1e6 * kReboundGap / kReboundSpeed, 1e-9, "us",
       of_dopri);
   return findings;
 }

@@ -22,7 +22,7 @@ namespace validation {
 
 namespace {
 
-constexpr const char* kGiven =
+constexpr const char* kSpinUpGiven =
     "value given by an independent computation of the same model, to the digits shown";
 
 constexpr double kLength = 10.0;        // [m]
@@ -115,17 +115,17 @@ Findings compute_spin_up() {
   const double order = std::log2((five.largest - ten.largest) / (ten.largest - twenty.largest));
   const std::string beam = "largest lag of the tip of a beam spun up from rest to 6 rad/s in 15 s, ";
   findings.checks.push_back(
-      compare(beam + "10 segments", kGiven, ten.largest, -0.5692, 5.1e-5, "m", "half of its last digit"));
+      compare(beam + "10 segments", kSpinUpGiven, ten.largest, -0.5692, 5.1e-5, "m", "half of its last digit"));
   findings.checks.push_back(
-      compare(beam + "20 segments", kGiven, twenty.largest, -0.5726, 5.1e-5, "m", "half of its last digit"));
-  findings.checks.push_back(compare(beam + "in the limit, from 5, 10 and 20 segments", kGiven, limit, -0.5738,
+      compare(beam + "20 segments", kSpinUpGiven, twenty.largest, -0.5726, 5.1e-5, "m", "half of its last digit"));
+  findings.checks.push_back(compare(beam + "in the limit, from 5, 10 and 20 segments", kSpinUpGiven, limit, -0.5738,
                                     5.1e-5, "m", "half of its last digit"));
   findings.checks.push_back(
       compare("order of the error of the largest lag of a beam spun up in the number of segments, 5, 10, 20",
               "2", order, 2.0, 0.06, "1", "terms of n^-4"));
   findings.checks.push_back(compare(
       "time of the largest lag of the tip of a beam spun up from rest to 6 rad/s in 15 s, 20 segments",
-      kGiven, twenty.at, 6.76, 5.1e-3, "s", "half of its last digit"));
+      kSpinUpGiven, twenty.at, 6.76, 5.1e-3, "s", "half of its last digit"));
   findings.tables.push_back({.caption = "Largest lag of the tip in the hub's frame: beam of 10 m, E I = "
                                         "1.4e4 N m^2, 1.2 kg/m, hub driven to 6 rad/s in 15 s by the "
                                         "cycloidal law.",

@@ -8,10 +8,9 @@ Chapter integrators_chapter() {
   return {.name = "integrators",
           .title = "Integrators",
           .text = R"(`rk4` is the paper's classical Runge-Kutta method of order 4 in equal steps. `dopri5` is
-the method of Dormand and Prince of order 5 with error control. Three implicit methods have error control as
-well: `radau5`, the default (Radau IIA of order 5), `rodas5` and `rodas4` (Rosenbrock methods of orders 5 and
-4). The steps of all but `rk4` end where a ring of the journal meets or leaves the bore, and where the rod's
-acceleration jumps.
+the method of Dormand and Prince of order 5 with error control. Two implicit methods have error control as
+well: `radau5`, the default (Radau IIA of order 5), and `rodas5` (a Rosenbrock method of order 5). The steps of
+all but `rk4` end where a ring of the journal meets or leaves the bore, and where the rod's acceleration jumps.
 
 - In smooth motion `rk4` and `dopri5` have the order that their names promise. One reference is a pendulum
   (elliptic functions), the other the closed form of the ideal linkage's crank, rod and slider (with
@@ -25,8 +24,8 @@ acceleration jumps.
   reported as distributions. A table of its own compares `dopri5` and the default on the study's geometry.
 
 Cost is counted in evaluations of the equations of motion, the same on every machine; run time is
-proportional to it. The linear systems of `radau5` cost about half as much again; the Jacobian of `rodas5`
-and `rodas4`, new at each step, about as much again. The default tolerance is chosen such that nearly all
+proportional to it. The linear systems of `radau5` cost about half as much again; the Jacobian of `rodas5`,
+new at each step, about as much again. The default tolerance is chosen such that nearly all
 converging cases have their peaks within a thousandth. For this, the default divides the given tolerances in
 joints with clearance:
 

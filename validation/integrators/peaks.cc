@@ -12,7 +12,7 @@ namespace validation {
 
 namespace {
 
-constexpr double kStep = 5e-6;       // of rk4, [s]
+constexpr double kPeaksStep = 5e-6;       // of rk4, [s]
 constexpr double kRounded = 1.4e-5;  // sqrt(2e-6) / w is 1.4e-4 s at the ideal linkage's w, 10 rad/s; a tenth
                                      // of it for what rides on it, [s]
 
@@ -50,7 +50,7 @@ Findings compare_peaks(const std::vector<PeakCase>& cases) {
                                                     .relative_tolerance = 1e-6,
                                                     .absolute_tolerance = 1e-7});
     const RunResult rk4 = run_rpsup(
-        parameters, {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kRk4, .step = kStep});
+        parameters, {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kRk4, .step = kPeaksStep});
     const RunResult automatic = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0});
     const double peak = metric(dopri5, "peak_slider_acceleration_m_s2");
     const double other = metric(rk4, "peak_slider_acceleration_m_s2");
@@ -66,7 +66,7 @@ Findings compare_peaks(const std::vector<PeakCase>& cases) {
                 "1.2e-4 off, order 2 to 2.5"));
     findings.checks.push_back(
         compare(name + ", 3 s: time of the peak acceleration of the slider by dopri5 at a tolerance of 1e-6",
-                "rk4 in steps of 5 us", time, other_time, rounded ? kRounded : kStep, "s",
+                "rk4 in steps of 5 us", time, other_time, rounded ? kRounded : kPeaksStep, "s",
                 rounded ? "a rounded peak of the motion, not an impact: it stays within 1e-6 of its top for "
                           "1.4e-4 s; a tenth of that"
                         : "one step: rk4 sees the acceleration where its steps end"));
@@ -145,10 +145,10 @@ Findings compute_peaks_of_the_study() {
 
 Findings compute_peaks_of_other_contacts() {
   const std::vector<OtherContact> cases{
-      with_elements(180, Coupler::kRigid, 0.25e-3, 5.0),
-      with_elements(180, Coupler::kRigid, 0.5e-3, 8.0),
-      with_elements(720, Coupler::kRigid, 0.5e-3, 15.0),
-      with_elements(720, Coupler::kFlexible, 0.1e-3, 3.0),
+      with_contact_elements(180, Coupler::kRigid, 0.25e-3, 5.0),
+      with_contact_elements(180, Coupler::kRigid, 0.5e-3, 8.0),
+      with_contact_elements(720, Coupler::kRigid, 0.5e-3, 15.0),
+      with_contact_elements(720, Coupler::kFlexible, 0.1e-3, 3.0),
       with_bristles(3000.0, 0.25e-3, 5.0),
       with_friction("elasto-plastic bristles", FrictionLaw::kElastoPlastic, 0.25e-3, 5.0),
       with_friction("smoothed Coulomb friction", FrictionLaw::kCoulomb, 0.25e-3, 8.0),

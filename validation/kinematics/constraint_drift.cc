@@ -141,7 +141,7 @@ Findings measure_all(const std::vector<DriftRun>& runs, RpsupParameters p, doubl
                  span + ", each millisecond.",
       .head = {"run", "gamma [m/s^2, 1/s^2]"},
       .rows = {}};
-  for (const Run& run : runs) {
+  for (const DriftRun& run : runs) {
     p.coupler = run.coupler;
     p.drive = run.drive;
     const bool fixed = run.step > 0.0;
@@ -158,7 +158,7 @@ Findings measure_all(const std::vector<DriftRun>& runs, RpsupParameters p, doubl
     }
     const Drift drift = measure_drift(p, options);
     const Bound bound = calc_bound(p, fixed ? run.step : kLongestStep, drift);
-    const std::string at = ", " + name_of(run) + ", " + span;
+    const std::string at = ", " + name_of_run(run) + ", " + span;
     const std::string why =
         fixed ? "what stabilisation leaves of rk4's errors and of rounding in a step, e_q and e_v: "
               : "that of rk4 with 1 ms, the longest step of this method of order 5: ";
@@ -166,9 +166,9 @@ Findings measure_all(const std::vector<DriftRun>& runs, RpsupParameters p, doubl
                                     bound.position, "m or rad", why + "(2 alpha e_q + e_v) / (h beta^2)"));
     findings.checks.push_back(limit("largest |dPhi/dt|" + at, "the loop stays closed", drift.velocity.value(),
                                     bound.velocity, "m/s or rad/s", why + "(e_q + 2 e_v / (e alpha)) / h"));
-    table.rows.push_back({name_of(run), number(drift.position.value(), 2), number(bound.position, 2),
+    table.rows.push_back({name_of_run(run), number(drift.position.value(), 2), number(bound.position, 2),
                           number(drift.velocity.value(), 2), number(bound.velocity, 2)});
-    openings.rows.push_back({name_of(run), number(drift.opening.value())});
+    openings.rows.push_back({name_of_run(run), number(drift.opening.value())});
   }
   findings.tables = {std::move(table), std::move(openings)};
   return findings;
@@ -183,7 +183,7 @@ RpsupParameters ideal_parameters() {
 /// The drift of two steps, one half of the other: its order.
 void add_order(const RpsupParameters& p, Findings& findings) {
   const auto drift_at = [&](double step) {
-    return measure(p, {.duration = 0.75, .integrator = Integrator::kRk4, .step = step});
+    return measure_drift(p, {.duration = 0.75, .integrator = Integrator::kRk4, .step = step});
   };
   const Drift coarse = drift_at(1e-3);
   const Drift fine = drift_at(5e-4);

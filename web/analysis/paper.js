@@ -45,7 +45,7 @@ export function summaryOf(rows) {
   }
   const missing = numbered.length - told.length;
   const holding = told.filter(({ holds }) => holds).length;
-  return `${holding} of ${numbered.length} hold${missing > 0 ? `; the sweep lacks the jobs of ${missing}` : ""}`;
+  return `${holding} of ${numbered.length} hold${missing > 0 ? `; the sweep has no jobs of ${missing}` : ""}`;
 }
 
 /** @type {(rows: Statement[]) => [Statement[], Statement[]]} */

@@ -46,15 +46,15 @@ function layOut({ rows, axes, metrics, view }) {
   const columns = names.map((name) => {
     const values = valuesOf(computed, name);
     const isNumeric = values.every((value) => typeof value === "number" || value === none);
-    const lacks = (row) => isNumeric && typeof row[name] !== "number";
-    return { name, values, isNumeric, lacks, lacking: computed.filter(lacks).length };
-  }).filter(({ name, lacking }) => name === view.metric || lacking < computed.length).sort((a,
-  b) => a.lacking - b.lacking);
+    const isMissing = (row) => isNumeric && typeof row[name] !== "number";
+    return { name, values, isNumeric, isMissing, missing: computed.filter(isMissing).length };
+  }).filter(({ name, missing }) => name === view.metric || missing < computed.length).sort((a,
+  b) => a.missing - b.missing);
   const last = columns[columns.length - 1];
-  const hasGap = (row) => columns.some((column, index) => index > 0 && columns[index - 1].lacks(row)
-    && !column.lacks(row));
+  const hasGap = (row) => columns.some((column, index) => index > 0 && columns[index - 1].isMissing(row)
+    && !column.isMissing(row));
   const shown = computed.filter((row) => !hasGap(row));
-  return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => last.lacks(row))
+  return { columns, shown, leftOut: computed.length - shown.length, short: shown.filter((row) => last.isMissing(row))
     .length };
 }
 

@@ -46,7 +46,7 @@ TEST_F(LoopClosureExtrapolation, IsOfSixthOrderInTheSpacing) {
       const Evaluation nearby = solved(0.05 + apart);
       const double t = 0.05 + place * apart;
       Evaluation at = first_;
-      closure_.lead(t, before, nearby, at);
+      closure_.extrapolate(t, before, nearby, at);
       EXPECT_EQ(at.t, t);
       errors[i] = largest_difference(at, solved(t));
     }
@@ -59,11 +59,11 @@ TEST_F(LoopClosureExtrapolation, MayWriteOverEitherInstant) {
   const Evaluation before = solved(0.05);
   const Evaluation nearby = solved(0.055);
   Evaluation apart = first_;
-  closure_.lead(0.06, before, nearby, apart);
+  closure_.extrapolate(0.06, before, nearby, apart);
   Evaluation over_before = before;
-  closure_.lead(0.06, over_before, nearby, over_before);
+  closure_.extrapolate(0.06, over_before, nearby, over_before);
   Evaluation over_nearby = nearby;
-  closure_.lead(0.06, before, over_nearby, over_nearby);
+  closure_.extrapolate(0.06, before, over_nearby, over_nearby);
   for (const Evaluation* at : {&over_before, &over_nearby}) {
     EXPECT_EQ(at->t, apart.t);
     EXPECT_EQ(largest_difference(*at, apart), 0.0);
@@ -85,7 +85,7 @@ TEST_F(LoopClosureExtrapolation, KeepsTheSecondInstantWhereTwoAreOfNoUse) {
                      {"far behind", earlier, later, 0.024}};
   for (const auto& c : cases) {
     Evaluation at = first_;
-    closure_.lead(c.t, c.before, c.nearby, at);
+    closure_.extrapolate(c.t, c.before, c.nearby, at);
     EXPECT_EQ(at.t, c.nearby.t) << c.what;
     EXPECT_EQ(at.q, c.nearby.q) << c.what;
     EXPECT_EQ(at.qd, c.nearby.qd) << c.what;
@@ -98,7 +98,7 @@ TEST_F(LoopClosureExtrapolation, LeadsToTheSameMotionFromWherever) {
   const Evaluation nearby = solved(0.055);
   const double t = 0.0605;
   Evaluation led = first_;
-  closure_.lead(t, before, nearby, led);
+  closure_.extrapolate(t, before, nearby, led);
   ASSERT_TRUE(closure_.solve(t, led));
   const Evaluation alone = solved(t);
   EXPECT_LT((led.q - alone.q).cwiseAbs().maxCoeff(), 1e-11);

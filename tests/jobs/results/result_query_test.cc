@@ -95,8 +95,8 @@ TEST(ResultQuery, FindsTheParametersThatTheSweepDoesNotVary) {
 TEST(ResultQuery, FindsTheColumnsOfErrorsIfTheyAreNamed) {
   const jobs::ResultQuery query{.fields = "job_id,error_detail", .filters = {{"error_reason", "lock_up"}}, .order_by = "restitution", .limit = {}};
   EXPECT_EQ(jobs::find_other_columns(query, {}), (Strings{"restitution", "error_reason", "error_detail"}));
-  EXPECT_TRUE(jobs::need_parameters({"restitution", "error_reason"}));
-  EXPECT_FALSE(jobs::need_parameters({"error_reason", "error_detail"}));
+  EXPECT_EQ(jobs::needed_parameters({"restitution", "error_reason"}), jobs::RowParameters::kAll);
+  EXPECT_EQ(jobs::needed_parameters({"error_reason", "error_detail"}), jobs::RowParameters::kNone);
   EXPECT_EQ(jobs::find_other_columns({.fields = "job_id", .filters = {}, .order_by = {}, .limit = {}}, {}), Strings{});
 }
 

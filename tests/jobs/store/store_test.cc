@@ -17,7 +17,7 @@ constexpr std::size_t kMaxQueuedInStore = 1000;
 
 jobs::SweepPlan stored_plan_of(const char* request) { return jobs::plan_sweep(request_of(request), 10'000); }
 
-std::string add_sweep(jobs::Store& store, const char* request) { return store.queue.add_sweep(plan_of(request), request, kMaxQueued); }
+std::string add_sweep(jobs::Store& store, const char* request) { return store.queue.add_sweep(stored_plan_of(request), request, kMaxQueuedInStore); }
 
 jobs::RunRecord success(double metric) {
   jobs::RunRecord record;
@@ -321,7 +321,7 @@ TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
   const auto claim = [&] { speeds.push_back(json_of(store.queue.claim().value().parameters).at("crank_velocity_rad_s").dump()); };
   claim();
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [11, 12]}})");
-  (void)store.queue.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueued);
+  (void)store.queue.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueuedInStore);
   for (int i = 0; i < 6; ++i) claim();
   EXPECT_EQ(speeds, (std::vector<std::string>{"1.0", "11.0", "21.0", "2.0", "12.0", "3.0", "4.0"}));
 }
@@ -329,10 +329,10 @@ TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
 TEST(Store, RefusesMoreThanMayWaitAndStoresNoneOfThem) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());
-  EXPECT_THROW((void)store.queue.add_sweep(plan_of(kThreeJobs), kThreeJobs, 2), jobs::QueueFull);
+  EXPECT_THROW((void)store.queue.add_sweep(stored_plan_of(kThreeJobs), kThreeJobs, 2), jobs::QueueFull);
   EXPECT_TRUE(store.reader.list_sweeps("", "", 10).empty());
   EXPECT_TRUE(store.reader.list_jobs("", "", 10).empty());
-  EXPECT_NO_THROW((void)store.queue.add_sweep(plan_of(kThreeJobs), kThreeJobs, 3));
+  EXPECT_NO_THROW((void)store.queue.add_sweep(stored_plan_of(kThreeJobs), kThreeJobs, 3));
 }
 
 TEST(Store, DropsTheResultOfACancelledJob) {
