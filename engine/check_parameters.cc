@@ -23,9 +23,15 @@ std::string to_text(double value) {
 }
 
 /// Written so that not-a-number fails as well.
-void require_positive(double value, const std::string& field) { require(value > 0.0 && std::isfinite(value), field, "a finite number above 0"); }
-void require_not_negative(double value, const std::string& field) { require(value >= 0.0 && std::isfinite(value), field, "a finite number of at least 0"); }
-void require_finite(double value, const std::string& field) { require(std::isfinite(value), field, "a finite number"); }
+void require_positive(double value, const std::string& field) {
+  require(value > 0.0 && std::isfinite(value), field, "a finite number above 0");
+}
+void require_not_negative(double value, const std::string& field) {
+  require(value >= 0.0 && std::isfinite(value), field, "a finite number of at least 0");
+}
+void require_finite(double value, const std::string& field) {
+  require(std::isfinite(value), field, "a finite number");
+}
 
 /// Moments of a body obey I_x <= I_y + I_z and its turns, about any point.
 bool is_inertia_of_a_body(const Eigen::Vector3d& I) {
@@ -38,7 +44,8 @@ bool is_along_z(std::size_t link) { return link == static_cast<std::size_t>(Link
 
 void check_links(const RpsupParameters& p) {
   static constexpr std::array<const char*, kLinkCount> names{"1,1", "1,2", "1,3", "2,1", "2,2"};
-  const std::array<double, kLinkCount> lengths{p.crank_length, p.rod_length, p.coupler_length, 0.0, p.cross_length};
+  const std::array<double, kLinkCount> lengths{p.crank_length, p.rod_length, p.coupler_length, 0.0,
+                                               p.cross_length};
   for (std::size_t k = 0; k < kLinkCount; ++k) {
     const std::string name = std::string("links.") + names[k];
     const LinkInertia& link = p.links[k];
@@ -49,8 +56,9 @@ void check_links(const RpsupParameters& p) {
     const double steiner = link.mass * 0.25 * lengths[k] * lengths[k];
     const Eigen::Vector3d along = is_along_z(k) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
     require(is_inertia_of_a_body(link.inertia - steiner * (Eigen::Vector3d::Ones() - along)), field,
-            "those of a body about its frame's origin: about the centre of mass, at " + std::string(is_along_z(k) ? "z" : "x") + " = " +
-                to_text(0.5 * lengths[k]) + " m, they break I_x <= I_y + I_z or are not above 0");
+            "those of a body about its frame's origin: about the centre of mass, at " +
+                std::string(is_along_z(k) ? "z" : "x") + " = " + to_text(0.5 * lengths[k]) +
+                " m, they break I_x <= I_y + I_z or are not above 0");
   }
 }
 
@@ -80,7 +88,8 @@ void check_coupler(const RpsupParameters& p) {
 void check_round_link(const RoundLink& link, const std::string& name) {
   require_positive(link.diameter, name + ".diameter");
   require_not_negative(link.inner_diameter, name + ".inner_diameter");
-  require(link.inner_diameter < link.diameter, name + ".inner_diameter", "below the outer diameter of " + to_text(1e3 * link.diameter) + " mm");
+  require(link.inner_diameter < link.diameter, name + ".inner_diameter",
+          "below the outer diameter of " + to_text(1e3 * link.diameter) + " mm");
   require(link.elements >= 2, name + ".elements", "at least 2");
   require_not_negative(link.damping_ratio, name + ".damping_ratio");
 }
@@ -89,7 +98,8 @@ void check_other_links(const RpsupParameters& p) {
   check_round_link(p.crank, "crank");
   check_round_link(p.rod, "rod");
   check_round_link(p.cross, "cross");
-  require(p.cross.model == LinkModel::kRigid || p.cross_length > 0.0, "cross_length", "above 0, as the cross link is flexible");
+  require(p.cross.model == LinkModel::kRigid || p.cross_length > 0.0, "cross_length",
+          "above 0, as the cross link is flexible");
 }
 
 void check_drives(const RpsupParameters& p) {
@@ -113,26 +123,33 @@ void check_friction(const RpsupParameters& p) {
   require(p.break_away >= 0.0 && p.break_away < 1.0, "break_away", "at least 0 and below 1");
   require_positive(p.v_0, "v_0");
   require_positive(p.v_1, "v_1");
-  require(p.friction != FrictionLaw::kAmbrosio || p.v_1 > p.v_0, "v_1", "above v_0, " + to_text(p.v_0) + " m/s");
+  require(p.friction != FrictionLaw::kAmbrosio || p.v_1 > p.v_0, "v_1",
+          "above v_0, " + to_text(p.v_0) + " m/s");
 }
 
 void check_wear(const RpsupParameters& p) {
   if (p.wear_depth.empty()) return;
   require(p.c_r > 0.0, "wear_depth", "left out for the ideal joint, which has no bore to wear");
-  require(p.contact == ContactForm::kContinuum, "wear_depth", "left out for contact elements: a worn bore is for contact continuum");
-  require(p.wear_depth.size() == static_cast<std::size_t>(p.radial_levels), "wear_depth", "one list for each of the rings, " + std::to_string(p.radial_levels));
+  require(p.contact == ContactForm::kContinuum, "wear_depth",
+          "left out for contact elements: a worn bore is for contact continuum");
+  require(p.wear_depth.size() == static_cast<std::size_t>(p.radial_levels), "wear_depth",
+          "one list for each of the rings, " + std::to_string(p.radial_levels));
   const double most = kMostWear * p.bearing_radius;
   for (const std::vector<double>& ring : p.wear_depth) {
-    require(ring.size() >= 3 && ring.size() == p.wear_depth.front().size(), "wear_depth", "lists of the same three sectors or more");
+    require(ring.size() >= 3 && ring.size() == p.wear_depth.front().size(), "wear_depth",
+            "lists of the same three sectors or more");
     for (const double depth : ring)
-      require(depth >= 0.0 && depth <= most, "wear_depth", "shallow: at least 0 and at most a tenth of the bearing radius, " + to_text(1e6 * most) + " um");
+      require(
+          depth >= 0.0 && depth <= most, "wear_depth",
+          "shallow: at least 0 and at most a tenth of the bearing radius, " + to_text(1e6 * most) + " um");
   }
 }
 
 void check_joint(const RpsupParameters& p) {
   require_positive(p.bearing_radius, "bearing_radius");
   require_positive(p.bearing_length, "bearing_length");
-  require(p.c_r >= 0.0 && p.c_r < p.bearing_radius, "c_r", "at least 0 and below the bearing radius of " + to_text(1e3 * p.bearing_radius) + " mm");
+  require(p.c_r >= 0.0 && p.c_r < p.bearing_radius, "c_r",
+          "at least 0 and below the bearing radius of " + to_text(1e3 * p.bearing_radius) + " mm");
   require_not_negative(p.c_a, "c_a");
   require(p.radial_levels >= 1, "radial_levels", "at least 1");
   require(p.radial_elements >= 3, "radial_elements", "at least 3");
@@ -158,27 +175,34 @@ void check_options(const RunOptions& options) {
 }
 
 /// Largest distance of the S joint from the crank's axis.
-double calc_farthest_rod(const RpsupParameters& p) { return std::max(std::abs(p.rod_start), std::abs(p.rod_start + p.rod_stroke)); }
+double calc_farthest_rod(const RpsupParameters& p) {
+  return std::max(std::abs(p.rod_start), std::abs(p.rod_start + p.rod_stroke));
+}
 
-/// True if the coupler reaches the guide for whatever crank angle and rod position: no need to look at instants then.
+/// True if the coupler reaches the guide for whatever crank angle and rod position: no need to look at
+/// instants then.
 bool reaches_always(const RpsupParameters& p) {
   const double most = calc_farthest_rod(p);
   const double y = most + std::abs(p.guide_offset_y);
-  const double z = most * std::abs(std::sin(p.guide_angle)) + std::abs(p.guide_offset_z * std::cos(p.guide_angle));
+  const double z =
+      most * std::abs(std::sin(p.guide_angle)) + std::abs(p.guide_offset_z * std::cos(p.guide_angle));
   return calc_coupler_projection_squared(p, Eigen::Vector3d(0.0, y, z)) > 0.0;
 }
 
-/// Time between two looks at the motion, so that neither drive moves far between them; a linkage that would need more than kMostLooks is looked at
-/// more seldom, and if it locks between them, the run says so.
+/// Time between two looks at the motion, so that neither drive moves far between them; a linkage that would
+/// need more than kMostLooks is looked at more seldom, and if it locks between them, the run says so.
 double calc_time_between_looks(const RpsupParameters& p, double duration) {
   constexpr double kMostLooks = 1e5;
   constexpr double kAngle = 0.02;     // [rad] of the crank between two looks
   constexpr double kOfStroke = 0.02;  // of the rise time
   const double speed = std::max(std::abs(p.crank_velocity), 1e-9);
-  return std::max(std::min({kAngle / speed, kOfStroke * p.rod_stroke_time, 0.1 * duration}), duration / kMostLooks);
+  return std::max(std::min({kAngle / speed, kOfStroke * p.rod_stroke_time, 0.1 * duration}),
+                  duration / kMostLooks);
 }
 
-std::string describe_instant(const std::string& at_start, const std::string& later, double t) { return t == 0.0 ? at_start : later + to_text(t) + " s"; }
+std::string describe_instant(const std::string& at_start, const std::string& later, double t) {
+  return t == 0.0 ? at_start : later + to_text(t) + " s";
+}
 
 /// The guide must be within the coupler's reach at every instant.
 void check_reach(const RpsupParameters& p, double duration) {
@@ -188,10 +212,12 @@ void check_reach(const RpsupParameters& p, double duration) {
     const double t = duration * static_cast<double>(k) / static_cast<double>(looks);
     const double squared = calc_coupler_projection_squared(p, t);
     if (squared > 0.0) continue;
-    throw InvalidInput("reach", describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", t) + ": the coupler of " +
-                                    to_text(p.coupler_length) + " m must be longer than " +
-                                    to_text(std::sqrt(p.coupler_length * p.coupler_length - squared)) +
-                                    " m to reach from the end of the rod to the slider's guide there (guide_offset_y_m, guide_offset_z_m)");
+    throw InvalidInput("reach",
+                       describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", t) +
+                           ": the coupler of " + to_text(p.coupler_length) + " m must be longer than " +
+                           to_text(std::sqrt(p.coupler_length * p.coupler_length - squared)) +
+                           " m to reach from the end of the rod to the slider's guide there "
+                           "(guide_offset_y_m, guide_offset_z_m)");
   }
 }
 
@@ -207,24 +233,29 @@ double find_least(const Function& function, double from, double to) {
   return 0.5 * (from + to);
 }
 
-/// With the yoke about the guide the S joint must be further from the guide than the cross link is long: at that distance both ways to assemble
-/// the linkage meet, and a cross link without length could turn freely.
+/// With the yoke about the guide the S joint must be further from the guide than the cross link is long: at
+/// that distance both ways to assemble the linkage meet, and a cross link without length could turn freely.
 void check_yoke(const RpsupParameters& p, double duration) {
   constexpr double kMeets = 1e-9;  // [m]
   const auto arm = [&p](double t) { return calc_yoke_arm(p, t); };
   if (p.yoke_axis != YokeAxis::kGuide) return;
-  const double apart = std::abs(p.guide_offset_z * std::cos(p.guide_angle)) - calc_farthest_rod(p) * std::abs(std::sin(p.guide_angle));
+  const double apart = std::abs(p.guide_offset_z * std::cos(p.guide_angle)) -
+                       calc_farthest_rod(p) * std::abs(std::sin(p.guide_angle));
   if (apart > p.cross_length + kMeets) return;
   const double interval = calc_time_between_looks(p, duration);
   const auto looks = static_cast<long>(std::ceil(duration / interval));
   for (long k = 0; k <= looks; ++k) {
     double t = std::min(static_cast<double>(k) * interval, duration);
-    if (const double before = std::max(0.0, t - interval), after = std::min(duration, t + interval); arm(t) <= std::min(arm(before), arm(after)))
+    if (const double before = std::max(0.0, t - interval), after = std::min(duration, t + interval);
+        arm(t) <= std::min(arm(before), arm(after)))
       t = find_least(arm, before, after);
     if (arm(t) > kMeets) continue;
-    throw InvalidInput("yoke", describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", k == 0 ? 0.0 : t) +
-                                   ": the end of the rod is not further than the cross link's " + to_text(1e3 * p.cross_length) +
-                                   " mm from the slider's guide, about which the cross link turns (guide_offset_y_m, guide_offset_z_m, yoke_axis)");
+    throw InvalidInput(
+        "yoke",
+        describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", k == 0 ? 0.0 : t) +
+            ": the end of the rod is not further than the cross link's " + to_text(1e3 * p.cross_length) +
+            " mm from the slider's guide, about which the cross link turns (guide_offset_y_m, "
+            "guide_offset_z_m, yoke_axis)");
   }
 }
 

@@ -13,7 +13,9 @@ class InvalidInput : public std::runtime_error {
   InvalidInput(std::string field, std::string detail)
       : std::runtime_error(field + ": " + detail), field_(std::move(field)), detail_(std::move(detail)) {}
 
-  [[nodiscard]] const std::string& field() const { return field_; }    ///< path of the field, e.g. "links.1,3.inertia"
+  [[nodiscard]] const std::string& field() const {
+    return field_;
+  }  ///< path of the field, e.g. "links.1,3.inertia"
   [[nodiscard]] const std::string& detail() const { return detail_; }  ///< what is wrong and what is allowed
 
  private:

@@ -29,14 +29,16 @@ RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer&
   if (!closure.assemble(0.0, assembled)) {
     RunEnd end;
     end.status = RunStatus::kAssembly;
-    end.detail = closure.rates_fit() ? "the loop cannot be closed at t = 0: the nearest position found leaves a gap of " +
-                                           std::to_string(closure.residual()) + " m"
-                                     : "the velocities given for t = 0 would tear the loop apart";
+    end.detail = closure.rates_fit()
+                     ? "the loop cannot be closed at t = 0: the nearest position found leaves a gap of " +
+                           std::to_string(closure.residual()) + " m"
+                     : "the velocities given for t = 0 would tear the loop apart";
     return end;
   }
   bool ideal = mechanism.drive_rows == DriveRows::kEliminated && options.integrator != Integrator::kRk4;
   for (const CutJoint& joint : mechanism.cut_joints) ideal = ideal && !joint.clearance;
-  if (ideal && closure.is_determined() && closure.redundant() == 0) return run_kinematics(mechanism, closure, options, observer, assembled);
+  if (ideal && closure.is_determined() && closure.redundant() == 0)
+    return run_kinematics(mechanism, closure, options, observer, assembled);
   if (closure.redundant() == 0) return Integration(mechanism, options, observer).run(assembled);
   Mechanism dependent = mechanism;
   dependent.minimum_norm_multipliers = true;

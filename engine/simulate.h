@@ -10,8 +10,8 @@ namespace engine {
 
 /// Runs a mechanism from its assembled position, at rest but for what the drives ask at t = 0.
 ///
-/// A mechanism whose drives alone decide its motion is solved at each instant, not integrated, unless the paper's fixed-step method
-/// (or drives with multipliers) is asked for.
+/// A mechanism whose drives alone decide its motion is solved at each instant, not integrated, unless the
+/// paper's fixed-step method (or drives with multipliers) is asked for.
 [[nodiscard]] RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer);
 
 }  // namespace engine

@@ -13,13 +13,16 @@ LinkageTables linkage_tables(const Linkage& linkage) {
   return {quantities.channel_table(), quantities.metric_table()};
 }
 
-RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, double steady_from, const StopQuery& stop_requested) {
+RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, double steady_from,
+                           const StopQuery& stop_requested) {
   const BuiltLinkage built = check_linkage(linkage);
   LinkageQuantities quantities(linkage, built, steady_from);
-  RunObserver observer(RunMetrics(quantities.measured()), RunChannels(quantities.channels(), built.mechanism.links, quantities.prepare()),
+  RunObserver observer(RunMetrics(quantities.measured()),
+                       RunChannels(quantities.channels(), built.mechanism.links, quantities.prepare()),
                        stop_requested);
   const RunEnd end = simulate(built.mechanism, options, observer);
-  RunResult result{.status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
+  RunResult result{
+      .status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
   if (end.status == RunStatus::kSucceeded) result.metrics = quantities.calc_metrics(observer.metrics, end);
   result.trajectory = observer.channels.finish(0.0);
   return result;

@@ -18,8 +18,10 @@ namespace {
 /// Gathers what slid in the joint beside channels and metrics, which read it.
 class RpsupObserver final : public RunObserver {
  public:
-  RpsupObserver(RunMetrics run_metrics, RunChannels run_channels, SlidingWork& sliding_work, const StopQuery& stop_requested)
-      : RunObserver(std::move(run_metrics), std::move(run_channels), stop_requested), sliding_work_(sliding_work) {}
+  RpsupObserver(RunMetrics run_metrics, RunChannels run_channels, SlidingWork& sliding_work,
+                const StopQuery& stop_requested)
+      : RunObserver(std::move(run_metrics), std::move(run_channels), stop_requested),
+        sliding_work_(sliding_work) {}
 
   void on_step(const Evaluation& start, const Evaluation& end) override {
     sliding_work_.take_step(start, end);
@@ -32,16 +34,20 @@ class RpsupObserver final : public RunObserver {
 
 }  // namespace
 
-RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& options, const StopQuery& stop_requested) {
+RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& options,
+                         const StopQuery& stop_requested) {
   check_parameters(parameters, options);
   const Rpsup rpsup = build_rpsup(parameters);
   SlidingWork sliding_work(parameters);
   RpsupObserver observer(RunMetrics(rpsup_measured(parameters, rpsup.layout)),
-                         RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links), sliding_work, stop_requested);
+                         RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links),
+                         sliding_work, stop_requested);
   const RunEnd end = simulate(rpsup.mechanism, options, observer);
-  RunResult result{.status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
+  RunResult result{
+      .status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
   if (end.status == RunStatus::kSucceeded) {
-    const std::optional<Peak> ideal = find_ideal_peak(parameters, parameters.run_up, options.duration, stop_requested);
+    const std::optional<Peak> ideal =
+        find_ideal_peak(parameters, parameters.run_up, options.duration, stop_requested);
     if (stop_requested && stop_requested(end.t)) {
       result.status = RunStatus::kStopped;
       result.detail = "stopped on request";

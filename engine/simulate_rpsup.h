@@ -6,9 +6,10 @@
 
 namespace engine {
 
-/// Refuses parameters that are no linkage: values out of bounds, an inertia no body can have, a guide out of reach
-/// of the coupler somewhere in the motion.
-/// @throws InvalidInput for the first fault; its field is the name of the member, "links.1,3.inertia" for a link's, "reach" where
+/// Refuses parameters that are no linkage: values out of bounds, an inertia no body can have, a guide out of
+/// reach of the coupler somewhere in the motion.
+/// @throws InvalidInput for the first fault; its field is the name of the member, "links.1,3.inertia" for a
+/// link's, "reach" where
 ///         no single one is at fault.
 void check_parameters(const RpsupParameters& parameters, const RunOptions& options);
 

@@ -11,7 +11,8 @@ JointReactions::JointReactions(const Mechanism& mechanism)
     : mechanism_(mechanism), inverse_dynamics_(mechanism), frames_(mechanism.coordinates.size()) {}
 
 void JointReactions::calc(const Evaluation& at) {
-  calc_frame_motions(mechanism_, at.q, at.qd, at.qdd, frames_);  // those of `at` may lack the free coordinates' accelerations
+  calc_frame_motions(mechanism_, at.q, at.qd, at.qdd,
+                     frames_);  // those of `at` may lack the free coordinates' accelerations
   for (std::size_t k = 0; k < at.joints.size(); ++k) add_cut_joint(mechanism_.cut_joints[k], at.joints[k]);
   for (const PointSpring& spring : mechanism_.springs) add_spring(spring);
   (void)inverse_dynamics_.calc(frames_);
@@ -30,7 +31,9 @@ void JointReactions::add_spring(const PointSpring& spring) {
 
 /// Force and moment act where the journal's centre is, the opposite ones on the bearing there.
 void JointReactions::add_cut_joint(const CutJoint& joint, const JointState& state) {
-  const auto frame_of = [&](FrameIndex index) { return index == kGround ? FrameMotion{} : frames_[static_cast<std::size_t>(index)]; };
+  const auto frame_of = [&](FrameIndex index) {
+    return index == kGround ? FrameMotion{} : frames_[static_cast<std::size_t>(index)];
+  };
   const FrameMotion journal = frame_of(joint.journal_frame);
   const Eigen::Vector3d point = journal.p + journal.R * joint.journal.p;
   const auto add = [&](FrameIndex index, double sign) {

@@ -9,15 +9,19 @@
 
 namespace engine {
 
-/// What every joint exerts on the body that it carries, by Newton and Euler from the motion and the forces of the cut joints.
+/// What every joint exerts on the body that it carries, by Newton and Euler from the motion and the forces of
+/// the cut joints.
 class JointReactions {
  public:
   explicit JointReactions(const Mechanism& mechanism);
 
   void calc(const Evaluation& at);
 
-  /// After calc(): about the origin of the joint's last frame, in W. With it come the joint's drives and springs.
-  [[nodiscard]] const Wrench& of(FrameIndex last_frame) const { return inverse_dynamics_.transmitted(last_frame); }
+  /// After calc(): about the origin of the joint's last frame, in W. With it come the joint's drives and
+  /// springs.
+  [[nodiscard]] const Wrench& of(FrameIndex last_frame) const {
+    return inverse_dynamics_.transmitted(last_frame);
+  }
 
  private:
   void add_cut_joint(const CutJoint& joint, const JointState& state);

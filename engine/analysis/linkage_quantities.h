@@ -11,8 +11,8 @@
 
 namespace engine {
 
-/// What is sampled and measured of a described linkage, each by the names of its joints: coordinates and drives, reactions of all joints,
-/// clearance joints, poses of the bodies.
+/// What is sampled and measured of a described linkage, each by the names of its joints: coordinates and
+/// drives, reactions of all joints, clearance joints, poses of the bodies.
 class LinkageQuantities {
  public:
   /// @param linkage, built  must outlive what is made of them

@@ -20,6 +20,8 @@ using Reading = std::function<double(const Evaluation&)>;
 using Preparation = std::function<void(const Evaluation&)>;
 
 /// Angle between the axes of journal and bearing, [rad]
-[[nodiscard]] inline double calc_tilt(const JournalMotion& journal) { return std::asin(std::min(1.0, journal.R_bj.col(2).head<2>().norm())); }
+[[nodiscard]] inline double calc_tilt(const JournalMotion& journal) {
+  return std::asin(std::min(1.0, journal.R_bj.col(2).head<2>().norm()));
+}
 
 }  // namespace engine

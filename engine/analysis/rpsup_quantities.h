@@ -14,7 +14,8 @@ namespace engine {
 
 /// What is sampled of an RPSUP linkage. Readings refer to all arguments.
 /// @param sliding_work  follows the run
-[[nodiscard]] std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rpsup& rpsup, const SlidingWork& sliding_work);
+[[nodiscard]] std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rpsup& rpsup,
+                                                  const SlidingWork& sliding_work);
 
 /// What is measured of one.
 [[nodiscard]] Measured rpsup_measured(const RpsupParameters& parameters, const RpsupLayout& layout);
@@ -22,7 +23,9 @@ namespace engine {
 /// The metrics of a run, in the order of metric_table().
 /// @param metrics  of rpsup_measured()
 /// @param ideal    the ideal linkage's peak in the steady window, if there is one
-[[nodiscard]] std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const RunMetrics& metrics, const SlidingWork& sliding_work,
-                                                     const RunEnd& end, const std::optional<Peak>& ideal);
+[[nodiscard]] std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters,
+                                                     const RunMetrics& metrics,
+                                                     const SlidingWork& sliding_work, const RunEnd& end,
+                                                     const std::optional<Peak>& ideal);
 
 }  // namespace engine

@@ -12,7 +12,8 @@
 
 namespace engine {
 
-/// One column of a trajectory and where it comes from: a reading, or the least or largest acceleration of a coordinate since the last sample.
+/// One column of a trajectory and where it comes from: a reading, or the least or largest acceleration of a
+/// coordinate since the last sample.
 struct Channel {
   enum class Kind { kReading, kLeastAcceleration, kLargestAcceleration, kImbalance };
 
@@ -33,7 +34,8 @@ class RunChannels {
   void take_step(const Evaluation& start, const Evaluation& end);
   void take_sample(const Evaluation& at);
 
-  /// @param imbalance_scale  what imbalances are measured in, [J]; those of a run that turned over nothing stay as they are
+  /// @param imbalance_scale  what imbalances are measured in, [J]; those of a run that turned over nothing
+  /// stay as they are
   [[nodiscard]] Trajectory finish(double imbalance_scale);
 
  private:

@@ -9,8 +9,11 @@
 namespace engine {
 
 RunMetrics::RunMetrics(Measured measured)
-    : measured_(std::move(measured)), accelerations_(measured_.accelerations.size()), loads_(measured_.loads.size()),
-      start_loads_(measured_.loads.size()), contact_times_(measured_.contacts.size()) {}
+    : measured_(std::move(measured)),
+      accelerations_(measured_.accelerations.size()),
+      loads_(measured_.loads.size()),
+      start_loads_(measured_.loads.size()),
+      contact_times_(measured_.contacts.size()) {}
 
 void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   if (!started_) {
@@ -18,17 +21,20 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
     first_balance_ = start.energy.calc_balance();
     last_energy_ = start.energy;
   }
-  for (std::size_t k = 0; k < accelerations_.size(); ++k) take_acceleration(measured_.accelerations[k], start, end, accelerations_[k]);
+  for (std::size_t k = 0; k < accelerations_.size(); ++k)
+    take_acceleration(measured_.accelerations[k], start, end, accelerations_[k]);
   if (end.t > measured_.steady_from) steady_time_ += end.t - std::max(start.t, measured_.steady_from);
   take_loads(start, end);
   take_energy(last_energy_, end.energy);
   last_energy_ = end.energy;
-  // Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a step holds in all of it.
+  // Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a
+  // step holds in all of it.
   for (std::size_t k = 0; k < contact_times_.size(); ++k)
     if (start.joints[measured_.contacts[k]].load.max_penetration > 0.0) contact_times_[k] += end.t - start.t;
 }
 
-void RunMetrics::take_acceleration(FrameIndex i, const Evaluation& start, const Evaluation& end, Acceleration& taken) const {
+void RunMetrics::take_acceleration(FrameIndex i, const Evaluation& start, const Evaluation& end,
+                                   Acceleration& taken) const {
   const double dt = end.t - start.t;
   const StepQuadratic a(start.qdd[i], end.qdd[i], end.qd[i] - start.qd[i], dt);
   taken.whole_run.take(a, 0.0, 1.0, start.t, dt);
@@ -43,7 +49,8 @@ void RunMetrics::take_loads(const Evaluation& start, const Evaluation& end) {
   for (std::size_t k = 0; k < loads_.size(); ++k) start_loads_[k] = measured_.loads[k](start);
   if (measured_.prepare) measured_.prepare(end);
   wants_middle_ = false;
-  for (std::size_t k = 0; k < loads_.size(); ++k) wants_middle_ |= loads_[k].take_step(start_loads_[k], measured_.loads[k](end), start.t, end.t);
+  for (std::size_t k = 0; k < loads_.size(); ++k)
+    wants_middle_ |= loads_[k].take_step(start_loads_[k], measured_.loads[k](end), start.t, end.t);
 }
 
 void RunMetrics::take_middle(const Evaluation& middle) {
@@ -57,7 +64,8 @@ void RunMetrics::take_energy(const EnergyAccount& start, const EnergyAccount& en
 }
 
 double RunMetrics::calc_rms(std::size_t k) const {
-  return steady_time_ > 0.0 ? std::sqrt(accelerations_[k].square_integral / steady_time_) : std::numeric_limits<double>::quiet_NaN();
+  return steady_time_ > 0.0 ? std::sqrt(accelerations_[k].square_integral / steady_time_)
+                            : std::numeric_limits<double>::quiet_NaN();
 }
 
 double RunMetrics::calc_energy_residual() const {

@@ -55,7 +55,8 @@ class RunMetrics {
   [[nodiscard]] double calc_energy_residual() const;
 
  private:
-  void take_acceleration(FrameIndex coordinate, const Evaluation& start, const Evaluation& end, Acceleration& taken) const;
+  void take_acceleration(FrameIndex coordinate, const Evaluation& start, const Evaluation& end,
+                         Acceleration& taken) const;
   void take_loads(const Evaluation& start, const Evaluation& end);
   void take_energy(const EnergyAccount& start, const EnergyAccount& end);
 

@@ -15,7 +15,8 @@ struct RunResult {
   RunStatus status = RunStatus::kSucceeded;
   double t_end = 0.0;           ///< time reached, [s]
   std::string detail;           ///< of a failure: what happened, for the user
-  /// One for each of the linkage's metrics (metric_table() of RPSUP's); NaN: does not apply to this run. Empty on failure.
+  /// One for each of the linkage's metrics (metric_table() of RPSUP's); NaN: does not apply to this run.
+  /// Empty on failure.
   std::vector<double> metrics;
   Trajectory trajectory;
 };

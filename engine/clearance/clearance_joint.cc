@@ -16,7 +16,8 @@ std::variant<RadialContinuum, RadialElements> make_radial(const ClearanceParamet
 
 }  // namespace
 
-ClearanceJoint::ClearanceJoint(const ClearanceParameters& joint) : radial_(make_radial(joint)), faces_(joint) {}
+ClearanceJoint::ClearanceJoint(const ClearanceParameters& joint)
+    : radial_(make_radial(joint)), faces_(joint) {}
 
 int ClearanceJoint::bristle_count() const {
   return std::visit([](const auto& radial) { return radial.bristle_count(); }, radial_);
@@ -26,7 +27,8 @@ int ClearanceJoint::ring_count() const {
   return std::visit([](const auto& radial) { return radial.parameters().n_r; }, radial_);
 }
 
-bool ClearanceJoint::calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const {
+bool ClearanceJoint::calc(const JournalMotion& journal, const double* bristles, double* bristle_rates,
+                          ContactLoad& load) const {
   const RelativeMotion<double, double> motion = to_relative_motion(journal);
   JointLoad<double> sum;
   bool complete = true;
@@ -48,8 +50,10 @@ bool ClearanceJoint::follow(const JournalMotion& journal, double dt, double* bri
   return elements && elements->follow(journal, dt, bristles);
 }
 
-ContactChange ClearanceJoint::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
-  ContactChange change = std::visit([&](auto& radial) { return radial.advance(start, end, dt, bristles); }, radial_);
+ContactChange ClearanceJoint::advance(const JournalMotion& start, const JournalMotion& end, double dt,
+                                      double* bristles) {
+  ContactChange change =
+      std::visit([&](auto& radial) { return radial.advance(start, end, dt, bristles); }, radial_);
   if (faces_.advance(start, end, dt)) change.any = change.abrupt = true;
   return change;
 }

@@ -22,11 +22,17 @@ class ClearanceJoint {
 
   // For the laws, which the right-hand side takes with its own kind of numbers.
   [[nodiscard]] const AxialFaces& faces() const { return faces_; }
-  [[nodiscard]] const RadialContinuum* continuum() const { return std::get_if<RadialContinuum>(&radial_); }  ///< null: elements
-  [[nodiscard]] const RadialElements* elements() const { return std::get_if<RadialElements>(&radial_); }     ///< null: continuum
+  [[nodiscard]] const RadialContinuum* continuum() const {
+    return std::get_if<RadialContinuum>(&radial_);
+  }  ///< null: elements
+  [[nodiscard]] const RadialElements* elements() const {
+    return std::get_if<RadialElements>(&radial_);
+  }  ///< null: continuum
 
-  /// Computes the load on the journal and the bristles' rates. @returns false if a bristle was needed that has no place: widen()
-  [[nodiscard]] bool calc(const JournalMotion& journal, const double* bristles, double* bristle_rates, ContactLoad& load) const;
+  /// Computes the load on the journal and the bristles' rates. @returns false if a bristle was needed that
+  /// has no place: widen()
+  [[nodiscard]] bool calc(const JournalMotion& journal, const double* bristles, double* bristle_rates,
+                          ContactLoad& load) const;
 
   /// Appends the penetration of each ring, negative where there is a gap.
   void add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const;

@@ -14,7 +14,8 @@ namespace engine {
 
 enum class RadialForm { kContinuum, kElements };
 
-/// A revolute joint with clearance: a journal of length L_b in a bearing, contact on the bore and on the two faces.
+/// A revolute joint with clearance: a journal of length L_b in a bearing, contact on the bore and on the two
+/// faces.
 struct ClearanceParameters {
   double r_b = 5e-3;               ///< bearing radius, [m]
   double c_r = 0.25e-3;            ///< radial clearance, [m], 0 < c_r < r_b
@@ -37,7 +38,8 @@ struct ClearanceParameters {
   [[nodiscard]] double r_j() const { return r_b - c_r; }  ///< journal radius, [m]
 };
 
-/// Hertz stiffness of the bore: K = 4 / (3 pi 2 h) sqrt(r_b r_j / c_r), h = (1 - nu^2) / (pi E). Source: project paper, ref. [9].
+/// Hertz stiffness of the bore: K = 4 / (3 pi 2 h) sqrt(r_b r_j / c_r), h = (1 - nu^2) / (pi E). Source:
+/// project paper, ref. [9].
 /// @param nu  Poisson's ratio, [1]
 [[nodiscard]] inline double calc_hertz_stiffness(double r_b, double c_r, double youngs_modulus, double nu) {
   const double h = (1.0 - nu * nu) / (std::numbers::pi * youngs_modulus);

@@ -10,7 +10,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Tangent of the journal's motion in the bearing, all in {b}. (JournalTangent_W is the same in W.) @tparam T  a number, or a pack
+/// Tangent of the journal's motion in the bearing, all in {b}. (JournalTangent_W is the same in W.) @tparam T
+/// a number, or a pack
 template <typename T>
 struct JournalTangent_b {
   Vec3<T> rotation, p;  ///< of {j}, [rad]; of the journal's centre, [m]
@@ -31,7 +32,8 @@ struct ActingBristles {
   int count = 0;
 };
 
-/// The derivatives of one number by the journal's motion, and by the two bristles of a contact point. @tparam Block  eight numbers side by side
+/// The derivatives of one number by the journal's motion, and by the two bristles of a contact point. @tparam
+/// Block  eight numbers side by side
 template <typename Block>
 struct ContactRowOf {
   Block by_position;  ///< turn, p
@@ -39,7 +41,8 @@ struct ContactRowOf {
 
   template <typename T>
   [[nodiscard]] RPSUP_INLINE T apply(const JournalTangent_b<T>& journal) const {
-    return dot3(by_position, 0, journal.rotation) + dot3(by_position, 3, journal.p) + dot3(by_rate, 0, journal.v) + dot3(by_rate, 3, journal.w);
+    return dot3(by_position, 0, journal.rotation) + dot3(by_position, 3, journal.p) +
+           dot3(by_rate, 0, journal.v) + dot3(by_rate, 3, journal.w);
   }
   template <typename T>
   [[nodiscard]] RPSUP_INLINE static T dot3(const Block& by, int first, const Vec3<T>& v) {
@@ -48,7 +51,8 @@ struct ContactRowOf {
 };
 using ContactRow = ContactRowOf<Lanes>;
 
-/// Those of all that a joint's contacts do together: force and moment on the journal, about its centre, in {b}, and powers.
+/// Those of all that a joint's contacts do together: force and moment on the journal, about its centre, in
+/// {b}, and powers.
 template <typename Block>
 struct ContactRowsOf {
   static constexpr int kImpactPower = 6, kFrictionPower = 7, kCount = 8;
@@ -63,18 +67,24 @@ struct ContactRowsOf {
 };
 using ContactRows = ContactRowsOf<Lanes>;
 
-/// The derivatives of all that a joint's contacts do, by the twelve numbers of the journal's motion and by the bristles. Each contact point reads its
-/// own two bristles alone: the bristles of all contact points share two directions.
+/// The derivatives of all that a joint's contacts do, by the twelve numbers of the journal's motion and by
+/// the bristles. Each contact point reads its own two bristles alone: the bristles of all contact points
+/// share two directions.
 class ContactDerivative {
  public:
   explicit ContactDerivative(std::size_t bristles)
-      : constant_bristles_(bristles), bristles_(bristles), rates_(bristles), by_bristle_(bristles), rate_rows_(bristles) {
-    for (std::size_t b = 0; b < bristles; ++b) bristles_[b] = Dual(0.0, Lanes::unit(kOwnBristle + static_cast<int>(b % 2)));
+      : constant_bristles_(bristles),
+        bristles_(bristles),
+        rates_(bristles),
+        by_bristle_(bristles),
+        rate_rows_(bristles) {
+    for (std::size_t b = 0; b < bristles; ++b)
+      bristles_[b] = Dual(0.0, Lanes::unit(kOwnBristle + static_cast<int>(b % 2)));
   }
 
   /// @param bristles  of all joints; derivatives of those that do not act are not set
-  RPSUP_INLINE void calc(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal, const double* bristles,
-                         const ActingBristles& acting) {
+  RPSUP_INLINE void calc(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal,
+                         const double* bristles, const ActingBristles& acting) {
     set_bristles(bristles + acting.first, acting);
     differentiate_by_position(joint, journal, acting);
     differentiate_by_rate(joint, journal, acting);
@@ -100,9 +110,13 @@ class ContactDerivative {
     return false;
   }
   [[nodiscard]] RPSUP_INLINE const ContactRows& load_rows() const { return rows_; }
-  [[nodiscard]] RPSUP_INLINE const ContactRow& rate_row(int bristle) const { return rate_rows_[static_cast<std::size_t>(bristle)]; }
+  [[nodiscard]] RPSUP_INLINE const ContactRow& rate_row(int bristle) const {
+    return rate_rows_[static_cast<std::size_t>(bristle)];
+  }
   /// Of the outputs of ContactRows, by a bristle.
-  [[nodiscard]] RPSUP_INLINE const double* load_by_bristle(int bristle) const { return by_bristle_[static_cast<std::size_t>(bristle)].output; }
+  [[nodiscard]] RPSUP_INLINE const double* load_by_bristle(int bristle) const {
+    return by_bristle_[static_cast<std::size_t>(bristle)].output;
+  }
 
  private:
   static constexpr int kOutputs = ContactRows::kCount;
@@ -115,7 +129,8 @@ class ContactDerivative {
   /// A load that records the derivatives by the two bristles of each contact point.
   struct LoadPerContactPoint : JointLoad<Dual> {
     RPSUP_INLINE void end_contact_point(int bristle) {
-      const Lanes now[kOutputs] = {force.x.d, force.y.d, force.z.d, moment.x.d, moment.y.d, moment.z.d, impact_power.d, friction_power.d};
+      const Lanes now[kOutputs] = {force.x.d,  force.y.d,  force.z.d,      moment.x.d,
+                                   moment.y.d, moment.z.d, impact_power.d, friction_power.d};
       for (int i = 0; i < kOutputs; ++i)
         for (int k = 0; k < 2; ++k) {
           by_bristle[bristle + k].output[i] = now[i][kOwnBristle + k] - before[k][i];
@@ -142,30 +157,38 @@ class ContactDerivative {
     }
   }
 
-  RPSUP_INLINE void differentiate_by_position(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal,
+  RPSUP_INLINE void differentiate_by_position(const ClearanceJoint& joint,
+                                              const RelativeMotion<double, double>& journal,
                                               const ActingBristles& acting) {
     const Vec3<Lanes> rotation{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
-    const auto turned = [&](const Vec3<double>& u) RPSUP_INLINE_LAMBDA { return join(u, cross(rotation, u)); };
+    const auto turned = [&](const Vec3<double>& u)
+                            RPSUP_INLINE_LAMBDA { return join(u, cross(rotation, u)); };
     const Vec3<Lanes> shift{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)};
-    const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)}, join(journal.p, shift),
-                                            join(journal.v, Vec3<Lanes>{}), join(journal.w, Vec3<Lanes>{})};
+    const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)},
+                                            join(journal.p, shift),
+                                            join(journal.v, Vec3<Lanes>{}),
+                                            join(journal.w, Vec3<Lanes>{})};
     JointLoad<Dual> load;
     (void)add_contacts(joint, varied, constant_bristles_.data(), rates_.data(), load);
     store(load, acting, &ContactRow::by_position);
   }
 
-  RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint, const RelativeMotion<double, double>& journal,
+  RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint,
+                                          const RelativeMotion<double, double>& journal,
                                           const ActingBristles& acting) {
-    const RelativeMotion<double, Dual> varied{journal.R, journal.p, join(journal.v, Vec3<Lanes>{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
-                                              join(journal.w, Vec3<Lanes>{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
+    const RelativeMotion<double, Dual> varied{
+        journal.R, journal.p, join(journal.v, Vec3<Lanes>{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
+        join(journal.w, Vec3<Lanes>{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
     LoadPerContactPoint load;
     load.by_bristle = by_bristle_.data();
     (void)add_contacts(joint, varied, bristles_.data(), rates_.data(), load);
     store(load, acting, &ContactRow::by_rate);
   }
 
-  RPSUP_INLINE void store(const JointLoad<Dual>& load, const ActingBristles& acting, Lanes ContactRow::*part) {
-    const Dual* outputs[kOutputs] = {&load.force.x, &load.force.y, &load.force.z, &load.moment.x, &load.moment.y, &load.moment.z,
+  RPSUP_INLINE void store(const JointLoad<Dual>& load, const ActingBristles& acting,
+                          Lanes ContactRow::*part) {
+    const Dual* outputs[kOutputs] = {&load.force.x,      &load.force.y,       &load.force.z,
+                                     &load.moment.x,     &load.moment.y,      &load.moment.z,
                                      &load.impact_power, &load.friction_power};
     for (int i = 0; i < kOutputs; ++i) rows_.of[i].*part = outputs[i]->d;
     for (int i = 0; i < acting.count; ++i) {

@@ -18,7 +18,8 @@ double integrate_liu(double x) {
   if (x > 0.02) return 0.25 * std::sqrt(x * (1.0 + x)) * (2.0 * x - 3.0) + 0.75 * std::asinh(std::sqrt(x));
   // Term by term: the two above cancel but for x^2.5.
   return x * x * std::sqrt(x) *
-         (2.0 / 5.0 - x * (1.0 / 7.0 - x * (1.0 / 12.0 - x * (5.0 / 88.0 - x * (35.0 / 832.0 - x * (21.0 / 640.0))))));
+         (2.0 / 5.0 -
+          x * (1.0 / 7.0 - x * (1.0 / 12.0 - x * (5.0 / 88.0 - x * (35.0 / 832.0 - x * (21.0 / 640.0))))));
 }
 
 ElasticForce calc_liu(double stiffness, double c_r, double delta) {
@@ -40,12 +41,14 @@ ElasticForce calc_logarithmic(double c, double F_1, double delta) {
 }  // namespace
 
 double CylinderContact::force_scale() const {
-  return law == StiffnessLaw::kJohnson ? 4.0 * pi * rigidity * clearance / std::numbers::e : 8.0 * rigidity * clearance / 2.56 * std::exp(2.0 / 3.0);
+  return law == StiffnessLaw::kJohnson ? 4.0 * pi * rigidity * clearance / std::numbers::e
+                                       : 8.0 * rigidity * clearance / 2.56 * std::exp(2.0 / 3.0);
 }
 
 double CylinderContact::range() const {
   const bool logarithmic = law == StiffnessLaw::kJohnson || law == StiffnessLaw::kRadzimovsky;
-  return logarithmic ? force_scale() / (pi * rigidity * std::numbers::e) : std::numeric_limits<double>::infinity();
+  return logarithmic ? force_scale() / (pi * rigidity * std::numbers::e)
+                     : std::numeric_limits<double>::infinity();
 }
 
 ElasticForce CylinderContact::calc(double delta) const {

@@ -27,8 +27,10 @@ struct FrictionParameters {
   double sigma_2 = 0.0;           ///< viscous, [s/m]; Dahl: 0
   double v_s = 1e-3;              ///< Stribeck velocity, [m/s]
   FrictionLaw law = FrictionLaw::kLuGre;
-  double break_away = 0.7;        ///< elasto-plastic: part of the steady deflection up to which a bristle does not creep, [0, 1)
-  double v_0 = 1e-4;              ///< Coulomb: where 1/sqrt(2) of full friction acts; Ambrosio: no friction below it, [m/s]
+  double break_away =
+      0.7;  ///< elasto-plastic: part of the steady deflection up to which a bristle does not creep, [0, 1)
+  double v_0 =
+      1e-4;  ///< Coulomb: where 1/sqrt(2) of full friction acts; Ambrosio: no friction below it, [m/s]
   double v_1 = 1e-3;              ///< Ambrosio: full friction above it, > v_0, [m/s]
 };
 

@@ -11,11 +11,12 @@ inline namespace RPSUP_INSTRUCTION_SET {
 
 /// All contacts of a joint. @returns false if an element touched that has no bristle in the state
 template <typename P, typename V, typename Load>
-[[nodiscard]] RPSUP_INLINE bool add_contacts(const ClearanceJoint& joint, const RelativeMotion<P, V>& journal, const V* bristles, V* bristle_rates,
-                                             Load& load) {
+[[nodiscard]] RPSUP_INLINE bool add_contacts(const ClearanceJoint& joint, const RelativeMotion<P, V>& journal,
+                                             const V* bristles, V* bristle_rates, Load& load) {
   add_faces(joint.faces(), journal, load);
   if (const RadialElements* elements = joint.elements()) {
-    const RelativeMotion<P, V> own_journal = journal;  // of which addresses are known: the others may stay in registers
+    const RelativeMotion<P, V> own_journal =
+        journal;  // of which addresses are known: the others may stay in registers
     Load own_load = load;
     const bool complete = add_elements(*elements, own_journal, bristles, bristle_rates, own_load);
     load = own_load;

@@ -15,11 +15,13 @@ struct JournalMotion {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();     ///< of the journal centre relative to {b}, [m/s]
   Eigen::Vector3d w = Eigen::Vector3d::Zero();     ///< of the journal relative to {b}, [rad/s]
 
-  /// Velocity of the journal's material point at r from its centre, less that of the bearing's at the same place.
+  /// Velocity of the journal's material point at r from its centre, less that of the bearing's at the same
+  /// place.
   [[nodiscard]] Eigen::Vector3d calc_velocity(const Eigen::Vector3d& r) const { return v + w.cross(r); }
 };
 
-/// What all contacts of one joint do together. Force and moment act on the journal, about its centre, in {b}; on the bearing the opposite.
+/// What all contacts of one joint do together. Force and moment act on the journal, about its centre, in {b};
+/// on the bearing the opposite.
 struct ContactLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [N m]

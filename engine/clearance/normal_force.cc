@@ -9,8 +9,8 @@ namespace engine {
 namespace {
 
 /// Where f is zero in [low, high], to the resolution of s; f(low) and f(high) have opposite signs.
-/// Newton's iteration from the middle, kept between two places of opposite signs: where it would leave them or does not halve its last
-/// step, they are bisected.
+/// Newton's iteration from the middle, kept between two places of opposite signs: where it would leave them
+/// or does not halve its last step, they are bisected.
 template <typename Function, typename Slope>
 double find_zero(const Function& f, const Slope& slope, double low, double high) {
   const bool rises = f(low) < f(high);
@@ -39,11 +39,13 @@ PenetrationCubic::PenetrationCubic(const Penetration& start, const Penetration& 
       d_(start.delta) {}
 
 double PenetrationCubic::find_root(double low, double high) const {
-  return find_zero([this](double s) { return delta(s); }, [this](double s) { return (3.0 * a_ * s + 2.0 * b_) * s + c_; }, low, high);
+  return find_zero([this](double s) { return delta(s); },
+                   [this](double s) { return (3.0 * a_ * s + 2.0 * b_) * s + c_; }, low, high);
 }
 
 double PenetrationCubic::find_extreme() const {
-  return find_zero([this](double s) { return rate(s); }, [this](double s) { return (6.0 * a_ * s + 2.0 * b_) / dt_; }, 0.0, 1.0);
+  return find_zero([this](double s) { return rate(s); },
+                   [this](double s) { return (6.0 * a_ * s + 2.0 * b_) / dt_; }, 0.0, 1.0);
 }
 
 bool OnsetLatch::advance(const Penetration& start, const Penetration& end, double dt, double minimum) {

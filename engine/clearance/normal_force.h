@@ -12,20 +12,23 @@ struct Penetration {
 /// What became of a joint's contacts in a step.
 struct ContactChange {
   bool any = false;     ///< some contact began or ended
-  bool abrupt = false;  ///< and more than single elements of rings that had contact before and have some still
+  bool abrupt =
+      false;  ///< and more than single elements of rings that had contact before and have some still
   int ring_onsets = 0;  ///< rings that had no contact and now have one
 };
 
 /// The penetration rate at the onset of a contact, kept until it ends.
 ///
-/// A contact is delta > 0. It opens and closes between steps only; inside the step in which it begins, the current rate serves.
+/// A contact is delta > 0. It opens and closes between steps only; inside the step in which it begins, the
+/// current rate serves.
 class OnsetLatch {
  public:
   [[nodiscard]] bool in_contact() const { return rate_ > 0.0; }
   /// The latched rate; 0 without contact.
   [[nodiscard]] double rate() const { return rate_; }
 
-  /// Moves on by a step with the penetrations at its two ends; the onset rate is read where the cubic through them crosses zero.
+  /// Moves on by a step with the penetrations at its two ends; the onset rate is read where the cubic through
+  /// them crosses zero.
   /// @returns true if the contact began or ended
   bool advance(const Penetration& start, const Penetration& end, double dt, double minimum);
 
@@ -33,7 +36,8 @@ class OnsetLatch {
   double rate_ = 0.0;  ///< 0: no contact
 };
 
-static_assert(sizeof(OnsetLatch) == sizeof(double), "the rates of neighbours are read as numbers side by side");
+static_assert(sizeof(OnsetLatch) == sizeof(double),
+              "the rates of neighbours are read as numbers side by side");
 
 /// The cubic delta(s), s in [0, 1], through two penetrations and their rates, a step of dt apart.
 class PenetrationCubic {

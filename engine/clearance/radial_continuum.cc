@@ -35,14 +35,16 @@ void RadialContinuum::add_penetrations(const JournalMotion& journal, std::vector
   for (int i = 0; i < joint_.n_r; ++i) rings.push_back(calc_penetration(motion, i));
 }
 
-ContactChange RadialContinuum::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
+ContactChange RadialContinuum::advance(const JournalMotion& start, const JournalMotion& end, double dt,
+                                       double* bristles) {
   const RelativeMotion<double, double> motion_end = to_relative_motion(end);
   ContactChange change;
   for (int i = 0; i < joint_.n_r; ++i) {
     OnsetLatch& latch = latches_[static_cast<std::size_t>(i)];
     const Penetration at_end = calc_penetration(motion_end, i);
     if ((at_end.delta > 0.0) != latch.in_contact()) {
-      change.any |= latch.advance(calc_penetration(to_relative_motion(start), i), at_end, dt, joint_.minimum_onset_rate);
+      change.any |= latch.advance(calc_penetration(to_relative_motion(start), i), at_end, dt,
+                                  joint_.minimum_onset_rate);
       change.abrupt = change.any;
       change.ring_onsets += latch.in_contact() ? 1 : 0;
     }

@@ -10,7 +10,8 @@
 
 namespace engine {
 
-/// Radial contact in closed form: what each ring of the journal remembers of its contact with the bore. The law: continuum_law.h.
+/// Radial contact in closed form: what each ring of the journal remembers of its contact with the bore. The
+/// law: continuum_law.h.
 class RadialContinuum {
  public:
   explicit RadialContinuum(const ClearanceParameters& joint);
@@ -18,11 +19,17 @@ class RadialContinuum {
   [[nodiscard]] const ClearanceParameters& parameters() const { return joint_; }
   /// One a ring.
   [[nodiscard]] const OnsetLatch* latches() const { return latches_.data(); }
-  [[nodiscard]] double ring_position(int ring) const { return positions_[static_cast<std::size_t>(ring)]; }  ///< along the journal's axis, [m]
-  [[nodiscard]] double ring_stiffness() const { return ring_stiffness_; }  ///< by Hertz's law, of each, [N/m^1.5]
+  [[nodiscard]] double ring_position(int ring) const {
+    return positions_[static_cast<std::size_t>(ring)];
+  }  ///< along the journal's axis, [m]
+  [[nodiscard]] double ring_stiffness() const {
+    return ring_stiffness_;
+  }  ///< by Hertz's law, of each, [N/m^1.5]
   /// Largest penetration for which the stiffness law holds; infinite for most. [m]
   [[nodiscard]] double range() const { return range_; }
-  [[nodiscard]] double ring_damping() const { return ring_damping_; }      ///< Kelvin and Voigt's, of each, [N s/m]
+  [[nodiscard]] double ring_damping() const {
+    return ring_damping_;
+  }  ///< Kelvin and Voigt's, of each, [N s/m]
   /// Bristle components in the state: two a ring.
   [[nodiscard]] int bristle_count() const { return 2 * joint_.n_r; }
 

@@ -12,11 +12,13 @@ namespace engine {
 
 namespace {
 
-/// A window that holds contacts of 10 micrometres depth where it is centred, with two elements to spare. Few runs go deeper, and they widen it; a
-/// larger one from the start would have every step carry bristles that nothing touches.
+/// A window that holds contacts of 10 micrometres depth where it is centred, with two elements to spare. Few
+/// runs go deeper, and they widen it; a larger one from the start would have every step carry bristles that
+/// nothing touches.
 int calc_first_window(const ClearanceParameters& joint) {
   const double distance = joint.c_r + 10e-6;
-  const double half = calc_half_arc(joint, distance * distance, distance) * joint.n_ce / (2.0 * std::numbers::pi);
+  const double half =
+      calc_half_arc(joint, distance * distance, distance) * joint.n_ce / (2.0 * std::numbers::pi);
   return std::min(joint.n_ce, 2 * static_cast<int>(std::ceil(half)) + 5);
 }
 
@@ -24,7 +26,8 @@ int calc_first_window(const ClearanceParameters& joint) {
 
 RadialElements::RadialElements(const ClearanceParameters& joint)
     : joint_(joint),
-      element_stiffness_(joint.K / joint.n_r * 3.0 * std::sqrt(joint.c_r) / (4.0 * std::numbers::sqrt2) * 2.0 * std::numbers::pi / joint.n_ce),
+      element_stiffness_(joint.K / joint.n_r * 3.0 * std::sqrt(joint.c_r) / (4.0 * std::numbers::sqrt2) *
+                         2.0 * std::numbers::pi / joint.n_ce),
       element_damping_(joint.damping / (joint.n_r * joint.n_ce)),
       spacing_(2.0 * std::numbers::pi / joint.n_ce),
       window_(calc_first_window(joint)),
@@ -36,8 +39,10 @@ RadialElements::RadialElements(const ClearanceParameters& joint)
   }
 }
 
-Penetration RadialElements::calc_penetration(const RelativeMotion<double, double>& journal, int ring, int k) const {
-  const ElementPlace<double> element = place_element(*this, journal, calc_ring_position(joint_, ring) * journal.R.z, k);
+Penetration RadialElements::calc_penetration(const RelativeMotion<double, double>& journal, int ring,
+                                             int k) const {
+  const ElementPlace<double> element =
+      place_element(*this, journal, calc_ring_position(joint_, ring) * journal.R.z, k);
   return {element.delta, calc_element_rate(journal, element)};
 }
 
@@ -51,7 +56,8 @@ void RadialElements::add_penetrations(const JournalMotion& journal, std::vector<
   for (int i = 0; i < joint_.n_r; ++i) {
     const int nearest = static_cast<int>(std::lround(find_direction(motion, i) / spacing_));
     Penetration deepest = calc_penetration(motion, i, wrap(nearest));
-    for (const int k : {nearest - 1, nearest + 1}) {  // in a tilted journal the deepest may be beside the nearest
+    for (const int k :
+         {nearest - 1, nearest + 1}) {  // in a tilted journal the deepest may be beside the nearest
       const Penetration other = calc_penetration(motion, i, wrap(k));
       if (other.delta > deepest.delta) deepest = other;
     }
@@ -59,7 +65,8 @@ void RadialElements::add_penetrations(const JournalMotion& journal, std::vector<
   }
 }
 
-ContactChange RadialElements::advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles) {
+ContactChange RadialElements::advance(const JournalMotion& start, const JournalMotion& end, double dt,
+                                      double* bristles) {
   const RelativeMotion<double, double> motion_start = to_relative_motion(start);
   const RelativeMotion<double, double> motion_end = to_relative_motion(end);
   ContactChange change;
@@ -76,7 +83,8 @@ ContactChange RadialElements::advance(const JournalMotion& start, const JournalM
       if (onset.in_contact() || from_low <= arc.high - arc.low) {
         was_on = was_on || onset.in_contact();
         if ((place_element(*this, motion_end, axial, k).delta > 0.0) != onset.in_contact())
-          change.any |= onset.advance(calc_penetration(motion_start, i, k), calc_penetration(motion_end, i, k), dt, joint_.minimum_onset_rate);
+          change.any |= onset.advance(calc_penetration(motion_start, i, k),
+                                      calc_penetration(motion_end, i, k), dt, joint_.minimum_onset_rate);
         is_on = is_on || onset.in_contact();
       }
       if (!onset.in_contact()) bristle[0] = bristle[1] = 0.0;
@@ -108,7 +116,8 @@ bool RadialElements::follow(const JournalMotion& journal, double dt, double* bri
 /// Moves a window by `shift` elements, or as far as no element in contact leaves it.
 void RadialElements::shift_window(int ring, int shift, double* bristles) {
   int free = 0;
-  while (free < window_ && !latch(ring, element_of(ring, shift > 0 ? free : window_ - 1 - free)).in_contact()) ++free;
+  while (free < window_ && !latch(ring, element_of(ring, shift > 0 ? free : window_ - 1 - free)).in_contact())
+    ++free;
   if (free < window_) shift = std::clamp(shift, -free, free);
   int& first = first_[static_cast<std::size_t>(ring)];
   first = wrap(first + shift);

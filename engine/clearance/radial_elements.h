@@ -11,25 +11,31 @@
 
 namespace engine {
 
-/// The paper's radial contact elements: what each of the n_ce points on each ring of the journal remembers. The law: elements_law.h.
+/// The paper's radial contact elements: what each of the n_ce points on each ring of the journal remembers.
+/// The law: elements_law.h.
 ///
-/// Bristles exist for a window of elements about the arc that can touch, which follows the contact between steps; an element that touches
-/// outside it is reported as missed, and the caller widens the window and takes the step again.
+/// Bristles exist for a window of elements about the arc that can touch, which follows the contact between
+/// steps; an element that touches outside it is reported as missed, and the caller widens the window and
+/// takes the step again.
 class RadialElements {
  public:
   explicit RadialElements(const ClearanceParameters& joint);
 
   [[nodiscard]] const ClearanceParameters& parameters() const { return joint_; }
   [[nodiscard]] double element_stiffness() const { return element_stiffness_; }  ///< s, [N/m]
-  [[nodiscard]] double element_damping() const { return element_damping_; }      ///< Kelvin and Voigt's d, [N s/m]
-  [[nodiscard]] double spacing() const { return spacing_; }                      ///< angle between elements, [rad]
-  [[nodiscard]] const double* cosines() const { return cosine_.data(); }         ///< of each element's angle in {j}
+  [[nodiscard]] double element_damping() const {
+    return element_damping_;
+  }                                                                       ///< Kelvin and Voigt's d, [N s/m]
+  [[nodiscard]] double spacing() const { return spacing_; }               ///< angle between elements, [rad]
+  [[nodiscard]] const double* cosines() const { return cosine_.data(); }  ///< of each element's angle in {j}
   [[nodiscard]] const double* sines() const { return sine_.data(); }
   [[nodiscard]] int wrap(int k) const {
     const int rest = k % joint_.n_ce;
     return rest < 0 ? rest + joint_.n_ce : rest;
   }
-  [[nodiscard]] const OnsetLatch& latch(int ring, int k) const { return latches_.data()[ring * joint_.n_ce + k]; }
+  [[nodiscard]] const OnsetLatch& latch(int ring, int k) const {
+    return latches_.data()[ring * joint_.n_ce + k];
+  }
   [[nodiscard]] int bristle_count() const { return 2 * joint_.n_r * window_; }
   /// Place of an element's bristle among them, -1 if it has none.
   [[nodiscard]] int place_of_bristle(int ring, int k) const {
@@ -49,17 +55,23 @@ class RadialElements {
   /// Takes note of contacts that began or ended in a step; a bristle is relaxed where its contact has ended.
   ContactChange advance(const JournalMotion& start, const JournalMotion& end, double dt, double* bristles);
 
-  /// Moves the windows to where the journal will be after dt. Elements in contact stay inside. @returns true if any window moved
+  /// Moves the windows to where the journal will be after dt. Elements in contact stay inside. @returns true
+  /// if any window moved
   bool follow(const JournalMotion& journal, double dt, double* bristles);
 
   /// Makes the windows half as large again. @returns the bristles in their new places
   [[nodiscard]] Eigen::VectorXd widen(const double* bristles);
 
  private:
-  [[nodiscard]] Penetration calc_penetration(const RelativeMotion<double, double>& journal, int ring, int k) const;
+  [[nodiscard]] Penetration calc_penetration(const RelativeMotion<double, double>& journal, int ring,
+                                             int k) const;
   [[nodiscard]] double find_direction(const RelativeMotion<double, double>& journal, int ring) const;
-  [[nodiscard]] OnsetLatch& latch(int ring, int k) { return latches_[static_cast<std::size_t>(ring * joint_.n_ce + k)]; }
-  [[nodiscard]] int element_of(int ring, int slot) const { return wrap(first_[static_cast<std::size_t>(ring)] + slot); }
+  [[nodiscard]] OnsetLatch& latch(int ring, int k) {
+    return latches_[static_cast<std::size_t>(ring * joint_.n_ce + k)];
+  }
+  [[nodiscard]] int element_of(int ring, int slot) const {
+    return wrap(first_[static_cast<std::size_t>(ring)] + slot);
+  }
   void shift_window(int ring, int shift, double* bristles);
 
   ClearanceParameters joint_;

@@ -11,7 +11,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 
 // Of one ring of the journal, or of several side by side.
 
-/// Offset of a ring's centre from the bearing axis in the cross-section. Below 1e-12 m there is no normal: n is zero.
+/// Offset of a ring's centre from the bearing axis in the cross-section. Below 1e-12 m there is no normal: n
+/// is zero.
 template <typename P>
 struct RingOffset {
   Vec3<P> axial;    ///< from the journal centre to the ring's
@@ -30,7 +31,8 @@ template <typename P>
 
 /// @param position  along the journal's axis
 template <typename P, typename V, typename Position>
-[[nodiscard]] RPSUP_INLINE RingOffset<Mixed<Position, P>> calc_ring_offset(const RelativeMotion<P, V>& journal, const Position& position) {
+[[nodiscard]] RPSUP_INLINE RingOffset<Mixed<Position, P>> calc_ring_offset(
+    const RelativeMotion<P, V>& journal, const Position& position) {
   RingOffset<Mixed<Position, P>> ring;
   ring.axial = position * journal.R.z;
   const auto e_x = journal.p.x + ring.axial.x;
@@ -43,7 +45,8 @@ template <typename P, typename V, typename Position>
 }
 
 template <typename P, typename V, typename R>
-[[nodiscard]] RPSUP_INLINE Mixed<V, R> calc_ring_rate(const RelativeMotion<P, V>& journal, const RingOffset<R>& ring) {
+[[nodiscard]] RPSUP_INLINE Mixed<V, R> calc_ring_rate(const RelativeMotion<P, V>& journal,
+                                                      const RingOffset<R>& ring) {
   const auto velocity = journal.calc_velocity(ring.axial);
   return ring.n_x * velocity.x + ring.n_y * velocity.y;
 }

@@ -36,7 +36,8 @@ UniformBeam make_beam(const UniformRod& rod) {
 DividedRod divide_beam(const UniformBeam& beam, int n_rfe) {
   assert(n_rfe >= 2);
   const double dl = beam.length / (n_rfe - 1);
-  const double omega_1 = std::pow(std::numbers::pi / beam.length, 2) * std::sqrt(std::min(beam.EI_y, beam.EI_z) * beam.length / beam.mass);
+  const double omega_1 = std::pow(std::numbers::pi / beam.length, 2) *
+                         std::sqrt(std::min(beam.EI_y, beam.EI_z) * beam.length / beam.mass);
 
   DividedRod divided;
   divided.elements.assign(static_cast<std::size_t>(n_rfe), cut_element(beam, dl));

@@ -44,26 +44,32 @@ struct SpringDamperElement {
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();    ///< [N m s/rad]
 };
 
-/// The modified rigid finite element method, section 2.2 of the paper: n_rfe elements and n_rfe - 1 sde between them.
+/// The modified rigid finite element method, section 2.2 of the paper: n_rfe elements and n_rfe - 1 sde
+/// between them.
 struct DividedRod {
   std::vector<RigidElement> elements;
   SpringDamperElement sde;  ///< all alike
 };
 
-/// Divides the beam into n_sde = n_rfe - 1 equal segments with an sde in the middle of each; the pieces between are the elements.
+/// Divides the beam into n_sde = n_rfe - 1 equal segments with an sde in the middle of each; the pieces
+/// between are the elements.
 ///
 ///     S = diag(E I, E I, G J) / dl,  D = (2 zeta / omega_1) S,  omega_1 = (pi / l)^2 sqrt(E I l / m)
 ///
-/// Of a beam that is stiffer about one axis, S = diag(E I_z, E I_y, G J) / dl and omega_1 is that of the softer one.
+/// Of a beam that is stiffer about one axis, S = diag(E I_z, E I_y, G J) / dl and omega_1 is that of the
+/// softer one.
 /// @param n_rfe  elements, >= 2
 [[nodiscard]] DividedRod divide_beam(const UniformBeam& beam, int n_rfe);
 
 [[nodiscard]] UniformBeam make_beam(const UniformRod& rod);
 
 /// The same of a rod.
-[[nodiscard]] inline DividedRod divide_rod(const UniformRod& rod, int n_rfe) { return divide_beam(make_beam(rod), n_rfe); }
+[[nodiscard]] inline DividedRod divide_rod(const UniformRod& rod, int n_rfe) {
+  return divide_beam(make_beam(rod), n_rfe);
+}
 
-/// Moments of a uniform beam along x about its end: I_y = m l^2 / 3 + share_y I_x, I_z with the other share, [kg m^2].
+/// Moments of a uniform beam along x about its end: I_y = m l^2 / 3 + share_y I_x, I_z with the other share,
+/// [kg m^2].
 [[nodiscard]] Eigen::Vector3d calc_beam_inertia(const UniformBeam& beam);
 
 }  // namespace engine

@@ -14,7 +14,8 @@ FrameMotion ground_motion(const Mechanism& mechanism) {
   return ground;
 }
 
-void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q, std::vector<FrameMotion>& frames) {
+void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q,
+                      std::vector<FrameMotion>& frames) {
   const Mat3<double> unturned = to_mat3(Eigen::Matrix3d::Identity());
   Mat3<double> R = unturned;
   Vec3<double> p;
@@ -46,7 +47,8 @@ void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q, std:
   }
 }
 
-void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, std::vector<FrameMotion>& frames) {
+void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
+                      std::vector<FrameMotion>& frames) {
   const Frame<double, double> ground = to_frame(ground_motion(mechanism));
   Frame<double, double> f = ground;
   for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
@@ -73,8 +75,8 @@ void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, con
   }
 }
 
-void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
-                        std::vector<FrameMotion>& frames) {
+void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                        const Eigen::VectorXd& qdd, std::vector<FrameMotion>& frames) {
   calc_frame_poses(mechanism, q, frames);
   calc_frame_rates(mechanism, qd, qdd, frames);
 }

@@ -19,7 +19,7 @@ struct FrameMotion {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();          ///< angular velocity, [rad/s]
   Eigen::Vector3d v = Eigen::Vector3d::Zero();          ///< of the origin, [m/s]
   Eigen::Vector3d wd = Eigen::Vector3d::Zero();         ///< angular acceleration, [rad/s^2]
-  Eigen::Vector3d vd = Eigen::Vector3d::Zero();         ///< acceleration of the origin less that of gravity, [m/s^2]
+  Eigen::Vector3d vd = Eigen::Vector3d::Zero();  ///< acceleration of the origin less that of gravity, [m/s^2]
 };
 
 /// The motion of the ground as the frames on it see it: at rest, gravity as an upward acceleration.
@@ -30,12 +30,14 @@ struct FrameMotion {
 /// @param frames  one a coordinate; velocities and accelerations stay as they are
 void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q, std::vector<FrameMotion>& frames);
 
-/// Computes velocities and accelerations of frames whose poses are set, by the derivatives of Eq. (2) by time.
+/// Computes velocities and accelerations of frames whose poses are set, by the derivatives of Eq. (2) by
+/// time.
 /// @param qdd  where it is not known yet zero, and the result is the bias acceleration
-void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd, std::vector<FrameMotion>& frames);
+void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
+                      std::vector<FrameMotion>& frames);
 
 /// Both, from q, qd and qdd.
-void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
-                        std::vector<FrameMotion>& frames);
+void calc_frame_motions(const Mechanism& mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                        const Eigen::VectorXd& qdd, std::vector<FrameMotion>& frames);
 
 }  // namespace engine

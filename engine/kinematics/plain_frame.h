@@ -16,13 +16,16 @@ inline namespace RPSUP_INSTRUCTION_SET {
 [[nodiscard]] inline Vec3<double> to_vec3(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 [[nodiscard]] inline Eigen::Vector3d to_eigen(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
 
-[[nodiscard]] inline Mat3<double> to_mat3(const Eigen::Matrix3d& m) { return {to_vec3(m.col(0)), to_vec3(m.col(1)), to_vec3(m.col(2))}; }
+[[nodiscard]] inline Mat3<double> to_mat3(const Eigen::Matrix3d& m) {
+  return {to_vec3(m.col(0)), to_vec3(m.col(1)), to_vec3(m.col(2))};
+}
 
 [[nodiscard]] inline Frame<double, double> to_frame(const FrameMotion& f) {
   return {to_mat3(f.R), to_vec3(f.p), to_vec3(f.w), to_vec3(f.v), to_vec3(f.wd), to_vec3(f.vd)};
 }
 
-/// Number by number: a vector made of three that have just been written would be read by wider words, which makes the processor wait.
+/// Number by number: a vector made of three that have just been written would be read by wider words, which
+/// makes the processor wait.
 inline void copy(const Vec3<double>& from, double* to) {
   to[0] = from.x;
   to[1] = from.y;

@@ -19,7 +19,8 @@ std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(),
 bool is_along_x(const Eigen::Vector3d& v) { return v.y() == 0.0 && v.z() == 0.0; }
 
 TreePlacement make_placement(const Placement& placement) {
-  return {!is_unturned(placement), !placement.p.isZero(0.0), is_along_x(placement.p), columns_of(placement.R), array_of(placement.p)};
+  return {!is_unturned(placement), !placement.p.isZero(0.0), is_along_x(placement.p), columns_of(placement.R),
+          array_of(placement.p)};
 }
 
 JointTraits::Inertia kind_of_inertia(const Coordinate& c) {
@@ -41,24 +42,31 @@ void set_body(const Coordinate& c, TreeJoint& joint) {
 /// Finds the joints among a mechanism's coordinates.
 class JointFinder {
  public:
-  explicit JointFinder(const Mechanism& mechanism) : mechanism_(mechanism), joint_of_(mechanism.coordinates.size(), -1) {}
+  explicit JointFinder(const Mechanism& mechanism)
+      : mechanism_(mechanism), joint_of_(mechanism.coordinates.size(), -1) {}
 
   std::vector<TreeJoint> find() {
-    for (int i = 0; i < static_cast<int>(mechanism_.coordinates.size()); i += joints_.back().count()) add_joint(i);
+    for (int i = 0; i < static_cast<int>(mechanism_.coordinates.size()); i += joints_.back().count())
+      add_joint(i);
     complete_traits(joints_);
     return joints_;
   }
 
-  [[nodiscard]] int joint_of(FrameIndex frame) const { return frame == kGround ? -1 : joint_of_[static_cast<std::size_t>(frame)]; }
+  [[nodiscard]] int joint_of(FrameIndex frame) const {
+    return frame == kGround ? -1 : joint_of_[static_cast<std::size_t>(frame)];
+  }
 
  private:
-  [[nodiscard]] const Coordinate& coordinate(int i) const { return mechanism_.coordinates[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Coordinate& coordinate(int i) const {
+    return mechanism_.coordinates[static_cast<std::size_t>(i)];
+  }
 
   void add_joint(int i) {
     const Coordinate& c = coordinate(i);
     TreeJoint joint;
-    joint.kind = is_spherical(i) ? JointTraits::Kind::kSpherical
-                                 : c.motion == Motion::kRotation ? JointTraits::Kind::kRotation : JointTraits::Kind::kTranslation;
+    joint.kind = is_spherical(i)                 ? JointTraits::Kind::kSpherical
+                 : c.motion == Motion::kRotation ? JointTraits::Kind::kRotation
+                                                 : JointTraits::Kind::kTranslation;
     joint.axis = static_cast<int>(c.axis);
     joint.placement = make_placement(c.placement);
     joint.rotated = joint.placement.rotated;
@@ -80,20 +88,26 @@ class JointFinder {
   /// The drive that gives a coordinate's motion; -1: it is free, or a multiplier enforces the drive.
   [[nodiscard]] int eliminating_drive(int i) const {
     if (mechanism_.drive_rows != DriveRows::kEliminated) return -1;
-    const auto drive = std::find_if(mechanism_.drives.begin(), mechanism_.drives.end(), [i](const Drive& d) { return d.coordinate == i; });
+    const auto drive = std::find_if(mechanism_.drives.begin(), mechanism_.drives.end(),
+                                    [i](const Drive& d) { return d.coordinate == i; });
     return drive == mechanism_.drives.end() ? -1 : static_cast<int>(drive - mechanism_.drives.begin());
   }
 
   [[nodiscard]] bool is_free_rotation(int i, Axis axis) const {
-    return coordinate(i).motion == Motion::kRotation && coordinate(i).axis == axis && eliminating_drive(i) < 0;
+    return coordinate(i).motion == Motion::kRotation && coordinate(i).axis == axis &&
+           eliminating_drive(i) < 0;
   }
 
   /// Three free rotations about z, y, x of one point, with nothing else on the two frames between.
   [[nodiscard]] bool is_spherical(int i) const {
     if (i + 2 >= static_cast<int>(mechanism_.coordinates.size())) return false;
-    if (!is_free_rotation(i, Axis::kZ) || !is_free_rotation(i + 1, Axis::kY) || !is_free_rotation(i + 2, Axis::kX)) return false;
+    if (!is_free_rotation(i, Axis::kZ) || !is_free_rotation(i + 1, Axis::kY) ||
+        !is_free_rotation(i + 2, Axis::kX))
+      return false;
     for (const int k : {i + 1, i + 2})
-      if (coordinate(k).parent != k - 1 || !is_inside_joint(coordinate(k)) || !is_unturned(coordinate(k).placement) || !is_empty(k - 1)) return false;
+      if (coordinate(k).parent != k - 1 || !is_inside_joint(coordinate(k)) ||
+          !is_unturned(coordinate(k).placement) || !is_empty(k - 1))
+        return false;
     return true;
   }
 
@@ -103,7 +117,8 @@ class JointFinder {
       if (joint.bearing_frame == i || joint.journal_frame == i) return false;
     for (const PointSpring& spring : mechanism_.springs)
       if (spring.from_frame == i || spring.to_frame == i) return false;
-    return std::count_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), [i](const Coordinate& c) { return c.parent == i; }) == 1;
+    return std::count_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(),
+                         [i](const Coordinate& c) { return c.parent == i; }) == 1;
   }
 
   const Mechanism& mechanism_;
@@ -140,8 +155,11 @@ TreeModel::TreeModel(const Mechanism& mechanism)
     for (int k = 0; k < joint.count() && !joint.driven; ++k) free.push_back(joint.first + k);
   int clearances = 0;
   for (const CutJoint& joint : mechanism.cut_joints) {
-    TreeCutJoint cut{.bearing_joint = finder.joint_of(joint.bearing_frame), .journal_joint = finder.joint_of(joint.journal_frame),
-                     .bearing = make_placement(joint.bearing), .journal = make_placement(joint.journal), .rows = {}};
+    TreeCutJoint cut{.bearing_joint = finder.joint_of(joint.bearing_frame),
+                     .journal_joint = finder.joint_of(joint.journal_frame),
+                     .bearing = make_placement(joint.bearing),
+                     .journal = make_placement(joint.journal),
+                     .rows = {}};
     if (joint.clearance) {
       cut.clearance = clearances++;
     } else {
@@ -152,9 +170,13 @@ TreeModel::TreeModel(const Mechanism& mechanism)
     cut_joints.push_back(cut);
   }
   for (const PointSpring& spring : mechanism.springs)
-    springs.push_back({.from_joint = finder.joint_of(spring.from_frame), .to_joint = finder.joint_of(spring.to_frame),
-                       .from = make_placement({.p = spring.from}), .to = make_placement({.p = spring.to}), .stiffness = spring.stiffness,
-                       .damping = spring.damping, .free_length = spring.free_length});
+    springs.push_back({.from_joint = finder.joint_of(spring.from_frame),
+                       .to_joint = finder.joint_of(spring.to_frame),
+                       .from = make_placement({.p = spring.from}),
+                       .to = make_placement({.p = spring.to}),
+                       .stiffness = spring.stiffness,
+                       .damping = spring.damping,
+                       .free_length = spring.free_length});
   first_coupling_row = rows;
   rows += static_cast<int>(couplings.size());
   first_drive_row = rows;
@@ -168,7 +190,8 @@ bool TreeModel::is_eliminated(int coordinate) const {
 TreeModel make_given_model(Mechanism mechanism) {
   mechanism.drive_rows = DriveRows::kEliminated;
   mechanism.drives.clear();
-  for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) mechanism.drives.push_back({.coordinate = i, .law = {}});
+  for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i)
+    mechanism.drives.push_back({.coordinate = i, .law = {}});
   return TreeModel(mechanism);
 }
 

@@ -8,12 +8,14 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// An array of a length that is known at construction. (std::vector's functions would be shared between instruction sets by the linker.)
+/// An array of a length that is known at construction. (std::vector's functions would be shared between
+/// instruction sets by the linker.)
 template <typename T>
 class Buffer {
  public:
   /// @param room  for more than size, which code that takes several at once may touch
-  explicit Buffer(std::size_t size, std::size_t room = 0) : data_(new T[size < room ? room : size]()), size_(size) {}
+  explicit Buffer(std::size_t size, std::size_t room = 0)
+      : data_(new T[size < room ? room : size]()), size_(size) {}
   ~Buffer() { delete[] data_; }
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
@@ -34,7 +36,8 @@ class Buffer {
   std::size_t size_;
 };
 
-/// The same of a length that is known when the program is compiled, its entries not set: where it lives on the stack they may stay in registers.
+/// The same of a length that is known when the program is compiled, its entries not set: where it lives on
+/// the stack they may stay in registers.
 template <typename T, std::size_t length, std::size_t room = length>
 class FixedBuffer {
  public:

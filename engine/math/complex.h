@@ -8,8 +8,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A complex number, or several side by side. (Functions of std::complex would be shared between instruction sets by the linker, and look twice at
-/// each product for infinities.)
+/// A complex number, or several side by side. (Functions of std::complex would be shared between instruction
+/// sets by the linker, and look twice at each product for infinities.)
 template <typename T>
 struct Complex {
   T real{}, imag{};
@@ -33,10 +33,12 @@ template <typename T>
 }
 template <typename A, typename B>
 [[nodiscard]] RPSUP_INLINE auto operator*(const Complex<A>& a, const Complex<B>& b) {
-  return Complex<decltype(a.real * b.real)>{a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real};
+  return Complex<decltype(a.real * b.real)>{a.real * b.real - a.imag * b.imag,
+                                            a.real * b.imag + a.imag * b.real};
 }
 template <int count, typename B>
-[[nodiscard]] RPSUP_INLINE Complex<LaneBlock<count>> operator*(const LaneBlock<count>& a, const Complex<B>& b) {
+[[nodiscard]] RPSUP_INLINE Complex<LaneBlock<count>> operator*(const LaneBlock<count>& a,
+                                                               const Complex<B>& b) {
   return {a * b.real, a * b.imag};
 }
 template <typename T>
@@ -61,11 +63,15 @@ RPSUP_INLINE Complex<T>& operator-=(Complex<T>& a, const Complex<T>& b) {
   return a = a - b;
 }
 RPSUP_INLINE Complex<double>& operator*=(Complex<double>& a, const Complex<double>& b) { return a = a * b; }
-RPSUP_INLINE Complex<double>& operator/=(Complex<double>& a, const Complex<double>& b) { return a = (1.0 / b) * a; }
+RPSUP_INLINE Complex<double>& operator/=(Complex<double>& a, const Complex<double>& b) {
+  return a = (1.0 / b) * a;
+}
 
 /// A measure of size, the cheapest.
 [[nodiscard]] RPSUP_INLINE double size_of(double x) { return std::abs(x); }
-[[nodiscard]] RPSUP_INLINE double size_of(const Complex<double>& x) { return std::abs(x.real) + std::abs(x.imag); }
+[[nodiscard]] RPSUP_INLINE double size_of(const Complex<double>& x) {
+  return std::abs(x.real) + std::abs(x.imag);
+}
 
 /// Several numbers of a kind side by side, and how real ones become such.
 template <typename Scalar>
@@ -107,7 +113,9 @@ RPSUP_INLINE void set_number_in(Complex<LaneBlock<count>>& block, int lane, cons
   block.imag.set(lane, number.imag);
 }
 /// The sum of all lanes.
-[[nodiscard]] RPSUP_INLINE Complex<double> sum(const Complex<Lanes>& block) { return {sum(block.real), sum(block.imag)}; }
+[[nodiscard]] RPSUP_INLINE Complex<double> sum(const Complex<Lanes>& block) {
+  return {sum(block.real), sum(block.imag)};
+}
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

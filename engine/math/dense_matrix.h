@@ -11,7 +11,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A square matrix to be factored, Gauss with partial pivoting. (Functions of Eigen would be shared between instruction sets by the linker.)
+/// A square matrix to be factored, Gauss with partial pivoting. (Functions of Eigen would be shared between
+/// instruction sets by the linker.)
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>
 class DenseMatrix {
@@ -22,8 +23,12 @@ class DenseMatrix {
   /// Makes it n x n. Entries are not set.
   void resize(std::size_t n) { n_ = n; }
   [[nodiscard]] std::size_t size() const { return n_; }
-  [[nodiscard]] RPSUP_INLINE Scalar& operator()(std::size_t row, std::size_t column) { return entries_[row * n_ + column]; }
-  [[nodiscard]] RPSUP_INLINE Scalar operator()(std::size_t row, std::size_t column) const { return entries_[row * n_ + column]; }
+  [[nodiscard]] RPSUP_INLINE Scalar& operator()(std::size_t row, std::size_t column) {
+    return entries_[row * n_ + column];
+  }
+  [[nodiscard]] RPSUP_INLINE Scalar operator()(std::size_t row, std::size_t column) const {
+    return entries_[row * n_ + column];
+  }
 
   /// L U = P A in place. False if A is singular.
   [[nodiscard]] bool factor() {

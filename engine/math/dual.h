@@ -9,8 +9,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A number with its derivatives in several directions: forward differentiation, exact to rounding. What is computed with these is
-/// computed together with its derivatives, from the same lines of code.
+/// A number with its derivatives in several directions: forward differentiation, exact to rounding. What is
+/// computed with these is computed together with its derivatives, from the same lines of code.
 template <int count>
 struct DualOf {
   double value;
@@ -40,27 +40,39 @@ struct DualOf {
   }
 
   [[nodiscard]] RPSUP_INLINE friend DualOf operator-(const DualOf& a) { return {-a.value, -a.d}; }
-  [[nodiscard]] RPSUP_INLINE friend DualOf operator+(const DualOf& a, const DualOf& b) { return {a.value + b.value, a.d + b.d}; }
-  [[nodiscard]] RPSUP_INLINE friend DualOf operator-(const DualOf& a, const DualOf& b) { return {a.value - b.value, a.d - b.d}; }
+  [[nodiscard]] RPSUP_INLINE friend DualOf operator+(const DualOf& a, const DualOf& b) {
+    return {a.value + b.value, a.d + b.d};
+  }
+  [[nodiscard]] RPSUP_INLINE friend DualOf operator-(const DualOf& a, const DualOf& b) {
+    return {a.value - b.value, a.d - b.d};
+  }
   [[nodiscard]] RPSUP_INLINE friend DualOf operator*(const DualOf& a, const DualOf& b) {
     return {a.value * b.value, combine(a.value, b.d, b.value, a.d)};
   }
   [[nodiscard]] RPSUP_INLINE friend DualOf operator+(const DualOf& a, double b) { return {a.value + b, a.d}; }
   [[nodiscard]] RPSUP_INLINE friend DualOf operator+(double a, const DualOf& b) { return {a + b.value, b.d}; }
   [[nodiscard]] RPSUP_INLINE friend DualOf operator-(const DualOf& a, double b) { return {a.value - b, a.d}; }
-  [[nodiscard]] RPSUP_INLINE friend DualOf operator-(double a, const DualOf& b) { return {a - b.value, -b.d}; }
-  [[nodiscard]] RPSUP_INLINE friend DualOf operator*(double a, const DualOf& b) { return {a * b.value, a * b.d}; }
+  [[nodiscard]] RPSUP_INLINE friend DualOf operator-(double a, const DualOf& b) {
+    return {a - b.value, -b.d};
+  }
+  [[nodiscard]] RPSUP_INLINE friend DualOf operator*(double a, const DualOf& b) {
+    return {a * b.value, a * b.d};
+  }
   [[nodiscard]] RPSUP_INLINE friend DualOf operator*(const DualOf& a, double b) { return b * a; }
 
   /// f(a) with the derivative f'(a).
-  [[nodiscard]] RPSUP_INLINE friend DualOf chain(const DualOf& a, double f, double df) { return {f, df * a.d}; }
+  [[nodiscard]] RPSUP_INLINE friend DualOf chain(const DualOf& a, double f, double df) {
+    return {f, df * a.d};
+  }
 
   [[nodiscard]] RPSUP_INLINE friend DualOf operator/(const DualOf& a, const DualOf& b) {
     const double inverse = 1.0 / b.value;
     const double quotient = a.value * inverse;
     return {quotient, inverse * (a.d - quotient * b.d)};
   }
-  [[nodiscard]] RPSUP_INLINE friend DualOf operator/(double a, const DualOf& b) { return chain(b, a / b.value, -a / (b.value * b.value)); }
+  [[nodiscard]] RPSUP_INLINE friend DualOf operator/(double a, const DualOf& b) {
+    return chain(b, a / b.value, -a / (b.value * b.value));
+  }
   [[nodiscard]] RPSUP_INLINE friend DualOf operator/(const DualOf& a, double b) { return (1.0 / b) * a; }
 
   [[nodiscard]] RPSUP_INLINE friend DualOf sqrt(const DualOf& a) {
@@ -71,7 +83,9 @@ struct DualOf {
     const double e = std::exp(a.value);
     return chain(a, e, e);
   }
-  [[nodiscard]] RPSUP_INLINE friend DualOf sin(const DualOf& a) { return chain(a, std::sin(a.value), std::cos(a.value)); }
+  [[nodiscard]] RPSUP_INLINE friend DualOf sin(const DualOf& a) {
+    return chain(a, std::sin(a.value), std::cos(a.value));
+  }
   /// Angle of (x, y), not both zero.
   [[nodiscard]] RPSUP_INLINE friend DualOf atan2(const DualOf& y, const DualOf& x) {
     const double inverse = 1.0 / (x.value * x.value + y.value * y.value);

@@ -42,23 +42,36 @@ struct LanePart<8> {
 };
 
 /// Whether one of the lanes, each all zeros or all ones, is ones.
-[[nodiscard]] RPSUP_INLINE bool any(const LanePart<2>::Bits& lanes) { return _mm_movemask_pd(reinterpret_cast<__m128d>(lanes)) != 0; }
+[[nodiscard]] RPSUP_INLINE bool any(const LanePart<2>::Bits& lanes) {
+  return _mm_movemask_pd(reinterpret_cast<__m128d>(lanes)) != 0;
+}
 #if defined(__AVX__)
-[[nodiscard]] RPSUP_INLINE bool any(const LanePart<4>::Bits& lanes) { return _mm256_movemask_pd(reinterpret_cast<__m256d>(lanes)) != 0; }
+[[nodiscard]] RPSUP_INLINE bool any(const LanePart<4>::Bits& lanes) {
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(lanes)) != 0;
+}
 #endif
 #if defined(__AVX512F__)
-[[nodiscard]] RPSUP_INLINE bool any(const LanePart<8>::Bits& lanes) { return _mm512_movepi64_mask(reinterpret_cast<__m512i>(lanes)) != 0; }
+[[nodiscard]] RPSUP_INLINE bool any(const LanePart<8>::Bits& lanes) {
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(lanes)) != 0;
+}
 #endif
 
-[[nodiscard]] RPSUP_INLINE LanePart<2>::Type sqrt_of(const LanePart<2>::Type& part) { return _mm_sqrt_pd(part); }
+[[nodiscard]] RPSUP_INLINE LanePart<2>::Type sqrt_of(const LanePart<2>::Type& part) {
+  return _mm_sqrt_pd(part);
+}
 #if defined(__AVX__)
-[[nodiscard]] RPSUP_INLINE LanePart<4>::Type sqrt_of(const LanePart<4>::Type& part) { return _mm256_sqrt_pd(part); }
+[[nodiscard]] RPSUP_INLINE LanePart<4>::Type sqrt_of(const LanePart<4>::Type& part) {
+  return _mm256_sqrt_pd(part);
+}
 #endif
 #if defined(__AVX512F__)
-[[nodiscard]] RPSUP_INLINE LanePart<8>::Type sqrt_of(const LanePart<8>::Type& part) { return _mm512_sqrt_pd(part); }
+[[nodiscard]] RPSUP_INLINE LanePart<8>::Type sqrt_of(const LanePart<8>::Type& part) {
+  return _mm512_sqrt_pd(part);
+}
 #endif
 
-/// Numbers side by side, in the widest parts that the instruction set has. (Left to the compiler, wider ones fall apart badly.)
+/// Numbers side by side, in the widest parts that the instruction set has. (Left to the compiler, wider ones
+/// fall apart badly.)
 template <int count>
 struct LaneBlock {
   static constexpr int kCount = count;
@@ -69,7 +82,8 @@ struct LaneBlock {
   Part part[kParts];
 
   LaneBlock() = default;
-  // Copied part by part: left to the compiler, a copy goes through smaller words, and the next reader waits for it.
+  // Copied part by part: left to the compiler, a copy goes through smaller words, and the next reader waits
+  // for it.
   RPSUP_INLINE LaneBlock(const LaneBlock& other) { *this = other; }
   RPSUP_INLINE LaneBlock& operator=(const LaneBlock& other) {
     for (int i = 0; i < kParts; ++i) part[i] = other.part[i];
@@ -149,9 +163,13 @@ template <int count>
 template <int count>
 [[nodiscard]] RPSUP_INLINE LaneBlock<count> operator*(const LaneBlock<count>& a, double s) { return s * a; }
 template <int count>
-RPSUP_INLINE LaneBlock<count>& operator+=(LaneBlock<count>& a, const LaneBlock<count>& b) { return a = a + b; }
+RPSUP_INLINE LaneBlock<count>& operator+=(LaneBlock<count>& a, const LaneBlock<count>& b) {
+  return a = a + b;
+}
 template <int count>
-RPSUP_INLINE LaneBlock<count>& operator-=(LaneBlock<count>& a, const LaneBlock<count>& b) { return a = a - b; }
+RPSUP_INLINE LaneBlock<count>& operator-=(LaneBlock<count>& a, const LaneBlock<count>& b) {
+  return a = a - b;
+}
 /// Lane by lane.
 template <int count>
 [[nodiscard]] RPSUP_INLINE LaneBlock<count> operator*(const LaneBlock<count>& a, const LaneBlock<count>& b) {
@@ -175,13 +193,17 @@ template <int count>
 }
 /// Lane by lane: a > b ? yes : no
 template <int count>
-[[nodiscard]] RPSUP_INLINE LaneBlock<count> choose_greater(const LaneBlock<count>& a, const LaneBlock<count>& b, const LaneBlock<count>& yes,
-                                                            const LaneBlock<count>& no) {
-  return for_each_part<count>([&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] > b.part[i] ? yes.part[i] : no.part[i]; });
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> choose_greater(const LaneBlock<count>& a,
+                                                           const LaneBlock<count>& b,
+                                                           const LaneBlock<count>& yes,
+                                                           const LaneBlock<count>& no) {
+  return for_each_part<count>(
+      [&](int i) RPSUP_INLINE_LAMBDA { return a.part[i] > b.part[i] ? yes.part[i] : no.part[i]; });
 }
 /// s a + t b
 template <int count>
-[[nodiscard]] RPSUP_INLINE LaneBlock<count> combine(double s, const LaneBlock<count>& a, double t, const LaneBlock<count>& b) {
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> combine(double s, const LaneBlock<count>& a, double t,
+                                                    const LaneBlock<count>& b) {
   return for_each_part<count>([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i] + t * b.part[i]; });
 }
 
@@ -192,12 +214,14 @@ template <int count>
   using Part = typename LaneBlock<count>::Part;
   constexpr long long kMagnitude = 0x7fffffffffffffff;
   Bits outside{};
-  for (const Part& part : a.part) outside |= ~(reinterpret_cast<Part>(reinterpret_cast<Bits>(part) & kMagnitude) < limit);
+  for (const Part& part : a.part)
+    outside |= ~(reinterpret_cast<Part>(reinterpret_cast<Bits>(part) & kMagnitude) < limit);
   return !any(outside);
 }
 
 using Lanes = LaneBlock<8>;
-/// Numbers in several directions, one a lane: no more than registers hold side by side, so that a vector of them need not leave its registers.
+/// Numbers in several directions, one a lane: no more than registers hold side by side, so that a vector of
+/// them need not leave its registers.
 using TangentPack = LaneBlock<kWidestPart>;
 using LanePair = LaneBlock<2>;
 
@@ -223,11 +247,15 @@ struct LanePairs {
   /// @param numbers  the first pair, then the others
   [[nodiscard]] RPSUP_INLINE static LanePairs load(const double* numbers) {
     const Lanes a = Lanes::load(numbers), b = Lanes::load(numbers + Lanes::kCount);
-    const auto part = [&](int i) RPSUP_INLINE_LAMBDA { return i < Lanes::kParts ? a.part[i] : b.part[i - Lanes::kParts]; };
+    const auto part = [&](int i) RPSUP_INLINE_LAMBDA {
+      return i < Lanes::kParts ? a.part[i] : b.part[i - Lanes::kParts];
+    };
     LanePairs pairs;
     for (int i = 0; i < Lanes::kParts; ++i) {
-      pairs.first.part[i] = take_every_other<0>(part(2 * i), part(2 * i + 1), std::make_integer_sequence<int, Lanes::kWidth>());
-      pairs.second.part[i] = take_every_other<1>(part(2 * i), part(2 * i + 1), std::make_integer_sequence<int, Lanes::kWidth>());
+      pairs.first.part[i] =
+          take_every_other<0>(part(2 * i), part(2 * i + 1), std::make_integer_sequence<int, Lanes::kWidth>());
+      pairs.second.part[i] =
+          take_every_other<1>(part(2 * i), part(2 * i + 1), std::make_integer_sequence<int, Lanes::kWidth>());
     }
     return pairs;
   }
@@ -235,18 +263,22 @@ struct LanePairs {
     constexpr int kWidth = Lanes::kWidth;
     using Stored = typename LanePart<kWidth>::Stored;
     for (int i = 0; i < Lanes::kParts; ++i) {
-      reinterpret_cast<Stored*>(numbers)[2 * i] = alternate<0>(first.part[i], second.part[i], std::make_integer_sequence<int, kWidth>());
-      reinterpret_cast<Stored*>(numbers)[2 * i + 1] = alternate<kWidth / 2>(first.part[i], second.part[i], std::make_integer_sequence<int, kWidth>());
+      reinterpret_cast<Stored*>(numbers)[2 * i] =
+          alternate<0>(first.part[i], second.part[i], std::make_integer_sequence<int, kWidth>());
+      reinterpret_cast<Stored*>(numbers)[2 * i + 1] =
+          alternate<kWidth / 2>(first.part[i], second.part[i], std::make_integer_sequence<int, kWidth>());
     }
   }
 
  private:
   template <int from, int... i>
-  [[nodiscard]] RPSUP_INLINE static Lanes::Part take_every_other(const Lanes::Part& a, const Lanes::Part& b, std::integer_sequence<int, i...>) {
+  [[nodiscard]] RPSUP_INLINE static Lanes::Part take_every_other(const Lanes::Part& a, const Lanes::Part& b,
+                                                                 std::integer_sequence<int, i...>) {
     return __builtin_shufflevector(a, b, (2 * i + from)...);
   }
   template <int from, int... i>
-  [[nodiscard]] RPSUP_INLINE static Lanes::Part alternate(const Lanes::Part& a, const Lanes::Part& b, std::integer_sequence<int, i...>) {
+  [[nodiscard]] RPSUP_INLINE static Lanes::Part alternate(const Lanes::Part& a, const Lanes::Part& b,
+                                                          std::integer_sequence<int, i...>) {
     return __builtin_shufflevector(a, b, (from + i / 2 + (i % 2) * Lanes::kWidth)...);
   }
 };

@@ -12,7 +12,9 @@ inline namespace RPSUP_INSTRUCTION_SET {
 
 /// Numbers in a block: rows of numbers have room for whole ones.
 inline constexpr int kRowBlock = 4;
-[[nodiscard]] constexpr int in_row_blocks(int numbers) { return (numbers + kRowBlock - 1) / kRowBlock * kRowBlock; }
+[[nodiscard]] constexpr int in_row_blocks(int numbers) {
+  return (numbers + kRowBlock - 1) / kRowBlock * kRowBlock;
+}
 
 /// Those of a row that are taken at once. However many: what is computed with each of them is the same.
 using RowLanes = LaneBlock<kWidestPart < kRowBlock ? kWidestPart : kRowBlock>;
@@ -41,7 +43,9 @@ struct NumbersAt<Complex<double>> {
     real[i] = value.real;
     imag[i] = value.imag;
   }
-  [[nodiscard]] RPSUP_INLINE Complex<RowLanes> load(int i) const { return {RowLanes::load(real + i), RowLanes::load(imag + i)}; }
+  [[nodiscard]] RPSUP_INLINE Complex<RowLanes> load(int i) const {
+    return {RowLanes::load(real + i), RowLanes::load(imag + i)};
+  }
   RPSUP_INLINE void store(int i, const Complex<RowLanes>& values) const {
     values.real.store(real + i);
     values.imag.store(imag + i);
@@ -63,9 +67,11 @@ template <typename Scalar>
 class NumberRows {
  public:
   NumberRows(int rows, int stride)
-      : size_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride)), numbers_(size_ * sizeof(Scalar) / sizeof(double)) {}
+      : size_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride)),
+        numbers_(size_ * sizeof(Scalar) / sizeof(double)) {}
 
-  /// To be asked for before anything is stored: the compiler must take what is stored for a change of these, too.
+  /// To be asked for before anything is stored: the compiler must take what is stored for a change of these,
+  /// too.
   /// @param stride  the same, which the compiler may know
   [[nodiscard]] RPSUP_INLINE RowsAt<Scalar> rows(int stride) {
     if constexpr (sizeof(Scalar) == sizeof(double))

@@ -9,7 +9,9 @@
 namespace engine {
 
 PeriodicSpline::PeriodicSpline(std::vector<double> values, double first)
-    : values_(std::move(values)), first_(first), spacing_(2.0 * std::numbers::pi / static_cast<double>(values_.size())) {}
+    : values_(std::move(values)),
+      first_(first),
+      spacing_(2.0 * std::numbers::pi / static_cast<double>(values_.size())) {}
 
 PeriodicSpline::Point PeriodicSpline::at(double angle) const {
   const double place = angle / spacing_ - first_;

@@ -5,10 +5,12 @@
 
 namespace engine {
 
-/// A smooth function of an angle, of period 2 pi: the uniform cubic B-spline whose coefficients are values at equally spaced angles.
+/// A smooth function of an angle, of period 2 pi: the uniform cubic B-spline whose coefficients are values at
+/// equally spaced angles.
 ///
-/// Twice continuously differentiable, within the values it is made of, and of their mean; it does not pass through them but smooths: a cosine of
-/// wavelength n spacings comes out smaller by the part (1 - cos(2 pi / n)) / 3.
+/// Twice continuously differentiable, within the values it is made of, and of their mean; it does not pass
+/// through them but smooths: a cosine of wavelength n spacings comes out smaller by the part (1 - cos(2 pi /
+/// n)) / 3.
 class PeriodicSpline {
  public:
   /// A value of it and its derivatives by the angle.

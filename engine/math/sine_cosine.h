@@ -2,8 +2,8 @@
 // Derived from k_sin.c, k_cos.c and e_rem_pio2.c of fdlibm:
 // Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
 // Developed at SunSoft, a Sun Microsystems, Inc. business.
-// Permission to use, copy, modify, and distribute this software is freely granted, provided that this notice is
-// preserved.
+// Permission to use, copy, modify, and distribute this software is freely granted, provided that this notice
+// is preserved.
 
 #pragma once
 
@@ -20,7 +20,9 @@ inline namespace RPSUP_INSTRUCTION_SET {
 constexpr int kSineBlock = kWidestPart;
 using SineBlock = LaneBlock<kSineBlock>;
 /// The least multiple of a block that holds n numbers.
-[[nodiscard]] constexpr std::size_t in_sine_blocks(std::size_t n) { return (n + kSineBlock - 1) / kSineBlock * kSineBlock; }
+[[nodiscard]] constexpr std::size_t in_sine_blocks(std::size_t n) {
+  return (n + kSineBlock - 1) / kSineBlock * kSineBlock;
+}
 
 struct SinesAndCosines {
   SineBlock sine, cosine;
@@ -33,9 +35,11 @@ struct SinesAndCosines {
   const SineBlock z = y * y;
   const SineBlock zz = z * z;
   const SineBlock s_low = 8.33333333332248946124e-03 + z * -1.98412698298579493134e-04;
-  const SineBlock s_high = (2.75573137070700676789e-06 + z * -2.50507602534068634195e-08) + zz * 1.58969099521155010221e-10;
+  const SineBlock s_high =
+      (2.75573137070700676789e-06 + z * -2.50507602534068634195e-08) + zz * 1.58969099521155010221e-10;
   const SineBlock cube = z * y;
-  const SineBlock s = y - ((z * (0.5 * tail - cube * (s_low + zz * s_high)) - tail) - cube * -1.66666666666666324348e-01);
+  const SineBlock s =
+      y - ((z * (0.5 * tail - cube * (s_low + zz * s_high)) - tail) - cube * -1.66666666666666324348e-01);
   const SineBlock c_low = 4.16666666666666019037e-02 + z * -1.38888888888741095749e-03;
   const SineBlock c_middle = 2.48015872894767294178e-05 + z * -2.75573143513906633035e-07;
   const SineBlock c_high = 2.08757232129817482790e-09 + z * -1.13596475577881948265e-11;
@@ -46,10 +50,12 @@ struct SinesAndCosines {
   return {s, c};
 }
 
-/// Of numbers below kLargestAngle. Source: fdlibm's __ieee754_rem_pio2: pi / 2 in two parts of which the first, of 33 bits, has exact multiples.
+/// Of numbers below kLargestAngle. Source: fdlibm's __ieee754_rem_pio2: pi / 2 in two parts of which the
+/// first, of 33 bits, has exact multiples.
 [[nodiscard]] RPSUP_INLINE SinesAndCosines calc_reduced_sines(const SineBlock& angle) {
   using Bits = typename LanePart<kSineBlock>::Bits;
-  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: added, the sum's last bits are the nearest integer
+  constexpr double kRound =
+      6755399441055744.0;  // 1.5 * 2^52: added, the sum's last bits are the nearest integer
   constexpr double kHalfPiHead = 1.57079632673412561417, kHalfPiTail = 6.07710050650619224932e-11;
   const SineBlock shifted = angle * (2.0 / 3.14159265358979323846) + kRound;
   const SineBlock quadrant = shifted - kRound;
@@ -68,7 +74,8 @@ struct SinesAndCosines {
   return of;
 }
 
-/// Sines and cosines of a block of numbers, to less than one unit in the last place, the same with every instruction set.
+/// Sines and cosines of a block of numbers, to less than one unit in the last place, the same with every
+/// instruction set.
 [[nodiscard]] RPSUP_INLINE SinesAndCosines calc_sines_and_cosines(const SineBlock& x) {
   constexpr double kSmallAngle = 0.785;  // less than pi / 4: nothing to reduce, to the same bits
   constexpr double kLargestAngle = 1e6;  // some 2^19 quarter turns: their product with 33 bits is exact
@@ -84,7 +91,8 @@ struct SinesAndCosines {
   return of;
 }
 
-/// Of n numbers. @param x, sine, cosine  with room for in_sine_blocks(n); what is beyond n in x has no meaning
+/// Of n numbers. @param x, sine, cosine  with room for in_sine_blocks(n); what is beyond n in x has no
+/// meaning
 RPSUP_INLINE void calc_sines_and_cosines(const double* x, std::size_t n, double* sine, double* cosine) {
   for (std::size_t i = 0; i < n; i += kSineBlock) {
     const SinesAndCosines of = calc_sines_and_cosines(SineBlock::load(x + i));

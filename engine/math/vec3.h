@@ -8,15 +8,17 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Vectors and matrices of three whose entries may be numbers or numbers with derivatives, mixed as they come: what depends on positions
-/// alone stays a plain number where only velocities vary. Eigen serves everywhere else.
+/// Vectors and matrices of three whose entries may be numbers or numbers with derivatives, mixed as they
+/// come: what depends on positions alone stays a plain number where only velocities vary. Eigen serves
+/// everywhere else.
 template <typename T>
 struct Vec3 {
   T x, y, z;
 
   RPSUP_INLINE Vec3() : x{}, y{}, z{} {}
   RPSUP_INLINE Vec3(const T& x_, const T& y_, const T& z_) : x(x_), y(y_), z(z_) {}
-  // Copied number by number: a copy by wider words, of numbers that have just been written one by one, makes the processor wait for them.
+  // Copied number by number: a copy by wider words, of numbers that have just been written one by one, makes
+  // the processor wait for them.
   RPSUP_INLINE Vec3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
   RPSUP_INLINE Vec3& operator=(const Vec3& v) {
     x = v.x;
@@ -119,7 +121,8 @@ template <typename T>
 }
 template <typename A, typename B>
 [[nodiscard]] RPSUP_INLINE Vec3<Mixed<A, B>> operator*(const Sym3<A>& s, const Vec3<B>& v) {
-  return {s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z, s.xz * v.x + s.yz * v.y + s.zz * v.z};
+  return {s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z,
+          s.xz * v.x + s.yz * v.y + s.zz * v.z};
 }
 /// a += u v^T, of which the upper half counts
 template <typename A, typename U, typename V>
@@ -149,8 +152,8 @@ template <typename T>
   const T xz = s.xy * s.yz - s.xz * s.yy;
   const T determinant = s.xx * xx + s.xy * xy + s.xz * xz;
   const T inverse = 1.0 / determinant;
-  return {{inverse * xx, inverse * (s.xx * s.zz - s.xz * s.xz), inverse * (s.xx * s.yy - s.xy * s.xy), inverse * xy, inverse * xz,
-           inverse * (s.xy * s.xz - s.xx * s.yz)},
+  return {{inverse * xx, inverse * (s.xx * s.zz - s.xz * s.xz), inverse * (s.xx * s.yy - s.xy * s.xy),
+           inverse * xy, inverse * xz, inverse * (s.xy * s.xz - s.xx * s.yz)},
           determinant};
 }
 

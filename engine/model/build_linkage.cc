@@ -64,7 +64,8 @@ class LinkageBuilder {
 
  private:
   std::size_t index_of(const std::string& body) const {
-    const auto found = std::find_if(linkage_.bodies.begin(), linkage_.bodies.end(), [&](const LinkageBody& b) { return b.name == body; });
+    const auto found = std::find_if(linkage_.bodies.begin(), linkage_.bodies.end(),
+                                    [&](const LinkageBody& b) { return b.name == body; });
     if (found == linkage_.bodies.end()) throw std::invalid_argument("no body has the name " + body);
     return static_cast<std::size_t>(found - linkage_.bodies.begin());
   }
@@ -94,14 +95,24 @@ class LinkageBuilder {
       frame = add_freedom(joint.freedoms.at(k), kinds[k], frame, placement);
       placement = {};
     }
-    if (joint.kind == JointKind::kScrew) built_.mechanism.couplings.push_back({made.first, made.first + 1, joint.lead});
+    if (joint.kind == JointKind::kScrew)
+      built_.mechanism.couplings.push_back({made.first, made.first + 1, joint.lead});
     place_body(index_of(joint.to), frame, combine(placement, invert(joint.to_placement)));
   }
 
-  FrameIndex add_freedom(const LinkageFreedom& freedom, const FreedomKind& kind, FrameIndex parent, const Placement& placement) {
-    const FrameIndex index = add({.name = freedom.name, .parent = parent, .placement = placement, .motion = kind.motion, .axis = kind.axis,
-                                  .stiffness = freedom.stiffness, .damping = freedom.damping, .assembly_guess = freedom.guess,
-                                  .start = freedom.start, .start_rate = freedom.start_rate, .spring_yields = true});
+  FrameIndex add_freedom(const LinkageFreedom& freedom, const FreedomKind& kind, FrameIndex parent,
+                         const Placement& placement) {
+    const FrameIndex index = add({.name = freedom.name,
+                                  .parent = parent,
+                                  .placement = placement,
+                                  .motion = kind.motion,
+                                  .axis = kind.axis,
+                                  .stiffness = freedom.stiffness,
+                                  .damping = freedom.damping,
+                                  .assembly_guess = freedom.guess,
+                                  .start = freedom.start,
+                                  .start_rate = freedom.start_rate,
+                                  .spring_yields = true});
     if (freedom.drive) built_.mechanism.drives.push_back({index, *freedom.drive});
     return index;
   }
@@ -123,7 +134,8 @@ class LinkageBuilder {
     place_beam(body, frame, placement, parts);
   }
 
-  void place_beam(const LinkageBody& body, FrameIndex frame, Placement placement, std::vector<BodyFrames::Part>& parts) {
+  void place_beam(const LinkageBody& body, FrameIndex frame, Placement placement,
+                  std::vector<BodyFrames::Part>& parts) {
     const DividedRod divided = divide_beam(*body.beam, body.elements);
     double begin = 0.0;
     for (std::size_t r = 0; r < divided.elements.size(); ++r) {
@@ -142,18 +154,24 @@ class LinkageBuilder {
   }
 
   /// R_z(psi) R_y(theta) R_x(phi) between two elements.
-  FrameIndex add_sde(const std::string& name, FrameIndex parent, Placement placement, const SpringDamperElement& sde) {
+  FrameIndex add_sde(const std::string& name, FrameIndex parent, Placement placement,
+                     const SpringDamperElement& sde) {
     constexpr std::array<Axis, 3> kAxes{Axis::kZ, Axis::kY, Axis::kX};
     for (std::size_t k = 0; k < kAxes.size(); ++k) {
-      parent = add({.name = name + "," + std::to_string(k), .parent = parent, .placement = placement, .axis = kAxes[k],
-                    .stiffness = sde.stiffness[static_cast<Eigen::Index>(k)], .damping = sde.damping[static_cast<Eigen::Index>(k)]});
+      parent = add({.name = name + "," + std::to_string(k),
+                    .parent = parent,
+                    .placement = placement,
+                    .axis = kAxes[k],
+                    .stiffness = sde.stiffness[static_cast<Eigen::Index>(k)],
+                    .damping = sde.damping[static_cast<Eigen::Index>(k)]});
       placement = {};
     }
     return parent;
   }
 
   /// Adds a body placed in a frame to what the frame already carries.
-  void add_mass(FrameIndex frame, const Placement& placement, double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia) {
+  void add_mass(FrameIndex frame, const Placement& placement, double mass, const Eigen::Vector3d& com,
+                const Eigen::Matrix3d& inertia) {
     if (frame == kGround) return;
     Coordinate& c = built_.mechanism.coordinates[static_cast<std::size_t>(frame)];
     const auto steiner = [](double m, const Eigen::Vector3d& at) -> Eigen::Matrix3d {
@@ -166,7 +184,8 @@ class LinkageBuilder {
       return;
     }
     const Eigen::Vector3d at = placement.R * com + placement.p;
-    const Eigen::Matrix3d moved = placement.R * (inertia - steiner(mass, com)) * placement.R.transpose() + steiner(mass, at);
+    const Eigen::Matrix3d moved =
+        placement.R * (inertia - steiner(mass, com)) * placement.R.transpose() + steiner(mass, at);
     const double sum = c.mass + mass;
     c.com = sum > 0.0 ? Eigen::Vector3d((c.mass * c.com + mass * at) / sum) : at;
     c.mass = sum;
@@ -177,15 +196,24 @@ class LinkageBuilder {
     const auto [bearing_frame, bearing] = locate(joint.from, joint.placement);
     const auto [journal_frame, journal] = locate(joint.to, joint.to_placement);
     made.cut = static_cast<int>(built_.mechanism.cut_joints.size());
-    built_.mechanism.cut_joints.push_back({.kind = cut_kind_of(joint.kind), .bearing_frame = bearing_frame, .journal_frame = journal_frame,
-                                           .bearing = bearing, .journal = journal, .clearance = joint.clearance});
+    built_.mechanism.cut_joints.push_back({.kind = cut_kind_of(joint.kind),
+                                           .bearing_frame = bearing_frame,
+                                           .journal_frame = journal_frame,
+                                           .bearing = bearing,
+                                           .journal = journal,
+                                           .clearance = joint.clearance});
   }
 
   void add_spring(const LinkageSpring& spring) {
     const auto [from_frame, from] = locate(spring.from, {.p = spring.at});
     const auto [to_frame, to] = locate(spring.to, {.p = spring.to_at});
-    built_.mechanism.springs.push_back({.from_frame = from_frame, .to_frame = to_frame, .from = from.p, .to = to.p, .stiffness = spring.stiffness,
-                                        .damping = spring.damping, .free_length = spring.free_length.value_or(0.0)});
+    built_.mechanism.springs.push_back({.from_frame = from_frame,
+                                        .to_frame = to_frame,
+                                        .from = from.p,
+                                        .to = to.p,
+                                        .stiffness = spring.stiffness,
+                                        .damping = spring.damping,
+                                        .free_length = spring.free_length.value_or(0.0)});
   }
 
   const Linkage& linkage_;
@@ -206,7 +234,9 @@ std::vector<FreedomKind> freedoms_of(const LinkageJoint& joint) {
     case JointKind::kUniversal: return {turn(first), turn(second)};
     case JointKind::kSpherical: return {turn(Axis::kZ), turn(Axis::kY), turn(Axis::kX)};
     case JointKind::kPlanar: return {slide(Axis::kX), slide(Axis::kY), turn(Axis::kZ)};
-    case JointKind::kFree: return {slide(Axis::kX), slide(Axis::kY), slide(Axis::kZ), turn(Axis::kZ), turn(Axis::kY), turn(Axis::kX)};
+    case JointKind::kFree:
+      return {slide(Axis::kX), slide(Axis::kY), slide(Axis::kZ),
+              turn(Axis::kZ),  turn(Axis::kY),  turn(Axis::kX)};
     case JointKind::kWeld: return {};
   }
   return {};

@@ -71,7 +71,8 @@ DrivenMotion calc_driven_motion(const RunUp& law, double t) {
   const Rise cycloid = calc_cycloid(u);
   const double integral = 0.5 * u * u + (std::cos(kTwoPi * u) - 1.0) / (kTwoPi * kTwoPi);
   const double rate = law.omega / law.run_up;
-  return {law.start + law.omega * law.run_up * integral, law.omega * cycloid.c, rate * cycloid.dc, rate / law.run_up * cycloid.ddc};
+  return {law.start + law.omega * law.run_up * integral, law.omega * cycloid.c, rate * cycloid.dc,
+          rate / law.run_up * cycloid.ddc};
 }
 
 DrivenMotion calc_driven_motion(const RiseReturnPause& law, double t) {
@@ -91,7 +92,8 @@ DrivenMotion calc_driven_motion(const CycloidalRise& law, double t) {
   if (u >= 1.0) return {law.from + law.rise, 0.0, 0.0, 0.0};
   const Rise cycloid = calc_cycloid(u);
   const double rate = law.rise / law.time;
-  return {law.from + law.rise * cycloid.c, rate * cycloid.dc, rate / law.time * cycloid.ddc, rate / (law.time * law.time) * cycloid.dddc};
+  return {law.from + law.rise * cycloid.c, rate * cycloid.dc, rate / law.time * cycloid.ddc,
+          rate / (law.time * law.time) * cycloid.dddc};
 }
 
 DrivenMotion calc_driven_motion(const Harmonic& law, double t) {
@@ -123,7 +125,8 @@ double find_next_corner(const RiseReturnPause& law, double t) {
   const double cycle = 2.0 * law.stroke_time + law.pause;
   const double middle = law.law == StrokeLaw::kParabolic ? 0.5 * law.stroke_time : 0.0;
   for (double start = std::floor(t / cycle) * cycle;; start += cycle)
-    for (const double corner : {start, start + middle, start + law.stroke_time, start + law.stroke_time + middle, start + 2.0 * law.stroke_time})
+    for (const double corner : {start, start + middle, start + law.stroke_time,
+                                start + law.stroke_time + middle, start + 2.0 * law.stroke_time})
       if (corner > beyond(t)) return corner;
 }
 
@@ -153,7 +156,8 @@ double calc_time_scale(const RunUp& law, double t) {
   if (law.omega == 0.0) return kNever;
   if (t >= law.run_up) return 1.0 / std::abs(law.omega);
   const double of_law = law.run_up / kTwoPi;
-  return std::min(of_law, 1.0 / std::abs(calc_driven_motion(law, t + 0.1 * of_law).qd));  // the speed only grows
+  return std::min(of_law,
+                  1.0 / std::abs(calc_driven_motion(law, t + 0.1 * of_law).qd));  // the speed only grows
 }
 
 double calc_time_scale(const RiseReturnPause& law, double t) {
@@ -165,14 +169,17 @@ double calc_time_scale(const CycloidalRise& law, double t) {
   return law.rise == 0.0 || t < law.begin || t >= law.begin + law.time ? kNever : law.time / kTwoPi;
 }
 
-double calc_time_scale(const Harmonic& law, double) { return law.amplitude == 0.0 ? kNever : 1.0 / std::abs(law.omega); }
+double calc_time_scale(const Harmonic& law, double) {
+  return law.amplitude == 0.0 ? kNever : 1.0 / std::abs(law.omega);
+}
 
 /// By derivatives beyond those of the motion, too: where it starts without a jolt, the first three vanish.
 double calc_time_scale(const Polynomial& law, double t) {
   constexpr std::size_t kOrders = 32;
   double fastest = 0.0;  // [1/s]
   for (std::size_t order = 1; order <= std::min(kOrders, law.coefficients.size()); ++order)
-    fastest = std::max(fastest, std::pow(std::abs(calc_derivative(law, order, t)), 1.0 / static_cast<double>(order)));
+    fastest = std::max(fastest,
+                       std::pow(std::abs(calc_derivative(law, order, t)), 1.0 / static_cast<double>(order)));
   return 1.0 / fastest;
 }
 

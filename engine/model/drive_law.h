@@ -27,8 +27,10 @@ struct RunUp {
 /// Part of a stroke that is done at the part u of its time, both from 0 to 1: the laws of cams.
 enum class StrokeLaw {
   kCycloidal,  ///< u - sin(2 pi u) / (2 pi); the acceleration is continuous
-  kCosine,     ///< (1 - cos(pi u)) / 2, simple harmonic motion; the acceleration jumps where a pause begins or ends
-  kParabolic,  ///< 2 u^2 up to the middle, then 1 - 2 (1 - u)^2; the acceleration is constant; it jumps there and where a pause begins or ends
+  kCosine,  ///< (1 - cos(pi u)) / 2, simple harmonic motion; the acceleration jumps where a pause begins or
+            ///< ends
+  kParabolic,  ///< 2 u^2 up to the middle, then 1 - 2 (1 - u)^2; the acceleration is constant; it jumps there
+               ///< and where a pause begins or ends
 };
 
 /// Again and again: rise by `stroke` and return, each by the law in `stroke_time` seconds, then a pause.
@@ -61,8 +63,8 @@ struct Polynomial {
   std::vector<double> coefficients;  ///< [rad/s^k] or [m/s^k]
 };
 
-/// Points joined by the natural cubic spline, whose second derivative is continuous; before the first and after the last of them it goes on
-/// straight.
+/// Points joined by the natural cubic spline, whose second derivative is continuous; before the first and
+/// after the last of them it goes on straight.
 class Spline {
  public:
   /// @param t, q  two points or more, t rising
@@ -89,8 +91,8 @@ using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, P
 [[nodiscard]] inline DrivenMotion calc_driven_motion(const Spline& law, double t) { return law.calc(t); }
 [[nodiscard]] DrivenMotion calc_driven_motion(const DriveLaw& law, double t);
 
-/// First instant after t at which one piece of the law meets the next: the acceleration has a kink there, and derivatives of any order
-/// only in between. Infinite if none follows, [s]
+/// First instant after t at which one piece of the law meets the next: the acceleration has a kink there, and
+/// derivatives of any order only in between. Infinite if none follows, [s]
 [[nodiscard]] double find_next_corner(const RunUp& law, double t);
 [[nodiscard]] double find_next_corner(const RiseReturnPause& law, double t);
 [[nodiscard]] double find_next_corner(const CycloidalRise& law, double t);
@@ -103,8 +105,8 @@ using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, P
 [[nodiscard]] double find_next_jump(const RiseReturnPause& law, double t);
 [[nodiscard]] double find_next_jump(const DriveLaw& law, double t);
 
-/// Time in which the drive moves on by about one radian, of its own angle or of its law's sine, from t on; infinite at rest, [s].
-/// It holds for a tenth of itself.
+/// Time in which the drive moves on by about one radian, of its own angle or of its law's sine, from t on;
+/// infinite at rest, [s]. It holds for a tenth of itself.
 [[nodiscard]] double calc_time_scale(const RunUp& law, double t);
 [[nodiscard]] double calc_time_scale(const RiseReturnPause& law, double t);
 [[nodiscard]] double calc_time_scale(const CycloidalRise& law, double t);

@@ -15,7 +15,8 @@
 
 namespace engine {
 
-/// What the joint of a linkage lets the body that it carries do. Several freedoms come in the order in which they stand here.
+/// What the joint of a linkage lets the body that it carries do. Several freedoms come in the order in which
+/// they stand here.
 enum class JointKind {
   kRevolute,     ///< turn about the axis
   kPrismatic,    ///< slide along the axis
@@ -45,7 +46,8 @@ struct LinkageBody {
   double mass = 0.0;                                  ///< [kg]
   Eigen::Vector3d com = Eigen::Vector3d::Zero();      ///< [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the frame's origin, [kg m^2]
-  /// Given: the body is this straight beam from its frame's origin along x, divided into rigid elements; its mass properties are the beam's.
+  /// Given: the body is this straight beam from its frame's origin along x, divided into rigid elements; its
+  /// mass properties are the beam's.
   std::optional<UniformBeam> beam = {};
   int elements = 0;                                   ///< n_rfe of the beam
 };
@@ -72,15 +74,18 @@ struct LinkageSpring {
   Eigen::Vector3d to_at = Eigen::Vector3d::Zero();  ///< in the second body's, [m]
   double stiffness = 0.0;               ///< [N/m]
   double damping = 0.0;                 ///< [N s/m]
-  std::optional<double> free_length = {};  ///< [m]; empty: the distance of the ends in the assembled position, see check_linkage()
+  std::optional<double> free_length =
+      {};  ///< [m]; empty: the distance of the ends in the assembled position, see check_linkage()
 };
 
 inline constexpr const char* kGroundName = "ground";
 
-/// A linkage as data: any number of bodies in chains or trees from the ground, closed by any number of cut joints.
+/// A linkage as data: any number of bodies in chains or trees from the ground, closed by any number of cut
+/// joints.
 struct Linkage {
   std::vector<LinkageBody> bodies;
-  std::vector<LinkageJoint> joints;     ///< in the order in which bodies are placed, each behind the one that carries its first body
+  std::vector<LinkageJoint>
+      joints;  ///< in the order in which bodies are placed, each behind the one that carries its first body
   std::vector<LinkageSpring> springs = {};
   Eigen::Vector3d gravity_W = Eigen::Vector3d::Zero();
   DriveRows drive_rows = DriveRows::kEliminated;
@@ -118,8 +123,8 @@ struct BuiltLinkage {
   std::vector<BuiltJoint> joints;       ///< in the order of Linkage::joints
 };
 
-/// Builds the mechanism. Bodies and joints must fit together: every body but the ground is the second one of exactly one joint that is not
-/// cut, which stands behind the joint that carries its first body.
+/// Builds the mechanism. Bodies and joints must fit together: every body but the ground is the second one of
+/// exactly one joint that is not cut, which stands behind the joint that carries its first body.
 [[nodiscard]] BuiltLinkage build_linkage(const Linkage& linkage);
 
 }  // namespace engine

@@ -31,8 +31,8 @@ struct Placement {
 using FrameIndex = int;
 inline constexpr FrameIndex kGround = -1;
 
-/// One joint coordinate and the frame it moves. Joints of several degrees of freedom are several of them in a row.
-/// The frame's mass properties are those of the body fixed to it; a frame inside a joint has none.
+/// One joint coordinate and the frame it moves. Joints of several degrees of freedom are several of them in a
+/// row. The frame's mass properties are those of the body fixed to it; a frame inside a joint has none.
 struct Coordinate {
   std::string name;                   ///< the paper's symbol in ASCII, e.g. "psi_1_3_0"
   FrameIndex parent = kGround;        ///< smaller than the own index
@@ -42,17 +42,23 @@ struct Coordinate {
   double stiffness = 0.0;             ///< spring on the coordinate, [N m/rad] or [N/m]
   double damping = 0.0;               ///< damper on the coordinate, [N m s/rad] or [N s/m]
   double assembly_guess = 0.0;        ///< where Newton's method begins to close the loops, [rad] or [m]
-  std::optional<double> start = {};   ///< where it is at t = 0, whatever the loops ask of the others, [rad] or [m]
-  std::optional<double> start_rate = {};  ///< its rate then; empty: what the loops ask, 0 if they leave it free, [rad/s] or [m/s]
-  bool spring_yields = false;         ///< closing the loops may load its spring; those inside a flexible link are unloaded then
+  std::optional<double> start =
+      {};  ///< where it is at t = 0, whatever the loops ask of the others, [rad] or [m]
+  std::optional<double> start_rate =
+      {};  ///< its rate then; empty: what the loops ask, 0 if they leave it free, [rad/s] or [m/s]
+  bool spring_yields =
+      false;  ///< closing the loops may load its spring; those inside a flexible link are unloaded then
 
   double mass = 0.0;                                      ///< [kg]
   Eigen::Vector3d com = Eigen::Vector3d::Zero();          ///< centre of mass in the frame, [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();      ///< about the frame's origin, [kg m^2]
 };
 
-/// True for a rotation about the parent frame's own origin, as between the axes of a spherical joint: nothing to shift there.
-[[nodiscard]] inline bool is_inside_joint(const Coordinate& c) { return c.motion == Motion::kRotation && c.placement.p.isZero(0.0); }
+/// True for a rotation about the parent frame's own origin, as between the axes of a spherical joint: nothing
+/// to shift there.
+[[nodiscard]] inline bool is_inside_joint(const Coordinate& c) {
+  return c.motion == Motion::kRotation && c.placement.p.isZero(0.0);
+}
 
 /// What a joint at which a loop is cut lets its journal do in the bearing.
 enum class CutKind {
@@ -64,8 +70,9 @@ enum class CutKind {
   kWeld,         ///< nothing
 };
 
-/// A joint at which a loop is cut: a bearing on one frame, a journal on another. Without clearance it is a constraint row for each
-/// freedom that it takes away; a revolute joint with clearance is only the forces between the two surfaces.
+/// A joint at which a loop is cut: a bearing on one frame, a journal on another. Without clearance it is a
+/// constraint row for each freedom that it takes away; a revolute joint with clearance is only the forces
+/// between the two surfaces.
 struct CutJoint {
   CutKind kind = CutKind::kRevolute;
   FrameIndex bearing_frame = kGround;
@@ -75,7 +82,8 @@ struct CutJoint {
   std::optional<ClearanceParameters> clearance;           ///< empty: the ideal joint; of revolute joints only
 };
 
-/// A spring with a damper between points of two bodies: at a distance L it pulls them together with k (L - L_0) + d L'.
+/// A spring with a damper between points of two bodies: at a distance L it pulls them together with k (L -
+/// L_0) + d L'.
 struct PointSpring {
   FrameIndex from_frame = kGround;
   FrameIndex to_frame = kGround;
@@ -117,7 +125,8 @@ struct Mechanism {
   std::vector<CutJoint> cut_joints;
   std::vector<Coupling> couplings;
   std::vector<PointSpring> springs;
-  /// The constraints depend on each other, here or somewhere on the way: of the multipliers that do, the least ones are taken.
+  /// The constraints depend on each other, here or somewhere on the way: of the multipliers that do, the
+  /// least ones are taken.
   bool minimum_norm_multipliers = false;
   std::vector<Drive> drives;
   DriveRows drive_rows = DriveRows::kEliminated;

@@ -12,33 +12,49 @@ namespace engine {
 
 namespace {
 
-const LinkInertia& inertia_of(const RpsupParameters& parameters, Link link) { return parameters.links[static_cast<std::size_t>(link)]; }
+const LinkInertia& inertia_of(const RpsupParameters& parameters, Link link) {
+  return parameters.links[static_cast<std::size_t>(link)];
+}
 
 /// Links of chain 1 have their centre of mass in the middle, those of chain 2 in the origin of their frame.
 LinkageBody make_body(const RpsupParameters& parameters, Link link, const std::string& name, double length) {
   const LinkInertia& given = inertia_of(parameters, link);
-  return {.name = name, .mass = given.mass, .com = {0.5 * length, 0.0, 0.0}, .inertia = given.inertia.asDiagonal()};
+  return {.name = name,
+          .mass = given.mass,
+          .com = {0.5 * length, 0.0, 0.0},
+          .inertia = given.inertia.asDiagonal()};
 }
 
 /// Makes a body a beam with its mass. @param I_x  about the link's axis
 void divide(const RpsupParameters& p, const RoundLink& form, double length, double I_x, LinkageBody& body) {
   if (form.model == LinkModel::kRigid) return;
   body.elements = form.elements;
-  body.beam = make_beam({.length = length, .mass = body.mass, .I_x = I_x, .diameter = form.diameter, .youngs_modulus = p.youngs_modulus,
-                         .shear_modulus = p.shear_modulus, .damping_ratio = form.damping_ratio, .inner_diameter = form.inner_diameter});
+  body.beam = make_beam({.length = length,
+                         .mass = body.mass,
+                         .I_x = I_x,
+                         .diameter = form.diameter,
+                         .youngs_modulus = p.youngs_modulus,
+                         .shear_modulus = p.shear_modulus,
+                         .damping_ratio = form.damping_ratio,
+                         .inner_diameter = form.inner_diameter});
 }
 
-LinkageBody make_rod(const RpsupParameters& p, Link link, const std::string& name, double length, const RoundLink& form) {
+LinkageBody make_rod(const RpsupParameters& p, Link link, const std::string& name, double length,
+                     const RoundLink& form) {
   LinkageBody rod = make_body(p, link, name, length);
   divide(p, form, length, rod.inertia(0, 0), rod);
   return rod;
 }
 
 RoundLink form_of_coupler(const RpsupParameters& p) {
-  return {.model = p.coupler, .diameter = p.coupler_diameter, .elements = p.rigid_elements, .damping_ratio = p.coupler_damping_ratio};
+  return {.model = p.coupler,
+          .diameter = p.coupler_diameter,
+          .elements = p.rigid_elements,
+          .damping_ratio = p.coupler_damping_ratio};
 }
 
-/// A tube along its z, the axis of the joint with the coupler: without a length about its middle, else from its origin on.
+/// A tube along its z, the axis of the joint with the coupler: without a length about its middle, else from
+/// its origin on.
 LinkageBody make_cross(const RpsupParameters& p) {
   LinkageBody cross = make_body(p, Link::k22, "2,2", 0.0);
   cross.com = {0.0, 0.0, 0.5 * p.cross_length};
@@ -48,7 +64,8 @@ LinkageBody make_cross(const RpsupParameters& p) {
 
 bool is_flexible(const RoundLink& link) { return link.model == LinkModel::kFlexible; }
 
-/// A beam lies along x: the frame of a flexible cross link is turned so that its x is the tube's axis, and its y or z the yoke's.
+/// A beam lies along x: the frame of a flexible cross link is turned so that its x is the tube's axis, and
+/// its y or z the yoke's.
 Placement cross_turn(const RpsupParameters& p) {
   Placement turn;
   if (!is_flexible(p.cross)) return turn;
@@ -74,30 +91,63 @@ Placement journal_place(const RpsupParameters& p) {
 /// The rod's joint in the rod's frame and in the crank's, along both.
 double guide_place(const RpsupParameters& p) { return is_flexible(p.crank) ? p.crank_length : 0.0; }
 
-LinkageFreedom driven(std::string name, const DriveLaw& law) { return {.name = std::move(name), .drive = law}; }
+LinkageFreedom driven(std::string name, const DriveLaw& law) {
+  return {.name = std::move(name), .drive = law};
+}
 
 Linkage describe_rpsup(const RpsupParameters& p) {
   Linkage linkage;
-  linkage.bodies = {make_rod(p, Link::k11, "1,1", p.crank_length, p.crank), make_rod(p, Link::k12, "1,2", p.rod_length, p.rod),
-                    make_rod(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)), make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
+  linkage.bodies = {make_rod(p, Link::k11, "1,1", p.crank_length, p.crank),
+                    make_rod(p, Link::k12, "1,2", p.rod_length, p.rod),
+                    make_rod(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)),
+                    make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
   const double guide = guide_place(p);
   const AssemblyGuess guess = calc_assembly_guess(p);
   linkage.joints = {
-      {.name = "crank", .from = kGroundName, .to = "1,1", .placement = {}, .freedoms = {driven("psi_1_1", crank_law(p))}},
-      {.name = "rod", .kind = JointKind::kPrismatic, .from = "1,1", .to = "1,2", .placement = {.p = {guide, 0.0, 0.0}}, .axes = {Axis::kX},
-       .freedoms = {driven("z_1_2", rod_law(p))}, .to_placement = {.p = {guide, 0.0, 0.0}}},
-      {.name = "ball", .kind = JointKind::kSpherical, .from = "1,2", .to = "1,3", .placement = {.p = {p.rod_length, 0.0, 0.0}},
-       .freedoms = {{.name = "psi_1_3_0", .guess = guess.psi_13}, {.name = "theta_1_3_0", .guess = guess.theta_13},
+      {.name = "crank",
+       .from = kGroundName,
+       .to = "1,1",
+       .placement = {},
+       .freedoms = {driven("psi_1_1", crank_law(p))}},
+      {.name = "rod",
+       .kind = JointKind::kPrismatic,
+       .from = "1,1",
+       .to = "1,2",
+       .placement = {.p = {guide, 0.0, 0.0}},
+       .axes = {Axis::kX},
+       .freedoms = {driven("z_1_2", rod_law(p))},
+       .to_placement = {.p = {guide, 0.0, 0.0}}},
+      {.name = "ball",
+       .kind = JointKind::kSpherical,
+       .from = "1,2",
+       .to = "1,3",
+       .placement = {.p = {p.rod_length, 0.0, 0.0}},
+       .freedoms = {{.name = "psi_1_3_0", .guess = guess.psi_13},
+                    {.name = "theta_1_3_0", .guess = guess.theta_13},
                     {.name = "phi_1_3_0", .guess = guess.phi_13}}},
-      {.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "2,1", .placement = guide_frame(p), .axes = {Axis::kX},
+      {.name = "guide",
+       .kind = JointKind::kPrismatic,
+       .from = kGroundName,
+       .to = "2,1",
+       .placement = guide_frame(p),
+       .axes = {Axis::kX},
        .freedoms = {{.name = "z_2_1", .guess = guess.z_21}}},
-      {.name = "cross", .from = "2,1", .to = "2,2", .placement = cross_turn(p), .axes = {yoke_axis(p)},
+      {.name = "cross",
+       .from = "2,1",
+       .to = "2,2",
+       .placement = cross_turn(p),
+       .axes = {yoke_axis(p)},
        .freedoms = {{.name = "psi_2_2", .guess = guess.psi_22}}},
-      {.name = "bearing", .from = "1,3", .to = "2,2", .placement = {.p = {p.coupler_length, 0.0, 0.0}}, .cut = true,
+      {.name = "bearing",
+       .from = "1,3",
+       .to = "2,2",
+       .placement = {.p = {p.coupler_length, 0.0, 0.0}},
+       .cut = true,
        .to_placement = journal_place(p)},
   };
   if (p.c_r > 0.0) linkage.joints.back().clearance = make_clearance(p);
-  linkage.drive_rows = p.drive == DriveEnforcement::kBaumgarte ? DriveRows::kMultipliers : DriveRows::kEliminated;
+  linkage.drive_rows =
+      p.drive == DriveEnforcement::kBaumgarte ? DriveRows::kMultipliers : DriveRows::kEliminated;
   linkage.baumgarte_alpha = p.baumgarte_alpha;
   linkage.baumgarte_beta = p.baumgarte_beta;
   linkage.gravity_W = p.gravity * gravity_direction_W(p.gravity_direction);
@@ -105,7 +155,8 @@ Linkage describe_rpsup(const RpsupParameters& p) {
 }
 
 FrictionParameters friction_of(const RpsupParameters& p) {
-  FrictionParameters friction{p.mu_s, p.mu_k, p.sigma_0, p.sigma_1, p.sigma_2, p.v_s, p.friction, p.break_away, p.v_0, p.v_1};
+  FrictionParameters friction{p.mu_s, p.mu_k,     p.sigma_0,    p.sigma_1, p.sigma_2,
+                              p.v_s,  p.friction, p.break_away, p.v_0,     p.v_1};
   if (p.friction != FrictionLaw::kDahl) return friction;
   friction.mu_s = friction.mu_k;
   friction.sigma_1 = friction.sigma_2 = 0.0;
@@ -128,7 +179,9 @@ ClearanceParameters make_clearance(const RpsupParameters& p) {
   joint.n_ce_axial = p.axial_elements;
   joint.K = p.contact_stiffness_scale * calc_hertz_stiffness(p.bearing_radius, p.c_r, p.youngs_modulus, nu);
   joint.K_a = p.axial_stiffness;
-  joint.cylinders = {p.stiffness_law, p.contact_stiffness_scale * p.youngs_modulus / (2.0 * (1.0 - nu * nu)) * p.bearing_length, p.c_r};
+  joint.cylinders = {
+      p.stiffness_law,
+      p.contact_stiffness_scale * p.youngs_modulus / (2.0 * (1.0 - nu * nu)) * p.bearing_length, p.c_r};
   joint.chi = calc_damping_factor(p.normal_law, p.restitution);
   if (p.normal_law == NormalForceLaw::kKelvinVoigt) joint.damping = p.contact_damping;
   joint.minimum_onset_rate = p.minimum_impact_velocity;
@@ -140,7 +193,11 @@ ClearanceParameters make_clearance(const RpsupParameters& p) {
 Rpsup build_rpsup(const RpsupParameters& p) {
   BuiltLinkage built = build_linkage(describe_rpsup(p));
   const auto first = [&](std::size_t joint) { return built.joints[joint].first; };
-  RpsupLayout layout{.crank = first(0), .rod = first(1), .coupler = built.bodies[2].parts[0].frame, .slider = first(3), .bent = {}};
+  RpsupLayout layout{.crank = first(0),
+                     .rod = first(1),
+                     .coupler = built.bodies[2].parts[0].frame,
+                     .slider = first(3),
+                     .bent = {}};
   const auto add_bent = [&](const char* name, const RoundLink& link, std::size_t body, double length) {
     const std::vector<BodyFrames::Part>& parts = built.bodies[body].parts;
     if (is_flexible(link)) layout.bent.push_back({name, parts.front(), parts.back(), length});
@@ -152,7 +209,8 @@ Rpsup build_rpsup(const RpsupParameters& p) {
 }
 
 Rpsup build_ideal_rpsup(RpsupParameters p) {
-  for (LinkModel* link : {&p.coupler, &p.crank.model, &p.rod.model, &p.cross.model}) *link = LinkModel::kRigid;
+  for (LinkModel* link : {&p.coupler, &p.crank.model, &p.rod.model, &p.cross.model})
+    *link = LinkModel::kRigid;
   p.c_r = 0.0;
   p.drive = DriveEnforcement::kPrescribed;
   return build_rpsup(p);

@@ -32,15 +32,17 @@ struct Rpsup {
   RpsupLayout layout;
 };
 
-/// Builds the linkage R P S U P: chain 1 is crank, rod and coupler, chain 2 slider and cross link, closed by the revolute joint between coupler
-/// and cross link. Every link but the slider is rigid or divided. The rod's guide is the crank's frame; that of a flexible crank is the
-/// end of the crank, which holds the rod's origin by the crank's length behind it. Source: project paper, section 2 and Table 1.
+/// Builds the linkage R P S U P: chain 1 is crank, rod and coupler, chain 2 slider and cross link, closed by
+/// the revolute joint between coupler and cross link. Every link but the slider is rigid or divided. The
+/// rod's guide is the crank's frame; that of a flexible crank is the end of the crank, which holds the rod's
+/// origin by the crank's length behind it. Source: project paper, section 2 and Table 1.
 [[nodiscard]] Rpsup build_rpsup(const RpsupParameters& parameters);
 
 /// The joint of the linkage, with clearance; Hertz's stiffness is that of its material.
 [[nodiscard]] ClearanceParameters make_clearance(const RpsupParameters& parameters);
 
-/// The same linkage and drives with rigid links, prescribed drives and an ideal joint: what the mechanism is meant to do.
+/// The same linkage and drives with rigid links, prescribed drives and an ideal joint: what the mechanism is
+/// meant to do.
 [[nodiscard]] Rpsup build_ideal_rpsup(RpsupParameters parameters);
 
 }  // namespace engine

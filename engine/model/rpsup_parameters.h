@@ -19,7 +19,8 @@ enum class ContactForm { kContinuum, kElements };
 
 /// Axis about which the cross link, link (2,2), turns in the slider.
 enum class YokeAxis {
-  kGuide,   ///< the slider's guide: z^(2,1) and psi^(2,2) are along and about the same axis, as the paper writes them
+  kGuide,   ///< the slider's guide: z^(2,1) and psi^(2,2) are along and about the same axis, as the paper
+            ///< writes them
   kAcross,  ///< the slider's y, at right angles to the guide
 };
 
@@ -46,12 +47,13 @@ struct RpsupParameters {
   double coupler_length = 0.5;                     ///< S joint to the centre of the bearing, [m]
   double guide_offset_y = 0.0;                     ///< the slider's guide in the global frame, [m]
   double guide_offset_z = 0.24;                    ///< [m]
-  double guide_angle = 0.0;                        ///< of the guide from the global x towards z, the crank's axis, [rad]
+  double guide_angle = 0.0;  ///< of the guide from the global x towards z, the crank's axis, [rad]
   YokeAxis yoke_axis = YokeAxis::kGuide;
   double gravity = 9.81;                           ///< [m/s^2]
   Direction gravity_direction = Direction::kMinusZ;
-  /// Table 1, links of chain 1 as the rods they are. Its rows for (2,1) and (2,2) are no moments of a body (they break
-  /// I_x <= I_y + I_z: the third repeats the second) and are read as those of a box and of a tube along z.
+  /// Table 1, links of chain 1 as the rods they are. Its rows for (2,1) and (2,2) are no moments of a body
+  /// (they break I_x <= I_y + I_z: the third repeats the second) and are read as those of a box and of a tube
+  /// along z.
   std::array<LinkInertia, kLinkCount> links{{
       rod_inertia(0.471, 0.2, 6.964e-5),
       rod_inertia(0.490, 0.2, 2.451e-5),
@@ -71,7 +73,8 @@ struct RpsupParameters {
   RoundLink crank{.diameter = 0.028, .inner_diameter = 0.020};  ///< link (1,1)
   RoundLink rod{.diameter = 0.020};                             ///< link (1,2)
   RoundLink cross{.diameter = 0.020, .inner_diameter = 0.015};  ///< link (2,2)
-  double cross_length = 0.0;                       ///< of link (2,2), from the slider's joint along its own z to the journal's centre, [m]
+  double cross_length =
+      0.0;  ///< of link (2,2), from the slider's joint along its own z to the journal's centre, [m]
 
   // Drives
   double crank_velocity = 10.0;                    ///< omega_0, [rad/s]
@@ -110,7 +113,7 @@ struct RpsupParameters {
   double sigma_2 = 0.0;                            ///< viscous friction, [s/m]
   double v_s = 1e-3;                               ///< Stribeck velocity, [m/s]
   double break_away = 0.7;                         ///< elasto-plastic bristles, [0, 1)
-  double v_0 = 1e-4;                               ///< of friction without bristles: FrictionParameters, [m/s]
+  double v_0 = 1e-4;  ///< of friction without bristles: FrictionParameters, [m/s]
   double v_1 = 1e-3;                               ///< [m/s]
   WearDepth wear_depth;                            ///< of the bore, one list a ring, [m]; empty: it is round
 };

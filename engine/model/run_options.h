@@ -19,8 +19,10 @@ struct RunOptions {
   double output_rate = 1000.0;              ///< samples of the trajectory, [Hz]
   Integrator integrator = Integrator::kAuto;
   double step = 1e-5;                       ///< of rk4, [s]
-  double relative_tolerance = 1.5e-5;       ///< of the error-controlled integrators, [1]; kAuto: choose_tolerance()
-  double absolute_tolerance = 1.5e-5;       ///< of the error-controlled integrators, likewise, in m and m/s; rotations by what they carry: Tolerance
+  double relative_tolerance =
+      1.5e-5;  ///< of the error-controlled integrators, [1]; kAuto: choose_tolerance()
+  double absolute_tolerance = 1.5e-5;       ///< of the error-controlled integrators, likewise, in m and m/s;
+                                            ///< rotations by what they carry: Tolerance
   long step_limit = 100'000'000;            ///< steps after which the run ends with kStepLimit
 };
 
@@ -36,7 +38,8 @@ enum class RunStatus {
   kStopped,        ///< the caller asked for it
 };
 
-/// The word for a status that the service and its users see: "succeeded", "assembly", "lock_up", "non_finite", ...
+/// The word for a status that the service and its users see: "succeeded", "assembly", "lock_up",
+/// "non_finite", ...
 [[nodiscard]] std::string_view status_name(RunStatus status);
 
 }  // namespace engine

@@ -10,7 +10,8 @@
 namespace engine {
 
 /// Bends such that slopes agree where pieces meet, by Thomas's algorithm; those of the ends are 0.
-Spline::Spline(std::vector<double> t, std::vector<double> q) : t_(std::move(t)), q_(std::move(q)), bend_(t_.size(), 0.0) {
+Spline::Spline(std::vector<double> t, std::vector<double> q)
+    : t_(std::move(t)), q_(std::move(q)), bend_(t_.size(), 0.0) {
   assert(t_.size() >= 2 && t_.size() == q_.size());
   const std::size_t last = t_.size() - 1;
   std::vector<double> above(t_.size(), 0.0);
@@ -49,7 +50,8 @@ double Spline::next_knot(double t) const {
 
 double Spline::time_scale(double t) const {
   const DrivenMotion motion = calc(t);
-  return 1.0 / std::max({std::abs(motion.qd), std::sqrt(std::abs(motion.qdd)), std::cbrt(std::abs(motion.qddd))});
+  return 1.0 /
+         std::max({std::abs(motion.qd), std::sqrt(std::abs(motion.qdd)), std::cbrt(std::abs(motion.qddd))});
 }
 
 }  // namespace engine

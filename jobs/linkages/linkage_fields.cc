@@ -100,8 +100,11 @@ json schema_of_field(const LinkageField& field) {
 /// The value of a coordinate that slides, in m, or turns, in rad.
 LinkageField motion_field(engine::Motion motion, std::string_view in_metres, std::string_view in_radians,
                           std::string_view help, bool required, Range range) {
-  return {.key = slides(motion) ? in_metres : in_radians, .range = range, .unit = slides(motion) ? "m" : "rad",
-          .help = help, .required = required};
+  return {.key = slides(motion) ? in_metres : in_radians,
+          .range = range,
+          .unit = slides(motion) ? "m" : "rad",
+          .help = help,
+          .required = required};
 }
 
 }  // namespace
@@ -122,14 +125,24 @@ const LinkageFields& linkage_fields() {
 const LinkageFields& body_fields() {
   static const LinkageFields fields{
       {.key = "mass_kg", .range = between(0, 1e6), .unit = "kg", .help = "Mass; 0: none", .required = true},
-      {.key = "centre_of_mass_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m",
+      {.key = "centre_of_mass_m",
+       .kind = FieldKind::kPoint,
+       .range = kLength,
+       .unit = "m",
        .help = "In the body's frame; without it its origin"},
-      {.key = "inertia_kg_m2", .kind = FieldKind::kInertia, .range = between(-1e9, 1e9), .unit = "kg m^2",
-       .help = "(xx, yy, zz) or (xx, yy, zz, xy, xz, yz) about the centre of mass, along the body's axes; without it none: a point"},
-      {.key = "inertia_about_origin_kg_m2", .kind = FieldKind::kInertia, .range = between(-1e9, 1e9),
+      {.key = "inertia_kg_m2",
+       .kind = FieldKind::kInertia,
+       .range = between(-1e9, 1e9),
+       .unit = "kg m^2",
+       .help = "(xx, yy, zz) or (xx, yy, zz, xy, xz, yz) about the centre of mass, along the body's axes; "
+               "without it none: a point"},
+      {.key = "inertia_about_origin_kg_m2",
+       .kind = FieldKind::kInertia,
+       .range = between(-1e9, 1e9),
        .unit = "kg m^2",
        .help = "The same about the origin of the body's frame, instead"},
-      {.key = "beam", .kind = FieldKind::kObject,
+      {.key = "beam",
+       .kind = FieldKind::kObject,
        .help = "The body is a straight flexible beam along its x axis, from its frame's origin"},
   };
   return fields;
@@ -247,17 +260,24 @@ LinkageFields freedom_fields(engine::Motion motion) {
   constexpr Range kAny = between(-1e6, 1e6);
   constexpr Range kPositive = between(0, 1e12);
   return {
-      motion_field(motion, "start_m", "start_rad", "Where the coordinate is at t = 0; without it the loops decide", false, kAny),
-      {.key = slides(motion) ? "start_rate_m_s" : "start_rate_rad_s", .range = kAny,
+      motion_field(motion, "start_m", "start_rad",
+                   "Where the coordinate is at t = 0; without it the loops decide", false, kAny),
+      {.key = slides(motion) ? "start_rate_m_s" : "start_rate_rad_s",
+       .range = kAny,
        .unit = slides(motion) ? "m/s" : "rad/s",
        .help = "Its rate at t = 0; without it the loops decide, and where they leave it free it is 0"},
-      motion_field(motion, "guess_m", "guess_rad", "Where closing the loops begins to look for it; without it 0", false, kAny),
-      {.key = slides(motion) ? "stiffness_n_m" : "stiffness_n_m_rad", .range = kPositive,
+      motion_field(motion, "guess_m", "guess_rad",
+                   "Where closing the loops begins to look for it; without it 0", false, kAny),
+      {.key = slides(motion) ? "stiffness_n_m" : "stiffness_n_m_rad",
+       .range = kPositive,
        .unit = slides(motion) ? "N/m" : "N m/rad",
        .help = "Of a spring that is unloaded at 0"},
-      {.key = slides(motion) ? "damping_n_s_m" : "damping_n_m_s_rad", .range = kPositive,
-       .unit = slides(motion) ? "N s/m" : "N m s/rad", .help = "Of a damper"},
-      {.key = "drive", .kind = FieldKind::kObject,
+      {.key = slides(motion) ? "damping_n_s_m" : "damping_n_m_s_rad",
+       .range = kPositive,
+       .unit = slides(motion) ? "N s/m" : "N m s/rad",
+       .help = "Of a damper"},
+      {.key = "drive",
+       .kind = FieldKind::kObject,
        .help = "The law by which the coordinate moves; without it it is free"},
   };
 }
@@ -279,8 +299,10 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
     add({.key = "stroke_time_s", .range = between(1e-3, 3600), .unit = "s",
          .help = "Of the rise, and of the return", .required = true});
     add({.key = "pause_s", .range = kTime, .unit = "s", .help = "After each return; without it 0"});
-    add({.key = "stroke_law", .kind = FieldKind::kWord,
-         .help = "Law of the rise and of the return; without it cycloidal. cosine: harmonic motion; parabolic: constant acceleration and deceleration",
+    add({.key = "stroke_law",
+         .kind = FieldKind::kWord,
+         .help = "Law of the rise and of the return; without it cycloidal. cosine: harmonic motion; "
+                 "parabolic: constant acceleration and deceleration",
          .words = {"cycloidal", "cosine", "parabolic"}});
     add(motion_field(motion, "from_m", "from_rad", "Position in the pause; without it 0", false, kAny));
   } else if (law == "cycloidal") {
@@ -303,9 +325,12 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
   } else if (law == "table") {
     add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s",
          .help = "Rising; two or more", .required = true});
-    add({.key = slides(motion) ? "values_m" : "values_rad", .kind = FieldKind::kNumbers, .range = kAny,
+    add({.key = slides(motion) ? "values_m" : "values_rad",
+         .kind = FieldKind::kNumbers,
+         .range = kAny,
          .unit = slides(motion) ? "m" : "rad",
-         .help = "One for each time; between them the natural cubic spline, outside straight on", .required = true});
+         .help = "One for each time; between them the natural cubic spline, outside straight on",
+         .required = true});
   }
   return fields;
 }

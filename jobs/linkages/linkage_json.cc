@@ -198,8 +198,10 @@ class LinkageReader {
   void check_spring(const std::string& name, const json& spring, const std::string& pointer) {
     check_fields(spring, spring_fields(), pointer, faults_);
     for (const char* const end : {"from", "to"})
-      if (is_unknown_body(spring, end)) fault(pointer + pointer_token(end), "there is no body " + spring.at(end).get<std::string>());
-    if (spring.contains("to") && spring.value("from", json()) == spring.at("to")) fault(pointer + "/to", "must be a body other than from");
+      if (is_unknown_body(spring, end))
+        fault(pointer + pointer_token(end), "there is no body " + spring.at(end).get<std::string>());
+    if (spring.contains("to") && spring.value("from", json()) == spring.at("to"))
+      fault(pointer + "/to", "must be a body other than from");
     if (!spring.contains("stiffness_n_m") && !spring.contains("damping_n_s_m"))
       fault(pointer, "must have a stiffness_n_m, a damping_n_s_m or both");
     for (const auto& [other, joint] : given_.at("joints").items())
@@ -280,9 +282,11 @@ class LinkageReader {
       fault(pointer + "/closes_loop",
             "must be false of a screw, planar or free joint: have the loop cut at another joint");
     if (kind == JointKind::kScrew && !joint.contains("lead_mm")) fault(pointer + "/lead_mm", "is missing");
-    if (kind == JointKind::kUniversal && axis_word(joint, "axis", "z") == axis_word(joint, "second_axis", "y"))
+    if (kind == JointKind::kUniversal &&
+        axis_word(joint, "axis", "z") == axis_word(joint, "second_axis", "y"))
       fault(pointer + "/second_axis", "must be an axis other than that of axis");
-    if (closes && joint.value("from", json()) == joint.value("to", json())) fault(pointer + "/to", "must be a body other than from");
+    if (closes && joint.value("from", json()) == joint.value("to", json()))
+      fault(pointer + "/to", "must be a body other than from");
   }
 
   [[nodiscard]] static json axis_word(const json& joint, const char* key, const char* otherwise) {

@@ -167,9 +167,10 @@ std::vector<PlannedJob> without(std::vector<PlannedJob> jobs, const std::vector<
     return true;
   });
   if (missing > 0) {
-    throw InvalidRequest(std::vector<Fault>{
-        {"", "this extension would change jobs that the sweep already has; only values of existing axes, and new cases, "
-             "can be added. Submit a new sweep instead"}});
+    throw InvalidRequest(std::vector<Fault>{{"",
+                                             "this extension would change jobs that the sweep already has; "
+                                             "only values of existing axes, and new cases, "
+                                             "can be added. Submit a new sweep instead"}});
   }
   return jobs;
 }

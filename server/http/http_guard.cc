@@ -172,7 +172,8 @@ void GuardedServer::serve(HttpStream& stream) {
 
 /// Lets the library serve a request. Older versions ask the stream for the addresses of its ends; newer
 /// versions take them as arguments.
-/// @param self  this object, as a template's argument: an overload that the library does not have is then no error
+/// @param self  this object, as a template's argument: an overload that the library does not have is then no
+/// error
 template <typename Self, typename Fill>
 void GuardedServer::process_with_library(Self& self, HttpStream& stream, const Fill& fill_request) {
   bool connection_closed = true;

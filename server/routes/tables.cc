@@ -29,7 +29,8 @@ constexpr std::array<FormatInfo, 4> kFormats{{{TableFormat::kJson, "json", "appl
                                               {TableFormat::kNpz, "npz", "application/x-npz"}}};
 
 const FormatInfo& info_of(TableFormat format) {
-  return *std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatInfo& info) { return info.format == format; });
+  return *std::find_if(kFormats.begin(), kFormats.end(),
+                       [&](const FormatInfo& info) { return info.format == format; });
 }
 
 /// The one of these formats that an Accept header wants most; the first if it wants none.
@@ -39,7 +40,8 @@ TableFormat accepted(const std::string& accept, std::initializer_list<TableForma
   return formats.begin()[find_accepted(accept, media_types).value_or(0)];
 }
 
-TableFormat find_format(const Request& request, Query& query, std::initializer_list<TableFormat> formats, std::initializer_list<std::string_view> words) {
+TableFormat find_format(const Request& request, Query& query, std::initializer_list<TableFormat> formats,
+                        std::initializer_list<std::string_view> words) {
   const auto word = query.word("format", words);
   for (const TableFormat format : formats) {
     if (word && info_of(format).word == *word) return format;
@@ -50,11 +52,13 @@ TableFormat find_format(const Request& request, Query& query, std::initializer_l
 }  // namespace
 
 TableFormat find_row_format(const Request& request, Query& query) {
-  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNdjson}, {"csv", "json", "ndjson"});
+  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNdjson},
+                     {"csv", "json", "ndjson"});
 }
 
 TableFormat find_column_format(const Request& request, Query& query) {
-  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNpz}, {"csv", "json", "npz"});
+  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNpz},
+                     {"csv", "json", "npz"});
 }
 
 std::string to_text(const jobs::ResultTable& table, TableFormat format) {
@@ -67,9 +71,11 @@ Response make_table(TableFormat format, std::string text, const std::string& fil
   response.body = std::move(text);
   response.headers = {{"Vary", "Accept"}};
   const FormatInfo& info = info_of(format);
-  response.content_type = std::string(info.media_type) + (format == TableFormat::kCsv ? "; charset=utf-8" : "");
+  response.content_type =
+      std::string(info.media_type) + (format == TableFormat::kCsv ? "; charset=utf-8" : "");
   if (format == TableFormat::kCsv || format == TableFormat::kNpz) {
-    response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + file_stem + "." + std::string(info.word) + "\"");
+    response.headers.emplace_back(
+        "Content-Disposition", "attachment; filename=\"" + file_stem + "." + std::string(info.word) + "\"");
   }
   return response;
 }
