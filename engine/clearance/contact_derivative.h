@@ -36,7 +36,7 @@ struct ActingBristles {
 /// Block  eight numbers side by side
 template <typename Block>
 struct ContactRowOf {
-  Block by_position;  ///< turn, p
+  Block by_position;  ///< rotation, p
   Block by_rate;      ///< v, w, and the contact point's own two bristles
 
   template <typename T>

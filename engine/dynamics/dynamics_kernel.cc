@@ -8,7 +8,7 @@
 
 namespace engine {
 
-// compiled_equations.cc, once for each.
+// kernel/compiled_kernel.cc is compiled once for each.
 inline namespace baseline {
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
                                      std::size_t bristles);

@@ -21,7 +21,7 @@ constexpr double kKeepJacobianBelow = 0.05;  // convergence rate with which the 
 constexpr double kNewtonTolerance = 1e-5;  // more would excite the journal on its bore, where little damps it
 constexpr double kRoundingErrors = 10.0;      // of a number, allowed whatever the tolerance
 constexpr double kNewtonFailureError =
-    40.0;  // of a step whose iterations do not converge: the next try takes two fifths of it
+    40.0;  // of a step whose iterations do not converge: the next try takes a third of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
 void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of, Eigen::VectorXd& to) {

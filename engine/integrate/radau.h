@@ -17,7 +17,7 @@ namespace engine {
 /// Jacobian is computed again only when the iterations converge too slowly with it.
 ///
 /// Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.8. Z, W, T, T_inverse
-/// are theirs; the error estimate is Eq. (8.19), damped by one solution with the real matrix.
+/// are theirs; the error estimate is Eq. (8.19).
 class Radau5 final : public Stepper {
  public:
   /// @param error_weight  factor on the error estimate, which is of order 3 and damped where the motion is

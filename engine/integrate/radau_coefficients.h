@@ -29,7 +29,7 @@ struct RadauCoefficients {
       {-0.50287263494578687595, 2.5719269498556054292, -0.59603920482822492497},
   }};
   /// The difference from an embedded method of order 3 is (shift / dt - J)^-1 (f at the start + (error .
-  /// stages) / dt).
+  /// Z) / dt).
   static constexpr Row error{-10.048809399827415562, 1.3821427331607488958, -0.33333333333333333333};
 };
 

@@ -132,7 +132,8 @@ class StudyRunner {
 
   void forget_ended(const std::vector<StudyRow>& running);
   StudyChanges advance(const StudyRow& study);
-  /// Tells a study the jobs that have ended since. False if there are none.
+  /// Makes the state of a study from its sweep, or tells it the jobs that have ended since. False if there is
+  /// nothing new, or no sweep any more.
   bool tell_results(const StudyRow& study);
   StudyChanges add_next_cases(const StudyRow& study);
 

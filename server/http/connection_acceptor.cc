@@ -72,7 +72,10 @@ bool ConnectionAcceptor::run(int listening) {
   }
   stop_accepting(listening);
   const auto drain_deadline = Clock::now() + limits_.drain_time;
-  while (good && !pending_.empty() && Clock::now() < drain_deadline) good = serve_events(listening);
+  while (good && !pending_.empty() && Clock::now() < drain_deadline) {
+    good = serve_events(listening);
+    close_timed_out();
+  }
   while (!pending_.empty()) close(pending_.begin());
   return good;
 }

@@ -64,7 +64,7 @@ Impact simulate_ring_impact(int n_ce, double pitches, double speed = kRingSpeed,
     joint.K /= std::sqrt(joint.r_b / joint.r_j());  // as stiff as the continuum in a shallow arc
   }
   return simulate_impact(
-      make_sliding_mass(joint, kMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6, speed,
+      make_sliding_mass(joint, kRingMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6, speed,
       time);
 }
 
@@ -92,7 +92,7 @@ Findings compute_impacts_of_a_ring() {
               .rows = {},
               .keys = 2};
   const auto add = [&table](const std::string& contact, const std::string& towards, const Impact& impact) {
-    table.rows.push_back({contact, towards, number(impact.speed / kSpeed, 6), number(impact.force, 4),
+    table.rows.push_back({contact, towards, number(impact.speed / kRingSpeed, 6), number(impact.force, 4),
                           number(1e6 * impact.depth, 4), number(1e6 * impact.contact_time, 5)});
   };
   const Impact continuum = simulate_ring_impact(0, 0.0);

@@ -106,8 +106,8 @@ Findings compute_link_sags() {
   of_crank.rod_length = of_crank.rod_start =
       0.3;  // its middle is 0.05 m before the crank's end, the ball 0.1 m beyond it
   link_of(of_crank, Link::k12) = rod_inertia(0.6, 0.3, 3e-5);
-  const double rod = 0.6 * kGravity, ball = 0.5 * 0.306 * kGravity;
-  const double crank_sag = 1e3 * calc_sag(0.471 * kGravity, rod + ball, -0.05 * rod + 0.1 * ball, 0.2,
+  const double rod = 0.6 * kLinkGravity, ball = 0.5 * 0.306 * kLinkGravity;
+  const double crank_sag = 1e3 * calc_sag(0.471 * kLinkGravity, rod + ball, -0.05 * rod + 0.1 * ball, 0.2,
                                           calc_EI(of_crank.crank), kSegments);
   findings.checks.push_back(
       compare("sag of the crank's end in the linkage at rest, under its weight, the rod's and half the "
@@ -119,7 +119,7 @@ Findings compute_link_sags() {
   of_rod.rod.model = LinkModel::kFlexible;
   of_rod.rod.elements = kSegments + 1;
   const double rod_sag =
-      1e3 * calc_sag(0.490 * kGravity, 0.5 * 0.306 * kGravity, 0.0, 0.2, calc_EI(of_rod.rod), kSegments);
+      1e3 * calc_sag(0.490 * kLinkGravity, 0.5 * 0.306 * kLinkGravity, 0.0, 0.2, calc_EI(of_rod.rod), kSegments);
   findings.checks.push_back(compare(
       "sag of the rod's end in the linkage at rest, under its weight and half the coupler's, 16 segments",
       "moments over springs: F l^3 / (3 E I) and the like as n grows", find_sag(of_rod, "rod"), rod_sag,

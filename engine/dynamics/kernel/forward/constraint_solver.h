@@ -258,7 +258,7 @@ class ConstraintSolver {
   Delassus delassus_;                  ///< factored by solve()
   typename Bodies::template Workspace<TangentPack> work_;
   PerRow<double> free_residual_;        ///< -Phi_q qdd_0
-  PerRow<TangentPack> unit_multipliers_, residual_;
+  PerRow<TangentPack> unit_multipliers_, residual_;  // the units are negative, as residual_ is -Phi_q qdd
 };
 /// Stands for the solver where a topology has no constraints.
 struct NoConstraints {

@@ -185,8 +185,8 @@ class DelassusMatrix {
     T* rhs = work.rhs.data();
     const T* solution = work.solution.data();
     for (int k = 0; k < n; ++k) rhs[k] = weight_[k] * x[active_row(k)];
-    // The part of the right-hand side outside the range of S, if only by rounding, would be amplified by 1 /
-    // e. S times a first solution is its projection on the range.
+    // (K14): S times a first solution is the projection of the right-hand side on the range of S. The part
+    // outside, if only by rounding, would be amplified by 1 / e.
     refine_regularised(work);
     multiply(solution, rhs);
     refine_regularised(work);
@@ -195,7 +195,7 @@ class DelassusMatrix {
   }
 
  private:
-  /// work.solution <- S^-1 work.rhs by the iteration (K13).
+  /// work.solution <- S^+ work.rhs, of least norm, by the iteration (K13).
   template <typename T>
   RPSUP_INLINE void refine_regularised(Workspace<T>& work) const {
     constexpr int kIterations = 3;

@@ -45,8 +45,8 @@ RPSUP_INLINE void calc_slender_frame(const Joint& joint, const SlenderBodyMotion
   rotate_spherical(joint.parent_frame_rotates, sines, cosines, qd, f, axes);
   f.wd = {};
   motion.wd_bias = joint.parent_frame_rotates ? parent_wd + cross(parent_w, f.w) : Vec3<double>{};
-  // -(zd yd z x y + yd xd y x x + zd xd z x x), of the axes z, y and x as they stand, in the basis reciprocal
-  // to them.
+  // -(q0' q1' cross(z, y) + q1' q2' cross(y, x) + q0' q2' cross(z, x)), of the axes z, y and x as they stand,
+  // in the basis reciprocal to them.
   const double zy = qd[0] * qd[1], yx = qd[1] * qd[2], inverse = 1.0 / cosines[1];
   motion.qdd_bias[0] = inverse * (zy * sines[1] + yx);
   motion.qdd_bias[1] = -(qd[0] * qd[2]) * cosines[1];

@@ -25,13 +25,14 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// The contacts as a low-rank update of TreeRecursion, Eq. (K33): they couple bodies that are not parent and
 /// child.
 ///
-/// With y the tangents of the journals' motions in joints in contact, twelve numbers each, and T the Newton
+/// With y the tangents of the journals' motions in joints in contact, twelve numbers each, and T_0 the Newton
 /// matrix of the open chains,
 ///
-///     T x = b + B L y,   y = C x   =>   (1 - C T^-1 B L) y = C T^-1 b,   x = T^-1 b + T^-1 B L y
+///     T_0 x = b + F y,   y = G x   =>   (1 - G T_0^-1 F) y = G T_0^-1 b,   x = T_0^-1 b + T_0^-1 F y
 ///
-/// where L is the condensed contact (K32), B its load on the bodies, and 1 - C T^-1 B L the capacitance
-/// matrix of Woodbury's identity. It loses digits where a contact is stiffer than all that moves without it.
+/// where F are the loads (K20) on the bodies by y with the condensed contact (K32), G is (K19), and
+/// 1 - G T_0^-1 F is the capacitance matrix of Woodbury's identity. It loses digits where a contact is stiffer
+/// than all that moves without it.
 /// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, section 2.1 (Sherman-Morrison-Woodbury formula).
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>

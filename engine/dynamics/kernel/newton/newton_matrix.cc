@@ -202,7 +202,7 @@ RPSUP_INLINE void NewtonMatrix<Scalar>::calc_bristle_response(const Sizes& size,
     }
 }
 
-/// sigma 1 - condensed_v and condensed_w, Eq. (K25).
+/// sigma 1 - condensed_v and condensed_w, Eqs. (K26) and (K27).
 template <typename Scalar>
 template <typename Sizes>
 RPSUP_INLINE void NewtonMatrix<Scalar>::condense(const Sizes& size, const Scalar& shift) {

@@ -31,7 +31,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// so that the tangent x = (w, wd, vd) of a frame is linear in that of its parent's frame and in the joint's
 /// u. The steps are those of ArticulatedBodies, with x instead of the acceleration:
 ///
-///     (K29)  articulated tangent  p = P x + p_0: the force on a subtree by its root frame's tangent (6 x 9)
+///     (K29)  articulated tangent  p = P x + p_0: the force that the children pass to a body, by the
+///            tangent of its frame (6 x 9); the body's own force (K18) is added
 ///     (K30)  joint residual       r = Q x_parent + D u + r_0 = 0: balance along the joint's axes
 ///            gain                 u = local_u + gain x_parent,  local_u = -D^-1 r_0,  gain = -D^-1 Q
 ///     (K31)  to the parent        P_parent += P' + U gain,  p_0,parent += p_0' + U local_u
@@ -54,7 +55,8 @@ class TreeRecursion {
           frames(model.joints.size()),
           u(model.free.size()),
           drive_force(model.drives.size()) {}
-    /// one a joint; in: tangent of the load on the body, negative; out: p_0 of the joint, with local_u
+    /// one a joint; in: tangent of the load on the body, negative; out: force on the joint's subtree with
+    /// x_parent = 0 and the joint's own u = 0; local_u of the joints in the subtree is in it
     Buffer<SpatialForce<T>> bias_force;
     Buffer<T> local_u;  ///< u with x_parent = 0, of a driven joint its force; one a coordinate
     Buffer<FrameTangent<T>> frames;      ///< out, one a joint
