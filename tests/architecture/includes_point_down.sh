@@ -29,7 +29,7 @@ http='httplib'
 forbid engine "(\.\./)*(charts|validation|jobs|server|web|tests)/|$sqlite|$http|nlohmann|spdlog|CLI|zstd|openssl|prometheus"
 forbid jobs "(\.\./)*(charts|validation|server|web|tests)/|$http|spdlog|CLI|prometheus"
 forbid server "(\.\./)*(validation|web|tests)/|$sqlite|zstd"
-forbid server "$http" '^server/http/http(_[a-z]+)?\.(h|cc)$'
+forbid server "$http" '^server/http/http(lib|_[a-z]+)?\.(h|cc)$'
 # Positions and rates come before forces.
 forbid engine/kinematics 'engine/dynamics/'
 forbid engine/model 'engine/(kinematics|dynamics)/'

@@ -296,7 +296,7 @@ test("a job of an older program is drawn as it was computed", async () => {
   const scene = page.locator("canvas.scene[data-up]");
   await scene.waitFor();
   assert.equal(await scene.getAttribute("data-up"), "0 1 0");
-  await page.getByLabel("View", { exact: true }).selectOption("joint");
+  await page.getByRole("combobox", { name: /^View/ }).selectOption("joint");
   await leave(page);
 });
 
