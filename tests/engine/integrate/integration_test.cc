@@ -142,7 +142,7 @@ TEST(Interpolation, IsExactForAQuinticMotion) {
   end.f = Eigen::Vector2d(qd(2.0), qdd(2.0));
   Eigen::VectorXd y;
   for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0}) {
-    interpolate_state(start, end, 1, s, y);
+    interpolate_state(start, end, {.free = 1}, s, y);
     EXPECT_NEAR(y[0], q(2.0 * s), 1e-13);
     EXPECT_NEAR(y[1], qd(2.0 * s), 1e-12);
   }

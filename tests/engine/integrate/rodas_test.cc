@@ -21,7 +21,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-using K = Rodas5Coefficients;
+using Rodas5 = Rodas5Coefficients;
 
 /// The method in the form of the order conditions, from its own: Gamma = (1 / gamma - C)^-1, alpha = a Gamma, b = m Gamma.
 struct ClassicalForm {
@@ -30,16 +30,16 @@ struct ClassicalForm {
 };
 
 ClassicalForm make_classical_form() {
-  const auto s = static_cast<Eigen::Index>(K::kStages);
+  const auto s = static_cast<Eigen::Index>(Rodas5::kStages);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(s, s);
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(s, s);
-  for (std::size_t i = 0; i < K::kStages; ++i)
+  for (std::size_t i = 0; i < Rodas5::kStages; ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::a[i][j];
-      C(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = K::C[i][j];
+      a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = Rodas5::a[i][j];
+      C(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = Rodas5::C[i][j];
     }
   ClassicalForm form;
-  form.Gamma = (Eigen::MatrixXd::Identity(s, s) / K::gamma - C).inverse();
+  form.Gamma = (Eigen::MatrixXd::Identity(s, s) / Rodas5::gamma - C).inverse();
   form.alpha = a * form.Gamma;
   form.beta = form.alpha + form.Gamma;
   Eigen::VectorXd m = a.row(s - 1).transpose();
@@ -89,25 +89,25 @@ constexpr double kRodasDigits = 1e-12;  // sixteen digits of coefficients up to 
 
 TEST(Rodas5Stepper, MeetsTheConditionsOfItsOrder) {
   const ClassicalForm m = make_classical_form();
-  for (int order = 1; order <= K::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b, order)), kRodasDigits) << order;
-  for (int order = 1; order < K::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b_embedded, order)), kRodasDigits) << order;
-  EXPECT_GT(largest(find_defects(m, m.b_embedded, K::kOrder)), 1e-4);
+  for (int order = 1; order <= Rodas5::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b, order)), kRodasDigits) << order;
+  for (int order = 1; order < Rodas5::kOrder; ++order) EXPECT_LT(largest(find_defects(m, m.b_embedded, order)), kRodasDigits) << order;
+  EXPECT_GT(largest(find_defects(m, m.b_embedded, Rodas5::kOrder)), 1e-4);
 }
 
 // c and d are the row sums of alpha and Gamma: they are what a time that is one more entry of y would get.
 TEST(Rodas5Stepper, TreatsTimeAsAnotherEntryOfTheState) {
   const ClassicalForm m = make_classical_form();
-  for (std::size_t i = 0; i < K::kStages; ++i) {
-    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), K::c[i], kRodasDigits) << i;
-    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), K::d[i], kRodasDigits) << i;
+  for (std::size_t i = 0; i < Rodas5::kStages; ++i) {
+    EXPECT_NEAR(m.alpha.row(static_cast<Eigen::Index>(i)).sum(), Rodas5::c[i], kRodasDigits) << i;
+    EXPECT_NEAR(m.Gamma.row(static_cast<Eigen::Index>(i)).sum(), Rodas5::d[i], kRodasDigits) << i;
   }
 }
 
 // The last stages are formed from the one before.
 TEST(Rodas5Stepper, ExtendsTheStageBefore) {
-  for (std::size_t i = K::kFirstExtended; i < K::kStages; ++i)
-    for (std::size_t j = 0; j + 1 < K::kStages; ++j)
-      EXPECT_EQ(K::a[i][j], j + 1 == i ? 1.0 : K::a[i - 1][j]) << i << " " << j;
+  for (std::size_t i = Rodas5::kFirstExtended; i < Rodas5::kStages; ++i)
+    for (std::size_t j = 0; j + 1 < Rodas5::kStages; ++j)
+      EXPECT_EQ(Rodas5::a[i][j], j + 1 == i ? 1.0 : Rodas5::a[i - 1][j]) << i << " " << j;
 }
 
 /// Dense linear algebra for a system given by f, J and df/dt.
@@ -172,7 +172,7 @@ double calc_global_error(int steps) {
 TEST(Rodas5Stepper, IsOfItsOrder) {
   // The next term of the error is a part dt of it.
   const double order = std::log2(calc_global_error(32) / calc_global_error(64));
-  EXPECT_NEAR(order, K::kOrder, 0.15);
+  EXPECT_NEAR(order, Rodas5::kOrder, 0.15);
 }
 
 /// Error estimate and error of one step from t = 0.3.
@@ -190,8 +190,8 @@ Local calc_local(double dt) {
 TEST(Rodas5Stepper, EstimatesTheErrorOfAnEmbeddedMethodOfAnOrderLess) {
   const Local coarse = calc_local(0.04);
   const Local fine = calc_local(0.02);
-  EXPECT_NEAR(std::log2(coarse.estimate / fine.estimate), K::kOrder, 0.15);
-  EXPECT_NEAR(std::log2(coarse.error / fine.error), K::kOrder + 1, 0.25);
+  EXPECT_NEAR(std::log2(coarse.estimate / fine.estimate), Rodas5::kOrder, 0.15);
+  EXPECT_NEAR(std::log2(coarse.error / fine.error), Rodas5::kOrder + 1, 0.25);
 }
 
 TEST(Rodas5Stepper, TakesNoEvaluationThatIsGiven) {
@@ -202,7 +202,7 @@ TEST(Rodas5Stepper, TakesNoEvaluationThatIsGiven) {
   system(y, dydt, 0.0);
   system.evaluations = 0;
   stepper.do_step(std::ref(system), y, dydt, 0.0, end, 0.1, error);
-  EXPECT_EQ(system.evaluations, static_cast<int>(K::kStages) - 1);
+  EXPECT_EQ(system.evaluations, static_cast<int>(Rodas5::kStages) - 1);
   Eigen::VectorXd in_place = y;
   stepper.do_step(std::ref(system), in_place, 0.0, 0.1);
   EXPECT_EQ(in_place, end);
@@ -251,7 +251,7 @@ TEST(Rodas5Stepper, FollowsASlowSolutionOfAStiffSystemInBigSteps) {
 }
 
 TEST(Rodas5Stepper, ReportsASingularMatrixAsNoNumber) {
-  System s = make_linear_system(1.0 / K::gamma);  // equal to 1 / (gamma dt)
+  System s = make_linear_system(1.0 / Rodas5::gamma);  // equal to 1 / (gamma dt)
   Rodas5Stepper stepper;
   Eigen::VectorXd y = Eigen::VectorXd::Ones(1);
   Eigen::VectorXd error;

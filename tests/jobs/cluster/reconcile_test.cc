@@ -28,7 +28,7 @@ constexpr auto kGrace = 60s;
 constexpr TaskName kFirst{.generation = 0, .index = 0};
 using Reports = std::map<TaskName, TaskReport>;
 
-std::vector<BatchIndex> indices(BatchIndex count) {
+std::vector<BatchIndex> batch_indices(BatchIndex count) {
   std::vector<BatchIndex> all(count);
   std::iota(all.begin(), all.end(), BatchIndex{0});
   return all;
@@ -60,8 +60,8 @@ struct LossCase {
 class Interrupted : public testing::TestWithParam<LossCase> {};
 
 TEST_P(Interrupted, GivesTheSameJobsToANewTaskAndCountsOneTry) {
-  const Decision decision = after_grace(task_of({.indices = indices(3), .tries = 1, .strikes = 1}), GetParam().reports);
-  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = indices(3), .tries = 2, .strikes = 1}));
+  const Decision decision = after_grace(task_of({.indices = batch_indices(3), .tries = 1, .strikes = 1}), GetParam().reports);
+  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = batch_indices(3), .tries = 2, .strikes = 1}));
   EXPECT_THAT(decision.fail, IsEmpty());
   EXPECT_FALSE(decision.refused);
 }
@@ -76,7 +76,7 @@ class Alive : public testing::TestWithParam<Phase> {};
 
 TEST_P(Alive, IsLeftAloneHoweverLongItTakes) {
   Reconciler reconciler(kGrace);
-  const TaskStates tasks{{kFirst, task_of({.indices = indices(2)})}};
+  const TaskStates tasks{{kFirst, task_of({.indices = batch_indices(2)})}};
   const auto start = Clock::now();
   for (const auto later : {0s, 60s, 100'000s}) {
     const Decision decision = reconciler.decide(tasks, {{kFirst, ended(GetParam(), "A_WORD_OF_TOMORROW")}}, start + later);
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Phases, Alive, testing::Values(Phase::kPending, Phase::
 
 TEST(Reconciler, StartsTheTimeForLateFilesAgainWhenATaskIsSeenAlive) {
   Reconciler reconciler(kGrace);
-  const TaskStates tasks{{kFirst, task_of({.indices = indices(1)})}};
+  const TaskStates tasks{{kFirst, task_of({.indices = batch_indices(1)})}};
   const auto start = Clock::now();
   (void)reconciler.decide(tasks, {}, start);
   (void)reconciler.decide(tasks, {{kFirst, ended(Phase::kRunning, "RUNNING")}}, start + 50s);  // started again by Slurm
@@ -101,17 +101,17 @@ TEST(Reconciler, StartsTheTimeForLateFilesAgainWhenATaskIsSeenAlive) {
 
 TEST(Reconciler, ReplacesALostTaskOnce) {
   Reconciler reconciler(kGrace);
-  TaskStates tasks{{kFirst, task_of({.indices = indices(2)})}};
+  TaskStates tasks{{kFirst, task_of({.indices = batch_indices(2)})}};
   const auto start = Clock::now();
   (void)reconciler.decide(tasks, {}, start);
   EXPECT_THAT(reconciler.decide(tasks, {}, start + kGrace).submit, SizeIs(1));
   tasks.at(kFirst).wanted.clear();  // the new task has them now
-  tasks[{.generation = 1, .index = 0}] = task_of({.indices = indices(2), .tries = 1});
+  tasks[{.generation = 1, .index = 0}] = task_of({.indices = batch_indices(2), .tries = 1});
   EXPECT_THAT(reconciler.decide(tasks, {}, start + kGrace + 1s).submit, IsEmpty());
 }
 
 TEST(Reconciler, GivesOnlyWhatIsMissingToANewTask) {
-  TaskState task = task_of({.indices = indices(4), .tries = 4});
+  TaskState task = task_of({.indices = batch_indices(4), .tries = 4});
   task.wanted = {1, 3};
   const Decision decision = after_grace(task, {{kFirst, ended(Phase::kNodeFail, "NODE_FAIL")}});
   EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = {1, 3}, .tries = 1}));  // it got on: that is no loss in a row
@@ -119,18 +119,18 @@ TEST(Reconciler, GivesOnlyWhatIsMissingToANewTask) {
 
 TEST(Reconciler, SplitsATaskThatFailsTwiceIntoSingleJobs) {
   const Reports failed{{kFirst, ended(Phase::kFailed, "FAILED")}};
-  EXPECT_THAT(after_grace(task_of({.indices = indices(3)}), failed).submit, ElementsAre(TaskPlan{.indices = indices(3), .tries = 1, .strikes = 1}));
-  const auto parts = after_grace(task_of({.indices = indices(3), .tries = 1, .strikes = 1}), failed).submit;
+  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(3)}), failed).submit, ElementsAre(TaskPlan{.indices = batch_indices(3), .tries = 1, .strikes = 1}));
+  const auto parts = after_grace(task_of({.indices = batch_indices(3), .tries = 1, .strikes = 1}), failed).submit;
   EXPECT_THAT(parts, ElementsAre(TaskPlan{.indices = {0}, .tries = 2, .strikes = 2}, TaskPlan{.indices = {1}, .tries = 2, .strikes = 2},
                                  TaskPlan{.indices = {2}, .tries = 2, .strikes = 2}));
 }
 
 TEST(Reconciler, SplitsALargeTaskIntoNoMorePartsThanSlurmIsToBear) {
-  const auto parts = after_grace(task_of({.indices = indices(1050), .strikes = 1}), {{kFirst, ended(Phase::kFailed, "FAILED")}}).submit;
+  const auto parts = after_grace(task_of({.indices = batch_indices(1050), .strikes = 1}), {{kFirst, ended(Phase::kFailed, "FAILED")}}).submit;
   EXPECT_EQ(parts.size(), jobs::cluster::kMostParts);
   std::vector<BatchIndex> all;
   for (const TaskPlan& part : parts) all.insert(all.end(), part.indices.begin(), part.indices.end());
-  EXPECT_EQ(all, indices(1050));
+  EXPECT_EQ(all, batch_indices(1050));
 }
 
 TEST(Reconciler, FailsAJobWhoseOwnTaskFailedTwice) {
@@ -143,12 +143,12 @@ TEST(Reconciler, FailsAJobWhoseOwnTaskFailedTwice) {
 }
 
 TEST(Reconciler, TakesATaskThatCompletedWithoutAResultForOneThatFailed) {
-  EXPECT_EQ(after_grace(task_of({.indices = indices(1)}), {{kFirst, ended(Phase::kCompleted, "COMPLETED")}}).submit.at(0).strikes, 1);
+  EXPECT_EQ(after_grace(task_of({.indices = batch_indices(1)}), {{kFirst, ended(Phase::kCompleted, "COMPLETED")}}).submit.at(0).strikes, 1);
 }
 
 TEST(Reconciler, HalvesWhatTakesTooLongAndGivesASingleJobMoreTime) {
   const Reports late{{kFirst, ended(Phase::kTimeout, "TIMEOUT")}};
-  EXPECT_THAT(after_grace(task_of({.indices = indices(5)}), late).submit,
+  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(5)}), late).submit,
               ElementsAre(TaskPlan{.indices = {0, 1}, .tries = 1}, TaskPlan{.indices = {2, 3, 4}, .tries = 1}));
   EXPECT_THAT(after_grace(task_of({.indices = {2}, .time_factor = 2}), late).submit,
               ElementsAre(TaskPlan{.indices = {2}, .tries = 1, .time_factor = 4}));
@@ -156,37 +156,37 @@ TEST(Reconciler, HalvesWhatTakesTooLongAndGivesASingleJobMoreTime) {
 
 TEST(Reconciler, GivesMoreMemoryOnceAndThenTakesItForAFailure) {
   const Reports large{{kFirst, ended(Phase::kOutOfMemory, "OUT_OF_MEMORY")}};
-  EXPECT_THAT(after_grace(task_of({.indices = indices(2)}), large).submit, ElementsAre(TaskPlan{.indices = indices(2), .tries = 1, .memory_factor = 2}));
-  EXPECT_THAT(after_grace(task_of({.indices = indices(2), .memory_factor = 2}), large).submit,
-              ElementsAre(TaskPlan{.indices = indices(2), .tries = 1, .strikes = 1, .memory_factor = 2}));
+  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(2)}), large).submit, ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1, .memory_factor = 2}));
+  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(2), .memory_factor = 2}), large).submit,
+              ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1, .strikes = 1, .memory_factor = 2}));
 }
 
 TEST(Reconciler, GivesUpAfterFiveLossesInARow) {
-  const Decision decision = after_grace(task_of({.indices = indices(2), .tries = 4}), {});
+  const Decision decision = after_grace(task_of({.indices = batch_indices(2), .tries = 4}), {});
   EXPECT_THAT(decision.submit, IsEmpty());
   ASSERT_THAT(decision.fail, SizeIs(2));
   EXPECT_EQ(decision.fail[1].reason, "task_lost");
 }
 
 TEST(Reconciler, SubmitsWhatWasRefusedAgainWithoutCountingIt) {
-  TaskState task = task_of({.indices = indices(2), .tries = 4});
+  TaskState task = task_of({.indices = batch_indices(2), .tries = 4});
   task.refused = true;
   const Decision decision = after_grace(task, {});
   EXPECT_TRUE(decision.refused);
-  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = indices(2), .tries = 4}));
+  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 4}));
 }
 
 TEST(Reconciler, ReplacesAtOnceWhatSlurmHoldsBecauseItCannotStartIt) {
   TaskReport held = ended(Phase::kPending, "PENDING");
   held.reason = "launch failed requeued held";
   Reconciler reconciler(kGrace);
-  const Decision decision = reconciler.decide({{kFirst, task_of({.indices = indices(2)})}}, {{kFirst, held}}, Clock::now());
+  const Decision decision = reconciler.decide({{kFirst, task_of({.indices = batch_indices(2)})}}, {{kFirst, held}}, Clock::now());
   EXPECT_THAT(decision.cancel, ElementsAre(kFirst));
-  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = indices(2), .tries = 1}));
+  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1}));
 }
 
 TEST(Reconciler, CancelsWhatNobodyWants) {
-  TaskState task = task_of({.indices = indices(2)});
+  TaskState task = task_of({.indices = batch_indices(2)});
   task.wanted.clear();
   const TaskStates tasks{{kFirst, task}};
   const auto start = Clock::now();

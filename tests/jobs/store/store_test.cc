@@ -487,7 +487,7 @@ TEST(Store, AddsCasesToARequestAsTheyAreWritten) {
   EXPECT_TRUE(store.queue.add_cases(sweep, cases, jobs::plan_sweep(added, 10'000).jobs));
   for (const auto& one : cases) expected["cases"].push_back(one);
   EXPECT_EQ(store.reader.find_sweep(sweep)->request, expected.dump());
-  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 1 + kCases);
+  EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 1 + kExtension);
   EXPECT_FALSE(store.queue.add_cases("swp_none", cases, {}));
 }
 
