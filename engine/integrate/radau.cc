@@ -24,7 +24,7 @@ constexpr double kNewtonFailureError =
     40.0;  // of a step whose iterations do not converge: the next try takes a third of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
-void combine(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of, Eigen::VectorXd& to) {
+void combine_stages(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of, Eigen::VectorXd& to) {
   to = factors[0] * of[0] + factors[1] * of[1] + factors[2] * of[2];
 }
 
@@ -101,9 +101,9 @@ void Radau5::predict_stages(const StepEnd& start, const StateLayout& layout, dou
       Z_[i] = until * start.f;
       Z_[i].head(layout.free) += 0.5 * until * until * start.f.segment(layout.v(), layout.free);
     }
-  combine(K::T_inverse[0], Z_, W_);
-  combine(K::T_inverse[1], Z_, W_real_);
-  combine(K::T_inverse[2], Z_, W_imag_);
+  combine_stages(K::T_inverse[0], Z_, W_);
+  combine_stages(K::T_inverse[1], Z_, W_real_);
+  combine_stages(K::T_inverse[2], Z_, W_imag_);
 }
 
 /// @param ratio  this step over the one before
@@ -117,7 +117,7 @@ void Radau5::extrapolate(double ratio) {
       for (std::size_t k = 0; k < 4; ++k)
         if (k != j) basis[j] *= (x - nodes[k]) / (nodes[j] - nodes[k]);
     }
-    combine({basis[1], basis[2], basis[3] - 1.0}, last_Z_, Z_[i]);
+    combine_stages({basis[1], basis[2], basis[3] - 1.0}, last_Z_, Z_[i]);
   }
 }
 
@@ -216,7 +216,7 @@ void Radau5::apply_update() {
 }
 
 double Radau5::estimate_error(MotionSystem& system, const StepEnd& start, double dt) {
-  combine({K::error[0] / dt, K::error[1] / dt, K::error[2] / dt}, Z_, update_);
+  combine_stages({K::error[0] / dt, K::error[1] / dt, K::error[2] / dt}, Z_, update_);
   update_ += start.f;
   system.solve_in_place(update_);
   stage_ = start.y + Z_[2];

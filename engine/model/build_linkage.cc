@@ -13,14 +13,14 @@ namespace {
 bool is_none(const Placement& placement) { return is_unturned(placement) && placement.p.isZero(0.0); }
 
 /// Of a frame that is placed in another one which is placed itself.
-Placement combine(const Placement& outer, const Placement& inner) {
+Placement compose(const Placement& outer, const Placement& inner) {
   if (is_none(outer)) return inner;
   if (is_none(inner)) return outer;
   return {outer.R * inner.R, outer.R * inner.p + outer.p};
 }
 
 /// Where a body's frame is in that of the joint which sits on it as given.
-Placement invert(const Placement& placement) {
+Placement inverse_of(const Placement& placement) {
   if (is_none(placement)) return placement;
   const Eigen::Matrix3d R = placement.R.transpose();
   return {R, -(R * placement.p)};
@@ -83,7 +83,7 @@ class LinkageBuilder {
       placement.p.x() = divide_beam(*beam, linkage_.bodies[index].elements).elements.back().length;
     else
       placement.p.x() -= parts[k].begin;
-    return {parts[k].frame, combine(parts[k].placement, placement)};
+    return {parts[k].frame, compose(parts[k].placement, placement)};
   }
 
   void add_carrying(const LinkageJoint& joint, BuiltJoint& made) {
@@ -97,7 +97,7 @@ class LinkageBuilder {
     }
     if (joint.kind == JointKind::kScrew)
       built_.mechanism.couplings.push_back({made.first, made.first + 1, joint.lead});
-    place_body(index_of(joint.to), frame, combine(placement, invert(joint.to_placement)));
+    place_body(index_of(joint.to), frame, compose(placement, inverse_of(joint.to_placement)));
   }
 
   FrameIndex add_freedom(const LinkageFreedom& freedom, const FreedomKind& kind, FrameIndex parent,

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::string_view kJobsMagic = "RPSUPJB1";
 constexpr std::string_view kResultsMagic = "RPSUPRS1";
-constexpr std::size_t kLongestText = 60'000;
-constexpr std::uint32_t kLargestHeader = 64U << 20U;
+constexpr std::size_t kLongestDetail = 60'000;
+constexpr std::uint32_t kLargestBatchHeader = 64U << 20U;
 
 /// Position of a job's parameters behind the table.
 struct JobEntry {
@@ -80,7 +80,7 @@ std::string encode_record(const RunRecord& record) {
   ByteWriter writer;
   writer.number(static_cast<std::uint8_t>(record.end));
   writer.text(record.error_reason);
-  writer.text(std::string_view(record.error_detail).substr(0, kLongestText));
+  writer.text(std::string_view(record.error_detail).substr(0, kLongestDetail));
   writer.number(static_cast<std::uint8_t>(record.error_t_s ? 1 : 0));
   writer.number(record.error_t_s.value_or(0.0));
   writer.number(record.wall_time_s);
@@ -151,7 +151,7 @@ BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIn
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read " + file.string());
   std::uint32_t size = 0;
-  if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > kLargestHeader) {
+  if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > kLargestBatchHeader) {
     throw FileError(file.string() + " is cut off or no file of jobs");
   }
   const std::string head = read_bytes(in, size, file);

@@ -18,7 +18,7 @@ constexpr Range kTime = between(0, 3600);
 
 constexpr std::size_t kLongestText = 100;
 
-const std::vector<std::string_view> kAxes{"x", "y", "z"};
+const std::vector<std::string_view> kAxisNames{"x", "y", "z"};
 
 std::string points_text(const LinkageField& field, std::string_view count) {
   return "must be a list of " + std::string(count) + " numbers, each " + field.range.text() +
@@ -201,11 +201,11 @@ const LinkageFields& joint_fields() {
       {.key = "axis",
        .kind = FieldKind::kWord,
        .help = "Axis of the joint's frame; without it z",
-       .words = kAxes},
+       .words = kAxisNames},
       {.key = "second_axis",
        .kind = FieldKind::kWord,
        .help = "Second axis of a universal joint; without it y",
-       .words = kAxes},
+       .words = kAxisNames},
       {.key = "lead_mm",
        .range = between(-10'000, 10'000),
        .unit = "mm",

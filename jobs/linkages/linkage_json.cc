@@ -29,7 +29,7 @@ using nlohmann::json;
 constexpr std::size_t kMostBodies = 200;
 constexpr std::size_t kMostJoints = 400;
 constexpr std::size_t kMostSprings = 400;
-constexpr std::size_t kLongestName = 32;
+constexpr std::size_t kLongestKey = 32;
 
 const std::map<std::string_view, JointKind> kKinds{{"revolute", JointKind::kRevolute},
                                                    {"prismatic", JointKind::kPrismatic},
@@ -144,7 +144,7 @@ class LinkageReader {
     if (named.empty() || named.size() > most)
       fault(pointer, "must have one entry or more, at most " + std::to_string(most));
     for (const auto& [name, value] : named.items()) {
-      const bool plain = !name.empty() && name.size() <= kLongestName &&
+      const bool plain = !name.empty() && name.size() <= kLongestKey &&
                          std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
                          std::all_of(name.begin(), name.end(), [](char c) {
                            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';

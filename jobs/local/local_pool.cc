@@ -20,8 +20,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kFirstPause{500};
-constexpr milliseconds kLongestPause{30'000};
+constexpr milliseconds kFirstRetryPause{500};
+constexpr milliseconds kLongestRetryPause{30'000};
 
 /// Solvers give way to the threads that answer users. If the system does not allow it they just do not.
 void lower_priority() {
@@ -88,7 +88,7 @@ void LocalPool::stop() {
 
 void LocalPool::work(const std::stop_token& stop) {
   lower_priority();
-  milliseconds next_pause = kFirstPause;
+  milliseconds next_pause = kFirstRetryPause;
   std::optional<Task> task;
   while (task || !stop.stop_requested()) {
     std::uint64_t seen = 0;
@@ -104,11 +104,11 @@ void LocalPool::work(const std::stop_token& stop) {
         std::unique_lock lock(wake_mutex_);
         wake_.wait(lock, stop, [&] { return wakes_ != seen; });
       }
-      next_pause = kFirstPause;
+      next_pause = kFirstRetryPause;
     } catch (const std::exception& error) {  // the store's errors, or no memory
       tell("no job could be taken", "", error);
       pause(next_pause, stop);
-      next_pause = std::min(2 * next_pause, kLongestPause);
+      next_pause = std::min(2 * next_pause, kLongestRetryPause);
     }
   }
 }
@@ -174,7 +174,7 @@ std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job,
                                                   const std::optional<RunRecord>& record,
                                                   const std::stop_token& stop) {
   bool with_next = true;  // at the first try: what is wrong with the next job must not keep this one's result
-  for (milliseconds next_pause = kFirstPause;; next_pause = std::min(2 * next_pause, kLongestPause)) {
+  for (milliseconds next_pause = kFirstRetryPause;; next_pause = std::min(2 * next_pause, kLongestRetryPause)) {
     with_next = with_next && !stop.stop_requested();
     try {
       if (!record || (record->end == RunRecord::End::kStopped && stop.stop_requested())) {

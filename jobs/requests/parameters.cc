@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMostSamples = 2e6;
+constexpr double kMostKeptSamples = 2e6;
 constexpr double kMostStoredValues = 1.28e8;   // samples times channels: 1 GB while the job runs
 constexpr double kLeastClearance_mm = 1e-6;    // 1 nm: below, a gap between atoms
 
@@ -97,10 +97,10 @@ void add_material_faults(const json& completed, std::vector<Fault>& faults) {
 void add_size_faults(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
   const double duration = spec.options.duration;
   const double samples = duration * spec.options.output_rate;
-  if (samples > kMostSamples) {
+  if (samples > kMostKeptSamples) {
     faults.push_back({"/output_rate_hz", "duration_s times output_rate_hz is " +
                                              readable_number(std::floor(samples)) + " samples; at most " +
-                                             readable_number(kMostSamples) + " are kept"});
+                                             readable_number(kMostKeptSamples) + " are kept"});
   } else if (has_more_channels(spec, kMostStoredValues / samples)) {
     const double values = samples * static_cast<double>(channel_table(spec).size());
     faults.push_back({"/output_rate_hz", "the trajectory would have " + readable_number(std::floor(values)) +

@@ -16,14 +16,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kConfidence = 0.9;  ///< of the interval of part_within
+constexpr double kPartConfidence = 0.9;  ///< of the interval of part_within
 
 /// Clopper-Pearson interval of the probability that a replicate stays within the bound.
 json part_within_json(std::size_t within, std::size_t count) {
   using Binomial = boost::math::binomial_distribution<double>;
   const double n = static_cast<double>(count);
   const double k = static_cast<double>(within);
-  const double side = 0.5 * (1.0 - kConfidence);
+  const double side = 0.5 * (1.0 - kPartConfidence);
   return {{"within", within}, {"part_within_low", Binomial::find_lower_bound_on_p(n, k, side)},
       {"part_within_high", Binomial::find_upper_bound_on_p(n, k, side)}};
 }

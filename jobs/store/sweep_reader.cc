@@ -81,8 +81,8 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   return row;
 }
 
-std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id,
-                                   const std::string& request) {
+std::optional<SweepRow> read_sweep_with(const SQLite::Database& database, const std::string& id,
+                                        const std::string& request) {
   SQLite::Statement find(database, sweep_columns(request) + " WHERE id = ?");
   find.bind(1, id);
   return find.executeStep() ? std::optional(sweep_row(database, find)) : std::nullopt;
@@ -159,7 +159,7 @@ std::int64_t size_or_zero(const std::filesystem::path& file) {
 }  // namespace
 
 std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) {
-  return read_sweep(database, id, "request");
+  return read_sweep_with(database, id, "request");
 }
 
 std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id) {
@@ -261,7 +261,7 @@ std::vector<ResultRow> SweepReader::find_ended(const std::string& sweep_id, std:
 
 std::optional<SweepChanges> SweepReader::find_changes(const std::string& sweep_id, std::int64_t after) const {
   return core_.readers.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
-    auto sweep = read_sweep(database, sweep_id, "''");
+    auto sweep = read_sweep_with(database, sweep_id, "''");
     if (!sweep) return std::nullopt;
     SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
     SQLite::Statement list(database,

@@ -50,7 +50,7 @@ std::optional<UniformTime> find_uniform_time(const std::vector<double>& column) 
   return std::nullopt;
 }
 
-std::size_t count_samples(const engine::Trajectory& trajectory) {
+std::size_t count_rows(const engine::Trajectory& trajectory) {
   return trajectory.columns.empty() ? 0 : trajectory.columns.front().size();
 }
 
@@ -193,7 +193,7 @@ std::vector<double> decode_column(const StoredChannel& entry, std::size_t sample
 }  // namespace
 
 void check_is_table(const engine::Trajectory& trajectory) {
-  const std::size_t samples = count_samples(trajectory);
+  const std::size_t samples = count_rows(trajectory);
   const bool is_table =
       trajectory.columns.size() == trajectory.channels.size() &&
       std::ranges::all_of(trajectory.columns, [&](const auto& column) { return column.size() == samples; });
@@ -214,7 +214,7 @@ std::string encode_trajectory(const engine::Trajectory& trajectory) {
   check_is_table(trajectory);
   thread_local Compressor compressor;  // takes longer to make than a short trajectory to compress
   ByteWriter header;
-  header.number(std::uint64_t{count_samples(trajectory)});
+  header.number(std::uint64_t{count_rows(trajectory)});
   header.number(static_cast<std::uint32_t>(trajectory.channels.size()));
   const std::vector<EncodedColumn> blocks = encode_columns(trajectory);
   std::string frames;

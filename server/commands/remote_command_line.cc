@@ -33,7 +33,7 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* help, Options
 
 /// @param options  shared with the command that they belong to
 template <typename Options>
-Command make_command(CLI::App* line, std::shared_ptr<Options> options, int (*run)(const Options&)) {
+Command make_remote_command(CLI::App* line, std::shared_ptr<Options> options, int (*run)(const Options&)) {
   return {line, [options = std::move(options), run] { return run(*options); }};
 }
 
@@ -47,7 +47,7 @@ Command add_submit(CLI::App& app) {
   command->add_flag("--job", options->job,
                     "Job instead of a sweep: the file holds the parameters of one job");
   command->add_flag("--watch", options->watch, "Wait for the end, as rpsup watch does");
-  return make_command(command, options, submit);
+  return make_remote_command(command, options, submit);
 }
 
 Command add_status(CLI::App& app) {
@@ -56,7 +56,7 @@ Command add_status(CLI::App& app) {
       app, "status", "Print the progress of a sweep or a job, or list the newest sweeps", *options);
   command->add_option("id", options->id, "Id of a sweep or a job; if left out, the newest sweeps are listed");
   command->add_flag("--json", options->json, "JSON of the service instead of text");
-  return make_command(command, options, status);
+  return make_remote_command(command, options, status);
 }
 
 Command add_watch(CLI::App& app) {
@@ -64,7 +64,7 @@ Command add_watch(CLI::App& app) {
   CLI::App* const command =
       add_command(app, "watch", "Show the progress of a sweep or a job until it has ended", *options);
   command->add_option("id", options->id, "Id of a sweep or a job")->required();
-  return make_command(command, options, watch);
+  return make_remote_command(command, options, watch);
 }
 
 Command add_results(CLI::App& app) {
@@ -80,14 +80,14 @@ Command add_results(CLI::App& app) {
       ->type_name("FILE")
       ->capture_default_str()
       ->envname("RPSUP_OUTPUT");
-  return make_command(command, options, results);
+  return make_remote_command(command, options, results);
 }
 
 Command add_cancel(CLI::App& app) {
   const auto options = std::make_shared<CancelOptions>();
   CLI::App* const command = add_command(app, "cancel", "Cancel sweeps or jobs that have not ended", *options);
   command->add_option("id", options->ids, "Ids of sweeps or jobs")->required();
-  return make_command(command, options, cancel);
+  return make_remote_command(command, options, cancel);
 }
 
 }  // namespace

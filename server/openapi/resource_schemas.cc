@@ -137,7 +137,7 @@ Json make_executors() {
       {{"items", described(list_of(executor), "first the one that takes sweeps which name none")}});
 }
 
-Json make_page(std::string_view item) {
+Json make_page_schema(std::string_view item) {
   return object_of({{"items", list_of(ref(item))},
                     {"next_cursor", described(kText, "for the next page; empty on the last one")}});
 }
@@ -185,10 +185,10 @@ Json make_resource_schemas() {
           {"Run", make_run()},
           {"Job", make_job(Detail::kFull)},
           {"JobSummary", make_job(Detail::kListing)},
-          {"JobPage", make_page("JobSummary")},
+          {"JobPage", make_page_schema("JobSummary")},
           {"Sweep", make_sweep(Detail::kFull)},
           {"SweepSummary", make_sweep(Detail::kListing)},
-          {"SweepPage", make_page("SweepSummary")},
+          {"SweepPage", make_page_schema("SweepSummary")},
           {"Executors", make_executors()},
           {"ResultRow", make_result_row()},
           {"ResultRows", list_of(ref("ResultRow"))},

@@ -286,7 +286,7 @@ std::vector<Route> make_other_routes() {
   };
 }
 
-std::vector<Route> make_table() {
+std::vector<Route> make_route_table() {
   std::vector<Route> table;
   for (const auto& part : {make_sweep_routes(), make_search_routes(), make_wear_routes(),
                            make_analysis_routes(), make_job_routes(), make_other_routes()}) {
@@ -298,7 +298,7 @@ std::vector<Route> make_table() {
 }  // namespace
 
 std::span<const Route> route_table() {
-  static const std::vector<Route> table = make_table();
+  static const std::vector<Route> table = make_route_table();
   return table;
 }
 

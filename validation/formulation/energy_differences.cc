@@ -71,7 +71,7 @@ Eigen::VectorXd calc_momenta(Scalars& scalars, const Eigen::VectorXd& q, const E
 }
 
 /// Column j of M holds the momenta at a unit rate of coordinate j.
-Eigen::MatrixXd calc_mass_matrix(Scalars& scalars, const Eigen::VectorXd& q) {
+Eigen::MatrixXd calc_mass_matrix_from_energy(Scalars& scalars, const Eigen::VectorXd& q) {
   Eigen::MatrixXd M(q.size(), q.size());
   for (Eigen::Index j = 0; j < q.size(); ++j) M.col(j) = calc_momenta(scalars, q, kRate * Eigen::VectorXd::Unit(q.size(), j)) / kRate;
   return M;
@@ -133,7 +133,7 @@ Differences compare_slopes(const RpsupParameters& parameters) {
   Differences worst;
   for (int k = 0; k < kStates; ++k) {
     const ChainState state = draw_state(chains, random);
-    const Eigen::MatrixXd M = calc_mass_matrix(scalars, state.q);
+    const Eigen::MatrixXd M = calc_mass_matrix_from_energy(scalars, state.q);
     const Eigen::VectorXd h = calc_coriolis(scalars, state);
     const Eigen::VectorXd g = calc_potential_slope(springless_scalars, state.q);
 

@@ -22,7 +22,7 @@ struct Point {
   double evaluations;
 };
 
-Point measure(const RpsupParameters& parameters, RunOptions options) {
+Point measure_point(const RpsupParameters& parameters, RunOptions options) {
   options.duration = 4.0;
   options.output_rate = 10.0;
   const RunResult run = run_rpsup(parameters, options);
@@ -37,18 +37,18 @@ RunOptions with_tolerance(double relative) { return {.integrator = Integrator::k
 class Comparison {
  public:
   Comparison(std::string name, const RpsupParameters& parameters, double reference_tolerance)
-      : name_(std::move(name)), parameters_(parameters), reference_(measure(parameters, with_tolerance(reference_tolerance))) {}
+      : name_(std::move(name)), parameters_(parameters), reference_(measure_point(parameters, with_tolerance(reference_tolerance))) {}
 
   void run_dopri5(const std::vector<double>& tolerances) {
-    for (const double tolerance : tolerances) dopri5_.push_back(measure(parameters_, with_tolerance(tolerance)));
+    for (const double tolerance : tolerances) dopri5_.push_back(measure_point(parameters_, with_tolerance(tolerance)));
   }
   void run_implicit(const std::vector<double>& tolerances) {
     for (const auto& [integrator, points] : {std::pair{Integrator::kRadau5, &radau5_}, {Integrator::kRodas5, &rodas5_}})
       for (const double tolerance : tolerances)
-        points->push_back(measure(parameters_, {.integrator = integrator, .relative_tolerance = tolerance, .absolute_tolerance = tolerance}));
+        points->push_back(measure_point(parameters_, {.integrator = integrator, .relative_tolerance = tolerance, .absolute_tolerance = tolerance}));
   }
   void run_rk4(const std::vector<double>& steps) {
-    for (const double step : steps) rk4_.push_back(measure(parameters_, {.integrator = Integrator::kRk4, .step = step}));
+    for (const double step : steps) rk4_.push_back(measure_point(parameters_, {.integrator = Integrator::kRk4, .step = step}));
   }
 
   [[nodiscard]] const Point& reference() const { return reference_; }

@@ -88,7 +88,7 @@ Summary summarise(const ComputedChapter& computed) {
   return summary;
 }
 
-std::string describe(const Counts& counts) {
+std::string describe_counts(const Counts& counts) {
   if (counts.failed == 0) return "all within their bounds";
   return std::to_string(counts.failed) + " **outside their bounds**";
 }
@@ -108,7 +108,7 @@ class ReportWriter {
     add_paragraphs(kIntroduction);
     add("");
     const Counts counts = count_checks(chapters);
-    add(std::to_string(counts.checks) + " comparisons, " + describe(counts) + ".");
+    add(std::to_string(counts.checks) + " comparisons, " + describe_counts(counts) + ".");
     add("");
     add_summary(chapters);
     if (counts.failed > 0) add_failures(chapters);

@@ -265,7 +265,7 @@ constexpr Refusal kRefusals[] = {
     {"spring_of_no_body", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "roker", "stiffness_n_m": 1}}}])",
      "/linkage/springs/stay/to", "no body roker"},
     {"spring_on_one_body", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "rocker", "to": "rocker", "stiffness_n_m": 1}}}])",
-     "/linkage/springs/stay/to", "another body"},
+     "/linkage/springs/stay/to", "a body other than"},
     {"spring_that_pushes", R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "rocker", "stiffness_n_m": -1}}}])",
      "/linkage/springs/stay/stiffness_n_m", "[0, "},
     {"spring_by_the_name_of_a_joint", R"([{"op": "add", "path": "/linkage/springs", "value": {"rocker": {"from": "ground", "to": "rocker",
