@@ -24,7 +24,8 @@ constexpr double kNewtonFailureError =
     40.0;  // of a step whose iterations do not converge: the next try takes a third of it
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
-void combine_stages(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of, Eigen::VectorXd& to) {
+void combine_stages(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of,
+                    Eigen::VectorXd& to) {
   to = factors[0] * of[0] + factors[1] * of[1] + factors[2] * of[2];
 }
 

@@ -174,7 +174,8 @@ std::optional<LocalPool::Task> LocalPool::deliver(const ClaimedJob& job,
                                                   const std::optional<RunRecord>& record,
                                                   const std::stop_token& stop) {
   bool with_next = true;  // at the first try: what is wrong with the next job must not keep this one's result
-  for (milliseconds next_pause = kFirstRetryPause;; next_pause = std::min(2 * next_pause, kLongestRetryPause)) {
+  for (milliseconds next_pause = kFirstRetryPause;;
+       next_pause = std::min(2 * next_pause, kLongestRetryPause)) {
     with_next = with_next && !stop.stop_requested();
     try {
       if (!record || (record->end == RunRecord::End::kStopped && stop.stop_requested())) {

@@ -28,6 +28,14 @@ std::vector<std::string> swept_values(const jobs::SweepPlan& plan) {
 
 using Strings = std::vector<std::string>;
 
+TEST(PlanSweep, TakesNamesOfUpTo200Bytes) {
+  const auto named = [](std::size_t bytes) {
+    return json{{"sweep", {{"clearance_mm", {0.1}}}}, {"name", std::string(bytes, 'x')}}.dump();
+  };
+  EXPECT_EQ(expanded_plan_of(named(200)).name, std::string(200, 'x'));
+  EXPECT_THROW((void)expanded_plan_of(named(201)), jobs::InvalidRequest);
+}
+
 TEST(PlanSweep, MultipliesAxesInTheirOrderLastFastest) {
   // crank_velocity_rad_s comes before clearance_mm in the alphabet of neither the request nor the sorted keys.
   const auto plan = expanded_plan_of(R"({"name": "n", "sweep": {"crank_velocity_rad_s": [5, 10], "coupler": ["flexible", "rigid"], "clearance_mm": [0, 0.25, 0.5]}})");

@@ -24,9 +24,9 @@ inline namespace RPSUP_INSTRUCTION_SET {
 }
 
 /// The Newton system (sigma 1 - J) x = b of an implicit step, J = df/dy of MotionSystem's state equation,
-/// solved in O(n) for n bodies and bristles, and O(c n) and O((12 c)^3) for c joints in contact: TreeRecursion
-/// for the open chains, ContactUpdate for the contacts. J is not assembled. NewtonMatrix solves the same system
-/// with a dense matrix.
+/// solved in O(n) for n bodies and bristles, and O(c n) and O((12 c)^3) for c joints in contact:
+/// TreeRecursion for the open chains, ContactUpdate for the contacts. J is not assembled. NewtonMatrix solves
+/// the same system with a dense matrix.
 /// @tparam Scalar  double or Complex<double>, as the shift sigma is
 template <typename Scalar>
 class RecursiveNewtonSolver {
