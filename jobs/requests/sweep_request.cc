@@ -32,7 +32,8 @@ bool takes_one_value(const std::string& pointer) {
 constexpr const char* kExecutorFault = "must be \"local\" or \"slurm\"";
 
 bool is_executor(const json& name) {
-  return std::ranges::find(kExecutorNames, name) != kExecutorNames.end();
+  return name.is_string() &&
+         std::ranges::find(kExecutorNames, name.get_ref<const std::string&>()) != kExecutorNames.end();
 }
 
 /// Reads one request; a member function a part of it.
