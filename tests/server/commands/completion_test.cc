@@ -42,7 +42,7 @@ TEST(OptionTable, SaysWhatWasDeclared) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].name, "program");
   EXPECT_EQ(all[1].help, "It's gone");
-  const OptionEntry& number = option(all, "--number");
+  const OptionEntry number = option(all, "--number");
   EXPECT_EQ(number.value, "INT");
   EXPECT_EQ(number.allowed, "[1 - 9]");
   EXPECT_EQ(number.default_text, "3");
