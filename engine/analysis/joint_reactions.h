@@ -9,8 +9,8 @@
 
 namespace engine {
 
-/// What every joint exerts on the body that it carries, by Newton and Euler from the motion and the forces of
-/// the cut joints.
+/// Reactions: the force and moment of every joint on the body that it carries, by Newton and Euler from the
+/// motion and the forces of the cut joints.
 class JointReactions {
  public:
   explicit JointReactions(const Mechanism& mechanism);

@@ -11,7 +11,7 @@
 
 namespace engine {
 
-/// What is sampled and measured of a described linkage, each by the names of its joints: coordinates and
+/// Channels and metrics of a described linkage, by the names of its joints: coordinates and
 /// drives, reactions of all joints, clearance joints, poses of the bodies.
 class LinkageQuantities {
  public:

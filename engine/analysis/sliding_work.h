@@ -11,8 +11,8 @@
 
 namespace engine {
 
-/// What Archard's law needs: the normal force of each ring of the journal times its sliding speed, over time,
-/// and where on the bore it pressed.
+/// Sliding work for Archard's law: the normal force of each ring of the journal times its sliding speed, over
+/// time, with the place on the bore where the ring pressed.
 ///
 ///     W = int f_n |v_t| dt,    W_n = int f_n |v_t| n dt,    worn volume = wear coefficient * W
 ///

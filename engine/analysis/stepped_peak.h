@@ -37,7 +37,7 @@ class SteppedPeak {
 
  private:
   static constexpr double kNear = 0.9;    ///< of the peak: an end this large may be the foot of a larger one
-  /// Of the step: how far beyond it a guess may place an extreme that is inside.
+  /// Largest distance beyond the step, as a fraction of the step, of a guess of an extreme inside.
   static constexpr double kMargin = 0.5;
 
   /// Whether the parabola through the end of this step and the ends of the one before has its extreme about

@@ -97,7 +97,7 @@ class ContactDerivative {
     return rows_.apply(journal);
   }
 
-  /// Of a bristle's rate, by one of the two of its contact point.
+  /// Derivative of a bristle's rate by one of the two bristles of its contact point.
   [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
     return rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2];
   }
