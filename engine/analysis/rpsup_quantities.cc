@@ -63,16 +63,16 @@ void add_sliding_work(int ring, const RpsupParameters& parameters, const Sliding
   };
   const std::string work =
       "Time integral of normal force × sliding speed of this ring of the journal since t = 0";
-  channels.push_back({.info = {.key = key + "_j", .help = work + "; null without clearance"},
-                      .read = read(&SlidingWork::Ring::work)});
-  channels.push_back({.info = {.key = key + "_x_j", .help = work + ", weighted with x of the contact normal"},
-                      .read = read(&SlidingWork::Ring::work_x)});
-  channels.push_back({.info = {.key = key + "_y_j", .help = work + ", weighted with y of the contact normal"},
-                      .read = read(&SlidingWork::Ring::work_y)});
-  if (parameters.wear_depth.empty()) return;
-  channels.push_back({.info = {.key = key + "_penetration_j_m",
-                               .help = work + ", weighted with the penetration; of worn bores only"},
-                      .read = read(&SlidingWork::Ring::work_delta)});
+  // The info has a name: g++ 12 would destroy its strings twice if the reading after them could not be made.
+  const auto add = [&](const char* unit, const char* condition, double SlidingWork::Ring::*part) {
+    QuantityInfo info{.key = key + unit, .help = work + condition};
+    channels.push_back({.info = std::move(info), .read = read(part)});
+  };
+  add("_j", "; null without clearance", &SlidingWork::Ring::work);
+  add("_x_j", ", weighted with x of the contact normal", &SlidingWork::Ring::work_x);
+  add("_y_j", ", weighted with y of the contact normal", &SlidingWork::Ring::work_y);
+  if (!parameters.wear_depth.empty())
+    add("_penetration_j_m", ", weighted with the penetration; of worn bores only", &SlidingWork::Ring::work_delta);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "engine/dynamics/energies.h"
 
@@ -23,21 +24,22 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
   allocate();
 }
 
-/// Allocates everything that depends on the number of bristles.
+/// Allocates everything that depends on the number of bristles. Eigen's resize() would free the old entries
+/// first and, without memory for the new ones, leave the vector to free them a second time: vectors that have
+/// entries are replaced.
 void MotionSystem::allocate() {
   kernel_ = make_dynamics_kernel(instruction_set_, model_, clearance_joints_);
   drives_time_ = std::numeric_limits<double>::quiet_NaN();
   solved_ = false;
   set_error_weights();
-  solved_y_.resize(layout_.size());
-  dydt_.resize(layout_.size());
-  time_derivative_.resize(layout_.size());
+  for (Eigen::VectorXd* each : {&solved_y_, &dydt_, &time_derivative_})
+    *each = Eigen::VectorXd(layout_.size());
 }
 
 /// All bristles of a ring together count as much as the two that a continuum has there: at first by shares,
 /// of which the roots are taken.
 void MotionSystem::set_error_weights() {
-  error_weights_.setOnes(controlled_size());
+  error_weights_ = Eigen::VectorXd(Eigen::VectorXd::Ones(controlled_size()));
   Eigen::Index first = layout_.bristle();
   for (const ClearanceJoint& joint : clearance_joints_) {
     error_weights_.segment(first, joint.bristle_count())
@@ -180,7 +182,7 @@ void MotionSystem::widen_bristles(Eigen::VectorXd& y) {
   }
   append(y.tail(y.size() - read));
   layout_.bristles = static_cast<int>(wide.size() - first - (y.size() - read));
-  y = wide;
+  y = std::move(wide);
   allocate();
 }
 

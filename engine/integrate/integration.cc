@@ -49,7 +49,7 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       samples_(options.output_rate, options.duration),
       sliver_(sliver_of(options_)),
       step_limiter_(choose_stability_check_interval(mechanism, options_.integrator, system_.free_count()),
-                    choose_longest_step(mechanism, options_.integrator)) {}
+                    choose_longest_step(mechanism, options_.integrator), system_.free_count()) {}
 
 RunEnd Integration::run(const Evaluation& assembled) {
   const bool fixed = options_.integrator == Integrator::kRk4;
@@ -118,10 +118,10 @@ void Integration::evaluate_again(StepEnd& end) {
 
 void Integration::widen_bristles() {
   system_.widen_bristles(start_.y);
-  start_.f.setZero(start_.y.size());
-  end_.f.setZero(start_.y.size());
-  sample_.f.setZero(start_.y.size());
-  stepper_->invalidate();
+  // Replaced, not resized: see MotionSystem::allocate().
+  for (Eigen::VectorXd* each : {&start_.f, &end_.y, &end_.f, &sample_.y, &sample_.f})
+    *each = Eigen::VectorXd(Eigen::VectorXd::Zero(start_.y.size()));
+  stepper_ = make_stepper(mechanism_, options_.integrator, tolerance_);
   evaluate_again(start_);
 }
 

@@ -16,8 +16,12 @@ class UnstableModeLimiter {
  public:
   /// @param check_interval  time between two checks, [s]; infinite: no check
   /// @param longest_step    [s]
-  UnstableModeLimiter(double check_interval, double longest_step)
-      : check_interval_(check_interval), longest_step_(longest_step), max_step_(longest_step) {}
+  /// @param free_count      free coordinates of the system
+  UnstableModeLimiter(double check_interval, double longest_step, Eigen::Index free_count)
+      : check_interval_(check_interval),
+        longest_step_(longest_step),
+        max_step_(longest_step),
+        modes_(free_count) {}
 
   /// Longest step that the last check allows, [s].
   [[nodiscard]] double max_step() const { return max_step_; }

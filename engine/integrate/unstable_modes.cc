@@ -16,6 +16,10 @@ constexpr double kSlowestGrowth = 20.0;  // [1/s]; the contact changes before a 
 
 }  // namespace
 
+// Of their sizes from the beginning: see MotionSystem::allocate().
+UnstableModes::UnstableModes(Eigen::Index free_count)
+    : response_(2 * free_count, 2 * free_count), solver_(2 * free_count) {}
+
 Instability UnstableModes::find(MotionSystem& system) {
   Instability found;
   if (!system.factor(kShift)) return found;
@@ -32,14 +36,12 @@ Instability UnstableModes::find(MotionSystem& system) {
 
 void UnstableModes::calc_response(MotionSystem& system) {
   const StateLayout& layout = system.layout();
-  const int states = layout.bristle();  // (q, v)
-  response_.resize(states, states);
-  column_.resize(system.time_derivative().size());
-  for (int k = 0; k < states; ++k) {
-    column_.setZero();
-    column_[k] = k < layout.v() ? 1.0 / kShift : 1.0;
-    system.solve_in_place(column_);
-    response_.col(k) << kShift * column_.head(layout.free), column_.segment(layout.v(), layout.free);
+  Eigen::VectorXd column(system.time_derivative().size());
+  for (int k = 0; k < response_.cols(); ++k) {  // (q, v)
+    column.setZero();
+    column[k] = k < layout.v() ? 1.0 / kShift : 1.0;
+    system.solve_in_place(column);
+    response_.col(k) << kShift * column.head(layout.free), column.segment(layout.v(), layout.free);
   }
 }
 

@@ -29,6 +29,9 @@ struct Instability {
 /// vibration.
 class UnstableModes {
  public:
+  /// @param free_count  free coordinates of the systems
+  explicit UnstableModes(Eigen::Index free_count);
+
   /// @param system  linearised, with free coordinates; its factors for a real shift are others afterwards
   /// @returns no instability where the matrix is singular, or its eigenvalues are not found
   [[nodiscard]] Instability find(MotionSystem& system);
@@ -36,7 +39,6 @@ class UnstableModes {
  private:
   void calc_response(MotionSystem& system);
 
-  Eigen::VectorXd column_;
   Eigen::MatrixXd response_;  ///< R, rates measured in units of s
   Eigen::EigenSolver<Eigen::MatrixXd> solver_;
 };

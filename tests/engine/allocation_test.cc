@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The right-hand side allocates nothing: this program counts every operator new.
+// The right-hand side allocates nothing, and a run that finds no memory says so: this program counts every
+// allocation, and fails one of them. The linker sends malloc() to __wrap_malloc() (CMakeLists.txt).
 
 #include <atomic>
 #include <cstdlib>
@@ -13,14 +14,22 @@
 #include "engine/integrate/odeint_steppers.h"
 #include "engine/integrate/radau.h"
 #include "engine/model/rpsup.h"
+#include "engine/simulate_rpsup.h"
 
 namespace {
 std::atomic<long> allocations{0};
+std::atomic<long> failing{-1};  ///< number of the allocation that fails
+}
+
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __wrap_malloc(std::size_t size) {
+  return allocations++ == failing ? nullptr : __real_malloc(size);
+}
 }
 
 // Not inlined: the compiler would see malloc meet delete.
 [[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
   if (void* p = std::malloc(size)) return p;
   throw std::bad_alloc();
 }
@@ -96,6 +105,36 @@ TEST(LoopClosure, AllocatesNothing) {
   EXPECT_EQ(allocations - before, 0);
 }
 
+enum class FailFrom { kBeginning, kFirstStep };
+
+/// Makes each allocation of a run fail once. Memory that is freed twice ends the program.
+/// @returns how many runs ended for want of memory
+long fail_each_allocation(const RpsupParameters& parameters, const RunOptions& options, FailFrom from) {
+  long start = 0, first_step = 0;
+  const auto run = [&] {
+    start = allocations;
+    first_step = 0;
+    (void)simulate_rpsup(parameters, options, [&](double) {
+      if (first_step == 0) first_step = allocations - start;
+      return false;
+    });
+  };
+  run();  // fills tables that stay
+  run();
+  const long count = allocations - start;
+  long ended = 0;
+  for (long k = from == FailFrom::kBeginning ? 0 : first_step; k < count; ++k) {
+    failing = allocations + k;
+    try {
+      run();
+    } catch (const std::bad_alloc&) {
+      ++ended;
+    }
+    failing = -1;
+  }
+  return ended;
+}
+
 RpsupParameters with(Coupler coupler, ContactForm contact, double c_r, DriveEnforcement drive) {
   RpsupParameters p;
   p.coupler = coupler;
@@ -110,6 +149,29 @@ RpsupParameters with_parts(int rigid_elements) {
   RpsupParameters parameters = with(Coupler::kFlexible, ContactForm::kElements, 0.25e-3, DriveEnforcement::kPrescribed);
   parameters.rigid_elements = rigid_elements;
   return parameters;
+}
+
+TEST(Run, EndsCleanlyWhereverMemoryRunsOut) {
+  EXPECT_GT(fail_each_allocation({}, {.duration = 0.005, .output_rate = 100.0}, FailFrom::kBeginning), 500);
+}
+
+TEST(Run, EndsCleanlyWhereTheCheckOfStabilityFindsNoMemory) {
+  RpsupParameters rubbing;
+  rubbing.run_up = 0.02;
+  const RunOptions options{.duration = 0.03, .output_rate = 100.0};
+  EXPECT_GT(fail_each_allocation(rubbing, options, FailFrom::kFirstStep), 100);
+}
+
+// The journal touches more elements than have bristles: the state gets another size.
+TEST(Run, EndsCleanlyWhereBristlesFindNoMemory) {
+  RpsupParameters elements =
+      with(Coupler::kRigid, ContactForm::kElements, 0.25e-3, DriveEnforcement::kPrescribed);
+  elements.radial_elements = 1000;
+  elements.run_up = 0.02;
+  for (const Integrator integrator : {Integrator::kRadau5, Integrator::kRodas5, Integrator::kDopri5}) {
+    const RunOptions options{.duration = 0.02, .output_rate = 100.0, .integrator = integrator};
+    EXPECT_GT(fail_each_allocation(elements, options, FailFrom::kFirstStep), 100);
+  }
 }
 
 /// y' = -y, entry by entry.
