@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "jobs/base/errors.h"
+#include "server/http/memory_reserve.h"
 #include "server/messages/json_text.h"
 
 namespace server::commands {
@@ -46,6 +47,7 @@ std::string read_text(const std::string& path) {
 }  // namespace
 
 int run_guarded(const std::function<int()>& command) {
+  keep_memory_reserve();
   try {
     return command();
   } catch (const jobs::InvalidRequest& error) {

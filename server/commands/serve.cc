@@ -23,7 +23,6 @@
 #include "server/context/metrics.h"
 #include "server/http/http.h"
 #include "server/http/http_client.h"
-#include "server/http/memory_reserve.h"
 #include "server/http/request_head.h"
 #include "server/routes/routes.h"
 
@@ -122,7 +121,6 @@ int serve(const ServeOptions& options) {
     throw BadInput("--executor slurm needs --slurm-folder");
   start_log(options.log_level);
   raise_file_limit();
-  keep_memory_reserve();
   // Before the first thread: threads take over which signals are blocked.
   const EndSignals signals;
   jobs::ServiceOptions service_options;
