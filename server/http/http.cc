@@ -222,21 +222,24 @@ class HttpServer::Impl {
     if (has_body(request)) {
       if (const auto fault = find_media_fault(request))
         return copy_to(response, make_problem(fault->status, fault->detail));
-      if (const auto fault = read_body(reader, body)) {
+      if (const auto fault = read_body(reader, response, body)) {
         return copy_to(response, make_problem(fault->status, fault->detail));
       }
     }
     answer(request, std::move(body), response);
   }
 
-  std::optional<Refusal> read_body(const httplib::ContentReader& reader, std::string& body) const {
+  /// @param response  newer versions of the library stop a chunked body at its bound themselves, and say so in
+  /// the response's status
+  std::optional<Refusal> read_body(const httplib::ContentReader& reader, const httplib::Response& response,
+                                   std::string& body) const {
     bool too_large = false;
     const bool complete = reader([&](const char* data, std::size_t size) {
       too_large = size > limits.body_bytes - body.size();
       if (!too_large) body.append(data, size);
       return !too_large;
     });
-    if (too_large)
+    if (too_large || response.status == 413)
       return Refusal{413, "the body is larger than " + std::to_string(limits.body_bytes) + " bytes"};
     if (!complete) return Refusal{400, "the body is incomplete, malformed or did not come in time"};
     return std::nullopt;
