@@ -21,7 +21,7 @@ constexpr long kStepsBetweenQueries = 256;
 
 RunOptions with_integrator(const Mechanism& mechanism, RunOptions options) {
   if (options.integrator != Integrator::kAuto) return options;
-  options.integrator = choose_integrator(options.integrator);
+  options.integrator = choose_integrator(mechanism, options.integrator);
   options.relative_tolerance = choose_tolerance(mechanism, options.relative_tolerance);
   options.absolute_tolerance = choose_tolerance(mechanism, options.absolute_tolerance);
   return options;

@@ -98,7 +98,7 @@ void add_run_rows(Rows& rows) {
                         above(0, 100'000), &O::output_rate));
   rows.push_back(choice<engine::Integrator O::*, engine::Integrator>(
       {"integrator", "integrator", "", kChosen,
-       "auto: radau5, at a tolerance that suits the joint. Error-controlled and L-stable: radau5, Radau IIA of order 5, "
+       "auto: radau5, or dopri5 between rigid links with friction without bristles, at a tolerance that suits the joint. Error-controlled and L-stable: radau5, Radau IIA of order 5, "
        "and rodas5, Rosenbrock 5(4); error-controlled: dopri5, Dormand-Prince 5(4); with a fixed step: rk4, classical "
        "Runge-Kutta (the paper's)"},
       &O::integrator,

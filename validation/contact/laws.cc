@@ -39,15 +39,19 @@ constexpr Choice kChoices[] = {
     {"elasto-plastic", [](RpsupParameters& p) { p.friction = FrictionLaw::kElastoPlastic; }},
 };
 
+double peak_of(const RunResult& run) { return metric(run, "peak_slider_acceleration_m_s2"); }
+
 /// All laws in one case of the study.
 void add_case(const std::string& name, const RpsupParameters& parameters, Table& table, Largest& residual) {
   for (const Choice& choice : kChoices) {
     RpsupParameters chosen = parameters;
     choice.choose(chosen);
-    const RunResult run = run_rpsup(chosen, {.duration = 4.0, .output_rate = 10.0});
+    const RunOptions options{.duration = 4.0, .output_rate = 10.0};
+    const RunResult run = run_rpsup(chosen, options);
     residual.take(metric(run, "energy_residual"));
+    chosen.contact_stiffness_scale = 1.0 + 1e-6;
     table.rows.push_back(
-        {name, choice.name, number(metric(run, "peak_slider_acceleration_m_s2"), 4),
+        {name, choice.name, number(peak_of(run), 4), number(peak_of(run_rpsup(chosen, options)), 4),
          number(metric(run, "rms_slider_acceleration_m_s2"), 4),
          number(metric(run, "peak_contact_force_n"), 4), number(metric(run, "max_penetration_um"), 3),
          number(1e3 * metric(run, "friction_work_j"), 3), number(1e3 * metric(run, "impact_loss_j"), 3)});
@@ -61,8 +65,9 @@ Findings compare_laws() {
   Table table{.caption =
                   "The joint's laws one at a time, 4 s; peak and root mean square of the slider's "
                   "acceleration for t > 2 s. Laws of the normal "
-                  "force with k_r = 0.9, other parameters at their defaults.",
-              .head = {"case", "law", "peak [m/s^2]", "RMS [m/s^2]", "largest contact force [N]",
+                  "force with k_r = 0.9, other parameters at their defaults. A peak that a stiffness larger by a "
+                  "millionth changes is a sample: the case does not converge.",
+              .head = {"case", "law", "peak [m/s^2]", "peak, stiffer [m/s^2]", "RMS [m/s^2]", "largest contact force [N]",
                        "deepest [um]", "friction work [mJ]", "impact loss [mJ]"},
               .rows = {},
               .reproducible_to = 0.2,

@@ -149,9 +149,19 @@ TEST(Radau5, StepsOverWhatIsStiffAndAtRest) {
   EXPECT_NEAR(start.y[0], 9.81e-10, 1e-14);
 }
 
-TEST(ChooseIntegrator, TakesRadauIfNoOtherIsWanted) {
-  EXPECT_EQ(choose_integrator(Integrator::kAuto), Integrator::kRadau5);
-  EXPECT_EQ(choose_integrator(Integrator::kRk4), Integrator::kRk4);
+TEST(ChooseIntegrator, TakesDopri5OnlyWhereFrictionHasNoBristlesAndLinksAreRigid) {
+  const auto choose = [](const RpsupParameters& p, Integrator wanted) {
+    return choose_integrator(build_rpsup(p).mechanism, wanted);
+  };
+  RpsupParameters study, coulomb, flexible, ideal;
+  coulomb.friction = flexible.friction = ideal.friction = FrictionLaw::kCoulomb;
+  flexible.coupler = Coupler::kFlexible;
+  ideal.c_r = 0.0;
+  EXPECT_EQ(choose(study, Integrator::kAuto), Integrator::kRadau5);
+  EXPECT_EQ(choose(coulomb, Integrator::kAuto), Integrator::kDopri5);
+  EXPECT_EQ(choose(flexible, Integrator::kAuto), Integrator::kRadau5);
+  EXPECT_EQ(choose(ideal, Integrator::kAuto), Integrator::kRadau5);
+  EXPECT_EQ(choose(coulomb, Integrator::kRk4), Integrator::kRk4);
 }
 
 TEST(ChooseLongestStep, IsShorterWhereFrictionMayFeedVibrations) {
@@ -182,12 +192,12 @@ TEST(ChooseTolerance, IsFinerWithClearance) {
   EXPECT_DOUBLE_EQ(choose(study, 1.5e-5), 7.5e-6);
   EXPECT_DOUBLE_EQ(choose(worn, 1.5e-5), 2e-6);
   EXPECT_DOUBLE_EQ(choose(quick, 1.5e-5), 5e-7);
-  EXPECT_DOUBLE_EQ(choose(coulomb, 1.5e-5), 5e-7);
+  EXPECT_DOUBLE_EQ(choose(coulomb, 1.5e-5), 1e-9);
   EXPECT_DOUBLE_EQ(choose(frictionless, 1.5e-5), 5e-7);
   RpsupParameters elements = study;
   elements.contact = coulomb.contact = ContactForm::kElements;
   EXPECT_DOUBLE_EQ(choose(elements, 1.5e-5), 7.5e-6);
-  EXPECT_DOUBLE_EQ(choose(coulomb, 1.5e-5), 2e-6);
+  EXPECT_DOUBLE_EQ(choose(coulomb, 1.5e-5), 1e-9);
   coulomb.contact = ContactForm::kContinuum;
   EXPECT_EQ(choose(coulomb, 1e-10), 1e-10);
   EXPECT_EQ(choose(coulomb, 1e-13), 1e-13);
