@@ -23,17 +23,17 @@ std::string_view status_name(RunStatus status) {
   return "unknown";
 }
 
-RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer) {
+RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer) {
   LoopClosure closure(mechanism);
   Evaluation assembled = MotionSystem(mechanism).make_evaluation();
   if (!closure.assemble(0.0, assembled)) {
-    RunEnd end;
-    end.status = RunStatus::kAssembly;
-    end.detail = closure.rates_fit()
+    RunOutcome outcome;
+    outcome.status = RunStatus::kAssembly;
+    outcome.detail = closure.rates_fit()
                      ? "the loop cannot be closed at t = 0: the nearest position found leaves a gap of " +
                            std::to_string(closure.residual()) + " m"
                      : "the velocities given for t = 0 would tear the loop apart";
-    return end;
+    return outcome;
   }
   bool ideal = mechanism.drive_rows == DriveRows::kEliminated && options.integrator != Integrator::kRk4;
   for (const CutJoint& joint : mechanism.cut_joints) ideal = ideal && !joint.clearance;
@@ -42,9 +42,9 @@ RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer&
   if (closure.redundant() == 0) return Integration(mechanism, options, observer).run(assembled);
   Mechanism dependent = mechanism;
   dependent.minimum_norm_multipliers = true;
-  RunEnd end = Integration(dependent, options, observer).run(assembled);
-  end.redundant_constraints = static_cast<int>(closure.redundant());
-  return end;
+  RunOutcome outcome = Integration(dependent, options, observer).run(assembled);
+  outcome.redundant_constraints = static_cast<int>(closure.redundant());
+  return outcome;
 }
 
 }  // namespace engine

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/integrate/observer.h"
-#include "engine/integrate/run_end.h"
+#include "engine/integrate/run_outcome.h"
 #include "engine/model/mechanism.h"
 #include "engine/model/run_options.h"
 
@@ -12,6 +12,6 @@ namespace engine {
 ///
 /// A mechanism whose drives alone decide its motion is solved at each instant, not integrated, unless the
 /// paper's fixed-step method (or drives with multipliers) is asked for.
-[[nodiscard]] RunEnd simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer);
+[[nodiscard]] RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer);
 
 }  // namespace engine

@@ -20,10 +20,14 @@ RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, do
   RunObserver observer(RunMetrics(quantities.measured()),
                        RunChannels(quantities.channels(), built.mechanism.links, quantities.prepare()),
                        stop_requested);
-  const RunEnd end = simulate(built.mechanism, options, observer);
-  RunResult result{
-      .status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
-  if (end.status == RunStatus::kSucceeded) result.metrics = quantities.calc_metrics(observer.metrics, end);
+  const RunOutcome outcome = simulate(built.mechanism, options, observer);
+  RunResult result{.status = outcome.status,
+                   .t_end = outcome.t,
+                   .detail = outcome.detail,
+                   .metrics = {},
+                   .trajectory = {}};
+  if (outcome.status == RunStatus::kSucceeded)
+    result.metrics = quantities.calc_metrics(observer.metrics, outcome);
   result.trajectory = observer.channels.finish(0.0);
   return result;
 }

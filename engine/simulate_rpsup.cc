@@ -42,17 +42,20 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
   RpsupObserver observer(RunMetrics(rpsup_measured(parameters, rpsup.layout)),
                          RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links),
                          sliding_work, stop_requested);
-  const RunEnd end = simulate(rpsup.mechanism, options, observer);
-  RunResult result{
-      .status = end.status, .t_end = end.t, .detail = end.detail, .metrics = {}, .trajectory = {}};
-  if (end.status == RunStatus::kSucceeded) {
+  const RunOutcome outcome = simulate(rpsup.mechanism, options, observer);
+  RunResult result{.status = outcome.status,
+                   .t_end = outcome.t,
+                   .detail = outcome.detail,
+                   .metrics = {},
+                   .trajectory = {}};
+  if (outcome.status == RunStatus::kSucceeded) {
     const std::optional<Peak> ideal =
         find_ideal_peak(parameters, parameters.run_up, options.duration, stop_requested);
-    if (stop_requested && stop_requested(end.t)) {
+    if (stop_requested && stop_requested(outcome.t)) {
       result.status = RunStatus::kStopped;
       result.detail = "stopped on request";
     } else {
-      result.metrics = calc_rpsup_metrics(parameters, observer.metrics, sliding_work, end, ideal);
+      result.metrics = calc_rpsup_metrics(parameters, observer.metrics, sliding_work, outcome, ideal);
     }
   }
   result.trajectory = observer.channels.finish(observer.metrics.work_turned_over());

@@ -40,7 +40,7 @@ class IdealPeakSearch {
     // Onwards from the start: the branch on which the linkage is assembled is known there.
     if (!closure_.assemble(0.0, last_) || !solve(0.0, last_, last_, last_)) return std::nullopt;
     determinant_ = closure_.determinant();
-    wanted_ = kFirstInterval * calc_longest();
+    next_dt_ = kFirstInterval * calc_longest();
     if (!advance(from)) return std::nullopt;
     searches_ = true;
     take(last_);
@@ -81,7 +81,7 @@ class IdealPeakSearch {
     constexpr double kShortSmooth = 1e-6;   // of what the drives allow: not divided for smoothness' sake
     const double followed = calc_longest();
     const double longest = std::min(followed, piece_end_ - last_.t);
-    double dt = std::min(wanted_, longest);
+    double dt = std::min(next_dt_, longest);
     for (;; dt *= 0.5) {
       if (dt < kShortest * longest || stopped_) return false;
       const double rest = piece_end_ - last_.t;
@@ -90,7 +90,7 @@ class IdealPeakSearch {
       if (!solve(end, next_, last_, next_) || !keeps_branch(determinant_, closure_.determinant())) continue;
       if (!searches_ || is_smooth() || dt < kShortSmooth * followed) break;
     }
-    wanted_ = 1.5 * dt;
+    next_dt_ = 1.5 * dt;
     determinant_ = closure_.determinant();
     if (searches_) search_interval();
     std::swap(last_, next_);
@@ -179,7 +179,7 @@ class IdealPeakSearch {
   /// The interval's ends, and until the second is known the one before; an instant near by.
   Evaluation last_, next_, probe_;
   double piece_start_ = 0.0, piece_end_ = 0.0;  ///< between corners of the drives' laws, [s]
-  double wanted_ = 0.0;       ///< the next interval, [s]
+  double next_dt_ = 0.0;       ///< the next interval, [s]
   double determinant_ = 0.0;  ///< at the last node
   double scale_ = 0.0;        ///< of the accelerations in the last intervals, [m/s^2]
   double located_ = -1.0;     ///< the last extreme, [s]

@@ -47,7 +47,7 @@ void LinkageQuantities::add_load(std::string key, std::string help, double scale
   const std::size_t load = measured_.loads.size();
   measured_.loads.push_back(std::move(read));
   add_metric({.key = std::move(key), .help = std::move(help)},
-             [=](const RunMetrics& metrics, const RunEnd&) { return scale * metrics.largest_load(load); });
+             [=](const RunMetrics& metrics, const auto&) { return scale * metrics.largest_load(load); });
 }
 
 void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex i) {
@@ -65,17 +65,17 @@ void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex
   add_metric({.key = "peak_" + name + unit + "_s2",
               .help = "Largest magnitude of the coordinate's acceleration in the steady window (t ≥ "
                       "run_up_s), sought inside every integration step"},
-             [k](const RunMetrics& metrics, const RunEnd&) {
+             [k](const RunMetrics& metrics, const auto&) {
                return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.magnitude : kNone;
              });
   add_metric(
       {.key = "peak_" + name + "_whole_run" + unit + "_s2",
        .help = "Largest magnitude of the coordinate's acceleration in the whole run"},
-      [k](const RunMetrics& metrics, const RunEnd&) { return metrics.acceleration(k).whole_run.magnitude; });
+      [k](const RunMetrics& metrics, const auto&) { return metrics.acceleration(k).whole_run.magnitude; });
   add_metric(
       {.key = "rms_" + name + unit + "_s2",
        .help = "Root mean square of the coordinate's acceleration in the steady window (t ≥ run_up_s)"},
-      [k](const RunMetrics& metrics, const RunEnd&) { return metrics.calc_rms(k); });
+      [k](const RunMetrics& metrics, const auto&) { return metrics.calc_rms(k); });
   if (freedom.drive) add_drive(freedom, i);
 }
 
@@ -147,7 +147,9 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
   add_metric(
       {.key = joint.name + "_contact_time_ratio",
        .help = "Fraction of the whole run in which the journal touches the bore"},
-      [=](const RunMetrics& metrics, const RunEnd& end) { return metrics.contact_time(contact) / end.t; });
+      [=](const RunMetrics& metrics, const RunOutcome& outcome) {
+        return metrics.contact_time(contact) / outcome.t;
+      });
 }
 
 void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t index) {
@@ -176,31 +178,33 @@ void LinkageQuantities::add_energies() {
       {.key = "impact_count",
        .help = "Number of onsets of radial contact in the whole run, counted for each ring of each journal",
        .integer = true},
-      [](const RunMetrics& metrics, const RunEnd&) { return static_cast<double>(metrics.onsets()); });
+      [](const RunMetrics& metrics, const auto&) { return static_cast<double>(metrics.onsets()); });
   add_metric({.key = "friction_work_j", .help = "Energy lost to friction in the joints in the whole run"},
-             [](const RunMetrics& metrics, const RunEnd&) { return metrics.last_energy().friction_loss; });
+             [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().friction_loss; });
   add_metric({.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
-             [](const RunMetrics& metrics, const RunEnd&) { return metrics.last_energy().impact_loss; });
+             [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().impact_loss; });
   add_metric({.key = "structural_loss_j",
               .help = "Energy lost in dampers, including those of flexible bodies, in the whole run"},
-             [](const RunMetrics& metrics, const RunEnd&) { return metrics.last_energy().structural_loss; });
+             [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().structural_loss; });
   add_metric({.key = "energy_imbalance_j",
               .help = "Largest |E − E(0) − work of the drives + losses| in the whole run"},
-             [](const RunMetrics& metrics, const RunEnd&) { return metrics.largest_imbalance(); });
+             [](const RunMetrics& metrics, const auto&) { return metrics.largest_imbalance(); });
   add_metric({.key = "energy_residual",
               .help = "Ratio of energy_imbalance_j to the work turned over; null if that is zero"},
-             [](const RunMetrics& metrics, const RunEnd&) { return metrics.calc_energy_residual(); });
+             [](const RunMetrics& metrics, const auto&) { return metrics.calc_energy_residual(); });
   add_metric(
       {.key = "redundant_constraints",
        .help = "Number of constraint equations that follow from others; reactions are then the smallest that "
                "satisfy the equations of motion",
        .integer = true},
-      [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.redundant_constraints); });
+      [](const auto&, const RunOutcome& outcome) {
+        return static_cast<double>(outcome.redundant_constraints);
+      });
   add_metric({.key = "steps", .help = "Number of accepted integration steps", .integer = true},
-             [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.steps); });
+             [](const auto&, const RunOutcome& outcome) { return static_cast<double>(outcome.steps); });
   add_metric(
       {.key = "rhs_evaluations", .help = "Number of evaluations of the equations of motion", .integer = true},
-      [](const RunMetrics&, const RunEnd& end) { return static_cast<double>(end.evaluations); });
+      [](const auto&, const RunOutcome& outcome) { return static_cast<double>(outcome.evaluations); });
 }
 
 std::vector<QuantityInfo> LinkageQuantities::channel_table() const {
@@ -210,9 +214,10 @@ std::vector<QuantityInfo> LinkageQuantities::channel_table() const {
   return table;
 }
 
-std::vector<double> LinkageQuantities::calc_metrics(const RunMetrics& metrics, const RunEnd& end) const {
+std::vector<double> LinkageQuantities::calc_metrics(const RunMetrics& metrics,
+                                                    const RunOutcome& outcome) const {
   std::vector<double> values;
-  for (const Result& result : results_) values.push_back(result(metrics, end));
+  for (const Result& result : results_) values.push_back(result(metrics, outcome));
   return values;
 }
 

@@ -6,7 +6,7 @@
 #include "engine/analysis/joint_reactions.h"
 #include "engine/analysis/run_channels.h"
 #include "engine/analysis/run_metrics.h"
-#include "engine/integrate/run_end.h"
+#include "engine/integrate/run_outcome.h"
 #include "engine/model/linkage.h"
 
 namespace engine {
@@ -28,7 +28,7 @@ class LinkageQuantities {
   [[nodiscard]] const std::vector<QuantityInfo>& metric_table() const { return metrics_; }
 
   /// In the order of metric_table(). @param metrics  of measured()
-  [[nodiscard]] std::vector<double> calc_metrics(const RunMetrics& metrics, const RunEnd& end) const;
+  [[nodiscard]] std::vector<double> calc_metrics(const RunMetrics& metrics, const RunOutcome& outcome) const;
 
  private:
   void add_coordinate(const LinkageFreedom& freedom, FrameIndex coordinate);
@@ -42,7 +42,7 @@ class LinkageQuantities {
   void add_load(std::string key, std::string help, double scale, Reading read);
 
   /// How a metric follows from what was measured.
-  using Result = std::function<double(const RunMetrics&, const RunEnd&)>;
+  using Result = std::function<double(const RunMetrics&, const RunOutcome&)>;
   void add_metric(QuantityInfo info, Result result);
 
   const BuiltLinkage& built_;

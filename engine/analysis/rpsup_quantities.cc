@@ -229,7 +229,7 @@ Measured rpsup_measured(const RpsupParameters& parameters, const RpsupLayout& la
 }
 
 std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const RunMetrics& metrics,
-                                       const SlidingWork& sliding_work, const RunEnd& end,
+                                       const SlidingWork& sliding_work, const RunOutcome& outcome,
                                        const std::optional<Peak>& ideal) {
   const bool has_steady = metrics.steady_time() > 0.0;
   const bool has_clearance = parameters.c_r > 0.0;
@@ -245,7 +245,7 @@ std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const 
       has_clearance ? metrics.largest_load(0) : kNone,
       has_clearance ? 1e6 * metrics.largest_load(1) : kNone,
       static_cast<double>(metrics.onsets()),
-      has_clearance ? metrics.contact_time(0) / end.t : kNone,
+      has_clearance ? metrics.contact_time(0) / outcome.t : kNone,
       metrics.largest_load(2),
       metrics.largest_load(3),
       metrics.largest_load(4),
@@ -254,8 +254,8 @@ std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const 
       metrics.last_energy().structural_loss,
       has_clearance ? sliding_work.total() : kNone,
       metrics.calc_energy_residual(),
-      static_cast<double>(end.steps),
-      static_cast<double>(end.evaluations),
+      static_cast<double>(outcome.steps),
+      static_cast<double>(outcome.evaluations),
   };
 }
 

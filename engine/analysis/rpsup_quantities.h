@@ -7,7 +7,7 @@
 #include "engine/analysis/run_channels.h"
 #include "engine/analysis/run_metrics.h"
 #include "engine/analysis/sliding_work.h"
-#include "engine/integrate/run_end.h"
+#include "engine/integrate/run_outcome.h"
 #include "engine/model/rpsup.h"
 
 namespace engine {
@@ -25,7 +25,8 @@ namespace engine {
 /// @param ideal    the ideal linkage's peak in the steady window, if there is one
 [[nodiscard]] std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters,
                                                      const RunMetrics& metrics,
-                                                     const SlidingWork& sliding_work, const RunEnd& end,
+                                                     const SlidingWork& sliding_work,
+                                                     const RunOutcome& outcome,
                                                      const std::optional<Peak>& ideal);
 
 }  // namespace engine

@@ -103,8 +103,8 @@ bool RadialElements::follow(const JournalMotion& journal, double dt, double* bri
   RelativeMotion<double, double> later = to_relative_motion(journal);
   later.p += dt * later.v;
   for (int i = 0; i < joint_.n_r; ++i) {
-    const int wanted = static_cast<int>(std::lround(find_direction(later, i) / spacing_)) - window_ / 2;
-    int shift = wrap(wanted - first_[static_cast<std::size_t>(i)]);
+    const int centred = static_cast<int>(std::lround(find_direction(later, i) / spacing_)) - window_ / 2;
+    int shift = wrap(centred - first_[static_cast<std::size_t>(i)]);
     if (shift > joint_.n_ce / 2) shift -= joint_.n_ce;
     if (std::abs(shift) <= window_ / 8) continue;
     shift_window(i, shift, bristles);

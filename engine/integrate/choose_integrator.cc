@@ -65,8 +65,8 @@ bool has_clearance(const Mechanism& mechanism) {
   return has_any(mechanism, [](const ClearanceParameters&) { return true; });
 }
 
-Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted) {
-  if (wanted != Integrator::kAuto) return wanted;
+Integrator choose_integrator(const Mechanism& mechanism, Integrator requested) {
+  if (requested != Integrator::kAuto) return requested;
   return has_any(mechanism, has_friction_without_bristles) && !has_elastic_links(mechanism)
              ? Integrator::kDopri5
              : Integrator::kRadau5;
@@ -101,15 +101,15 @@ double choose_stability_check_interval(const Mechanism& mechanism, Integrator in
   return kPerCoordinate * n * std::max(1.0, n / kDenseUpTo);
 }
 
-double choose_tolerance(const Mechanism& mechanism, double wanted) {
+double choose_tolerance(const Mechanism& mechanism, double requested) {
   double refinement = 1.0;
   for (const CutJoint& joint : mechanism.cut_joints)
     if (joint.clearance) refinement = std::max(refinement, choose_refinement(*joint.clearance));
   // Tolerances below 1e-7 resolve more and more by themselves: the divisor shrinks to 1 at 1e-10, and the
   // result stays monotonic.
   constexpr double kNoneFrom = 1e-10, kAllFrom = 1e-7;
-  const double part = std::clamp(std::log(wanted / kNoneFrom) / std::log(kAllFrom / kNoneFrom), 0.0, 1.0);
-  const double divided = wanted / std::pow(refinement, part);
+  const double part = std::clamp(std::log(requested / kNoneFrom) / std::log(kAllFrom / kNoneFrom), 0.0, 1.0);
+  const double divided = requested / std::pow(refinement, part);
   return has_any(mechanism, has_friction_without_bristles) ? std::min(divided, kLargestWithoutBristles)
                                                            : divided;
 }

@@ -11,11 +11,11 @@ namespace engine {
 /// Whether any joint of the mechanism has clearance.
 [[nodiscard]] bool has_clearance(const Mechanism& mechanism);
 
-/// The integrator that is used: the wanted one, and for kAuto radau5. With radau5 at the tolerance of
+/// The integrator that is used: the requested one; for kAuto radau5. With radau5 at the tolerance of
 /// choose_tolerance() nearly all converging peaks are right to 0.1 %; no other method was as right for clearly
 /// less work. Exception: friction without bristles between rigid links asks for tolerances at which dopri5
 /// takes half the time.
-[[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator wanted);
+[[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator requested);
 
 /// Longest step of an error-controlled integrator, [s]. With radau5 and clearance it is shorter where
 /// friction is quick, and where links are elastic: there friction excites vibrations that longer steps would
@@ -29,10 +29,10 @@ namespace engine {
 [[nodiscard]] double choose_stability_check_interval(const Mechanism& mechanism, Integrator integrator,
                                                      Eigen::Index free_coordinates);
 
-/// Tolerance of kAuto for the wanted one, of the steps' errors and of the energy account: the wanted one over
-/// a divisor, so that peaks are about equally right in all mechanisms. The divisor is larger in worn bores,
+/// Tolerance of kAuto, of the steps' errors and of the energy account: the requested tolerance over a
+/// divisor, so that peaks are about equally right in all mechanisms. The divisor is larger in worn bores,
 /// and where friction is not that of slow bristles; smaller with contact elements, where one that begins to
 /// touch changes little. With friction without bristles the tolerance is at most 1e-9. Table: README.md.
-[[nodiscard]] double choose_tolerance(const Mechanism& mechanism, double wanted);
+[[nodiscard]] double choose_tolerance(const Mechanism& mechanism, double requested);
 
 }  // namespace engine

@@ -48,21 +48,22 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       control_(stepper_->error_exponent()),
       samples_(options.output_rate, options.duration),
       sliver_(sliver_of(options_)),
-      step_limiter_(choose_stability_check_interval(mechanism, options_.integrator, system_.free_count()),
-                    choose_longest_step(mechanism, options_.integrator), system_.free_count()) {}
+      unstable_mode_limiter_(
+          choose_stability_check_interval(mechanism, options_.integrator, system_.free_count()),
+          choose_longest_step(mechanism, options_.integrator), system_.free_count()) {}
 
-RunEnd Integration::run(const Evaluation& assembled) {
+RunOutcome Integration::run(const Evaluation& assembled) {
   const bool fixed = options_.integrator == Integrator::kRk4;
   piece_ = DrivePiece(mechanism_.drives);
   system_.follow_drives(piece_);
-  if (!start(assembled)) return run_end_;
+  if (!start(assembled)) return outcome_;
   end_ = start_;
   take_samples();
   while (!failed_ && start_.t < options_.duration) {
-    if (run_end_.steps >= options_.step_limit) {
+    if (outcome_.steps >= options_.step_limit) {
       fail(RunStatus::kStepLimit,
            "the run needs more than " + std::to_string(options_.step_limit) + " steps");
-    } else if (run_end_.steps % kStepsBetweenQueries == 0 && observer_.stop_requested(start_.t)) {
+    } else if (outcome_.steps % kStepsBetweenQueries == 0 && observer_.stop_requested(start_.t)) {
       fail(RunStatus::kStopped, "stopped on request");
     } else if (fixed ? try_fixed_step() : try_controlled_step()) {
       accept();
@@ -70,8 +71,8 @@ RunEnd Integration::run(const Evaluation& assembled) {
         jump();
     }
   }
-  run_end_.t = start_.t;
-  return run_end_;
+  outcome_.t = start_.t;
+  return outcome_;
 }
 
 bool Integration::start(const Evaluation& assembled) {
@@ -79,7 +80,7 @@ bool Integration::start(const Evaluation& assembled) {
   start_.at = system_.make_evaluation();
   end_ = sample_ = start_;
   start_.f = end_.f = sample_.f = Eigen::VectorXd::Zero(start_.y.size());
-  ++run_end_.evaluations;
+  ++outcome_.evaluations;
   const EvaluationStatus status = system_.calc_derivative(0.0, start_.y, start_.f, start_.at);
   if (status != EvaluationStatus::kOk) {
     fail(status);
@@ -109,8 +110,8 @@ void Integration::prepare(double dt) {
   evaluate_again(start_);
 }
 
-void Integration::evaluate_again(StepEnd& end) {
-  ++run_end_.evaluations;
+void Integration::evaluate_again(StepPoint& end) {
+  ++outcome_.evaluations;
   // The state could be evaluated before, so it can be now.
   (void)system_.calc_derivative(end.t, end.y, end.f, end.at);
   system_.calc_energies(end.at);
@@ -138,8 +139,8 @@ void Integration::fail(EvaluationStatus status) {
 
 void Integration::fail(RunStatus status, std::string detail) {
   failed_ = true;
-  run_end_.status = status;
-  run_end_.detail = std::move(detail);
+  outcome_.status = status;
+  outcome_.detail = std::move(detail);
 }
 
 /// A fixed step crosses the jumps inside it: its stages take the accelerations at their own instants.
@@ -158,7 +159,7 @@ bool Integration::try_fixed_step() {
   cross_jumps(t_end);
   prepare(t_end - start_.t);
   const Trial trial = stepper_->try_step(system_, start_, t_end - start_.t, end_);
-  run_end_.evaluations += trial.evaluations;
+  outcome_.evaluations += trial.evaluations;
   if (trial.status == EvaluationStatus::kBristleMissing) {
     widen_bristles();
     return false;
@@ -176,11 +177,12 @@ bool Integration::try_fixed_step() {
 bool Integration::try_controlled_step() {
   const double stop = std::min(options_.duration, piece_.end());
   const double remaining = stop - start_.t;
-  if (step_limiter_.is_check_due(start_.t)) step_limiter_.check_local_stability(system_, start_, *stepper_);
-  const double dt = std::min({dt_, step_limiter_.max_step(), remaining});
+  if (unstable_mode_limiter_.is_check_due(start_.t))
+    unstable_mode_limiter_.check_local_stability(system_, start_, *stepper_);
+  const double dt = std::min({dt_, unstable_mode_limiter_.max_step(), remaining});
   prepare(dt);
   const Trial trial = try_step(dt);
-  if (!is_accepted(trial, dt)) return false;
+  if (!accept_or_shrink(trial, dt)) return false;
   dt_ = dt * control_.accept(trial.error);
   if (!land_on_event(dt)) return false;
   if (dt == remaining && end_.t - start_.t == dt) end_.t = stop;
@@ -189,7 +191,7 @@ bool Integration::try_controlled_step() {
 
 Trial Integration::try_step(double dt) {
   Trial trial = stepper_->try_step(system_, start_, dt, end_);
-  run_end_.evaluations += trial.evaluations;
+  outcome_.evaluations += trial.evaluations;
   if (trial.status != EvaluationStatus::kOk || !(trial.error <= 1.0)) return trial;
   system_.calc_energies(end_.at);
   if (is_implicit(options_.integrator))
@@ -199,7 +201,7 @@ Trial Integration::try_step(double dt) {
 }
 
 /// Whether a trial is accepted. If not, sets the next step, or fails.
-bool Integration::is_accepted(const Trial& trial, double dt) {
+bool Integration::accept_or_shrink(const Trial& trial, double dt) {
   if (trial.status == EvaluationStatus::kBristleMissing && dt <= kWidenBelow) {
     widen_bristles();
     return false;
@@ -226,14 +228,14 @@ bool Integration::land_on_event(double dt) {
     const std::optional<double> until = ContactEvents::find_first(rings_start_, rings_end_, dt);
     if (!until || *until < shortest_step(start_.t)) return true;
     const Trial trial = try_step(*until);
-    if (!is_accepted(trial, *until)) return false;
+    if (!accept_or_shrink(trial, *until)) return false;
     dt = *until;
   }
   return true;
 }
 
 void Integration::accept() {
-  ++run_end_.steps;
+  ++outcome_.steps;
   energy_control_.accept(start_.at.energy, end_.at.energy);
   observer_.on_step(start_.at, end_.at);
   if (observer_.wants_middle()) {

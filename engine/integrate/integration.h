@@ -7,7 +7,7 @@
 
 #include "engine/integrate/energy_control.h"
 #include "engine/integrate/observer.h"
-#include "engine/integrate/run_end.h"
+#include "engine/integrate/run_outcome.h"
 #include "engine/integrate/sample_times.h"
 #include "engine/integrate/step_control.h"
 #include "engine/integrate/stepper.h"
@@ -25,14 +25,14 @@ class Integration {
   Integration& operator=(const Integration&) = delete;
 
   /// @param assembled  position and rates of all coordinates at t = 0
-  [[nodiscard]] RunEnd run(const Evaluation& assembled);
+  [[nodiscard]] RunOutcome run(const Evaluation& assembled);
 
  private:
   [[nodiscard]] bool start(const Evaluation& assembled);
   [[nodiscard]] bool try_fixed_step();
   [[nodiscard]] bool try_controlled_step();
   [[nodiscard]] Trial try_step(double dt);
-  [[nodiscard]] bool is_accepted(const Trial& trial, double dt);
+  [[nodiscard]] bool accept_or_shrink(const Trial& trial, double dt);
   [[nodiscard]] bool land_on_event(double dt);
   void accept();
   void take_samples();
@@ -40,7 +40,7 @@ class Integration {
   void jump();
   void cross_jumps(double t_end);
   void prepare(double dt);
-  void evaluate_again(StepEnd& end);
+  void evaluate_again(StepPoint& end);
   void widen_bristles();
   void fail(EvaluationStatus status);
   void fail(RunStatus status, std::string detail);
@@ -57,14 +57,14 @@ class Integration {
   SampleTimes samples_;
   /// Shortest fixed step; a shorter remainder is rounding, [s].
   double sliver_;
-  StepEnd start_, end_;
-  StepEnd sample_;                                ///< the state between steps that was evaluated last
+  StepPoint start_, end_;
+  StepPoint sample_;                                ///< the state between steps that was evaluated last
   std::vector<Penetration> rings_start_, rings_end_;  ///< at both ends of a controlled step
-  UnstableModeLimiter step_limiter_;
+  UnstableModeLimiter unstable_mode_limiter_;
   double dt_ = 0.0;                               ///< of the next controlled step
   long fixed_steps_ = 0;
   bool crosses_ = false;                          ///< the last fixed step went across a jump
-  RunEnd run_end_;
+  RunOutcome outcome_;
   bool failed_ = false;
 };
 

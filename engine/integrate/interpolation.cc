@@ -5,7 +5,7 @@
 
 namespace engine {
 
-void interpolate_state(const StepEnd& start, const StepEnd& end, const StateLayout& layout, double s,
+void interpolate_state(const StepPoint& start, const StepPoint& end, const StateLayout& layout, double s,
                        Eigen::VectorXd& y) {
   const double dt = end.t - start.t;
   y.resize(start.y.size());

@@ -12,7 +12,7 @@ namespace engine {
 /// derivative for their rates, cubic for the rest. Contact is stiff: a cubic in q would be wrong by a part of
 /// the penetration.
 /// @param s  place in the step, 0 to 1
-void interpolate_state(const StepEnd& start, const StepEnd& end, const StateLayout& layout, double s,
+void interpolate_state(const StepPoint& start, const StepPoint& end, const StateLayout& layout, double s,
                        Eigen::VectorXd& y);
 
 }  // namespace engine

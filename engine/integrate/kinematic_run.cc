@@ -54,20 +54,20 @@ class KinematicRun {
     closure_.follow_drives(piece_);
   }
 
-  RunEnd run() {
-    ++run_end_.evaluations;
+  RunOutcome run() {
+    ++outcome_.evaluations;
     if (!solve(0.0, nodes_[0], nodes_[0], nodes_[0])) {
       fail(RunStatus::kLockUp, kLocked);
-      return run_end_;
+      return outcome_;
     }
     determinant_ = closure_.determinant();
     take_samples(nodes_[0], nodes_[0]);
     next_step_ = kFirstOfLongest * calc_longest();
-    for (long block = 0; nodes_[0].t < options_.duration && run_end_.status == RunStatus::kSucceeded;
+    for (long block = 0; nodes_[0].t < options_.duration && outcome_.status == RunStatus::kSucceeded;
          ++block) {
       if (block % kBlocksBetweenQueries == 0 && observer_.stop_requested(nodes_[0].t)) {
         fail(RunStatus::kStopped, "stopped on request");
-      } else if (run_end_.steps >= options_.step_limit) {
+      } else if (outcome_.steps >= options_.step_limit) {
         fail(RunStatus::kStepLimit,
              "the run needs more than " + std::to_string(options_.step_limit) + " steps");
       } else if (!solve_block()) {
@@ -78,23 +78,23 @@ class KinematicRun {
           fail(RunStatus::kLockUp, kLocked);
       }
     }
-    run_end_.t = nodes_[0].t;
-    return run_end_;
+    outcome_.t = nodes_[0].t;
+    return outcome_;
   }
 
  private:
   static constexpr const char* kLocked = "the linkage cannot follow its drives any further";
 
   void fail(RunStatus status, std::string detail) {
-    run_end_.status = status;
-    run_end_.detail = std::move(detail);
+    outcome_.status = status;
+    outcome_.detail = std::move(detail);
   }
 
   /// Enters the next drive piece and solves the instant again, with the accelerations after the jump.
   [[nodiscard]] bool jump() {
     piece_.advance();
     closure_.follow_drives(piece_);
-    ++run_end_.evaluations;
+    ++outcome_.evaluations;
     return solve(nodes_[0].t, nodes_[0], nodes_[0], nodes_[0]);
   }
 
@@ -184,7 +184,7 @@ class KinematicRun {
 
   [[nodiscard]] bool solve_nodes() {
     end_determinant_ = determinant_;
-    run_end_.evaluations += kSteps;
+    outcome_.evaluations += kSteps;
     for (std::size_t k = 1; k <= kSteps; ++k) {
       const Evaluation& before = nodes_[k == 1 ? kSteps - 1 : k - 2];  // for k = 1 in the block before
       if (!solve(times_[k], before, nodes_[k - 1], nodes_[k]) ||
@@ -248,7 +248,7 @@ class KinematicRun {
       for (std::size_t i = 0; split != splits_.end() && *split < nodes_[k + 1].t; ++split) {
         if (*split < from->t + apart || *split > nodes_[k + 1].t - apart) continue;
         Evaluation& at = extra_[i];
-        ++run_end_.evaluations;
+        ++outcome_.evaluations;
         if (!solve(*split, nodes_[k], nodes_[k + 1], at)) continue;
         set_work(at);
         accept(*from, at);
@@ -327,7 +327,7 @@ class KinematicRun {
   }
 
   void accept(const Evaluation& from, const Evaluation& to) {
-    ++run_end_.steps;
+    ++outcome_.steps;
     observer_.on_step(from, to);
     take_samples(from, to);
   }
@@ -365,12 +365,12 @@ class KinematicRun {
   std::vector<TrackedQuantity> accelerations_;  ///< one an unknown coordinate
   std::vector<TrackedQuantity> loads_;        ///< one a drive, then one a cut joint
   std::vector<double> splits_;                ///< instants inside the block at which a step ends as well
-  RunEnd run_end_;
+  RunOutcome outcome_;
 };
 
 }  // namespace
 
-RunEnd run_kinematics(const Mechanism& mechanism, LoopClosure& closure, const RunOptions& options,
+RunOutcome run_kinematics(const Mechanism& mechanism, LoopClosure& closure, const RunOptions& options,
                       Observer& observer, const Evaluation& assembled) {
   return KinematicRun(mechanism, closure, options, observer, assembled).run();
 }

@@ -3,7 +3,7 @@
 
 #include "engine/dynamics/loop_closure.h"
 #include "engine/integrate/observer.h"
-#include "engine/integrate/run_end.h"
+#include "engine/integrate/run_outcome.h"
 #include "engine/model/run_options.h"
 
 namespace engine {
@@ -20,7 +20,7 @@ namespace engine {
 /// drive's force, of a reaction's magnitude. So the extrema of all of them are ends of steps. An acceleration
 /// gets a short step around its extremum, so that the quadratic by which observers read steps finds the
 /// extremum and its instant.
-[[nodiscard]] RunEnd run_kinematics(const Mechanism& mechanism, LoopClosure& closure,
+[[nodiscard]] RunOutcome run_kinematics(const Mechanism& mechanism, LoopClosure& closure,
                                     const RunOptions& options, Observer& observer,
                                     const Evaluation& assembled);
 

@@ -61,14 +61,14 @@ class RodasSystem : public StageSystem {
 };
 
 /// What is at the end of a step that no stage has evaluated.
-void evaluate_end(MotionSystem& system, StepEnd& end, Trial& trial) {
+void evaluate_end(MotionSystem& system, StepPoint& end, Trial& trial) {
   ++trial.evaluations;
   trial.status = system.calc_derivative(end.t, end.y, end.f, end.at);
 }
 
 }  // namespace
 
-Trial Rk4::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
+Trial Rk4::try_step(MotionSystem& system, const StepPoint& start, double dt, StepPoint& end) {
   Trial trial;
   StageSystem rhs(system, trial);
   end.t = start.t + dt;
@@ -77,7 +77,7 @@ Trial Rk4::try_step(MotionSystem& system, const StepEnd& start, double dt, StepE
   return trial;
 }
 
-Trial Dopri5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
+Trial Dopri5::try_step(MotionSystem& system, const StepPoint& start, double dt, StepPoint& end) {
   Trial trial;
   Dopri5System rhs(system, trial, end.at);
   end.t = start.t + dt;
@@ -88,7 +88,7 @@ Trial Dopri5::try_step(MotionSystem& system, const StepEnd& start, double dt, St
   return trial;
 }
 
-Trial Rodas5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
+Trial Rodas5::try_step(MotionSystem& system, const StepPoint& start, double dt, StepPoint& end) {
   Trial trial;
   RodasSystem rhs(system, trial, linearised_);
   end.t = start.t + dt;

@@ -27,7 +27,8 @@ using EigenStepper =
 /// The paper's integrator: the classical Runge-Kutta method of order 4.
 class Rk4 final : public Stepper {
  public:
-  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) override;
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepPoint& start, double dt,
+                               StepPoint& end) override;
 
  private:
   EigenStepper<boost::numeric::odeint::runge_kutta4> stepper_;
@@ -39,7 +40,8 @@ class Dopri5 final : public Stepper {
  public:
   explicit Dopri5(const Tolerance& tolerance) : tolerance_(tolerance) {}
 
-  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) override;
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepPoint& start, double dt,
+                               StepPoint& end) override;
 
  private:
   const Tolerance& tolerance_;
@@ -56,7 +58,8 @@ class Rodas5 final : public Stepper {
   void accept() override { linearised_ = false; }
   void invalidate() override { linearised_ = false; }
   void jacobian_refreshed() override { linearised_ = true; }
-  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) override;
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepPoint& start, double dt,
+                               StepPoint& end) override;
 
  private:
   const Tolerance& tolerance_;

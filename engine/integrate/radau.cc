@@ -37,21 +37,21 @@ Radau5::Radau5(const Tolerance& tolerance, double error_weight)
       newton_tolerance_(std::max(kNewtonTolerance, kRoundingErrors * std::numeric_limits<double>::epsilon() /
                                                        tolerance.relative())) {}
 
-Trial Radau5::try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) {
+Trial Radau5::try_step(MotionSystem& system, const StepPoint& start, double dt, StepPoint& end) {
   Trial trial;
   resize_work(system, start.y);
   tolerance_.calc_weights(start.y, system.error_weights(), norm_weights_);
   tried_dt_ = 0.0;
-  Newton newton = solve_stages(system, start, dt, trial);
-  if (newton == Newton::kNotConverged && !fresh_) {
+  NewtonOutcome outcome = solve_stages(system, start, dt, trial);
+  if (outcome == NewtonOutcome::kNotConverged && !fresh_) {
     invalidate();
-    newton = solve_stages(system, start, dt, trial);
+    outcome = solve_stages(system, start, dt, trial);
   }
-  if (newton == Newton::kNotConverged) {
+  if (outcome == NewtonOutcome::kNotConverged) {
     last_dt_ = 0.0;
     trial.error = kNewtonFailureError;
   }
-  if (newton != Newton::kConverged) return trial;
+  if (outcome != NewtonOutcome::kConverged) return trial;
   trial.error = error_weight_ * estimate_error(system, start, dt);
   if (!(trial.error <= 1.0)) return trial;
   tried_dt_ = dt;
@@ -93,7 +93,7 @@ void Radau5::resize_work(const MotionSystem& system, const Eigen::VectorXd& y) {
 
 /// Predicts the stages by the collocation polynomial of the step before, or by the accelerations at the start
 /// if there is no such step.
-void Radau5::predict_stages(const StepEnd& start, const StateLayout& layout, double dt) {
+void Radau5::predict_stages(const StepPoint& start, const StateLayout& layout, double dt) {
   if (last_dt_ > 0.0)
     extrapolate(dt / last_dt_);
   else
@@ -122,22 +122,25 @@ void Radau5::extrapolate(double ratio) {
   }
 }
 
-Radau5::Newton Radau5::solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial) {
+Radau5::NewtonOutcome Radau5::solve_stages(MotionSystem& system, const StepPoint& start, double dt,
+                                           Trial& trial) {
   if (!linearised_) {
     trial.status = system.linearise(start.t, start.y, system.choose_newton_solver(Shifts::kRealAndComplex));
-    if (trial.status != EvaluationStatus::kOk) return Newton::kFailed;
+    if (trial.status != EvaluationStatus::kOk) return NewtonOutcome::kFailed;
     linearised_ = fresh_ = true;
     factored_dt_ = 0.0;
   }
   if (dt != factored_dt_)
     factored_dt_ = system.factor(K::shift / dt) && system.factor(K::complex_shift / dt) ? dt : 0.0;
-  const Newton newton = factored_dt_ == dt ? iterate(system, start, dt, trial) : Newton::kNotConverged;
-  if (newton != Newton::kConverged) convergence_rate_ = kUnknownRate;
-  return newton;
+  const NewtonOutcome outcome =
+      factored_dt_ == dt ? iterate(system, start, dt, trial) : NewtonOutcome::kNotConverged;
+  if (outcome != NewtonOutcome::kConverged) convergence_rate_ = kUnknownRate;
+  return outcome;
 }
 
 /// Simplified Newton iterations with the present Jacobian.
-Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial) {
+Radau5::NewtonOutcome Radau5::iterate(MotionSystem& system, const StepPoint& start, double dt,
+                                      Trial& trial) {
   predict_stages(start, system.layout(), dt);
   double last_update = 0.0;
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
@@ -145,23 +148,23 @@ Radau5::Newton Radau5::iterate(MotionSystem& system, const StepEnd& start, doubl
       stage_ = start.y + Z_[i];
       ++trial.evaluations;
       trial.status = system.calc_derivative(start.t + K::c[i] * dt, stage_, f_[i]);
-      if (trial.status != EvaluationStatus::kOk) return Newton::kFailed;
+      if (trial.status != EvaluationStatus::kOk) return NewtonOutcome::kFailed;
     }
     const double update = newton_iteration(system, dt);
-    if (!std::isfinite(update)) return Newton::kNotConverged;
+    if (!std::isfinite(update)) return NewtonOutcome::kNotConverged;
     if (iteration > 0) {
       convergence_rate_ = std::max(update / last_update, 1e-3);
-      if (convergence_rate_ >= 1.0) return Newton::kNotConverged;
+      if (convergence_rate_ >= 1.0) return NewtonOutcome::kNotConverged;
     }
     if (update * convergence_rate_ <= (1.0 - convergence_rate_) * newton_tolerance_) {
       // One iteration gives no new rate: the old one drifts towards unknown.
       convergence_rate_ =
           std::min(iteration > 0 ? convergence_rate_ : std::pow(convergence_rate_, 0.8), kUnknownRate);
-      return Newton::kConverged;
+      return NewtonOutcome::kConverged;
     }
     last_update = update;
   }
-  return Newton::kNotConverged;
+  return NewtonOutcome::kNotConverged;
 }
 
 /// @returns norm of the update of W, in units of the tolerance
@@ -216,7 +219,7 @@ void Radau5::apply_update() {
   }
 }
 
-double Radau5::estimate_error(MotionSystem& system, const StepEnd& start, double dt) {
+double Radau5::estimate_error(MotionSystem& system, const StepPoint& start, double dt) {
   combine_stages({K::error[0] / dt, K::error[1] / dt, K::error[2] / dt}, Z_, update_);
   update_ += start.f;
   system.solve_in_place(update_);

@@ -24,7 +24,8 @@ class Radau5 final : public Stepper {
   /// fast
   explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0);
 
-  [[nodiscard]] Trial try_step(MotionSystem& system, const StepEnd& start, double dt, StepEnd& end) override;
+  [[nodiscard]] Trial try_step(MotionSystem& system, const StepPoint& start, double dt,
+                               StepPoint& end) override;
   void accept() override;
   void invalidate() override;
   void jacobian_refreshed() override;
@@ -35,17 +36,19 @@ class Radau5 final : public Stepper {
  private:
   using Stages = std::array<Eigen::VectorXd, 3>;
 
-  enum class Newton { kConverged, kNotConverged, kFailed };
+  enum class NewtonOutcome { kConverged, kNotConverged, kFailed };
 
   void resize_work(const MotionSystem& system, const Eigen::VectorXd& y);
-  void predict_stages(const StepEnd& start, const StateLayout& layout, double dt);
+  void predict_stages(const StepPoint& start, const StateLayout& layout, double dt);
   void extrapolate(double ratio);
-  [[nodiscard]] Newton solve_stages(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
-  [[nodiscard]] Newton iterate(MotionSystem& system, const StepEnd& start, double dt, Trial& trial);
+  [[nodiscard]] NewtonOutcome solve_stages(MotionSystem& system, const StepPoint& start, double dt,
+                                           Trial& trial);
+  [[nodiscard]] NewtonOutcome iterate(MotionSystem& system, const StepPoint& start, double dt,
+                                      Trial& trial);
   [[nodiscard]] double newton_iteration(MotionSystem& system, double dt);
   void calc_residuals(double dt);
   void apply_update();
-  [[nodiscard]] double estimate_error(MotionSystem& system, const StepEnd& start, double dt);
+  [[nodiscard]] double estimate_error(MotionSystem& system, const StepPoint& start, double dt);
 
   static constexpr double kUnknownRate = 0.5;
 

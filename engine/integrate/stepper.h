@@ -11,8 +11,8 @@
 
 namespace engine {
 
-/// One end of a step: state, its derivative and what was evaluated with it.
-struct StepEnd {
+/// Start, end or inside of a step: state, its derivative and what was evaluated with it.
+struct StepPoint {
   double t = 0.0;  ///< [s]
   Eigen::VectorXd y;
   Eigen::VectorXd f;
@@ -35,8 +35,8 @@ class Stepper {
 
   /// Tries a step from start. Tries from one start may follow each other; between two starts stands accept()
   /// or invalidate().
-  [[nodiscard]] virtual Trial try_step(MotionSystem& system, const StepEnd& start, double dt,
-                                       StepEnd& end) = 0;
+  [[nodiscard]] virtual Trial try_step(MotionSystem& system, const StepPoint& start, double dt,
+                                       StepPoint& end) = 0;
 
   /// The last try is part of the run: the next try starts at its end.
   virtual void accept() {}

@@ -6,7 +6,7 @@
 
 namespace engine {
 
-void UnstableModeLimiter::check_local_stability(MotionSystem& system, const StepEnd& start,
+void UnstableModeLimiter::check_local_stability(MotionSystem& system, const StepPoint& start,
                                                 Stepper& stepper) {
   const double since = start.t - std::exchange(last_check_, start.t);
   const double log_growth = std::exchange(log_growth_, 0.0);

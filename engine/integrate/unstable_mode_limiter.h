@@ -28,7 +28,7 @@ class UnstableModeLimiter {
   [[nodiscard]] bool is_check_due(double t) const { return t >= last_check_ + check_interval_; }
 
   /// Computes the unstable modes about the start of the next step. Without friction forces there are none.
-  void check_local_stability(MotionSystem& system, const StepEnd& start, Stepper& stepper);
+  void check_local_stability(MotionSystem& system, const StepPoint& start, Stepper& stepper);
 
  private:
   static constexpr double kLogGrowthBeforeLimiting =

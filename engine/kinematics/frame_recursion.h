@@ -29,8 +29,8 @@ struct SineCosine {
 struct JointAxes {
   Vec3<double> r;        ///< the frame's origin seen from that of the parent's, [m]
   Vec3<double> axis[3];  ///< of its coordinates
-  Mat3<double>
-      dual;  ///< spherical: the basis reciprocal to the three axes; not a number where two of them meet
+  /// spherical: the basis reciprocal to the three axes; not a number where two of them meet
+  Mat3<double> reciprocal;
 };
 
 [[nodiscard]] RPSUP_INLINE Frame<double, double> make_ground(const TreeModel& model) {
@@ -119,7 +119,7 @@ RPSUP_INLINE void rotate_spherical(bool frame_rotates, const double* sines, cons
   const Vec3<double> x = f.R.x;
   rotate_frame(1, true, {sines[1], cosines[1]}, qd[1], f, axes.axis[1]);
   const double inverse = 1.0 / cosines[1];
-  axes.dual = {inverse * f.R.z, axes.axis[1], inverse * x};
+  axes.reciprocal = {inverse * f.R.z, axes.axis[1], inverse * x};
   rotate_frame(0, true, {sines[2], cosines[2]}, qd[2], f, axes.axis[2]);
 }
 

@@ -54,7 +54,7 @@ TEST_P(RightHandSide, AllocatesNothing) {
   Evaluation assembled = system.make_evaluation();
   ASSERT_TRUE(LoopClosure(mechanism).assemble(0.0, assembled));
   assembled.q[rpsup.layout.slider] += 0.256e-3;  // along the guide, at right angles to the bearing's axis: 6 um into contact
-  StepEnd start, end;
+  StepPoint start, end;
   start.y = system.make_state(assembled.q, assembled.qd);
   start.f = Eigen::VectorXd::Zero(start.y.size());
   start.at = system.make_evaluation();

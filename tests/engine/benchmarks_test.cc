@@ -99,7 +99,7 @@ Eigen::Vector3d tip_of(const Evaluation& at, std::size_t frame) { return at.fram
 class Windows : public testing::Test {
  protected:
   void run(double duration) {
-    const RunEnd end = simulate(build_linkage(make_windows(40)).mechanism, benchmark_options(duration, 1e-8), course);
+    const RunOutcome end = simulate(build_linkage(make_windows(40)).mechanism, benchmark_options(duration, 1e-8), course);
     ASSERT_EQ(end.status, RunStatus::kSucceeded) << end.detail << " at " << end.t;
     EXPECT_EQ(end.redundant_constraints, 120);  // out of the plane: a position and two turns of each window
   }
@@ -128,7 +128,7 @@ TEST_F(Windows, HeavyPassAllSingularPositions) {
 // benchmark library of IFToMM's technical committee for multibody dynamics. The rod turns about a pin that stays perpendicular to the slide.
 TEST(Benchmarks, SpatialSliderCrank) {
   Course course;
-  const RunEnd end = simulate(build_linkage(make_spatial_slider_crank(JointKind::kSpherical)).mechanism, benchmark_options(5.0, 1e-11), course);
+  const RunOutcome end = simulate(build_linkage(make_spatial_slider_crank(JointKind::kSpherical)).mechanism, benchmark_options(5.0, 1e-11), course);
   ASSERT_EQ(end.status, RunStatus::kSucceeded) << end.detail;
   EXPECT_EQ(end.redundant_constraints, 0);
   EXPECT_NEAR(course.samples.back().q[0], 51.36943989, 2e-8);
@@ -222,7 +222,7 @@ Linkage make_bricard() {
 // Problem A04 of the library: the linkage moves, though its 30 + 5 constraints leave 36 - 35 = 1 and five rows of the six close the loop.
 TEST(Benchmarks, BricardKeepsItsEnergy) {
   Course course;
-  const RunEnd end = simulate(build_linkage(make_bricard()).mechanism, benchmark_options(10.0, 1e-12), course);
+  const RunOutcome end = simulate(build_linkage(make_bricard()).mechanism, benchmark_options(10.0, 1e-12), course);
   ASSERT_EQ(end.status, RunStatus::kSucceeded) << end.detail;
   EXPECT_EQ(end.redundant_constraints, 1);
   const double energy = course.samples.front().energy.calc_balance();

@@ -244,7 +244,7 @@ TEST(IdealLinkage, EndsWhereItLocks) {
   p.coupler_length = 0.25;
   const double locked = std::asin(std::sqrt(0.25 * 0.25 - 0.24 * 0.24) / p.rod_start) / p.crank_velocity;
   NoObserver observer;
-  const RunEnd end = simulate(build_rpsup(p).mechanism, {.duration = 1.0}, observer);
+  const RunOutcome end = simulate(build_rpsup(p).mechanism, {.duration = 1.0}, observer);
   EXPECT_EQ(end.status, RunStatus::kLockUp);
   EXPECT_NEAR(end.t, locked, 1e-6);
   EXPECT_LE(end.t, locked);

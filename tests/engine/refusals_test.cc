@@ -97,7 +97,7 @@ TEST(Runs, AGuideOutOfReachCannotBeAssembled) {
   RpsupParameters parameters;
   parameters.guide_offset_z = 0.6;  // 0.1 m beyond the coupler
   IgnoringObserver observer;
-  const RunEnd end = simulate(build_rpsup(parameters).mechanism, {}, observer);
+  const RunOutcome end = simulate(build_rpsup(parameters).mechanism, {}, observer);
   EXPECT_EQ(end.status, RunStatus::kAssembly);
   EXPECT_EQ(end.t, 0.0);
   EXPECT_NE(end.detail.find("cannot be closed"), std::string::npos);
@@ -122,7 +122,7 @@ TEST(Runs, ALinkageThatLocksSaysWhen) {
   ASSERT_GT(expected, 0.1);
   parameters.c_r = 0.0;
   IgnoringObserver observer;
-  const RunEnd end = simulate(build_rpsup(parameters).mechanism, {}, observer);
+  const RunOutcome end = simulate(build_rpsup(parameters).mechanism, {}, observer);
   EXPECT_EQ(end.status, RunStatus::kLockUp);
   EXPECT_LE(end.t, expected);
   EXPECT_NEAR(end.t, expected, 5e-4);  // two steps of the solution
@@ -132,7 +132,7 @@ TEST(Runs, ALinkageThatLocksSaysWhen) {
 TEST(Runs, StopWhenAsked) {
   IgnoringObserver observer;
   observer.stop_at = 0.02;
-  const RunEnd end = simulate(build_rpsup({}).mechanism, {}, observer);
+  const RunOutcome end = simulate(build_rpsup({}).mechanism, {}, observer);
   EXPECT_EQ(end.status, RunStatus::kStopped);
   EXPECT_GT(end.t, 0.02);
   EXPECT_LT(end.t, 0.1);
@@ -142,7 +142,7 @@ TEST(Runs, EndAtTheirStepLimit) {
   RunOptions options;
   options.step_limit = 100;
   IgnoringObserver observer;
-  const RunEnd end = simulate(build_rpsup({}).mechanism, options, observer);
+  const RunOutcome end = simulate(build_rpsup({}).mechanism, options, observer);
   EXPECT_EQ(end.status, RunStatus::kStepLimit);
   EXPECT_EQ(end.steps, 100);
 }
@@ -152,7 +152,7 @@ TEST(Runs, AStepTooLargeForTheContactIsAFailureNotAResult) {
   options.integrator = Integrator::kRk4;
   options.step = 1e-3;  // ten times the duration of an impact
   IgnoringObserver observer;
-  const RunEnd end = simulate(build_rpsup({}).mechanism, options, observer);
+  const RunOutcome end = simulate(build_rpsup({}).mechanism, options, observer);
   EXPECT_EQ(end.status, RunStatus::kNonFinite);
   EXPECT_LT(end.t, options.duration);
 }

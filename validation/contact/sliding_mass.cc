@@ -79,7 +79,7 @@ Impact simulate_impact(const Mechanism& sliding_mass, double gap, double v0, dou
   Evaluation start = MotionSystem(sliding_mass).make_evaluation();
   start.q[0] = c_r - gap;
   start.qd[0] = v0;
-  const RunEnd end = Integration(sliding_mass, steps, observer).run(start);
+  const RunOutcome end = Integration(sliding_mass, steps, observer).run(start);
   if (end.status != RunStatus::kSucceeded || !observer.parted) throw std::runtime_error("an impact of the validation failed: " + end.detail);
   return observer.impact;
 }

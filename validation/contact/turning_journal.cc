@@ -58,7 +58,7 @@ double simulate_torque(RadialForm form, double sigma_0) {
   const RunOptions options{.duration = static_cast<double>(to) / rate, .output_rate = rate, .integrator = Integrator::kDopri5,
                            .relative_tolerance = 1e-9, .absolute_tolerance = 1e-11};
   WorkObserver observer;
-  const RunEnd end = Integration(mechanism, options, observer).run(MotionSystem(mechanism).make_evaluation());
+  const RunOutcome end = Integration(mechanism, options, observer).run(MotionSystem(mechanism).make_evaluation());
   if (end.status != RunStatus::kSucceeded || observer.work.size() <= to) throw std::runtime_error("a run of the validation failed: " + end.detail);
   return (observer.work[to] - observer.work[from]) / (static_cast<double>(to - from) * kPitch);
 }

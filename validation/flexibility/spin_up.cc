@@ -86,7 +86,7 @@ SpinUp simulate_spin_up(int segments, double duration) {
   const RunOptions options{.duration = duration, .output_rate = 100.0, .integrator = Integrator::kDopri5,
                            .relative_tolerance = 1e-8, .absolute_tolerance = 1e-10};
   TipObserver observer(0.5 * kLength / segments);
-  const RunEnd end = Integration(beam, options, observer).run(MotionSystem(beam).make_evaluation());
+  const RunOutcome end = Integration(beam, options, observer).run(MotionSystem(beam).make_evaluation());
   if (end.status != RunStatus::kSucceeded)
     throw std::runtime_error("a run of the validation failed: " + end.detail);
   const auto least = static_cast<std::size_t>(std::min_element(observer.lag.begin(), observer.lag.end()) -

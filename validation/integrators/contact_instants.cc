@@ -48,7 +48,7 @@ Instants run_contact(RunOptions options) {
   options.output_rate = 1.0;
   const Mechanism mass = make_free_mass(kInstantsMass, {.c_r = kInstantsGap, .K = kInstantsStiffness, .chi = 0.0, .friction = {}, .worn = {}});
   ContactRecord record;
-  const RunEnd end = run_from(mass, options, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, kInstantsSpeed), record);
+  const RunOutcome end = run_from(mass, options, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, kInstantsSpeed), record);
   const double onset = kInstantsGap / kInstantsSpeed;
   return {record.onset - onset, record.parting - onset - time_in_contact(), (record.velocity + kInstantsSpeed) / kInstantsSpeed, end.evaluations};
 }

@@ -55,7 +55,7 @@ struct ControlledRun {
 
 ControlledRun swing(const RunOptions& options) {
   LastState last;
-  const RunEnd end = run_from(make_pendulum(), options, Eigen::VectorXd::Constant(1, kPendulumStart + kDown), Eigen::VectorXd::Zero(1), last);
+  const RunOutcome end = run_from(make_pendulum(), options, Eigen::VectorXd::Constant(1, kPendulumStart + kDown), Eigen::VectorXd::Zero(1), last);
   return {calc_error(last.q[0]), end.steps};
 }
 

@@ -40,7 +40,7 @@ void integrate(const Mechanism& mechanism, const RunOptions& options, const std:
   if (!closure.assemble(0.0, start)) throw std::runtime_error("a mechanism of the validation cannot be assembled");
   disturb(start);
   ConstraintObserver observer(visit);
-  const RunEnd end = Integration(mechanism, options, observer).run(start);
+  const RunOutcome end = Integration(mechanism, options, observer).run(start);
   if (end.status != RunStatus::kSucceeded) throw std::runtime_error("an integration of the validation failed: " + end.detail);
 }
 

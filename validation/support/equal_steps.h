@@ -15,12 +15,12 @@ namespace validation {
   MotionSystem system(mechanism);
   const Tolerance not_asked_for(1e-6, 1e-6);
   Dopri5 method(not_asked_for);
-  StepEnd start;
+  StepPoint start;
   start.y = system.make_state(assembled.q, assembled.qd);
   start.f = Eigen::VectorXd::Zero(start.y.size());
   start.at = system.make_evaluation();
   if (system.calc_derivative(0.0, start.y, start.f, start.at) != EvaluationStatus::kOk) throw std::runtime_error("no accelerations at t = 0");
-  StepEnd end = start;
+  StepPoint end = start;
   for (int k = 0; k < count; ++k) {
     start.t = duration * k / count;
     if (method.try_step(system, start, duration / count, end).status != EvaluationStatus::kOk) throw std::runtime_error("a step failed");

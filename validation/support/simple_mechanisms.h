@@ -50,11 +50,11 @@ namespace validation {
 }
 
 /// Integrates a mechanism from given coordinates, without closing loops. The run must succeed or be stopped by the observer.
-inline RunEnd run_from(const Mechanism& mechanism, const RunOptions& options, Eigen::VectorXd q, Eigen::VectorXd qd, Observer& observer) {
+inline RunOutcome run_from(const Mechanism& mechanism, const RunOptions& options, Eigen::VectorXd q, Eigen::VectorXd qd, Observer& observer) {
   Evaluation start = MotionSystem(mechanism).make_evaluation();
   start.q = std::move(q);
   start.qd = std::move(qd);
-  RunEnd end = Integration(mechanism, options, observer).run(start);
+  RunOutcome end = Integration(mechanism, options, observer).run(start);
   if (end.status != RunStatus::kSucceeded && end.status != RunStatus::kStopped)
     throw std::runtime_error("a run of the validation failed: " + end.detail);
   return end;

@@ -26,7 +26,7 @@ void take_steps(benchmark::State& run, const RpsupParameters& parameters, const 
   double steps = 0.0;
   double evaluations = 0.0;
   for (auto _ : run) {
-    const engine::RunEnd end = engine::simulate(rpsup.mechanism, options, observer);
+    const engine::RunOutcome end = engine::simulate(rpsup.mechanism, options, observer);
     if (end.status != engine::RunStatus::kSucceeded) run.SkipWithError(end.detail.c_str());
     steps += static_cast<double>(end.steps);
     evaluations += static_cast<double>(end.evaluations);

@@ -60,7 +60,7 @@ TEST(Integration, SamplesBetweenStepsLieOnTheSolution) {
 // 3 x 19 ms fall 7e-18 s short of 57 ms.
 TEST(Integration, TakesNoStepOfOneRounding) {
   LastState observer;
-  const RunEnd end = simulate(make_pendulum(), {.duration = 0.057, .integrator = Integrator::kRk4, .step = 0.019}, observer);
+  const RunOutcome end = simulate(make_pendulum(), {.duration = 0.057, .integrator = Integrator::kRk4, .step = 0.019}, observer);
   EXPECT_EQ(end.steps, 3);
   EXPECT_EQ(end.t, 0.057);
   EXPECT_EQ(observer.times.back(), 0.057);
@@ -76,7 +76,7 @@ TEST(Rodas, AgreesWithDopri5AsCloselyAsItsTolerance) {
     LastState observer;
     const RunOptions options{.duration = 0.4, .integrator = Integrator::kRodas5, .relative_tolerance = tolerance,
                              .absolute_tolerance = tolerance};
-    const RunEnd end = simulate(make_pendulum(), options, observer);
+    const RunOutcome end = simulate(make_pendulum(), options, observer);
     ASSERT_EQ(end.status, RunStatus::kSucceeded);
     // All stages but the first, and the end; one more at t = 0.
     EXPECT_GE(end.evaluations, kStages * end.steps + 1);
@@ -103,7 +103,7 @@ TEST(Radau, AgreesWithDopri5AsCloselyAsItsTolerance) {
 TEST(Rodas, StepsFromTheSameStartGiveTheSame) {
   const Mechanism mechanism = make_pendulum();
   MotionSystem system(mechanism);
-  StepEnd start, end, again;
+  StepPoint start, end, again;
   start.y = system.make_state(Eigen::Vector2d(1.0, -0.5), Eigen::Vector2d(3.0, -2.0));
   start.f = Eigen::VectorXd::Zero(start.y.size());
   start.at = end.at = again.at = system.make_evaluation();
@@ -121,7 +121,7 @@ TEST(Rodas, StepsFromTheSameStartGiveTheSame) {
 
   // Another start is one behind accept(): its own Jacobian then, the same as a new method's.
   method.accept();
-  StepEnd next;
+  StepPoint next;
   next.at = start.at;
   next.f = start.f;
   ASSERT_EQ(method.try_step(system, end, 0.02, next).status, EvaluationStatus::kOk);
@@ -134,7 +134,7 @@ TEST(Interpolation, IsExactForAQuinticMotion) {
   const auto q = [](double t) { return std::pow(t, 5) - std::pow(t, 3) + 2.0; };
   const auto qd = [](double t) { return 5.0 * std::pow(t, 4) - 3.0 * t * t; };
   const auto qdd = [](double t) { return 20.0 * std::pow(t, 3) - 6.0 * t; };
-  StepEnd start, end;
+  StepPoint start, end;
   end.t = 2.0;
   start.y = Eigen::Vector2d(q(0.0), qd(0.0));
   start.f = Eigen::Vector2d(qd(0.0), qdd(0.0));

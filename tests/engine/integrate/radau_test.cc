@@ -80,7 +80,7 @@ class Start {
   Mechanism mechanism = make_pendulum();
   MotionSystem system{mechanism};
   Tolerance tolerance;
-  StepEnd start, end, again;
+  StepPoint start, end, again;
 };
 
 TEST(Radau5, GivesTheSameFromTheSameStart) {
@@ -92,7 +92,7 @@ TEST(Radau5, GivesTheSameFromTheSameStart) {
   EXPECT_LT((at.again.y - at.end.y).norm(), 1e-9);  // one more or less of the iterations
   method.invalidate();
   ASSERT_LE(method.try_step(at.system, at.start, 1e-3, at.again).error, 1.0);
-  StepEnd of_new = at.end;
+  StepPoint of_new = at.end;
   ASSERT_LE(Radau5(at.tolerance).try_step(at.system, at.start, 1e-3, of_new).error, 1.0);
   EXPECT_LT((at.again.y - of_new.y).norm(), 1e-9);
 }
@@ -106,7 +106,7 @@ TEST(Radau5, GoesOnFromTheStepBeforeWithFewerEvaluations) {
   const Trial next = method.try_step(at.system, at.end, 1e-3, at.again);
   ASSERT_LE(next.error, 1.0);
   method.invalidate();
-  StepEnd anew = at.again;
+  StepPoint anew = at.again;
   const Trial without = method.try_step(at.system, at.end, 1e-3, anew);
   ASSERT_LE(without.error, 1.0);
   EXPECT_LT(next.evaluations, without.evaluations);
@@ -135,7 +135,7 @@ TEST(Radau5, StepsOverWhatIsStiffAndAtRest) {
   m.gravity_W = {9.81, 0.0, 0.0};
   MotionSystem system(m);
   const Tolerance tolerance(1e-5, 1e-5);
-  StepEnd start, end;
+  StepPoint start, end;
   start.y = system.make_state(Eigen::VectorXd::Constant(1, 3e-9), Eigen::VectorXd::Zero(1));  // at rest it is 9.81e-10 m long
   start.f = Eigen::VectorXd::Zero(start.y.size());
   start.at = end.at = system.make_evaluation();

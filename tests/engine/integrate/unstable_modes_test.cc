@@ -68,7 +68,7 @@ void expect_same_step_after_a_check(Shifts shifts) {
   const Mechanism mechanism = make_pendulum();
   MotionSystem system(mechanism);
   Tolerance tolerance(1e-6, 1e-6);
-  StepEnd start, end, again;
+  StepPoint start, end, again;
   start.y = system.make_state(Eigen::Vector2d(1.0, -0.5), Eigen::Vector2d(3.0, -2.0));
   start.f = Eigen::VectorXd::Zero(start.y.size());
   start.at = end.at = again.at = system.make_evaluation();

@@ -45,7 +45,7 @@ struct UnconstrainedMotion {
 
 /// The multipliers lambda of closed loops and enforced drives, Eq. (K12):
 ///
-///     (Phi_q M^-1 Phi_q^T) lambda = wanted - Phi_q qdd_0
+///     (Phi_q M^-1 Phi_q^T) lambda = rhs - Phi_q qdd_0
 ///
 /// Column r of the Delassus matrix Phi_q M^-1 Phi_q^T is Phi_q times the accelerations that a unit multiplier
 /// of row r causes: the articulated-body algorithm computes as many columns at once as a pack has lanes.
@@ -75,7 +75,7 @@ class ConstraintSolver {
         model_(model),
         delassus_(model),
         work_(model),
-        free_residual_(lambda.size()),
+        unconstrained_residual_(lambda.size()),
         unit_multipliers_(lambda.size()),
         residual_(lambda.size()) {}
 
@@ -86,12 +86,13 @@ class ConstraintSolver {
 
   /// Assembles and factors the Delassus matrix, and solves for the multipliers of a motion. False if the
   /// matrix is singular.
-  /// @param multipliers  in: wanted
+  /// @param multipliers  in: rhs
   [[nodiscard]] RPSUP_INLINE bool solve(const Bodies& bodies, const JointAxes* axes,
                                         const UnconstrainedMotion& motion, double* multipliers,
                                         Workspace<double>& work) {
     if (!factor(bodies, axes, motion)) return false;
-    for (std::size_t r = 0; r < free_residual_.size(); ++r) multipliers[r] += free_residual_[r];
+    for (std::size_t r = 0; r < unconstrained_residual_.size(); ++r)
+      multipliers[r] += unconstrained_residual_[r];
     delassus_.solve(multipliers, work);
     return true;
   }
@@ -104,8 +105,8 @@ class ConstraintSolver {
     return !(largest < kTorn);
   }
 
-  /// Solves for the multipliers that make up for wanted - Phi_q qdd, after solve().
-  /// @param multipliers  in: wanted  @tparam T  a number, or a pack
+  /// Solves for the multipliers that make up for rhs - Phi_q qdd, after solve().
+  /// @param multipliers  in: rhs  @tparam T  a number, or a pack
   template <typename T>
   RPSUP_INLINE void solve_for_multipliers(const SpatialAcceleration<T>* accelerations, const T* qdd,
                                           T* multipliers, Workspace<T>& work) const {
@@ -137,7 +138,7 @@ class ConstraintSolver {
   }
 
   /// residual_ <- Phi_q M^-1 Phi_q^T of a pack of columns. The pack that begins with kUnconstrained brings
-  /// free_residual_, too.
+  /// unconstrained_residual_, too.
   RPSUP_INLINE void calc_columns_from(const Bodies& bodies, const JointAxes* axes,
                                       const UnconstrainedMotion& motion, int column) {
     auto& bias_forces = work_.bias_forces;
@@ -167,7 +168,8 @@ class ConstraintSolver {
       subtract_constraint_acceleration(work_.accelerations.data(), dynamic_rows.qdd.data(), residual_.data());
     }
     if (column == kUnconstrained)
-      for (std::size_t r = 0; r < free_residual_.size(); ++r) free_residual_[r] = residual_[r][0];
+      for (std::size_t r = 0; r < unconstrained_residual_.size(); ++r)
+        unconstrained_residual_[r] = residual_[r][0];
   }
 
   /// Subtracts the reactions of the joints from the bias forces.
@@ -257,7 +259,7 @@ class ConstraintSolver {
   const TreeModel& model_;
   Delassus delassus_;                  ///< factored by solve()
   typename Bodies::template Workspace<TangentPack> work_;
-  PerRow<double> free_residual_;        ///< -Phi_q qdd_0
+  PerRow<double> unconstrained_residual_;  ///< -Phi_q qdd_0
   PerRow<TangentPack> unit_multipliers_, residual_;  // the units are negative, as residual_ is -Phi_q qdd
 };
 /// Stands for the solver where a topology has no constraints.

@@ -96,7 +96,7 @@ struct SingleAxisFactor {
 /// The moment that a spherical joint's generalised forces exert: tau along the reciprocal basis.
 template <typename T, typename Tau>
 [[nodiscard]] RPSUP_INLINE Vec3<T> spherical_moment(const JointAxes& axes, const Tau& tau) {
-  return tau[0] * axes.dual.x + tau[1] * axes.dual.y + tau[2] * axes.dual.z;
+  return tau[0] * axes.reciprocal.x + tau[1] * axes.reciprocal.y + tau[2] * axes.reciprocal.z;
 }
 
 /// Accelerations of a spherical joint's angles: Eq. (K10).
@@ -106,9 +106,9 @@ template <typename T, typename Qdd>
 RPSUP_INLINE void calc_euler_accelerations(const JointAxes& axes, Vec3<T> relative,
                                            const SlenderBodyMotion* motion, const Qdd& qdd) {
   if (motion) relative = relative - motion->wd_bias;
-  qdd[0] = dot(axes.dual.x, relative);
-  qdd[1] = dot(axes.dual.y, relative);
-  qdd[2] = dot(axes.dual.z, relative);
+  qdd[0] = dot(axes.reciprocal.x, relative);
+  qdd[1] = dot(axes.reciprocal.y, relative);
+  qdd[2] = dot(axes.reciprocal.z, relative);
   if (!motion) return;
   qdd[0] = motion->qdd_bias[0] + qdd[0];
   qdd[1] = motion->qdd_bias[1] + qdd[1];

@@ -7,8 +7,8 @@
 
 namespace engine {
 
-/// How a run ended, and what it took.
-struct RunEnd {
+/// How a run ended, and its cost.
+struct RunOutcome {
   RunStatus status = RunStatus::kSucceeded;
   double t = 0.0;        ///< reached, [s]
   std::string detail;    ///< of a failure, for the user
