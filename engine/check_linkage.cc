@@ -17,7 +17,7 @@ namespace engine {
 namespace {
 
 /// About the centre of mass no principal moment is below 0 or above the sum of the other two; those of a thin
-/// rod are 0 and equal.
+/// beam are 0 and equal.
 bool is_inertia_of_a_body(const LinkageBody& body) {
   const Eigen::Vector3d& c = body.com;
   const Eigen::Matrix3d central =

@@ -7,8 +7,8 @@
 
 namespace engine {
 
-/// A straight uniform rod along x, to be divided.
-struct UniformRod {
+/// A straight uniform beam of round section along x.
+struct RoundBeam {
   double length = 0.0;          ///< l, [m]
   double mass = 0.0;            ///< [kg]
   double I_x = 0.0;             ///< about its axis, [kg m^2]
@@ -24,14 +24,14 @@ struct UniformBeam {
   double length = 0.0;          ///< l, [m]
   double mass = 0.0;            ///< [kg]
   double I_x = 0.0;             ///< of the mass about its axis, [kg m^2]
-  double share_y = 0.5;         ///< part of I_x that turns about y: I_y / (I_y + I_z) of the section, [1]
+  double share_y = 0.5;         ///< share of I_x about y: I_y / (I_y + I_z) of the section, [1]
   double EI_y = 0.0;            ///< bending stiffness about y, [N m^2]
   double EI_z = 0.0;            ///< about z, [N m^2]
   double GJ = 0.0;              ///< torsional stiffness, [N m^2]
   double damping_ratio = 0.0;   ///< zeta of the first pinned-pinned bending mode, [1]
 };
 
-/// A rigid finite element: a piece of the rod, its frame's origin at the near end.
+/// A rigid finite element: a piece of the beam, its frame's origin at the near end.
 struct RigidElement {
   double length = 0.0;                                  ///< [m]
   double mass = 0.0;                                    ///< [kg]
@@ -46,7 +46,7 @@ struct SpringDamperElement {
 
 /// The modified rigid finite element method, section 2.2 of the paper: n_rfe elements and n_rfe - 1 sde
 /// between them.
-struct DividedRod {
+struct DividedBeam {
   std::vector<RigidElement> elements;
   SpringDamperElement sde;  ///< all alike
 };
@@ -59,14 +59,9 @@ struct DividedRod {
 /// Of a beam that is stiffer about one axis, S = diag(E I_z, E I_y, G J) / dl and omega_1 is that of the
 /// softer one.
 /// @param n_rfe  elements, >= 2
-[[nodiscard]] DividedRod divide_beam(const UniformBeam& beam, int n_rfe);
+[[nodiscard]] DividedBeam divide_beam(const UniformBeam& beam, int n_rfe);
 
-[[nodiscard]] UniformBeam make_beam(const UniformRod& rod);
-
-/// The same of a rod.
-[[nodiscard]] inline DividedRod divide_rod(const UniformRod& rod, int n_rfe) {
-  return divide_beam(make_beam(rod), n_rfe);
-}
+[[nodiscard]] UniformBeam make_beam(const RoundBeam& round);
 
 /// Moments of a uniform beam along x about its end: I_y = m l^2 / 3 + share_y I_x, I_z with the other share,
 /// [kg m^2].

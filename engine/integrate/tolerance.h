@@ -12,7 +12,7 @@ namespace engine {
 
 /// Weighted root-mean-square norm of local errors (SUNDIALS: WRMS). With radii set, errors of coordinates and
 /// rates are measured in metres and metres per second: a rotation's by the radius of gyration, about its
-/// axis, of the bodies that it carries. Without radii the spin of a thin rod about itself, which moves
+/// axis, of the bodies that it carries. Without radii the spin of a thin link about itself, which moves
 /// nothing else, would ask for the shortest steps.
 class Tolerance {
  public:

@@ -136,7 +136,7 @@ class LinkageBuilder {
 
   void place_beam(const LinkageBody& body, FrameIndex frame, Placement placement,
                   std::vector<BodyFrames::Part>& parts) {
-    const DividedRod divided = divide_beam(*body.beam, body.elements);
+    const DividedBeam divided = divide_beam(*body.beam, body.elements);
     double begin = 0.0;
     for (std::size_t r = 0; r < divided.elements.size(); ++r) {
       const RigidElement& rfe = divided.elements[r];

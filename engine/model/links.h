@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/math/rod_inertia.h"
+#include "engine/flexible/rfem.h"
 
 namespace engine {
 
@@ -19,9 +19,9 @@ struct LinkInertia {
 enum class Link : std::size_t { k11, k12, k13, k21, k22 };
 inline constexpr std::size_t kLinkCount = 5;
 
-/// A link that is a uniform rod along x, its frame's origin at one end.
-[[nodiscard]] inline LinkInertia rod_inertia(double mass, double length, double I_x) {
-  return {mass, calc_rod_inertia(mass, length, I_x)};
+/// A link that is a uniform beam along x, its frame's origin at one end. @param I_x  about its axis, [kg m^2]
+[[nodiscard]] inline LinkInertia beam_inertia(double mass, double length, double I_x) {
+  return {mass, calc_beam_inertia({.length = length, .mass = mass, .I_x = I_x})};
 }
 
 }  // namespace engine

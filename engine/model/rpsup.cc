@@ -39,11 +39,11 @@ void divide(const RpsupParameters& p, const RoundLink& form, double length, doub
                          .inner_diameter = form.inner_diameter});
 }
 
-LinkageBody make_rod(const RpsupParameters& p, Link link, const std::string& name, double length,
-                     const RoundLink& form) {
-  LinkageBody rod = make_body(p, link, name, length);
-  divide(p, form, length, rod.inertia(0, 0), rod);
-  return rod;
+LinkageBody make_round_link(const RpsupParameters& p, Link link, const std::string& name, double length,
+                            const RoundLink& form) {
+  LinkageBody body = make_body(p, link, name, length);
+  divide(p, form, length, body.inertia(0, 0), body);
+  return body;
 }
 
 RoundLink form_of_coupler(const RpsupParameters& p) {
@@ -97,9 +97,9 @@ LinkageFreedom driven(std::string name, const DriveLaw& law) {
 
 Linkage describe_rpsup(const RpsupParameters& p) {
   Linkage linkage;
-  linkage.bodies = {make_rod(p, Link::k11, "1,1", p.crank_length, p.crank),
-                    make_rod(p, Link::k12, "1,2", p.rod_length, p.rod),
-                    make_rod(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)),
+  linkage.bodies = {make_round_link(p, Link::k11, "1,1", p.crank_length, p.crank),
+                    make_round_link(p, Link::k12, "1,2", p.rod_length, p.rod),
+                    make_round_link(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)),
                     make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
   const double guide = guide_place(p);
   const AssemblyGuess guess = calc_assembly_guess(p);

@@ -27,7 +27,7 @@ enum class YokeAxis {
 /// A direction of the global frame {0}.
 enum class Direction { kX, kMinusX, kY, kMinusY, kZ, kMinusZ };
 
-/// A link other than the coupler: a straight round rod or tube, rigid or divided as the coupler is.
+/// A link other than the coupler: a straight beam or tube, round, rigid or divided as the coupler is.
 struct RoundLink {
   LinkModel model = LinkModel::kRigid;
   double diameter = 0.0;                           ///< of what bends, [m]
@@ -51,13 +51,13 @@ struct RpsupParameters {
   YokeAxis yoke_axis = YokeAxis::kGuide;
   double gravity = 9.81;                           ///< [m/s^2]
   Direction gravity_direction = Direction::kMinusZ;
-  /// Table 1, links of chain 1 as the rods they are. Its rows for (2,1) and (2,2) are no moments of a body
+  /// Table 1, links of chain 1 as the beams they are. Its rows for (2,1) and (2,2) are no moments of a body
   /// (they break I_x <= I_y + I_z: the third repeats the second) and are read as those of a box and of a tube
   /// along z.
   std::array<LinkInertia, kLinkCount> links{{
-      rod_inertia(0.471, 0.2, 6.964e-5),
-      rod_inertia(0.490, 0.2, 2.451e-5),
-      rod_inertia(0.306, 0.5, 3.829e-6),
+      beam_inertia(0.471, 0.2, 6.964e-5),
+      beam_inertia(0.490, 0.2, 2.451e-5),
+      beam_inertia(0.306, 0.5, 3.829e-6),
       {0.780, {8.126e-4, 1.885e-4, 6.76e-4}},
       {0.107, {9.354e-5, 9.354e-5, 8.377e-6}},
   }};

@@ -103,7 +103,7 @@ engine::LinkInertia default_rod(std::size_t link, double length, const json& giv
                                                : table.mass * (length / table_length_of(link)) * section.area;
   const double axial =
       table.inertia[static_cast<Eigen::Index>(axis_of(link))] * (mass / table.mass) * section.radius_squared;
-  engine::LinkInertia rod = engine::rod_inertia(mass, length, axial);
+  engine::LinkInertia rod = engine::beam_inertia(mass, length, axial);
   if (link == kCross) std::swap(rod.inertia[0], rod.inertia[2]);
   return rod;
 }

@@ -31,7 +31,7 @@ inline constexpr Range kInertiaRange{.minimum = 0.0, .maximum = 1e9, .lower = Bo
 ///
 ///     m = m_0 (l / l_0) (d^2 - d_i^2) / (d_0^2 - d_i0^2),
 ///     I_x = I_x0 (m / m_0) (d^2 + d_i^2) / (d_0^2 + d_i0^2),   I_y = I_z = m l^2 / 3 + I_x / 2
-///     (engine::rod_inertia),
+///     (engine::beam_inertia),
 ///
 /// with outer and inner diameters d and d_i, the coupler's d_i = 0; of link (2,2) with a length, which lies
 /// along z, I_z stands for I_x. Link (2,1), and (2,2) without a length, are no rods: their moments go with

@@ -90,7 +90,7 @@ RpsupParameters draw_linkage(Random& random, double spare, double& duration) {
   double farthest = 0.0;
   for (int k = 0; k <= 100000; ++k) farthest = std::max(farthest, -calc_coupler_projection_squared(p, duration * k / 100000.0));
   p.coupler_length = std::sqrt(farthest * (1.0 + spare * spare));
-  p.links[static_cast<std::size_t>(Link::k13)] = rod_inertia(0.306, p.coupler_length, 3.829e-6);
+  p.links[static_cast<std::size_t>(Link::k13)] = beam_inertia(0.306, p.coupler_length, 3.829e-6);
   return p;
 }
 

@@ -105,7 +105,7 @@ Findings compute_link_sags() {
   of_crank.crank.elements = kSegments + 1;
   of_crank.rod_length = of_crank.rod_start =
       0.3;  // its middle is 0.05 m before the crank's end, the ball 0.1 m beyond it
-  link_of(of_crank, Link::k12) = rod_inertia(0.6, 0.3, 3e-5);
+  link_of(of_crank, Link::k12) = beam_inertia(0.6, 0.3, 3e-5);
   const double rod = 0.6 * kLinkGravity, ball = 0.5 * 0.306 * kLinkGravity;
   const double crank_sag = 1e3 * calc_sag(0.471 * kLinkGravity, rod + ball, -0.05 * rod + 0.1 * ball, 0.2,
                                           calc_EI(of_crank.crank), kSegments);

@@ -9,7 +9,7 @@ namespace validation {
 
 RpsupParameters with_cross(double length) {
   RpsupParameters p;
-  const LinkInertia tube = rod_inertia(1.07 * length, length, 8.377e-5 * length);
+  const LinkInertia tube = beam_inertia(1.07 * length, length, 8.377e-5 * length);
   p.cross_length = length;
   p.links[static_cast<std::size_t>(Link::k22)] = {tube.mass, {tube.inertia.y(), tube.inertia.z(), tube.inertia.x()}};
   return p;

@@ -124,7 +124,7 @@ Mechanism cut_coupler(const Rod& rod, int segments, NearEnd near_end) {
   RpsupParameters parameters;
   parameters.coupler = Coupler::kFlexible;
   parameters.rigid_elements = segments + 1;
-  parameters.links[static_cast<std::size_t>(Link::k13)] = rod_inertia(rod.mass, Rod::kLength, rod.I_x);
+  parameters.links[static_cast<std::size_t>(Link::k13)] = beam_inertia(rod.mass, Rod::kLength, rod.I_x);
   const Rpsup rpsup = build_rpsup(parameters);
 
   Mechanism cut;

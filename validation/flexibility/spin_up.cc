@@ -34,14 +34,14 @@ constexpr double kMassPerLength = 1.2;  // [kg/m]
 Mechanism make_beam(int segments) {
   constexpr double kBeamDiameter = 0.1;  // any: E makes up for it
   const double I = std::numbers::pi * std::pow(kBeamDiameter, 4) / 64.0;
-  const DividedRod divided = divide_rod({.length = kLength,
-                                         .mass = kMassPerLength * kLength,
-                                         .I_x = 1e-6,
-                                         .diameter = kBeamDiameter,
-                                         .youngs_modulus = kEI / I,
-                                         .shear_modulus = 1.0,
-                                         .damping_ratio = 0.0},
-                                        segments + 1);
+  const UniformBeam whole = engine::make_beam({.length = kLength,
+                                               .mass = kMassPerLength * kLength,
+                                               .I_x = 1e-6,
+                                               .diameter = kBeamDiameter,
+                                               .youngs_modulus = kEI / I,
+                                               .shear_modulus = 1.0,
+                                               .damping_ratio = 0.0});
+  const DividedBeam divided = divide_beam(whole, segments + 1);
   Mechanism beam;
   double x = 0.0;
   for (std::size_t r = 0; r < divided.elements.size(); ++r) {

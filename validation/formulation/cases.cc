@@ -12,7 +12,7 @@ namespace validation {
 std::vector<CouplerCase> coupler_cases() {
   RpsupParameters p;
   p.crank_length = 0.18;
-  p.links[0] = rod_inertia(0.471, 0.18, 6.964e-5);
+  p.links[0] = beam_inertia(0.471, 0.18, 6.964e-5);
   p.guide_offset_y = 0.03;
   p.guide_offset_z = 0.17;
   std::vector<CouplerCase> cases{{"rigid coupler", p}};

@@ -7,7 +7,7 @@ namespace validation {
 
 using engine::kLinkCount;
 using engine::LinkInertia;
-using engine::rod_inertia;
+using engine::beam_inertia;
 
 namespace {
 
@@ -26,7 +26,7 @@ Tube calc_tube(double outer_diameter, double inner_diameter, double length) {
 
 LinkInertia calc_tube_along_x(double outer_diameter, double inner_diameter, double length) {
   const Tube tube = calc_tube(outer_diameter, inner_diameter, length);
-  return rod_inertia(tube.mass, length, tube.axial);
+  return beam_inertia(tube.mass, length, tube.axial);
 }
 
 LinkInertia calc_box(double x, double y, double z) {
