@@ -84,8 +84,10 @@ class IdealPeakSearch {
     double dt = std::min(next_dt_, longest);
     for (;; dt *= 0.5) {
       if (dt < kShortest * longest || stopped_) return false;
-      const double rest = piece_end_ - last_.t;
-      const double end = rest <= dt ? piece_end_ : rest < 2.0 * dt ? last_.t + 0.5 * rest : last_.t + dt;
+      const double remaining = piece_end_ - last_.t;
+      const double end = remaining <= dt        ? piece_end_
+                         : remaining < 2.0 * dt ? last_.t + 0.5 * remaining
+                                                : last_.t + dt;
       if (!(end > last_.t)) return false;
       if (!solve(end, next_, last_, next_) || !keeps_branch(determinant_, closure_.determinant())) continue;
       if (!searches_ || is_smooth() || dt < kShortSmooth * followed) break;
@@ -117,7 +119,7 @@ class IdealPeakSearch {
   [[nodiscard]] double acceleration(const Evaluation& at) const { return at.qdd[ideal_.layout.slider]; }
   void take(const Evaluation& at) { peak_.take(acceleration(at), at.t); }
 
-  /// Near lock-up the slider turns about in far less time than the drives take: what happens between two
+  /// Near lock-up the slider reverses in far less time than the drives take: what happens between two
   /// instants shows in the change of velocity. Measured by the accelerations near by, not by the peak: the
   /// next peak may be as high and as narrow as the last.
   [[nodiscard]] bool is_smooth() {
@@ -155,11 +157,11 @@ class IdealPeakSearch {
       const double before = probe(t - apart);
       const double middle = probe(t);
       const double after = probe(t + apart);
-      const double places = 0.5 * (before - after) / (before - 2.0 * middle + after);
-      if (!std::isfinite(places)) return;
-      t = std::clamp(t + apart * std::clamp(places, -0.5 / kOfInterval, 0.5 / kOfInterval), piece_start_,
+      const double offset = 0.5 * (before - after) / (before - 2.0 * middle + after);
+      if (!std::isfinite(offset)) return;
+      t = std::clamp(t + apart * std::clamp(offset, -0.5 / kOfInterval, 0.5 / kOfInterval), piece_start_,
                      piece_end_);
-      if (std::abs(places) > 1.0) continue;
+      if (std::abs(offset) > 1.0) continue;
       probe(t);
       located_ = t;
       return;

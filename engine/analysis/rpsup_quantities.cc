@@ -30,11 +30,11 @@ double calc_deflection(const RpsupParameters& parameters, const Rpsup& rpsup, co
 
 /// Of a link's end from where the undeformed link would hold it, [m]
 double calc_deflection(const BentLink& link, const Evaluation& at) {
-  const auto place = [&at](const BodyFrames::Part& part, double along) -> Eigen::Vector3d {
+  const auto point_at = [&at](const BodyFrames::Part& part, double along) -> Eigen::Vector3d {
     const FrameMotion& frame = at.frames[static_cast<std::size_t>(part.frame)];
     return frame.p + frame.R * (part.placement.p + along * part.placement.R.col(0));
   };
-  return (place(link.tip, link.length - link.tip.begin) - place(link.root, link.length)).norm();
+  return (point_at(link.tip, link.length - link.tip.begin) - point_at(link.root, link.length)).norm();
 }
 
 Reading journal_mm(int axis) {
@@ -58,7 +58,7 @@ void add_sliding_work(int ring, const RpsupParameters& parameters, const Sliding
   const auto read = [&](double SlidingWork::Ring::*part) -> Reading {
     if (!clearance) return none;
     return [&sliding_work, ring, part](const Evaluation& at) {
-      return sliding_work.at(static_cast<std::size_t>(ring), sliding_work.place_of(at.t)).*part;
+      return sliding_work.at(static_cast<std::size_t>(ring), sliding_work.fraction_of(at.t)).*part;
     };
   };
   const std::string work =

@@ -35,7 +35,7 @@ RunChannels::RunChannels(std::vector<Channel> channels, const std::vector<NamedF
     : channels_(std::move(channels)),
       links_(links),
       prepare_(std::move(prepare)),
-      last_turns_(links.size(), Eigen::Quaterniond::Identity()) {
+      last_rotations_(links.size(), Eigen::Quaterniond::Identity()) {
   for (const Channel& channel : channels_) {
     trajectory_.channels.push_back(channel.info);
     if (channel.kind == Channel::Kind::kLeastAcceleration)
@@ -108,12 +108,12 @@ void RunChannels::add_poses(const Evaluation& at) {
     if (links_[k].frame != kGround) {
       const FrameMotion& frame = at.frames[static_cast<std::size_t>(links_[k].frame)];
       p = frame.p + frame.R * p;
-      R = is_unturned(links_[k].placement) ? frame.R : Eigen::Matrix3d(frame.R * R);
+      R = is_unrotated(links_[k].placement) ? frame.R : Eigen::Matrix3d(frame.R * R);
     }
-    Eigen::Quaterniond turn(R);
-    if (turn.dot(last_turns_[k]) < 0.0) turn.coeffs() = -turn.coeffs();
-    last_turns_[k] = turn;
-    for (const double value : {p.x(), p.y(), p.z(), turn.w(), turn.x(), turn.y(), turn.z()})
+    Eigen::Quaterniond rotation(R);
+    if (rotation.dot(last_rotations_[k]) < 0.0) rotation.coeffs() = -rotation.coeffs();
+    last_rotations_[k] = rotation;
+    for (const double value : {p.x(), p.y(), p.z(), rotation.w(), rotation.x(), rotation.y(), rotation.z()})
       row_.push_back(value);
   }
 }

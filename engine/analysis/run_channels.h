@@ -57,12 +57,13 @@ class RunChannels {
   Preparation prepare_;
   Trajectory trajectory_;
   std::vector<double> row_;
-  std::vector<Eigen::Quaterniond> last_turns_;  ///< of each link: a quaternion's sign follows the one before
+  /// of each link: a quaternion's sign follows the one before
+  std::vector<Eigen::Quaterniond> last_rotations_;
 
   std::vector<Extremes> extremes_;
   double step_start_ = 0.0;
   double step_dt_ = 0.0;
-  double taken_ = 1.0;  ///< up to this place of the step the extremes are in
+  double taken_ = 1.0;  ///< fraction of the step up to which the extremes are in
   bool sampled_ = false;
   double first_balance_ = 0.0;
 };

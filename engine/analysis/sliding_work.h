@@ -40,8 +40,8 @@ class SlidingWork {
 
   void take_step(const Evaluation& start, const Evaluation& end);
 
-  /// Where in the last step a time is, in [0, 1].
-  [[nodiscard]] double place_of(double t) const {
+  /// Fraction of the last step at a time, in [0, 1].
+  [[nodiscard]] double fraction_of(double t) const {
     return end_ > start_ ? std::clamp((t - start_) / (end_ - start_), 0.0, 1.0) : 1.0;
   }
   /// A ring's at a part of the last step, in [0, 1].

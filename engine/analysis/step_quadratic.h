@@ -24,7 +24,7 @@ class StepQuadratic {
     return s > from && s < to ? s : from;
   }
 
-  /// Integral of its square from one place to another, in units of the step.
+  /// Integral of its square between two positions, in units of the step.
   [[nodiscard]] double integrate_square(double from, double to) const {
     return square_primitive(to) - square_primitive(from);
   }

@@ -24,7 +24,7 @@ class AxialFaces {
   /// Latches of a face's points. These and the following arrays may be read eight at a time, the last ones
   /// beyond the points.
   [[nodiscard]] const OnsetLatch* latches(int face) const { return latches_.data() + face * face_points_; }
-  /// The points of either face: places across the journal's axis, in {j}, and what they stand back, 0. Those
+  /// The points of either face: positions across the journal's axis, in {j}, and their setback, 0. Those
   /// beyond them stand back so far that they never touch. [m]
   [[nodiscard]] const double* x() const { return x_.data(); }
   [[nodiscard]] const double* y() const { return y_.data(); }

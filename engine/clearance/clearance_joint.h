@@ -29,15 +29,15 @@ class ClearanceJoint {
     return std::get_if<RadialElements>(&radial_);
   }  ///< null: continuum
 
-  /// Computes the load on the journal and the bristles' rates. @returns false if a bristle was needed that
-  /// has no place: widen()
+  /// Computes the load on the journal and the bristles' rates. @returns false if an element
+  /// touches without a bristle in the state: widen()
   [[nodiscard]] bool calc(const JournalMotion& journal, const double* bristles, double* bristle_rates,
                           ContactLoad& load) const;
 
   /// Appends the penetration of each ring, negative where there is a gap.
   void add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const;
 
-  /// Before a step: bristles follow the contact around the journal. @returns true if any changed its place
+  /// Before a step: bristles follow the contact around the journal. @returns true if any changed its index
   bool follow(const JournalMotion& journal, double dt, double* bristles);
 
   /// After a step: which contacts began or ended in it.

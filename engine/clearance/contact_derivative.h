@@ -79,7 +79,7 @@ class ContactDerivative {
         by_bristle_(bristles),
         rate_rows_(bristles) {
     for (std::size_t b = 0; b < bristles; ++b)
-      bristles_[b] = Dual(0.0, Lanes::unit(kOwnBristle + static_cast<int>(b % 2)));
+      bristles_[b] = Dual(0.0, Lanes::unit(kBristleLane + static_cast<int>(b % 2)));
   }
 
   /// @param bristles  of all joints; derivatives of those that do not act are not set
@@ -91,7 +91,7 @@ class ContactDerivative {
     relax_bristles(acting);
   }
 
-  /// What comes of a variation of the journal's motion, the bristles held.
+  /// Tangent of the load by that of the journal's motion, the bristles constant.
   template <typename T>
   [[nodiscard]] RPSUP_INLINE LoadTangent<T> apply(const JournalTangent_b<T>& journal) const {
     return rows_.apply(journal);
@@ -99,10 +99,10 @@ class ContactDerivative {
 
   /// Derivative of a bristle's rate by one of the two bristles of its contact point.
   [[nodiscard]] RPSUP_INLINE double rate_by_bristle(int bristle, int by) const {
-    return rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kOwnBristle + by % 2];
+    return rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kBristleLane + by % 2];
   }
 
-  /// Whether the load varies at all.
+  /// Whether the load has any derivative but zero.
   [[nodiscard]] RPSUP_INLINE bool acts() const {
     for (const ContactRow& row : rows_.of)
       for (int lane = 0; lane < Lanes::kCount; ++lane)
@@ -120,7 +120,7 @@ class ContactDerivative {
 
  private:
   static constexpr int kOutputs = ContactRows::kCount;
-  static constexpr int kOwnBristle = 6;  ///< the first of its lanes in by_rate
+  static constexpr int kBristleLane = 6;  ///< the first of its lanes in by_rate
 
   struct ByBristle {
     double output[kOutputs];
@@ -133,8 +133,8 @@ class ContactDerivative {
                                    moment.y.d, moment.z.d, impact_power.d, friction_power.d};
       for (int i = 0; i < kOutputs; ++i)
         for (int k = 0; k < 2; ++k) {
-          by_bristle[bristle + k].output[i] = now[i][kOwnBristle + k] - before[k][i];
-          before[k][i] = now[i][kOwnBristle + k];
+          by_bristle[bristle + k].output[i] = now[i][kBristleLane + k] - before[k][i];
+          before[k][i] = now[i][kBristleLane + k];
         }
     }
     ByBristle* by_bristle = nullptr;
@@ -161,27 +161,28 @@ class ContactDerivative {
                                               const RelativeMotion<double, double>& journal,
                                               const ActingBristles& acting) {
     const Vec3<Lanes> rotation{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)};
-    const auto turned = [&](const Vec3<double>& u)
+    const auto rotated = [&](const Vec3<double>& u)
                             RPSUP_INLINE_LAMBDA { return join(u, cross(rotation, u)); };
     const Vec3<Lanes> shift{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)};
-    const RelativeMotion<Dual, Dual> varied{{turned(journal.R.x), turned(journal.R.y), turned(journal.R.z)},
-                                            join(journal.p, shift),
-                                            join(journal.v, Vec3<Lanes>{}),
-                                            join(journal.w, Vec3<Lanes>{})};
+    const RelativeMotion<Dual, Dual> seeded{
+        {rotated(journal.R.x), rotated(journal.R.y), rotated(journal.R.z)},
+        join(journal.p, shift),
+        join(journal.v, Vec3<Lanes>{}),
+        join(journal.w, Vec3<Lanes>{})};
     JointLoad<Dual> load;
-    (void)add_contacts(joint, varied, constant_bristles_.data(), rates_.data(), load);
+    (void)add_contacts(joint, seeded, constant_bristles_.data(), rates_.data(), load);
     store(load, acting, &ContactRow::by_position);
   }
 
   RPSUP_INLINE void differentiate_by_rate(const ClearanceJoint& joint,
                                           const RelativeMotion<double, double>& journal,
                                           const ActingBristles& acting) {
-    const RelativeMotion<double, Dual> varied{
+    const RelativeMotion<double, Dual> seeded{
         journal.R, journal.p, join(journal.v, Vec3<Lanes>{Lanes::unit(0), Lanes::unit(1), Lanes::unit(2)}),
         join(journal.w, Vec3<Lanes>{Lanes::unit(3), Lanes::unit(4), Lanes::unit(5)})};
     LoadPerContactPoint load;
     load.by_bristle = by_bristle_.data();
-    (void)add_contacts(joint, varied, bristles_.data(), rates_.data(), load);
+    (void)add_contacts(joint, seeded, bristles_.data(), rates_.data(), load);
     store(load, acting, &ContactRow::by_rate);
   }
 

@@ -22,11 +22,11 @@ template <typename P>
   return {chain(delta, whole.force / joint.n_r, whole.slope / joint.n_r), whole.energy / joint.n_r};
 }
 
-/// Where a ring presses on a round bore, or would.
+/// A ring and a round bore: the offset of the ring, and its penetration.
 ///
 ///     delta = |e| - c_r,  n = e / |e|
 template <typename P>
-struct RoundPlace {
+struct RingOnRoundBore {
   RingOffset<P> ring;
   P delta;
 
@@ -39,7 +39,7 @@ struct RoundPlace {
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE RoundPlace<P> place_on_round_bore(const RadialContinuum& contact,
+[[nodiscard]] RPSUP_INLINE RingOnRoundBore<P> locate_on_round_bore(const RadialContinuum& contact,
                                                              const RelativeMotion<P, V>& journal, int ring) {
   const RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
   return {offset, calc_penetration(contact, offset)};
@@ -55,7 +55,7 @@ template <typename P, typename V>
 /// f_e(delta) |grad delta| along n, which is the bore's normal where the journal touches first. On a steep
 /// wall that is stiffer than the round bore, by |grad delta|^2.5.
 template <typename P>
-struct WornPlace {
+struct RingOnWornBore {
   RingOffset<P> ring;  ///< its normal is n
   P delta;
   P gradient;          ///< |grad delta|, 1 where R does not vary, [1]
@@ -71,7 +71,7 @@ struct WornPlace {
 };
 
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE WornPlace<P> place_on_worn_bore(const RadialContinuum& contact,
+[[nodiscard]] RPSUP_INLINE RingOnWornBore<P> locate_on_worn_bore(const RadialContinuum& contact,
                                                            const RelativeMotion<P, V>& journal, int ring) {
   const ClearanceParameters& joint = contact.parameters();
   RingOffset<P> offset = calc_ring_offset(journal, contact.ring_position(ring));
@@ -90,24 +90,24 @@ template <typename P, typename V>
   return {offset, delta, gradient};
 }
 
-/// What one ring does at its place.
-template <typename P, typename V, typename Load, typename Place>
+/// Adds the load of one ring, and sets the rates of its bristles.
+template <typename P, typename V, typename Load, typename RingOnBore>
 RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<P, V>& journal, int i,
-                           const Place& place, const V* bristles, V* bristle_rates, Load& load) {
+                           const RingOnBore& on_bore, const V* bristles, V* bristle_rates, Load& load) {
   const ClearanceParameters& joint = contact.parameters();
   bristle_rates[2 * i] = bristle_rates[2 * i + 1] = V(0.0);
-  const P& delta = place.delta;
+  const P& delta = on_bore.delta;
   if (!(value_of(delta) > 0.0)) return;
-  const RingOffset<P>& ring = place.ring;
+  const RingOffset<P>& ring = on_bore.ring;
   if (value_of(delta) >= contact.range()) {
     load.out_of_range = true;
     return;
   }
-  const V rate = place.calc_rate(journal);
+  const V rate = on_bore.calc_rate(journal);
   const RingForce<P> force = calc_ring_force(contact, delta);
   const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
   const NormalLaw<V> normal =
-      place.press(calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping()));
+      on_bore.press(calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping()));
   const double r_j = joint.r_j();
   const Vec3<P> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
   add_contact_point(joint, journal, ContactPoint<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i,
@@ -123,13 +123,13 @@ template <typename P, typename V, typename Load>
                                                  const RelativeMotion<P, V>& journal, const V* bristles,
                                                  V* bristle_rates, Load& load) {
   for (int i = 0; i < contact.parameters().n_r; ++i)
-    add_ring(contact, journal, i, place_on_worn_bore(contact, journal, i), bristles, bristle_rates, load);
+    add_ring(contact, journal, i, locate_on_worn_bore(contact, journal, i), bristles, bristle_rates, load);
 }
 
 /// Radial contact in closed form: each ring of the journal against the bore, one force a ring.
 ///
 ///     e offset of the ring's centre from the bearing axis,  f_e = K / n_r delta^1.5 by Hertz,
-///     delta and its direction as the place has them
+///     delta and its direction as in RingOnRoundBore or RingOnWornBore
 /// @tparam Load  a JointLoad<V>
 template <typename P, typename V, typename Load>
 RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMotion<P, V>& journal,
@@ -137,10 +137,10 @@ RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMo
   const ClearanceParameters& joint = contact.parameters();
   if (joint.worn) {
     // Copies, since their addresses are passed on: the originals may stay in registers.
-    const RelativeMotion<P, V> own_journal = journal;
-    Load own_load = load;
-    add_worn_continuum(contact, own_journal, bristles, bristle_rates, own_load);
-    load = own_load;
+    const RelativeMotion<P, V> journal_copy = journal;
+    Load load_copy = load;
+    add_worn_continuum(contact, journal_copy, bristles, bristle_rates, load_copy);
+    load = load_copy;
     return;
   }
   int i = 0;
@@ -148,7 +148,7 @@ RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMo
     if (joint.cylinders.law == StiffnessLaw::kHertz)
       for (; i + 1 < joint.n_r; i += 2) add_two_rings(contact, journal, i, bristles, bristle_rates, load);
   for (; i < joint.n_r; ++i)
-    add_ring(contact, journal, i, place_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
+    add_ring(contact, journal, i, locate_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

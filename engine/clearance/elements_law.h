@@ -49,10 +49,10 @@ template <typename P, typename V>
   return std::atan2(offset.along_y, offset.along_x);
 }
 
-/// One element of a ring, or several side by side: their place, their normal, their penetration Delta = rho -
+/// One element of a ring, or several side by side: the point, the normal, the penetration Delta = rho -
 /// r_b.
 template <typename P>
-struct ElementPlace {
+struct ElementPoint {
   Vec3<P> r;        ///< from the journal centre
   P n_x, n_y;
   P delta;
@@ -60,13 +60,13 @@ struct ElementPlace {
 
 /// @param cosine, sine  of the element's angle in {j}
 template <typename P, typename V, typename Angle>
-[[nodiscard]] RPSUP_INLINE ElementPlace<Mixed<Angle, P>> place_element(const ClearanceParameters& joint,
+[[nodiscard]] RPSUP_INLINE ElementPoint<Mixed<Angle, P>> calc_element_point(const ClearanceParameters& joint,
                                                                        const RelativeMotion<P, V>& journal,
                                                                        const Vec3<P>& axial,
                                                                        const Angle& cosine,
                                                                        const Angle& sine) {
   const double r_j = joint.r_j();
-  ElementPlace<Mixed<Angle, P>> element;
+  ElementPoint<Mixed<Angle, P>> element;
   element.r = axial + (r_j * cosine) * journal.R.x + (r_j * sine) * journal.R.y;
   const auto x = journal.p.x + element.r.x;
   const auto y = journal.p.y + element.r.y;
@@ -78,21 +78,22 @@ template <typename P, typename V, typename Angle>
   return element;
 }
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE ElementPlace<P> place_element(const RadialElements& elements,
+[[nodiscard]] RPSUP_INLINE ElementPoint<P> calc_element_point(const RadialElements& elements,
                                                          const RelativeMotion<P, V>& journal,
                                                          const Vec3<P>& axial, int k) {
-  return place_element(elements.parameters(), journal, axial, elements.cosines()[k], elements.sines()[k]);
+  return calc_element_point(elements.parameters(), journal, axial, elements.cosines()[k],
+                            elements.sines()[k]);
 }
 
-template <typename P, typename V, typename Place>
-[[nodiscard]] RPSUP_INLINE Mixed<V, Place> calc_element_rate(const RelativeMotion<P, V>& journal,
-                                                             const ElementPlace<Place>& element) {
+template <typename P, typename V, typename Point>
+[[nodiscard]] RPSUP_INLINE Mixed<V, Point> calc_element_rate(const RelativeMotion<P, V>& journal,
+                                                             const ElementPoint<Point>& element) {
   const auto velocity = journal.calc_velocity(element.r);
   return element.n_x * velocity.x + element.n_y * velocity.y;
 }
 
-/// The elements of a ring that can touch, by their angles: from low to high, which may be beyond a full turn.
-/// low > high if none can.
+/// The elements of a ring that can touch, by their angles: from low to high, which may be beyond a full
+/// revolution. low > high if none can.
 struct ElementArc {
   int low, high;
 };
@@ -111,15 +112,15 @@ template <typename P, typename V>
                         static_cast<int>(std::floor((direction + half) / elements.spacing())))};
 }
 
-/// What one element does if it touches. @returns false if it does and has no bristle in the state
+/// Adds the load of one element if it touches. @returns false if it does and has no bristle in the state
 template <typename P, typename V, typename Load>
 RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMotion<P, V>& journal,
                               const Vec3<P>& axial, int ring, int k, const V* bristles, V* bristle_rates,
                               Load& load) {
   const ClearanceParameters& joint = elements.parameters();
-  const ElementPlace<P> element = place_element(elements, journal, axial, k);
+  const ElementPoint<P> element = calc_element_point(elements, journal, axial, k);
   if (!(value_of(element.delta) > 0.0)) return true;
-  const int place = elements.place_of_bristle(ring, k);
+  const int bristle = elements.bristle_index(ring, k);
   const V rate = calc_element_rate(journal, element);
   const P elastic = elements.element_stiffness() * element.delta;
   const V onset = choose_onset_rate(elements.latch(ring, k).rate(), rate, joint.minimum_onset_rate);
@@ -127,14 +128,14 @@ RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMoti
       joint, journal,
       ContactPoint<P, V>{element.r, element.n_x, element.n_y,
                          calc_normal_law(elastic, rate, onset, joint.chi, elements.element_damping())},
-      place < 0 ? nullptr : bristles + place, place < 0 ? nullptr : bristle_rates + place, load);
+      bristle < 0 ? nullptr : bristles + bristle, bristle < 0 ? nullptr : bristle_rates + bristle, load);
   load.elastic_energy += 0.5 * value_of(elastic) * value_of(element.delta);
   load.max_penetration = std::max(load.max_penetration, value_of(element.delta));
-  if (place >= 0) load.end_contact_point(place);
-  return place >= 0;
+  if (bristle >= 0) load.end_contact_point(bristle);
+  return bristle >= 0;
 }
 
-/// At eight places side by side; by laws that ask what a place does, one after the other.
+/// Friction at eight contact points side by side; by laws with branches, at one point after the other.
 [[nodiscard]] RPSUP_INLINE FrictionForce<Lanes> calc_friction(const FrictionParameters& p, const Lanes& v_t,
                                                               const Lanes& v_z, const Lanes& z_t,
                                                               const Lanes& z_z) {
@@ -153,14 +154,14 @@ RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMoti
   return all;
 }
 
-/// Eight neighbours on a ring side by side, the first of them k, with bristles from `place` on. Those that do
-/// not touch add zeros.
+/// Eight neighbours on a ring side by side, the first of them k, with bristles from `bristle` on. Those that
+/// do not touch add zeros.
 RPSUP_INLINE void add_neighbours(const RadialElements& elements,
                                  const RelativeMotion<double, double>& journal, const Vec3<double>& axial,
-                                 int ring, int k, int place, const double* bristles, double* bristle_rates,
+                                 int ring, int k, int bristle, const double* bristles, double* bristle_rates,
                                  JointLoad<Lanes>& load) {
   const ClearanceParameters& joint = elements.parameters();
-  const ElementPlace<Lanes> element = place_element(
+  const ElementPoint<Lanes> element = calc_element_point(
       joint, journal, axial, Lanes::load(elements.cosines() + k), Lanes::load(elements.sines() + k));
   const Lanes none{};
   const Lanes delta = cut_at_zero(element.delta);
@@ -168,8 +169,8 @@ RPSUP_INLINE void add_neighbours(const RadialElements& elements,
   const Lanes elastic = elements.element_stiffness() * delta;
   const Lanes onset =
       choose_onset_rate(Lanes::load(&elements.latch(ring, k)), rate, joint.minimum_onset_rate);
-  const LanePairs own = LanePairs::load(bristles + place);
-  const Lanes z[2] = {own.first, own.second};
+  const LanePairs pairs = LanePairs::load(bristles + bristle);
+  const Lanes z[2] = {pairs.first, pairs.second};
   Lanes rates[2] = {none, none};
   NormalLaw<Lanes> normal = calc_normal_law(elastic, rate, onset, joint.chi, elements.element_damping());
   if (elements.element_damping() > 0.0)
@@ -180,10 +181,10 @@ RPSUP_INLINE void add_neighbours(const RadialElements& elements,
   load.elastic_energy += 0.5 * (elastic * delta);
   load.max_penetration = choose_greater(delta, load.max_penetration, delta, load.max_penetration);
   LanePairs{choose_greater(delta, none, rates[0], none), choose_greater(delta, none, rates[1], none)}.store(
-      bristle_rates + place);
+      bristle_rates + bristle);
 }
 
-/// Adds what eight places do together.
+/// Adds the sums over eight contact points.
 RPSUP_INLINE void add_sums(const JointLoad<Lanes>& of, JointLoad<double>& load) {
   load.force += Vec3<double>{sum(of.force.x), sum(of.force.y), sum(of.force.z)};
   load.moment += Vec3<double>{sum(of.moment.x), sum(of.moment.y), sum(of.moment.z)};
@@ -208,7 +209,7 @@ RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements,
     const int k = elements.wrap(unwrapped);
     const bool fit = unwrapped + Lanes::kCount <= arc.low + elements.parameters().n_ce;
     if (fit && elements.are_side_by_side(ring, k, Lanes::kCount)) {
-      add_neighbours(elements, journal, axial, ring, k, elements.place_of_bristle(ring, k), bristles,
+      add_neighbours(elements, journal, axial, ring, k, elements.bristle_index(ring, k), bristles,
                      bristle_rates, abreast);
       any_abreast = true;
       unwrapped += Lanes::kCount;

@@ -27,10 +27,11 @@ template <typename P, typename V>
                                                              const RelativeMotion<P, V>& journal) {
   const double side = AxialFaces::side(face), z = faces.z(face);
   const Mat3<P>& R = journal.R;
-  const auto turning = [&](const Vec3<P>& axis)
+  const auto axial_velocity = [&](const Vec3<P>& axis)
                            RPSUP_INLINE_LAMBDA { return journal.w.x * axis.y - journal.w.y * axis.x; };
   return {side * (journal.p.z + z * R.z.z) - faces.limit(), side * R.x.z, side * R.y.z,
-          side * (journal.v.z + z * turning(R.z)), side * turning(R.x), side * turning(R.y)};
+          side * (journal.v.z + z * axial_velocity(R.z)), side * axial_velocity(R.x),
+          side * axial_velocity(R.y)};
 }
 
 /// What the shoulder does to a face.

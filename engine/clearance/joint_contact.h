@@ -15,11 +15,11 @@ template <typename P, typename V, typename Load>
                                              const V* bristles, V* bristle_rates, Load& load) {
   add_faces(joint.faces(), journal, load);
   if (const RadialElements* elements = joint.elements()) {
-    const RelativeMotion<P, V> own_journal =
+    const RelativeMotion<P, V> journal_copy =
         journal;  // of which addresses are known: the others may stay in registers
-    Load own_load = load;
-    const bool complete = add_elements(*elements, own_journal, bristles, bristle_rates, own_load);
-    load = own_load;
+    Load load_copy = load;
+    const bool complete = add_elements(*elements, journal_copy, bristles, bristle_rates, load_copy);
+    load = load_copy;
     return complete;
   }
   add_continuum(*joint.continuum(), journal, bristles, bristle_rates, load);

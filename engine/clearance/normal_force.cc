@@ -9,8 +9,8 @@ namespace engine {
 namespace {
 
 /// Where f is zero in [low, high], to the resolution of s; f(low) and f(high) have opposite signs.
-/// Newton's iteration from the middle, kept between two places of opposite signs: where it would leave them
-/// or does not halve its last step, they are bisected.
+/// Newton's iteration from the middle, kept in a bracket of opposite signs: where it would leave the bracket
+/// or does not halve its last step, the bracket is bisected.
 template <typename Function, typename Slope>
 double find_zero(const Function& f, const Slope& slope, double low, double high) {
   const bool rises = f(low) < f(high);

@@ -9,9 +9,9 @@ namespace engine {
 
 namespace {
 
-template <typename Place>
-Penetration penetration_at(const Place& place, const RelativeMotion<double, double>& journal) {
-  return {place.delta, place.calc_rate(journal)};
+template <typename RingOnBore>
+Penetration penetration_of(const RingOnBore& on_bore, const RelativeMotion<double, double>& journal) {
+  return {on_bore.delta, on_bore.calc_rate(journal)};
 }
 
 }  // namespace
@@ -26,8 +26,8 @@ RadialContinuum::RadialContinuum(const ClearanceParameters& joint)
 }
 
 Penetration RadialContinuum::calc_penetration(const RelativeMotion<double, double>& journal, int ring) const {
-  if (joint_.worn) return penetration_at(place_on_worn_bore(*this, journal, ring), journal);
-  return penetration_at(place_on_round_bore(*this, journal, ring), journal);
+  if (joint_.worn) return penetration_of(locate_on_worn_bore(*this, journal, ring), journal);
+  return penetration_of(locate_on_round_bore(*this, journal, ring), journal);
 }
 
 void RadialContinuum::add_penetrations(const JournalMotion& journal, std::vector<Penetration>& rings) const {

@@ -41,8 +41,8 @@ RadialElements::RadialElements(const ClearanceParameters& joint)
 
 Penetration RadialElements::calc_penetration(const RelativeMotion<double, double>& journal, int ring,
                                              int k) const {
-  const ElementPlace<double> element =
-      place_element(*this, journal, calc_ring_position(joint_, ring) * journal.R.z, k);
+  const ElementPoint<double> element =
+      calc_element_point(*this, journal, calc_ring_position(joint_, ring) * journal.R.z, k);
   return {element.delta, calc_element_rate(journal, element)};
 }
 
@@ -82,7 +82,7 @@ ContactChange RadialElements::advance(const JournalMotion& start, const JournalM
       double* bristle = bristles + 2 * (i * window_ + slot);
       if (onset.in_contact() || from_low <= arc.high - arc.low) {
         was_on = was_on || onset.in_contact();
-        if ((place_element(*this, motion_end, axial, k).delta > 0.0) != onset.in_contact())
+        if ((calc_element_point(*this, motion_end, axial, k).delta > 0.0) != onset.in_contact())
           change.any |= onset.advance(calc_penetration(motion_start, i, k),
                                       calc_penetration(motion_end, i, k), dt, joint_.minimum_onset_rate);
         is_on = is_on || onset.in_contact();

@@ -30,20 +30,20 @@ class RadialElements {
   [[nodiscard]] const double* cosines() const { return cosine_.data(); }  ///< of each element's angle in {j}
   [[nodiscard]] const double* sines() const { return sine_.data(); }
   [[nodiscard]] int wrap(int k) const {
-    const int rest = k % joint_.n_ce;
-    return rest < 0 ? rest + joint_.n_ce : rest;
+    const int remainder = k % joint_.n_ce;
+    return remainder < 0 ? remainder + joint_.n_ce : remainder;
   }
   [[nodiscard]] const OnsetLatch& latch(int ring, int k) const {
     return latches_.data()[ring * joint_.n_ce + k];
   }
   [[nodiscard]] int bristle_count() const { return 2 * joint_.n_r * window_; }
-  /// Place of an element's bristle among them, -1 if it has none.
-  [[nodiscard]] int place_of_bristle(int ring, int k) const {
+  /// Index of an element's first bristle among them, -1 if it has none.
+  [[nodiscard]] int bristle_index(int ring, int k) const {
     const int slot = wrap(k - first_.data()[ring]);
     return slot < window_ ? 2 * (ring * window_ + slot) : -1;
   }
 
-  /// Whether what belongs to so many elements from k on stands side by side, their bristles' places among it.
+  /// Whether the numbers of `count` elements from k on are contiguous, those of their bristles, too.
   [[nodiscard]] bool are_side_by_side(int ring, int k, int count) const {
     const int slot = wrap(k - first_.data()[ring]);
     return k + count <= joint_.n_ce && slot + count <= window_;
@@ -59,7 +59,7 @@ class RadialElements {
   /// if any window moved
   bool follow(const JournalMotion& journal, double dt, double* bristles);
 
-  /// Makes the windows half as large again. @returns the bristles in their new places
+  /// Makes the windows half as large again. @returns the bristles at their new indices
   [[nodiscard]] Eigen::VectorXd widen(const double* bristles);
 
  private:

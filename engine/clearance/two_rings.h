@@ -16,7 +16,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
                                                      const BristleLaw<double>& b) {
   return {join(a.force_ratio, b.force_ratio), join(a.rate, b.rate)};
 }
-/// At two places side by side; by laws that ask what a place does, one after the other.
+/// Friction at two contact points side by side; by laws with branches, at one point after the other.
 [[nodiscard]] RPSUP_INLINE FrictionForce<LanePair> calc_friction(const FrictionParameters& p,
                                                                  const LanePair& v_t, const LanePair& v_z,
                                                                  const LanePair& z_t, const LanePair& z_z) {
@@ -29,7 +29,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
   return {join(a.along_t, b.along_t), join(a.along_z, b.along_z)};
 }
 
-/// Adds what one of two places does.
+/// Adds the load of one of two rings.
 RPSUP_INLINE void add_lane(const JointLoad<LanePair>& two, int lane, JointLoad<double>& load) {
   load.force += Vec3<double>{two.force.x[lane], two.force.y[lane], two.force.z[lane]};
   load.moment += Vec3<double>{two.moment.x[lane], two.moment.y[lane], two.moment.z[lane]};
@@ -65,19 +65,19 @@ RPSUP_INLINE void add_two_rings(const RadialContinuum& contact, const RelativeMo
             choose_greater(beyond, none, normal.loss_power, none)};
   const double r_j = joint.r_j();
   const Vec3<LanePair> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
-  const LanePair own[2] = {join(bristles[2 * i], bristles[2 * i + 2]),
+  const LanePair z[2] = {join(bristles[2 * i], bristles[2 * i + 2]),
                            join(bristles[2 * i + 1], bristles[2 * i + 3])};
-  LanePair own_rates[2] = {none, none};
+  LanePair z_rates[2] = {none, none};
   JointLoad<LanePair> two;
-  add_contact_point(joint, journal, ContactPoint<LanePair, LanePair>{r, ring.n_x, ring.n_y, normal}, own,
-                    own_rates, two);
+  add_contact_point(joint, journal, ContactPoint<LanePair, LanePair>{r, ring.n_x, ring.n_y, normal}, z,
+                    z_rates, two);
   two.elastic_energy = force.energy;
   two.max_penetration = delta;
   for (const int lane : {0, 1}) {
     add_lane(two, lane, load);
     if (!(beyond[lane] > 0.0)) continue;
-    rates[2 * lane] = own_rates[0][lane];
-    rates[2 * lane + 1] = own_rates[1][lane];
+    rates[2 * lane] = z_rates[0][lane];
+    rates[2 * lane + 1] = z_rates[1][lane];
   }
 }
 

@@ -15,8 +15,7 @@ constexpr int kAngles = 720;
 // 72 degrees beside the offset a gap is more than three times as long as across.
 constexpr int kFarthest = kAngles / 5;
 
-/// The least of a function of the place that a parabola through three neighbours has, the middle one the
-/// least of them.
+/// Least value of the parabola through three neighbouring values, the middle one the least of them.
 double find_least(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   const double rise = after - before;

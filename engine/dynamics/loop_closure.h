@@ -15,7 +15,7 @@
 namespace engine {
 
 /// Position, velocity and acceleration of a mechanism whose cut joints are ideal, whose driven coordinates
-/// are given, and whose springs are at rest: the constraints Phi(q) = 0 alone. The loops are closed by
+/// are given, and whose springs are unloaded: the constraints Phi(q) = 0 alone. The loops are closed by
 /// Newton's method.
 class LoopClosure {
  public:

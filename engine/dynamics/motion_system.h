@@ -85,7 +85,7 @@ class MotionSystem {
 
   /// Appends the penetration of every ring of every joint with clearance.
   void add_penetrations(const Evaluation& at, std::vector<Penetration>& rings) const;
-  /// Lets bristles follow their contacts, before a step of dt. @returns true if any changed its place in y
+  /// Lets bristles follow their contacts, before a step of dt. @returns true if any changed its index in y
   [[nodiscard]] bool prepare_step(const Evaluation& at, double dt, Eigen::VectorXd& y);
   /// Takes note of the contacts that began or ended in a step; f is another one if any did.
   [[nodiscard]] ContactChange accept_step(const Evaluation& start, const Evaluation& end, Eigen::VectorXd& y);

@@ -17,9 +17,9 @@ std::optional<double> find_crossing(const Penetration& start, const Penetration&
   if (was_in != is_in)
     return std::abs(end.delta) <= ContactEvents::kBand ? std::nullopt
                                                        : std::optional(cubic.find_root(0.0, 1.0));
-  // In and out again, or out and in: only if the penetration turns around in between.
-  const bool turns = was_in ? start.rate < 0.0 && end.rate > 0.0 : start.rate > 0.0 && end.rate < 0.0;
-  if (!turns) return std::nullopt;
+  // In and out again, or out and in: only if the penetration reverses in between.
+  const bool reverses = was_in ? start.rate < 0.0 && end.rate > 0.0 : start.rate > 0.0 && end.rate < 0.0;
+  if (!reverses) return std::nullopt;
   const double extreme = cubic.find_extreme();
   const double delta = was_in ? -cubic.delta(extreme) : cubic.delta(extreme);
   if (delta <= ContactEvents::kBand) return std::nullopt;

@@ -9,9 +9,9 @@
 namespace engine {
 
 /// State inside an accepted step: quintic in the coordinates (from q, qd, qdd at both ends) with its
-/// derivative for their rates, cubic for the rest. Contact is stiff: a cubic in q would be wrong by a part of
-/// the penetration.
-/// @param s  place in the step, 0 to 1
+/// derivative for their rates, cubic for the others. Contact is stiff: a cubic in q would be wrong by a part
+/// of the penetration.
+/// @param s  position in the step, 0 to 1
 void interpolate_state(const StepPoint& start, const StepPoint& end, const StateLayout& layout, double s,
                        Eigen::VectorXd& y);
 

@@ -147,9 +147,9 @@ class KinematicRun {
   ///     start 5.3 ms, step 1.2 ms, limit far: the grid is that of 1 ms, and start is off it. Four equal
   ///       steps lead to the next point of the grid: 5.3, 5.475, 5.65, 5.825, 6 ms.
   ///     start 6 ms, step 1.2 ms, limit 8.05 ms: two whole ticks of 1 ms fit, so ticks are halved, 6, 6.5,
-  ///       7, 7.5, 8 ms. The rest of 0.05 ms is a sliver: four equal steps lead to the limit instead.
+  ///       7, 7.5, 8 ms. The remainder of 0.05 ms is a sliver: four equal steps lead to the limit instead.
   void place_nodes(double limit, double step) {
-    constexpr double kSliver = 0.125;  // of a tick: a shorter rest before or after the grid joins the block
+    constexpr double kSliver = 0.125;  // of a tick: a shorter remainder beside the grid joins the block
     const double start = nodes_[0].t;
     int level = std::ilogb(kPerSecond * step);
     const double position = std::ldexp(kPerSecond * start, -level);  // in ticks

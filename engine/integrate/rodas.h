@@ -127,7 +127,7 @@ class Rodas5Stepper {
       U_[0] = dydt;
     } else {
       if constexpr (i >= K::kFirstExtended)
-        stage_ += U_[i - 1];  // as all the rest of its sum is the stage before's
+        stage_ += U_[i - 1];  // as the other terms of its sum are the stage before's
       else
         add_stages(K::a[i], 1.0, y.data(), stage_.data(), std::make_index_sequence<i>{});
       f(stage_, U_[i], t + K::c[i] * dt);

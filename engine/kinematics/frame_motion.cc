@@ -16,14 +16,14 @@ FrameMotion ground_motion(const Mechanism& mechanism) {
 
 void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q,
                       std::vector<FrameMotion>& frames) {
-  const Mat3<double> unturned = to_mat3(Eigen::Matrix3d::Identity());
-  Mat3<double> R = unturned;
+  const Mat3<double> identity = to_mat3(Eigen::Matrix3d::Identity());
+  Mat3<double> R = identity;
   Vec3<double> p;
   for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
     const Coordinate& c = mechanism.coordinates[i];
     const double q_i = q[static_cast<Eigen::Index>(i)];
     if (c.parent == kGround) {
-      R = unturned;
+      R = identity;
       p = {};
     } else if (c.parent + 1 != static_cast<FrameIndex>(i)) {  // else they are the parent's
       R = to_mat3(frames[static_cast<std::size_t>(c.parent)].R);
@@ -31,7 +31,7 @@ void calc_frame_poses(const Mechanism& mechanism, const Eigen::VectorXd& q,
     }
     Vec3<double> r, along;
     if (!is_inside_joint(c)) r = R * to_vec3(c.placement.p);
-    if (!is_unturned(c.placement)) R = R * to_mat3(c.placement.R);
+    if (!is_unrotated(c.placement)) R = R * to_mat3(c.placement.R);
     if (c.motion == Motion::kTranslation) {
       along = axis_of(R, static_cast<int>(c.axis));
       r += q_i * along;
@@ -58,9 +58,9 @@ void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, con
       f = ground;
     else if (c.parent + 1 != static_cast<FrameIndex>(i))  // else f is the parent's
       f = to_frame(frames[static_cast<std::size_t>(c.parent)]);
-    FrameMotion& own = frames[i];
-    const Vec3<double> along = to_vec3(own.axis);
-    shift_frame(to_vec3(own.p_parent), true, f);
+    FrameMotion& motion = frames[i];
+    const Vec3<double> along = to_vec3(motion.axis);
+    shift_frame(to_vec3(motion.p_parent), true, f);
     if (c.motion == Motion::kTranslation) {
       add_translation_rate(along, true, qd[k], f);
       f.vd += qdd[k] * along;
@@ -68,10 +68,10 @@ void calc_frame_rates(const Mechanism& mechanism, const Eigen::VectorXd& qd, con
       add_rotation_rate(along, true, qd[k], f);
       f.wd += qdd[k] * along;
     }
-    copy(f.w, own.w.data());
-    copy(f.v, own.v.data());
-    copy(f.wd, own.wd.data());
-    copy(f.vd, own.vd.data());
+    copy(f.w, motion.w.data());
+    copy(f.v, motion.v.data());
+    copy(f.wd, motion.wd.data());
+    copy(f.vd, motion.vd.data());
   }
 }
 

@@ -72,11 +72,11 @@ RPSUP_INLINE void add_rotation_rate(const Vec3<double>& s, bool frame_rotates, c
 
 /// Rotates a frame's axes about one of them: the other two change. @returns that axis
 RPSUP_INLINE Vec3<double> rotate_axes(int axis, const SineCosine& q, Mat3<double>& R) {
-  const auto rotate_pair = [&](const Vec3<double>& own, Vec3<double>& i, Vec3<double>& j) {
+  const auto rotate_pair = [&](const Vec3<double>& fixed, Vec3<double>& i, Vec3<double>& j) {
     const Vec3<double> old_i = i;
     i = q.cosine * old_i + q.sine * j;
     j = q.cosine * j - q.sine * old_i;
-    return own;
+    return fixed;
   };
   return axis == 0   ? rotate_pair(R.x, R.y, R.z)
          : axis == 1 ? rotate_pair(R.y, R.z, R.x)

@@ -51,7 +51,7 @@ struct JointTraits {
 
 /// Sets the traits that follow from the others.
 ///
-/// A body is slender if it is axisymmetric about x, turns about a spherical joint, and carries nothing that
+/// A body is slender if it is axisymmetric about x, rotates in a spherical joint, and carries nothing that
 /// moves, or one spherical joint on its x axis. So a slender body has at most one moving child.
 /// @param joints  each behind its parent
 template <typename Joints>

@@ -41,7 +41,7 @@ inline void copy(const Mat3<double>& from, double* to) {
 /// Moves a frame to a constant placement in it.
 RPSUP_INLINE void move_to(const Placement& placement, Frame<double, double>& f) {
   shift_frame(f.R * to_vec3(placement.p), true, f);
-  if (!is_unturned(placement)) f.R = f.R * to_mat3(placement.R);
+  if (!is_unrotated(placement)) f.R = f.R * to_mat3(placement.R);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -19,8 +19,8 @@ std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(),
 bool is_along_x(const Eigen::Vector3d& v) { return v.y() == 0.0 && v.z() == 0.0; }
 
 TreePlacement make_placement(const Placement& placement) {
-  return {!is_unturned(placement), !placement.p.isZero(0.0), is_along_x(placement.p), columns_of(placement.R),
-          array_of(placement.p)};
+  return {!is_unrotated(placement), !placement.p.isZero(0.0), is_along_x(placement.p),
+          columns_of(placement.R), array_of(placement.p)};
 }
 
 JointTraits::Inertia kind_of_inertia(const Coordinate& c) {
@@ -106,7 +106,7 @@ class JointFinder {
       return false;
     for (const int k : {i + 1, i + 2})
       if (coordinate(k).parent != k - 1 || !is_inside_joint(coordinate(k)) ||
-          !is_unturned(coordinate(k).placement) || !is_empty(k - 1))
+          !is_unrotated(coordinate(k).placement) || !is_empty(k - 1))
         return false;
     return true;
   }

@@ -13,9 +13,9 @@ inline namespace RPSUP_INSTRUCTION_SET {
 template <typename T>
 class Buffer {
  public:
-  /// @param room  for more than size, which code that takes several at once may touch
-  explicit Buffer(std::size_t size, std::size_t room = 0)
-      : data_(new T[size < room ? room : size]()), size_(size) {}
+  /// @param capacity  entries that code which takes several at once may touch
+  explicit Buffer(std::size_t size, std::size_t capacity = 0)
+      : data_(new T[size < capacity ? capacity : size]()), size_(size) {}
   ~Buffer() { delete[] data_; }
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
@@ -38,10 +38,10 @@ class Buffer {
 
 /// The same of a length that is known when the program is compiled, its entries not set: where it lives on
 /// the stack they may stay in registers.
-template <typename T, std::size_t length, std::size_t room = length>
+template <typename T, std::size_t length, std::size_t capacity = length>
 class FixedBuffer {
  public:
-  RPSUP_INLINE explicit FixedBuffer(std::size_t /*size*/, std::size_t /*room*/ = 0) {}
+  RPSUP_INLINE explicit FixedBuffer(std::size_t /*size*/, std::size_t /*capacity*/ = 0) {}
 
   [[nodiscard]] RPSUP_INLINE T& operator[](std::size_t i) { return data_.entries[i]; }
   [[nodiscard]] RPSUP_INLINE const T& operator[](std::size_t i) const { return data_.entries[i]; }
@@ -55,11 +55,11 @@ class FixedBuffer {
   }
 
  private:
-  union Room {
-    RPSUP_INLINE Room() {}
-    T entries[room > 0 ? room : 1];
+  union Storage {
+    RPSUP_INLINE Storage() {}
+    T entries[capacity > 0 ? capacity : 1];
   };
-  Room data_;
+  Storage data_;
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -17,8 +17,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 template <typename Scalar>
 class DenseMatrix {
  public:
-  /// @param room  largest number of rows
-  explicit DenseMatrix(std::size_t room) : entries_(room * room), order_(room) {}
+  /// @param capacity  largest number of rows
+  explicit DenseMatrix(std::size_t capacity) : entries_(capacity * capacity), order_(capacity) {}
 
   /// Makes it n x n. Entries are not set.
   void resize(std::size_t n) { n_ = n; }

@@ -14,9 +14,9 @@ PeriodicSpline::PeriodicSpline(std::vector<double> values, double first)
       spacing_(2.0 * std::numbers::pi / static_cast<double>(values_.size())) {}
 
 PeriodicSpline::Point PeriodicSpline::at(double angle) const {
-  const double place = angle / spacing_ - first_;
-  const double whole = std::floor(place);
-  const double t = place - whole;
+  const double position = angle / spacing_ - first_;
+  const double whole = std::floor(position);
+  const double t = position - whole;
   const double s = 1.0 - t;
   const auto count = static_cast<long>(values_.size());
   const auto value = [&](long k) { return values_[static_cast<std::size_t>(((k % count) + count) % count)]; };

@@ -4,7 +4,7 @@
 namespace engine {
 
 /// The course of a coordinate over a step as the polynomial of fifth degree with the given values, rates and
-/// accelerations at both ends. s is the place in the step, [1]: 0 its start, 1 its end.
+/// accelerations at both ends. s is the position in the step, [1]: 0 its start, 1 its end.
 class Quintic {
  public:
   Quintic(double dt, double q0, double qd0, double qdd0, double q1, double qd1, double qdd1)

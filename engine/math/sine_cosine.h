@@ -64,13 +64,14 @@ struct SinesAndCosines {
   const SineBlock y = head - less;
   SinesAndCosines of = calc_sine_polynomials(y, (head - y) - less);
 
-  const Bits turns = reinterpret_cast<Bits>(shifted.part[0]);
-  const Bits odd = -(turns & 1);  // all ones where sine and cosine change places
+  const Bits quadrant_bits = reinterpret_cast<Bits>(shifted.part[0]);
+  const Bits odd = -(quadrant_bits & 1);  // all ones where sine and cosine change places
   const Bits s_bits = reinterpret_cast<Bits>(of.sine.part[0]);
   const Bits c_bits = reinterpret_cast<Bits>(of.cosine.part[0]);
   using Part = typename SineBlock::Part;
-  of.sine.part[0] = reinterpret_cast<Part>(((s_bits & ~odd) | (c_bits & odd)) ^ ((turns & 2) << 62));
-  of.cosine.part[0] = reinterpret_cast<Part>(((c_bits & ~odd) | (s_bits & odd)) ^ (((turns + 1) & 2) << 62));
+  of.sine.part[0] = reinterpret_cast<Part>(((s_bits & ~odd) | (c_bits & odd)) ^ ((quadrant_bits & 2) << 62));
+  of.cosine.part[0] =
+      reinterpret_cast<Part>(((c_bits & ~odd) | (s_bits & odd)) ^ (((quadrant_bits + 1) & 2) << 62));
   return of;
 }
 

@@ -10,7 +10,7 @@ namespace engine {
 
 namespace {
 
-bool is_none(const Placement& placement) { return is_unturned(placement) && placement.p.isZero(0.0); }
+bool is_none(const Placement& placement) { return is_unrotated(placement) && placement.p.isZero(0.0); }
 
 /// Of a frame that is placed in another one which is placed itself.
 Placement compose(const Placement& outer, const Placement& inner) {
@@ -70,7 +70,7 @@ class LinkageBuilder {
     return static_cast<std::size_t>(found - linkage_.bodies.begin());
   }
 
-  /// Frame and place in it of something placed on a body.
+  /// Frame, and placement in it, of an object placed on a body.
   std::pair<FrameIndex, Placement> locate(const std::string& body, Placement placement) const {
     if (body == kGroundName) return {kGround, placement};
     const std::size_t index = index_of(body);

@@ -23,7 +23,7 @@ struct Placement {
 };
 
 /// A rotation with ones on its diagonal is none.
-[[nodiscard]] inline bool is_unturned(const Placement& placement) {
+[[nodiscard]] inline bool is_unrotated(const Placement& placement) {
   return placement.R(0, 0) == 1.0 && placement.R(1, 1) == 1.0 && placement.R(2, 2) == 1.0;
 }
 
@@ -35,10 +35,10 @@ inline constexpr FrameIndex kGround = -1;
 /// row. The frame's mass properties are those of the body fixed to it; a frame inside a joint has none.
 struct Coordinate {
   std::string name;                   ///< the paper's symbol in ASCII, e.g. "psi_1_3_0"
-  FrameIndex parent = kGround;        ///< smaller than the own index
+  FrameIndex parent = kGround;        ///< smaller than this coordinate's index
   Placement placement;                ///< of the joint in the parent's frame
   Motion motion = Motion::kRotation;
-  Axis axis = Axis::kZ;               ///< in the parent's frame after `placement`, and in the own
+  Axis axis = Axis::kZ;               ///< in the parent's frame after `placement`, and in its frame
   double stiffness = 0.0;             ///< spring on the coordinate, [N m/rad] or [N/m]
   double damping = 0.0;               ///< damper on the coordinate, [N m s/rad] or [N s/m]
   double assembly_guess = 0.0;        ///< where Newton's method begins to close the loops, [rad] or [m]

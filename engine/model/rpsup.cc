@@ -64,16 +64,16 @@ LinkageBody make_cross(const RpsupParameters& p) {
 
 bool is_flexible(const RoundLink& link) { return link.model == LinkModel::kFlexible; }
 
-/// A beam lies along x: the frame of a flexible cross link is turned so that its x is the tube's axis, and
+/// A beam lies along x: the frame of a flexible cross link is rotated so that its x is the tube's axis, and
 /// its y or z the yoke's.
-Placement cross_turn(const RpsupParameters& p) {
-  Placement turn;
-  if (!is_flexible(p.cross)) return turn;
+Placement cross_rotation(const RpsupParameters& p) {
+  Placement rotation;
+  if (!is_flexible(p.cross)) return rotation;
   if (p.yoke_axis == YokeAxis::kGuide)
-    turn.R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
+    rotation.R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
   else
-    turn.R << 0, 0, -1, 0, 1, 0, 1, 0, 0;
-  return turn;
+    rotation.R << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  return rotation;
 }
 
 /// The yoke's axis in the cross link's frame.
@@ -83,13 +83,13 @@ Axis yoke_axis(const RpsupParameters& p) {
 }
 
 /// The journal in the cross link's frame, its axes those of the rigid link.
-Placement journal_place(const RpsupParameters& p) {
-  const Eigen::Matrix3d back = cross_turn(p).R.transpose();
+Placement journal_placement(const RpsupParameters& p) {
+  const Eigen::Matrix3d back = cross_rotation(p).R.transpose();
   return {back, p.cross_length * back.col(2)};
 }
 
 /// The rod's joint in the rod's frame and in the crank's, along both.
-double guide_place(const RpsupParameters& p) { return is_flexible(p.crank) ? p.crank_length : 0.0; }
+double guide_position(const RpsupParameters& p) { return is_flexible(p.crank) ? p.crank_length : 0.0; }
 
 LinkageFreedom driven(std::string name, const DriveLaw& law) {
   return {.name = std::move(name), .drive = law};
@@ -101,7 +101,7 @@ Linkage describe_rpsup(const RpsupParameters& p) {
                     make_round_link(p, Link::k12, "1,2", p.rod_length, p.rod),
                     make_round_link(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)),
                     make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
-  const double guide = guide_place(p);
+  const double guide = guide_position(p);
   const AssemblyGuess guess = calc_assembly_guess(p);
   linkage.joints = {
       {.name = "crank",
@@ -135,7 +135,7 @@ Linkage describe_rpsup(const RpsupParameters& p) {
       {.name = "cross",
        .from = "2,1",
        .to = "2,2",
-       .placement = cross_turn(p),
+       .placement = cross_rotation(p),
        .axes = {yoke_axis(p)},
        .freedoms = {{.name = "psi_2_2", .guess = guess.psi_22}}},
       {.name = "bearing",
@@ -143,7 +143,7 @@ Linkage describe_rpsup(const RpsupParameters& p) {
        .to = "2,2",
        .placement = {.p = {p.coupler_length, 0.0, 0.0}},
        .cut = true,
-       .to_placement = journal_place(p)},
+       .to_placement = journal_placement(p)},
   };
   if (p.c_r > 0.0) linkage.joints.back().clearance = make_clearance(p);
   linkage.drive_rows =

@@ -10,7 +10,7 @@
 
 namespace engine {
 
-/// A flexible link as built: where it is held, and where its end is.
+/// A flexible link as built: its two end elements.
 struct BentLink {
   std::string name;             ///< as in channels
   BodyFrames::Part root;        ///< its first element

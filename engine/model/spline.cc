@@ -17,10 +17,10 @@ Spline::Spline(std::vector<double> t, std::vector<double> q)
   std::vector<double> above(t_.size(), 0.0);
   for (std::size_t k = 1; k < last; ++k) {
     const double before = t_[k] - t_[k - 1], after = t_[k + 1] - t_[k];
-    const double turn = 6.0 * ((q_[k + 1] - q_[k]) / after - (q_[k] - q_[k - 1]) / before);
+    const double slope_change = 6.0 * ((q_[k + 1] - q_[k]) / after - (q_[k] - q_[k - 1]) / before);
     const double pivot = 2.0 * (before + after) - before * above[k - 1];
     above[k] = after / pivot;
-    bend_[k] = (turn - before * bend_[k - 1]) / pivot;
+    bend_[k] = (slope_change - before * bend_[k - 1]) / pivot;
   }
   for (std::size_t k = last; k-- > 1;) bend_[k] -= above[k] * bend_[k + 1];
 }

@@ -31,7 +31,7 @@ PlainLinkage take_tree(const engine::Rpsup& rpsup, const Coordinates& at) {
   PlainBody body;
   for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
     const engine::Coordinate& c = mechanism.coordinates[i];
-    if (!engine::is_unturned(c.placement)) throw std::invalid_argument("a joint's frame is turned in its parent");
+    if (!engine::is_unrotated(c.placement)) throw std::invalid_argument("a joint's frame is turned in its parent");
     if (body.joint.empty()) {
       body.parent = c.parent == engine::kGround ? -1 : body_of[static_cast<std::size_t>(c.parent)];
       body.p_PJ = c.placement.p;

@@ -66,10 +66,10 @@ int expect_the_same(const ClearanceParameters& joint) {
     if (round % 2 == 0) (void)contact.advance(to_journal(before), to_journal(journals.next()), 1e-5, bristles.data());  // latches some
     for (double& z : bristles) z = journals.bristle();
     JointLoad<double> one_by_one, two;
-    for (const int i : {0, 1}) add_ring(contact, journal, i, place_on_round_bore(contact, journal, i), bristles.data(), rates.data(), one_by_one);
+    for (const int i : {0, 1}) add_ring(contact, journal, i, locate_on_round_bore(contact, journal, i), bristles.data(), rates.data(), one_by_one);
     add_two_rings(contact, journal, 0, bristles.data(), rates_by_two.data(), two);
     EXPECT_EQ(bits_of(one_by_one, rates), bits_of(two, rates_by_two)) << round;
-    for (const int i : {0, 1}) pressing += place_on_round_bore(contact, journal, i).delta > 0.0 ? 1 : 0;
+    for (const int i : {0, 1}) pressing += locate_on_round_bore(contact, journal, i).delta > 0.0 ? 1 : 0;
   }
   return pressing;
 }

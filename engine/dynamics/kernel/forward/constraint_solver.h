@@ -49,7 +49,7 @@ struct UnconstrainedMotion {
 ///
 /// Column r of the Delassus matrix Phi_q M^-1 Phi_q^T is Phi_q times the accelerations that a unit multiplier
 /// of row r causes: the articulated-body algorithm computes as many columns at once as a pack has lanes.
-/// Phi_q itself is not needed: a joint's rows turn multipliers into forces on two bodies,
+/// Phi_q itself is not needed: a joint's rows map multipliers to forces on two bodies,
 /// calc_joint_reaction(), and accelerations of two bodies into Phi_q qdd, subtract_joint_acceleration(). (It
 /// is computed to find the active ones among redundant rows only, see DelassusMatrix::find_active_rows.)
 /// Source of the name: J. Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of constrained

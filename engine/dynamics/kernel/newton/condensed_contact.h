@@ -14,11 +14,12 @@ namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// Contacts of a joint in the Newton system, with their bristles z condensed (static condensation, a Schur
-/// complement of 2 x 2 blocks): Eq. (K32). From the derivatives by the journal's tangent y and by z, of which
-/// each pair depends on itself alone,
+/// complement of 2 x 2 blocks): Eq. (K32). From the derivatives by the journal's tangent xi and by z, of
+/// which each pair depends on itself alone,
 ///
-///     load = L y + B z,   sigma z - b_z = D y + E z
-///     =>   z = (sigma 1 - E)^-1 (b_z + D y),   load = (L + B (sigma 1 - E)^-1 D) y + B (sigma 1 - E)^-1 b_z
+///     load = L xi + B z,   sigma z - b_z = D xi + E z
+///     =>   z = (sigma 1 - E)^-1 (b_z + D xi),
+///          load = (L + B (sigma 1 - E)^-1 D) xi + B (sigma 1 - E)^-1 b_z
 ///
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>
@@ -62,7 +63,7 @@ class CondensedContact {
     return regular;
   }
 
-  /// The load by the right-hand side b_z, with y = 0. @param z  b_z of all bristles of this joint
+  /// The load by the right-hand side b_z, with xi = 0. @param z  b_z of all bristles of this joint
   [[nodiscard]] RPSUP_INLINE LoadTangent<Scalar> start(NumbersAt<Scalar> z) {
     const NumbersAt<Scalar> z_free = z_.first();
     Pack8 load{};
@@ -80,16 +81,16 @@ class CondensedContact {
             number(ContactRows::kFrictionPower)};
   }
 
-  /// The load by y. @tparam T  Scalar, or a pack
+  /// The load by xi. @tparam T  Scalar, or a pack
   template <typename T>
-  [[nodiscard]] RPSUP_INLINE LoadTangent<T> apply(const JournalTangent_b<T>& y) const {
-    return rows_.apply(y);
+  [[nodiscard]] RPSUP_INLINE LoadTangent<T> apply(const JournalTangent_b<T>& xi) const {
+    return rows_.apply(xi);
   }
 
   /// Writes the acting bristles into z, after start().
-  RPSUP_INLINE void finish(const JournalTangent_b<Scalar>& y, NumbersAt<Scalar> z) {
-    const Scalar numbers[kJournal] = {y.rotation.x, y.rotation.y, y.rotation.z, y.p.x, y.p.y, y.p.z,
-                                      y.v.x,        y.v.y,        y.v.z,        y.w.x, y.w.y, y.w.z};
+  RPSUP_INLINE void finish(const JournalTangent_b<Scalar>& xi, NumbersAt<Scalar> z) {
+    const Scalar numbers[kJournal] = {xi.rotation.x, xi.rotation.y, xi.rotation.z, xi.p.x, xi.p.y, xi.p.z,
+                                      xi.v.x,        xi.v.y,        xi.v.z,        xi.w.x, xi.w.y, xi.w.z};
     const NumbersAt<Scalar> z_free = z_.first();
     const RowsAt<Scalar> response = response_.rows(stride_);
     for (int i = 0; i < acting_.count; i += RowLanes::kCount) {
@@ -129,8 +130,8 @@ class CondensedContact {
   ContactRowsOf<Pack8> rows_;
   int stride_;                    ///< bristles, padded to whole blocks
   Buffer<Scalar> inverse_;        ///< (sigma 1 - E)^-1: 2 x 2 for each acting pair, row by row
-  NumberRows<Scalar> response_;   ///< (sigma 1 - E)^-1 D: a row for each number of y
-  NumberRows<Scalar> z_;        ///< z with y = 0; then z
+  NumberRows<Scalar> response_;   ///< (sigma 1 - E)^-1 D: a row for each number of xi
+  NumberRows<Scalar> z_;        ///< z with xi = 0; then z
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -20,8 +20,8 @@ constexpr std::size_t kLanes = Lanes::kCount;
 
 /// One of the twelve numbers of a journal's tangent.
 template <typename T>
-[[nodiscard]] RPSUP_INLINE T& number_of(JournalTangent_b<T>& y, std::size_t k) {
-  Vec3<T>& v = k < 3 ? y.rotation : k < 6 ? y.p : k < 9 ? y.v : y.w;
+[[nodiscard]] RPSUP_INLINE T& number_of(JournalTangent_b<T>& xi, std::size_t k) {
+  Vec3<T>& v = k < 3 ? xi.rotation : k < 6 ? xi.p : k < 9 ? xi.v : xi.w;
   return k % 3 == 0 ? v.x : k % 3 == 1 ? v.y : v.z;
 }
 
@@ -37,10 +37,10 @@ template <typename Scalar>
 ContactUpdate<Scalar>::ContactUpdate(const TreeModel& model, const std::vector<ClearanceJoint>& joints)
     : touching_(joints.size()),
       capacitance_matrix_(kJournal * joints.size()),
-      y_(kJournal * joints.size()),
-      y_packs_(count_packs(y_.size())),
-      u_by_y_(model.free.size() * y_packs_.size()),
-      drive_force_by_y_(model.drives.size() * y_packs_.size()),
+      xi_(kJournal * joints.size()),
+      xi_packs_(count_packs(xi_.size())),
+      qd_by_xi_(model.free.size() * xi_packs_.size()),
+      drive_force_by_xi_(model.drives.size() * xi_packs_.size()),
       pack_work_(model) {
   for (const TreeCutJoint& joint : model.cut_joints)
     contacts_.push_back(std::make_unique<Contact>(joint, joints[joint.clearance].bristle_count()));
@@ -67,12 +67,12 @@ bool ContactUpdate<Scalar>::factor(const Tree& tree, const Scalar& shift) {
   }
   capacitance_matrix_.resize(kJournal * touching_count_);
   packs_ = count_packs(kJournal * touching_count_);
-  y_packs_.fill({});
+  xi_packs_.fill({});
   for (std::size_t pack = 0; pack < packs_; ++pack) assemble_capacitance(tree, pack);
   return capacitance_matrix_.factor() && regular;
 }
 
-/// Computes columns of T^-1 B L and of the capacitance matrix, for a pack of unit numbers of y.
+/// Computes columns of T^-1 B L and of the capacitance matrix, for a pack of unit numbers of xi.
 template <typename Scalar>
 void ContactUpdate<Scalar>::assemble_capacitance(const Tree& tree, std::size_t pack) {
   const std::size_t first = pack * kLanes;
@@ -80,24 +80,26 @@ void ContactUpdate<Scalar>::assemble_capacitance(const Tree& tree, std::size_t p
   pack_work_.bias_force.fill({});
   for (std::size_t t = 0; t < touching_count_; ++t) {
     const Contact& contact = *touching_[t];
-    JournalTangent_b<Pack8> y;
+    JournalTangent_b<Pack8> xi;
     for (std::size_t column = std::max(first, t * kJournal); column < std::min(end, (t + 1) * kJournal);
          ++column)
-      number_of(y, column - t * kJournal) = unit<Scalar, Lanes::kCount>(static_cast<int>(column - first));
+      number_of(xi, column - t * kJournal) = unit<Scalar, Lanes::kCount>(static_cast<int>(column - first));
     const Mat3<double>& R = contact.cut.b.R;
-    add_contact_force<Pack8>(tree, contact, R * y.rotation, R * y.p, contact.condensed.apply(y), pack_work_);
+    add_contact_force<Pack8>(tree, contact, R * xi.rotation, R * xi.p, contact.condensed.apply(xi),
+                             pack_work_);
   }
   tree.solve(pack_work_);
-  for (std::size_t i = 0; i < pack_work_.u.size(); ++i) u_by_y_[i * packs_ + pack] = pack_work_.u[i];
+  for (std::size_t i = 0; i < pack_work_.qd.size(); ++i) qd_by_xi_[i * packs_ + pack] = pack_work_.qd[i];
   for (std::size_t d = 0; d < pack_work_.drive_force.size(); ++d)
-    drive_force_by_y_[d * packs_ + pack] = pack_work_.drive_force[d];
+    drive_force_by_xi_[d * packs_ + pack] = pack_work_.drive_force[d];
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    JournalTangent_b<Pack8> y = journal_tangent(tree, *touching_[t], pack_work_);
+    JournalTangent_b<Pack8> xi = journal_tangent(tree, *touching_[t], pack_work_);
     for (std::size_t k = 0; k < kJournal; ++k)
       for (std::size_t column = first; column < end; ++column) {
         const std::size_t row = t * kJournal + k;
         capacitance_matrix_(row, column) =
-            Scalar{row == column ? 1.0 : 0.0} - number_in(number_of(y, k), static_cast<int>(column - first));
+            Scalar{row == column ? 1.0 : 0.0} -
+            number_in(number_of(xi, k), static_cast<int>(column - first));
       }
   }
 }
@@ -119,7 +121,7 @@ void ContactUpdate<Scalar>::add_contact_force(const Tree& tree, const Contact& c
   if (joint.journal_joint >= 0) work.bias_force[joint.journal_joint] += forces.on_journal;
 }
 
-/// y of a joint by the frames of its bodies, Eq. (K19).
+/// xi of a joint by the frames of its bodies, Eq. (K19).
 template <typename Scalar>
 template <typename T>
 JournalTangent_b<T> ContactUpdate<Scalar>::journal_tangent(
@@ -144,25 +146,25 @@ template <typename Scalar>
 void ContactUpdate<Scalar>::apply_woodbury(const Tree& tree, NumbersAt<Scalar> z, Workspace& work,
                                            LossPowers<Scalar>& losses) {
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    JournalTangent_b<Scalar> y = journal_tangent(tree, *touching_[t], work);
-    for (std::size_t k = 0; k < kJournal; ++k) y_[t * kJournal + k] = number_of(y, k);
+    JournalTangent_b<Scalar> xi = journal_tangent(tree, *touching_[t], work);
+    for (std::size_t k = 0; k < kJournal; ++k) xi_[t * kJournal + k] = number_of(xi, k);
   }
-  capacitance_matrix_.solve_in_place(y_.data());
+  capacitance_matrix_.solve_in_place(xi_.data());
   for (std::size_t i = 0; i < capacitance_matrix_.size(); ++i)
-    set_number_in(y_packs_[i / kLanes], static_cast<int>(i % kLanes), y_[i]);
-  const auto dot_y = [&](const Pack8* row) {
+    set_number_in(xi_packs_[i / kLanes], static_cast<int>(i % kLanes), xi_[i]);
+  const auto dot_xi = [&](const Pack8* row) {
     Pack8 products{};
-    for (std::size_t pack = 0; pack < packs_; ++pack) products += row[pack] * y_packs_[pack];
+    for (std::size_t pack = 0; pack < packs_; ++pack) products += row[pack] * xi_packs_[pack];
     return sum(products);
   };
-  for (std::size_t i = 0; i < work.u.size(); ++i) work.u[i] += dot_y(&u_by_y_[i * packs_]);
+  for (std::size_t i = 0; i < work.qd.size(); ++i) work.qd[i] += dot_xi(&qd_by_xi_[i * packs_]);
   for (std::size_t d = 0; d < work.drive_force.size(); ++d)
-    work.drive_force[d] += dot_y(&drive_force_by_y_[d * packs_]);
+    work.drive_force[d] += dot_xi(&drive_force_by_xi_[d * packs_]);
   for (std::size_t t = 0; t < touching_count_; ++t) {
-    JournalTangent_b<Scalar> y;
-    for (std::size_t k = 0; k < kJournal; ++k) number_of(y, k) = y_[t * kJournal + k];
-    add_losses(touching_[t]->condensed.apply(y), losses);
-    touching_[t]->condensed.finish(y, z.from(touching_[t]->acting.first));
+    JournalTangent_b<Scalar> xi;
+    for (std::size_t k = 0; k < kJournal; ++k) number_of(xi, k) = xi_[t * kJournal + k];
+    add_losses(touching_[t]->condensed.apply(xi), losses);
+    touching_[t]->condensed.finish(xi, z.from(touching_[t]->acting.first));
   }
 }
 

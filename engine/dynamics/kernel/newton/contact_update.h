@@ -25,12 +25,12 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// The contacts as a low-rank update of TreeRecursion, Eq. (K33): they couple bodies that are not parent and
 /// child.
 ///
-/// With y the tangents of the journals' motions in joints in contact, twelve numbers each, and T_0 the Newton
-/// matrix of the open chains,
+/// With xi the tangents of the journals' motions in joints in contact, twelve numbers each, and T_0 the
+/// Newton matrix of the open chains,
 ///
-///     T_0 x = b + F y,   y = G x   =>   (1 - G T_0^-1 F) y = G T_0^-1 b,   x = T_0^-1 b + T_0^-1 F y
+///     T_0 x = b + F xi,   xi = G x   =>   (1 - G T_0^-1 F) xi = G T_0^-1 b,   x = T_0^-1 b + T_0^-1 F xi
 ///
-/// where F are the loads (K20) on the bodies by y with the condensed contact (K32), G is (K19), and
+/// where F are the loads (K20) on the bodies by xi with the condensed contact (K32), G is (K19), and
 /// 1 - G T_0^-1 F is the capacitance matrix of Woodbury's identity. It loses digits where a contact is
 /// stiffer than all that moves without it. Source: G. H. Golub, C. F. Van Loan, Matrix Computations,
 /// section 2.1 (Sherman-Morrison-Woodbury formula).
@@ -53,10 +53,11 @@ class ContactUpdate {
   /// singular. @param tree  factored
   [[nodiscard]] bool factor(const Tree& tree, const Scalar& shift);
 
-  /// Adds the loads by the right-hand side z of the bristles, with y = 0, to the bias forces and losses.
+  /// Adds the loads by the right-hand side z of the bristles, with xi = 0, to the bias forces and losses.
   void add_bristle_loads(const Tree& tree, NumbersAt<Scalar> z, Workspace& work, LossPowers<Scalar>& losses);
 
-  /// Solves for y, and adds its part to u, the drive forces and the losses. Sets the acting bristles in z.
+  /// Solves for xi, and adds its part to the rates, the drive forces and the losses. Sets the acting bristles
+  /// in z.
   void apply_woodbury(const Tree& tree, NumbersAt<Scalar> z, Workspace& work, LossPowers<Scalar>& losses);
 
  private:
@@ -84,12 +85,12 @@ class ContactUpdate {
   std::vector<std::unique_ptr<Contact>> contacts_;
   Buffer<Contact*> touching_;               ///< joints in contact
   std::size_t touching_count_ = 0;
-  std::size_t packs_ = 0;                   ///< of the numbers of y
+  std::size_t packs_ = 0;                   ///< of the numbers of xi
   DenseMatrix<Scalar> capacitance_matrix_;  ///< factored
-  Buffer<Scalar> y_;
-  Buffer<Pack8> y_packs_;                   ///< y, packed
-  Buffer<Pack8> u_by_y_;                    ///< free coordinates x packs
-  Buffer<Pack8> drive_force_by_y_;          ///< drives x packs
+  Buffer<Scalar> xi_;
+  Buffer<Pack8> xi_packs_;                  ///< xi, packed
+  Buffer<Pack8> qd_by_xi_;                  ///< free coordinates x packs
+  Buffer<Pack8> drive_force_by_xi_;          ///< drives x packs
   PackWorkspace pack_work_;
 };
 

@@ -166,7 +166,7 @@ void NewtonMatrix<Scalar>::solve_in_place(NumbersAt<Scalar> x) {
 template <typename Scalar>
 template <typename Sizes>
 RPSUP_INLINE void NewtonMatrix<Scalar>::invert_bristle_blocks(const Sizes& size, const Scalar& shift) {
-  const double* E = J_.matrices->rates_by_own.data();
+  const double* E = J_.matrices->rates_by_bristle.data();
   const RowsAt<Scalar> inverse = bristle_inverse_.rows(size.pairs);
   const int pairs = J_.pairs;
   const WideScalar shifts = widen(shift);

@@ -58,7 +58,7 @@ class NewtonMatrix {
 
   const StateJacobian& J_;
   Scalar inverse_shift_{};
-  NumberRows<Scalar> bristle_inverse_;   ///< (sigma 1 - E)^-1 of each pair: rows as rates_by_own
+  NumberRows<Scalar> bristle_inverse_;   ///< (sigma 1 - E)^-1 of each pair: rows as rates_by_bristle
   /// rows 2 j and 2 j + 1: of the first and second bristles to the free rate j
   NumberRows<Scalar> bristle_response_;
   /// L, stored by columns: row(k) is column k. Before factor_lu(): the condensed matrix

@@ -42,7 +42,7 @@ void RecursiveNewtonSolver<Scalar>::solve_in_place(NumbersAt<Scalar> x) {
   // Of bristles that do not act; apply_woodbury() writes the others.
   for (int b = 0; b < layout_.bristles; ++b) z.set(b, inverse_shift_ * z[b]);
   contacts_.apply_woodbury(tree_, z, work_, losses);
-  losses.structural = tree_.calc_damper_power(work_.u);
+  losses.structural = tree_.calc_damper_power(work_.qd);
   write_state(losses, x);
 }
 
@@ -50,9 +50,9 @@ void RecursiveNewtonSolver<Scalar>::solve_in_place(NumbersAt<Scalar> x) {
 template <typename Scalar>
 void RecursiveNewtonSolver<Scalar>::write_state(const LossPowers<Scalar>& losses, NumbersAt<Scalar> x) const {
   for (int i = 0; i < layout_.free; ++i) {
-    const Scalar u = work_.u[i];
-    x.set(layout_.q(i), inverse_shift_ * (u + x[layout_.q(i)]));  // (K28)
-    x.set(layout_.v(i), u);
+    const Scalar qd = work_.qd[i];
+    x.set(layout_.q(i), inverse_shift_ * (qd + x[layout_.q(i)]));  // (K28)
+    x.set(layout_.v(i), qd);
   }
   const auto add = [&](int i, const Scalar& power) { x.set(i, inverse_shift_ * (x[i] + power)); };
   for (int d = 0; d < layout_.drives; ++d)

@@ -53,7 +53,7 @@ void TreeRecursion<Scalar>::solve(Workspace<Pack8>& work) const {
   base_to_tip<Pack8>(nullptr, work);
 }
 
-/// Eliminates the u of a joint: D^-1, U, and, if the parent moves, the gain and the parent's articulated
+/// Eliminates the rates of a joint: D^-1, U, and, if the parent moves, the gain and the parent's articulated
 /// tangent.
 template <typename Scalar>
 bool TreeRecursion<Scalar>::eliminate_joint(std::size_t i) {
@@ -63,24 +63,24 @@ bool TreeRecursion<Scalar>::eliminate_joint(std::size_t i) {
   const int count = joint.driven ? 0 : joint.count();
   CoordinateTangent<TailPack> seed[3];
   for (int k = 0; k < count; ++k) {
-    const TailPack one = unit<Scalar, kTail>(kFirstU + k);
+    const TailPack one = unit<Scalar, kTail>(kFirstRate + k);
     seed[k] = {true, inverse_shift_ * one, one, shift_ * one};  // (K28)
   }
   JointForce<TailPack> tail = calc_joint_force(i, unit_tangent_ninth<Scalar, kTail>(), seed);
   Scalar D[3][3];
   for (int k = 0; k < count; ++k)
-    for (int m = 0; m < count; ++m) D[k][m] = number_in(tail.residual[k], kFirstU + m);
+    for (int m = 0; m < count; ++m) D[k][m] = number_in(tail.residual[k], kFirstRate + m);
   const bool regular = joint.driven || invert_small(count, D, body.D_inverse);
   const ForceNumbers<TailPack> on_parent(tail.on_parent);
   for (int row = 0; row < kForces; ++row)
-    for (int k = 0; k < count; ++k) body.U[row][k] = number_in(*on_parent.of[row], kFirstU + k);
+    for (int k = 0; k < count; ++k) body.U[row][k] = number_in(*on_parent.of[row], kFirstRate + k);
   if (joint.parent_moves) add_to_parent(i, count, tail);
   return regular;
 }
 
 /// The gain, Eq. (K30), and P_parent += P' + U gain, Eq. (K31).
-/// @param count  of u
-/// @param tail   the joint's force by the ninth number of x_parent, and by u
+/// @param count  of dqd
+/// @param tail   the joint's force by the ninth number of x_parent, and by dqd
 template <typename Scalar>
 void TreeRecursion<Scalar>::add_to_parent(std::size_t i, int count, JointForce<TailPack> tail) {
   const TreeJoint& joint = model_.joints[i];
@@ -161,7 +161,7 @@ auto TreeRecursion<Scalar>::shift_to_parent(
   return result;
 }
 
-/// Tangent of a free coordinate with u = 0: Eq. (K28).
+/// Tangent of a free coordinate with dqd = 0: Eq. (K28).
 template <typename Scalar>
 template <typename T>
 CoordinateTangent<T> TreeRecursion<Scalar>::rhs_tangent(const TreeJoint& joint, int k,
@@ -174,7 +174,7 @@ CoordinateTangent<T> TreeRecursion<Scalar>::rhs_tangent(const TreeJoint& joint, 
   }
 }
 
-/// local_u of each joint, and p_0 of its subtree to its parent: Eqs. (K30), (K31).
+/// local_qd of each joint, and p_0 of its subtree to its parent: Eqs. (K30), (K31).
 template <typename Scalar>
 template <typename T>
 void TreeRecursion<Scalar>::tip_to_base(const NumbersAt<Scalar>* rhs, Workspace<T>& work) const {
@@ -191,48 +191,48 @@ void TreeRecursion<Scalar>::tip_to_base(const NumbersAt<Scalar>* rhs, Workspace<
       force += calc_newton_euler_tangent(joint, body.R, body.nominal, f);
       add_articulated_force(body.articulated_tangent, f, force);
     }
-    JointForce<T> p = shift_to_parent(i, seed, joint_rotation, force);
-    T* local_u = &work.local_u[joint.first];
+    JointForce<T> joint_force = shift_to_parent(i, seed, joint_rotation, force);
+    T* local_qd = &work.local_qd[joint.first];
     if (joint.driven) {
-      local_u[0] = p.residual[0];
+      local_qd[0] = joint_force.residual[0];
     } else {
       for (int k = 0; k < joint.count(); ++k) {
-        local_u[k] = T{};
-        for (int m = 0; m < joint.count(); ++m) local_u[k] -= body.D_inverse[k][m] * p.residual[m];
+        local_qd[k] = T{};
+        for (int m = 0; m < joint.count(); ++m) local_qd[k] -= body.D_inverse[k][m] * joint_force.residual[m];
       }
-      const ForceNumbers<T> on_parent(p.on_parent);
+      const ForceNumbers<T> on_parent(joint_force.on_parent);
       for (int row = 0; row < kForces; ++row)
-        for (int k = 0; k < joint.count(); ++k) *on_parent.of[row] += body.U[row][k] * local_u[k];
+        for (int k = 0; k < joint.count(); ++k) *on_parent.of[row] += body.U[row][k] * local_qd[k];
     }
-    if (joint.parent >= 0) work.bias_force[joint.parent] += p.on_parent;
+    if (joint.parent >= 0) work.bias_force[joint.parent] += joint_force.on_parent;
   }
 }
 
-/// u = local_u + gain x_parent, Eq. (K30), and the tangent of each frame.
+/// dqd = local_qd + gain x_parent, Eq. (K30), and the tangent of each frame.
 template <typename Scalar>
 template <typename T>
 void TreeRecursion<Scalar>::base_to_tip(const NumbersAt<Scalar>* rhs, Workspace<T>& work) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TreeJoint& joint = model_.joints[i];
     const Body& body = bodies_[i];
-    const T* local_u = &work.local_u[joint.first];
-    T u[3];
-    for (int k = 0; k < joint.count(); ++k) u[k] = local_u[k];
+    const T* local_qd = &work.local_qd[joint.first];
+    T qd[3];
+    for (int k = 0; k < joint.count(); ++k) qd[k] = local_qd[k];
     FrameTangent<T> f;
     if (joint.parent_moves) {
       f = work.frames[joint.parent];
       const FrameNumbers<T> x_parent(f);
-      for (int k = 0; k < joint.count(); ++k) u[k] += apply_row(body.gain[k], x_parent);
+      for (int k = 0; k < joint.count(); ++k) qd[k] += apply_row(body.gain[k], x_parent);
     }
-    if (joint.driven) work.drive_force[joint.drive] = u[0];
+    if (joint.driven) work.drive_force[joint.drive] = qd[0];
     if (!joint.moves) continue;
     CoordinateTangent<T> seed[3];
     for (int k = 0; k < joint.count() && !joint.driven; ++k) {
-      work.u[joint.first_free + k] = u[k];
+      work.qd[joint.first_free + k] = qd[k];
       seed[k] = rhs_tangent<T>(joint, k, rhs);
-      seed[k].q += inverse_shift_ * u[k];
-      seed[k].qd = u[k];
-      seed[k].qdd += shift_ * u[k];
+      seed[k].q += inverse_shift_ * qd[k];
+      seed[k].qd = qd[k];
+      seed[k].qdd += shift_ * qd[k];
     }
     Vec3<T> joint_rotation;
     calc_frame_tangent(joint, body.axes, body.nominal, body.coordinates, seed, f, joint_rotation);
@@ -241,12 +241,12 @@ void TreeRecursion<Scalar>::base_to_tip(const NumbersAt<Scalar>* rhs, Workspace<
 }
 
 template <typename Scalar>
-Scalar TreeRecursion<Scalar>::calc_damper_power(const Buffer<Scalar>& u) const {
+Scalar TreeRecursion<Scalar>::calc_damper_power(const Buffer<Scalar>& qd) const {
   Scalar power{};
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TreeJoint& joint = model_.joints[i];
     for (int k = 0; k < joint.count() && !joint.driven; ++k)
-      power += bodies_[i].damper_power_by_rate[k] * u[joint.first_free + k];
+      power += bodies_[i].damper_power_by_rate[k] * qd[joint.first_free + k];
   }
   return power;
 }

@@ -23,22 +23,22 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// The Newton system (sigma 1 - J) x = b of the open chains, without contacts, solved in O(n) by the
 /// recursion of ArticulatedBodies.
 ///
-/// The unknowns are u, the tangents of the free rates. With them and the right-hand side (b_q, b_v) the
-/// tangents of a free coordinate are known, Eq. (K28):
+/// The unknowns are dqd, the tangents of the free rates. With them and the right-hand side (b_q, b_v) the
+/// other tangents of a free coordinate are known, Eq. (K28):
 ///
-///     dq = (u + b_q) / sigma,   dqd = u,   dqdd = sigma u - b_v
+///     dq = (dqd + b_q) / sigma,   dqdd = sigma dqd - b_v
 ///
 /// so that the tangent x = (w, wd, vd) of a frame is linear in that of its parent's frame and in the joint's
-/// u. The steps are those of ArticulatedBodies, with x instead of the acceleration:
+/// dqd. The steps are those of ArticulatedBodies, with x instead of the acceleration:
 ///
 ///     (K29)  articulated tangent  p = P x + p_0: the force that the children pass to a body, by the
 ///            tangent of its frame (6 x 9); the body's own force (K18) is added
-///     (K30)  joint residual       r = Q x_parent + D u + r_0 = 0: balance along the joint's axes
-///            gain                 u = local_u + gain x_parent,  local_u = -D^-1 r_0,  gain = -D^-1 Q
-///     (K31)  to the parent        P_parent += P' + U gain,  p_0,parent += p_0' + U local_u
+///     (K30)  joint residual       r = Q x_parent + D dqd + r_0 = 0: balance along the joint's axes
+///            gain                 dqd = local_qd + gain x_parent,  local_qd = -D^-1 r_0,  gain = -D^-1 Q
+///     (K31)  to the parent        P_parent += P' + U gain,  p_0,parent += p_0' + U local_qd
 ///
-/// with U the force on the parent by u, and P', p_0' the force on the parent with u = 0. Equation numbers are
-/// those of kernel/README.md.
+/// with U the force on the parent by dqd, and P', p_0' that with dqd = 0. Equation numbers are those of
+/// kernel/README.md.
 /// @tparam Scalar  double or Complex<double>, as the shift sigma is
 template <typename Scalar>
 class TreeRecursion {
@@ -51,16 +51,16 @@ class TreeRecursion {
   struct Workspace {
     explicit Workspace(const TreeModel& model)
         : bias_force(model.joints.size()),
-          local_u(model.coordinates),
+          local_qd(model.coordinates),
           frames(model.joints.size()),
-          u(model.free.size()),
+          qd(model.free.size()),
           drive_force(model.drives.size()) {}
     /// one a joint; in: tangent of the load on the body, negative; out: force on the joint's subtree with
-    /// x_parent = 0 and the joint's own u = 0; local_u of the joints in the subtree is in it
+    /// x_parent = 0 and the joint's dqd = 0; local_qd of the joints in the subtree is in it
     Buffer<SpatialForce<T>> bias_force;
-    Buffer<T> local_u;  ///< u with x_parent = 0, of a driven joint its force; one a coordinate
+    Buffer<T> local_qd;  ///< dqd with x_parent = 0, of a driven joint its force; one a coordinate
     Buffer<FrameTangent<T>> frames;      ///< out, one a joint
-    Buffer<T> u;                         ///< out, one a free coordinate
+    Buffer<T> qd;                        ///< out, dqd: one a free coordinate
     Buffer<T> drive_force;               ///< out, one a drive
   };
 
@@ -73,7 +73,7 @@ class TreeRecursion {
   /// Eliminates all joints, tip to base. False if a D is singular.
   [[nodiscard]] bool factor(const Scalar& shift);
 
-  /// Solves for u, after factor(). @param rhs  (b_q, b_v)
+  /// Solves for dqd, after factor(). @param rhs  (b_q, b_v)
   void solve(const NumbersAt<Scalar>& rhs, Workspace<Scalar>& work) const;
   /// The same of eight loads at once, with (b_q, b_v) = 0.
   void solve(Workspace<Pack8>& work) const;
@@ -92,13 +92,13 @@ class TreeRecursion {
   }
 
   /// Power of all dampers by the tangents of the rates.
-  [[nodiscard]] Scalar calc_damper_power(const Buffer<Scalar>& u) const;
+  [[nodiscard]] Scalar calc_damper_power(const Buffer<Scalar>& qd) const;
 
  private:
   static constexpr int kForces = 6;             ///< force and moment
-  static constexpr int kFirstU = 1;             ///< lane of the first u in a TailPack
-  static constexpr int kTail = kFirstU + 3;
-  /// The ninth number of x, and a joint's three u.
+  static constexpr int kFirstRate = 1;          ///< lane of the first dqd in a TailPack
+  static constexpr int kTail = kFirstRate + 3;
+  /// The ninth number of x, and a joint's three dqd.
   using TailPack = typename NumbersOf<Scalar>::template Block<kTail>;
 
   /// A body and the joint that carries it.
@@ -112,9 +112,9 @@ class TreeRecursion {
     double damper_power_by_rate[3];
     // Of factor()
     Row9<Scalar> articulated_tangent[kForces];  ///< P of the children's subtrees, about the body's origin
-    Scalar U[kForces][3];                       ///< force on the parent by u
-    Scalar D_inverse[3][3];                     ///< of the joint residual by u
-    Row9<Scalar> gain[3];                       ///< u, or of a driven joint its force, by x_parent
+    Scalar U[kForces][3];                       ///< force on the parent by dqd
+    Scalar D_inverse[3][3];                     ///< of the joint residual by dqd
+    Row9<Scalar> gain[3];                       ///< dqd, or of a driven joint its force, by x_parent
   };
   /// The force that a joint passes to its parent, and the residual of its balance.
   template <typename T>

@@ -198,7 +198,8 @@ class BristleJacobian {
       const auto by_one_of_pair = [&](int b) RPSUP_INLINE_LAMBDA {
         return block.contact.rate_by_bristle(b, (b & ~1) + k);
       };
-      block.store(block.collect(by_one_of_pair), J.matrices->rates_by_own.data() + k * stride, 2 * stride);
+      block.store(block.collect(by_one_of_pair), J.matrices->rates_by_bristle.data() + k * stride,
+                  2 * stride);
     }
   }
 

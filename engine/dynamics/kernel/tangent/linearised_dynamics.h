@@ -17,7 +17,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// powers by a pack of seeds, exact to rounding (forward-mode differentiation).
 ///
 /// The residual of inverse dynamics R(q, qd, qdd, lambda) = M qdd + h - tau - Phi_q^T lambda is
-/// differentiated with qdd and lambda held, and the accelerations make up for its tangent, Eq. (K15):
+/// differentiated with qdd and lambda constant, and the accelerations make up for its tangent, Eq. (K15):
 ///
 ///     M dqdd = Phi_q^T dlambda - dR
 ///
@@ -169,7 +169,7 @@ class LinearisedDynamics {
     return p - dynamics_.frames[joint].p;
   }
 
-  /// Tangents of an ideal joint's reaction, with the multipliers held, and of the right-hand side of its
+  /// Tangents of an ideal joint's reaction, with constant multipliers, and of the right-hand side of its
   /// rows.
   RPSUP_INLINE void calc_reaction_tangent(const TreeCutJoint& joint) {
     const Frame<TangentDual, TangentDual> b =

@@ -48,7 +48,7 @@ struct StateJacobian {
           by_bristle(area(J.bristles, J.stride)),
           rates_by_q(area(2 * J.free, J.pair_stride)),
           rates_by_v(area(2 * J.free, J.pair_stride)),
-          rates_by_own(area(4, J.pair_stride)) {}
+          rates_by_bristle(area(4, J.pair_stride)) {}
 
     [[nodiscard]] static std::size_t area(int rows, int columns) {
       return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
@@ -59,7 +59,7 @@ struct StateJacobian {
     // Of the bristles' rates: a row of the first bristles of all pairs, then one of the second
     Buffer<double> rates_by_q, rates_by_v;  ///< free coordinates x 2 x pair_stride
     /// 2 x 2 x pair_stride: of the first by the first, of the first by the second, of the second ...
-    Buffer<double> rates_by_own;
+    Buffer<double> rates_by_bristle;
   };
   void make_matrices() {
     if (!matrices) matrices = std::make_unique<Matrices>(*this);
