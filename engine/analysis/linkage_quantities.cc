@@ -27,7 +27,8 @@ LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage&
       add_coordinate(linkage.joints[k].freedoms[static_cast<std::size_t>(i)], built.joints[k].first + i);
   for (std::size_t k = 0; k < linkage.joints.size(); ++k) add_joint(linkage.joints[k], built.joints[k]);
   for (std::size_t k = 0; k < linkage.springs.size(); ++k) add_spring(linkage.springs[k], k);
-  add_energies();
+  add_energy_channels();
+  add_run_metrics();
 }
 
 Preparation LinkageQuantities::prepare() {
@@ -164,7 +165,7 @@ void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t inde
            1.0, tension);
 }
 
-void LinkageQuantities::add_energies() {
+void LinkageQuantities::add_energy_channels() {
   add_channel("kinetic_energy_j", "Kinetic energy of all bodies",
               [](const Evaluation& at) { return at.energy.kinetic; });
   add_channel("potential_energy_j", "Potential energy of gravity, of springs and of the elastic contacts",
@@ -174,6 +175,9 @@ void LinkageQuantities::add_energies() {
   channels_.push_back(
       {.info = {.key = "energy_imbalance_j", .help = "E − E(0) − work of the drives + losses"},
        .kind = Channel::Kind::kImbalance});
+}
+
+void LinkageQuantities::add_run_metrics() {
   add_metric(
       {.key = "impact_count",
        .help = "Number of onsets of radial contact in the whole run, counted for each ring of each journal",

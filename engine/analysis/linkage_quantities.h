@@ -37,7 +37,8 @@ class LinkageQuantities {
   void add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench);
   void add_clearance(const LinkageJoint& joint, std::size_t cut);
   void add_spring(const LinkageSpring& spring, std::size_t index);
-  void add_energies();
+  void add_energy_channels();
+  void add_run_metrics();
   void add_channel(std::string key, std::string help, Reading read);
   void add_load(std::string key, std::string help, double scale, Reading read);
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/analysis/rpsup_quantities.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -50,6 +47,86 @@ Reading rate(FrameIndex i) {
   return [i](const Evaluation& at) { return at.qd[i]; };
 }
 
+/// Adds a channel that is read at an instant. The info has a name: g++ 12 would destroy its strings twice if
+/// the channel could not be made.
+void add_reading(std::vector<Channel>& channels, std::string key, std::string help, Reading read,
+                 std::string symbol = {}) {
+  QuantityInfo info{.key = std::move(key), .help = std::move(help), .symbol = std::move(symbol)};
+  channels.push_back({.info = std::move(info), .read = std::move(read)});
+}
+
+/// Adds the least or the largest acceleration of a coordinate since the sample before.
+void add_extreme(std::vector<Channel>& channels, std::string key, std::string help, Channel::Kind kind,
+                 FrameIndex coordinate) {
+  QuantityInfo info{.key = std::move(key), .help = std::move(help)};
+  channels.push_back({.info = std::move(info), .kind = kind, .coordinate = coordinate});
+}
+
+/// Time and the motion of crank, rod and slider.
+void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channels) {
+  const FrameIndex slider = layout.slider;
+  add_reading(channels, "t_s", "Time", [](const Evaluation& at) { return at.t; }, "t");
+  add_reading(channels, "crank_angle_rad", "Angle of the crank, link (1,1)", position(layout.crank),
+              "ψ^(1,1)");
+  add_reading(channels, "crank_velocity_rad_s", "Angular velocity of the crank", rate(layout.crank),
+              "ψ̇^(1,1)");
+  add_reading(channels, "rod_displacement_m",
+              "Displacement of the telescoping rod, link (1,2), along the crank", position(layout.rod),
+              "z^(1,2)");
+  add_reading(channels, "slider_position_m", "Position of the slider, link (2,1), along its guide",
+              position(slider), "z^(2,1)");
+  add_reading(channels, "slider_velocity_m_s", "Velocity of the slider", rate(slider), "ż^(2,1)");
+  add_reading(channels, "slider_acceleration_m_s2", "Acceleration of the slider",
+              [slider](const Evaluation& at) { return at.qdd[slider]; }, "z̈^(2,1)");
+  add_extreme(channels, "slider_acceleration_min_m_s2",
+              "Smallest acceleration of the slider since the sample before",
+              Channel::Kind::kLeastAcceleration, slider);
+  add_extreme(channels, "slider_acceleration_max_m_s2",
+              "Largest acceleration of the slider since the sample before",
+              Channel::Kind::kLargestAcceleration, slider);
+}
+
+/// Motion and loads of the joint between coupler and cross link, and the drives' forces.
+void add_joint_channels(bool clearance, std::vector<Channel>& channels) {
+  add_reading(channels, "journal_x_mm", "Journal centre in the bearing frame {b}: x, across the axis",
+              journal_mm(0));
+  add_reading(channels, "journal_y_mm", "Journal centre in the bearing frame {b}: y, across the axis",
+              journal_mm(1));
+  add_reading(channels, "journal_z_mm", "Journal centre in the bearing frame {b}: z, along the axis",
+              journal_mm(2));
+  add_reading(channels, "journal_tilt_mrad", "Angle between the axes of journal and bearing",
+              [](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[0].journal); });
+  add_reading(channels, "contact_force_n",
+              "Sum of the radial normal forces on the journal; null without clearance",
+              clearance ? &radial_force : &none, "Σ f_n");
+  add_reading(channels, "friction_force_n",
+              "Sum of the magnitudes of the friction forces on the journal; null without clearance",
+              clearance ? &friction_force : &none, "Σ |f_t|");
+  add_reading(channels, "crank_torque_n_m", "Driving torque of the crank", crank_torque);
+  add_reading(channels, "rod_force_n", "Driving force of the telescoping rod", rod_force);
+  add_reading(channels, "reaction_x_n", "Force of the coupler on the cross link: x in the global frame",
+              reaction_along(0));
+  add_reading(channels, "reaction_y_n", "Force of the coupler on the cross link: y in the global frame",
+              reaction_along(1));
+  add_reading(channels, "reaction_z_n", "Force of the coupler on the cross link: z in the global frame",
+              reaction_along(2));
+}
+
+/// The energy account.
+void add_energy_channels(std::vector<Channel>& channels) {
+  add_reading(channels, "kinetic_energy_j", "Kinetic energy of all links",
+              [](const Evaluation& at) { return at.energy.kinetic; });
+  add_reading(channels, "potential_energy_j",
+              "Potential energy of gravity, of the flexible links' springs and of the elastic contact",
+              [](const Evaluation& at) { return at.energy.potential; });
+  add_reading(channels, "drive_work_j", "Work of both drives since t = 0",
+              [](const Evaluation& at) { return at.energy.drive_work.sum(); });
+  channels.push_back(
+      {.info = {.key = "energy_residual",
+                .help = "(E − E(0) − work of the drives + losses) / work turned over in the whole run"},
+       .kind = Channel::Kind::kImbalance});
+}
+
 /// Of one ring of the journal.
 void add_sliding_work(int ring, const RpsupParameters& parameters, const SlidingWork& sliding_work,
                       std::vector<Channel>& channels) {
@@ -63,16 +140,15 @@ void add_sliding_work(int ring, const RpsupParameters& parameters, const Sliding
   };
   const std::string work =
       "Time integral of normal force × sliding speed of this ring of the journal since t = 0";
-  // The info has a name: g++ 12 would destroy its strings twice if the reading after them could not be made.
   const auto add = [&](const char* unit, const char* condition, double SlidingWork::Ring::*part) {
-    QuantityInfo info{.key = key + unit, .help = work + condition};
-    channels.push_back({.info = std::move(info), .read = read(part)});
+    add_reading(channels, key + unit, work + condition, read(part));
   };
   add("_j", "; null without clearance", &SlidingWork::Ring::work);
   add("_x_j", ", weighted with x of the contact normal", &SlidingWork::Ring::work_x);
   add("_y_j", ", weighted with y of the contact normal", &SlidingWork::Ring::work_y);
   if (!parameters.wear_depth.empty())
-    add("_penetration_j_m", ", weighted with the penetration; of worn bores only", &SlidingWork::Ring::work_delta);
+    add("_penetration_j_m", ", weighted with the penetration; of worn bores only",
+        &SlidingWork::Ring::work_delta);
 }
 
 }  // namespace
@@ -139,83 +215,19 @@ std::vector<QuantityInfo> channel_table(const RpsupParameters& parameters) {
 
 std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rpsup& rpsup,
                                     const SlidingWork& sliding_work) {
-  const RpsupLayout& layout = rpsup.layout;
-  const FrameIndex slider = layout.slider;
-  const bool clearance = parameters.c_r > 0.0;
-  std::vector<Channel> channels{
-      {.info = {.key = "t_s", .help = "Time", .symbol = "t"},
-       .read = [](const Evaluation& at) { return at.t; }},
-      {.info = {.key = "crank_angle_rad", .help = "Angle of the crank, link (1,1)", .symbol = "ψ^(1,1)"},
-       .read = position(layout.crank)},
-      {.info = {.key = "crank_velocity_rad_s", .help = "Angular velocity of the crank", .symbol = "ψ̇^(1,1)"},
-       .read = rate(layout.crank)},
-      {.info = {.key = "rod_displacement_m",
-                .help = "Displacement of the telescoping rod, link (1,2), along the crank",
-                .symbol = "z^(1,2)"},
-       .read = position(layout.rod)},
-      {.info = {.key = "slider_position_m",
-                .help = "Position of the slider, link (2,1), along its guide",
-                .symbol = "z^(2,1)"},
-       .read = position(slider)},
-      {.info = {.key = "slider_velocity_m_s", .help = "Velocity of the slider", .symbol = "ż^(2,1)"},
-       .read = rate(slider)},
-      {.info = {.key = "slider_acceleration_m_s2", .help = "Acceleration of the slider", .symbol = "z̈^(2,1)"},
-       .read = [slider](const Evaluation& at) { return at.qdd[slider]; }},
-      {.info = {.key = "slider_acceleration_min_m_s2",
-                .help = "Smallest acceleration of the slider since the sample before"},
-       .kind = Channel::Kind::kLeastAcceleration,
-       .coordinate = slider},
-      {.info = {.key = "slider_acceleration_max_m_s2",
-                .help = "Largest acceleration of the slider since the sample before"},
-       .kind = Channel::Kind::kLargestAcceleration,
-       .coordinate = slider},
-      {.info = {.key = "journal_x_mm", .help = "Journal centre in the bearing frame {b}: x, across the axis"},
-       .read = journal_mm(0)},
-      {.info = {.key = "journal_y_mm", .help = "Journal centre in the bearing frame {b}: y, across the axis"},
-       .read = journal_mm(1)},
-      {.info = {.key = "journal_z_mm", .help = "Journal centre in the bearing frame {b}: z, along the axis"},
-       .read = journal_mm(2)},
-      {.info = {.key = "journal_tilt_mrad", .help = "Angle between the axes of journal and bearing"},
-       .read = [](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[0].journal); }},
-      {.info = {.key = "contact_force_n",
-                .help = "Sum of the radial normal forces on the journal; null without clearance",
-                .symbol = "Σ f_n"},
-       .read = clearance ? radial_force : none},
-      {.info = {.key = "friction_force_n",
-                .help = "Sum of the magnitudes of the friction forces on the journal; null without clearance",
-                .symbol = "Σ |f_t|"},
-       .read = clearance ? friction_force : none},
-      {.info = {.key = "crank_torque_n_m", .help = "Driving torque of the crank"}, .read = crank_torque},
-      {.info = {.key = "rod_force_n", .help = "Driving force of the telescoping rod"}, .read = rod_force},
-      {.info = {.key = "reaction_x_n",
-                .help = "Force of the coupler on the cross link: x in the global frame"},
-       .read = reaction_along(0)},
-      {.info = {.key = "reaction_y_n",
-                .help = "Force of the coupler on the cross link: y in the global frame"},
-       .read = reaction_along(1)},
-      {.info = {.key = "reaction_z_n",
-                .help = "Force of the coupler on the cross link: z in the global frame"},
-       .read = reaction_along(2)},
-      {.info = {.key = "coupler_deflection_mm",
-                .help = "Distance of the bearing's centre from its place on the undeformed coupler"},
-       .read = [&parameters,
-                &rpsup](const Evaluation& at) { return 1e3 * calc_deflection(parameters, rpsup, at); }},
-      {.info = {.key = "kinetic_energy_j", .help = "Kinetic energy of all links"},
-       .read = [](const Evaluation& at) { return at.energy.kinetic; }},
-      {.info = {.key = "potential_energy_j",
-                .help =
-                    "Potential energy of gravity, of the flexible links' springs and of the elastic contact"},
-       .read = [](const Evaluation& at) { return at.energy.potential; }},
-      {.info = {.key = "drive_work_j", .help = "Work of both drives since t = 0"},
-       .read = [](const Evaluation& at) { return at.energy.drive_work.sum(); }},
-      {.info = {.key = "energy_residual",
-                .help = "(E − E(0) − work of the drives + losses) / work turned over in the whole run"},
-       .kind = Channel::Kind::kImbalance},
-  };
-  for (const BentLink& link : layout.bent)
-    channels.push_back({.info = {.key = link.name + "_deflection_mm",
-                                 .help = "Distance of the link's end from its place on the undeformed link"},
-                        .read = [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); }});
+  std::vector<Channel> channels;
+  add_motion_channels(rpsup.layout, channels);
+  add_joint_channels(parameters.c_r > 0.0, channels);
+  add_reading(channels, "coupler_deflection_mm",
+              "Distance of the bearing's centre from its place on the undeformed coupler",
+              [&parameters, &rpsup](const Evaluation& at) {
+                return 1e3 * calc_deflection(parameters, rpsup, at);
+              });
+  add_energy_channels(channels);
+  for (const BentLink& link : rpsup.layout.bent)
+    add_reading(channels, link.name + "_deflection_mm",
+                "Distance of the link's end from its place on the undeformed link",
+                [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); });
   for (int ring = 0; ring < parameters.radial_levels; ++ring)
     add_sliding_work(ring, parameters, sliding_work, channels);
   return channels;

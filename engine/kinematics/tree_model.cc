@@ -126,6 +126,25 @@ class JointFinder {
   std::vector<int> joint_of_;
 };
 
+/// A cut joint but for its rows, or its index among the joints with clearance.
+TreeCutJoint make_cut_joint(const CutJoint& joint, const JointFinder& finder) {
+  return {.bearing_joint = finder.joint_of(joint.bearing_frame),
+          .journal_joint = finder.joint_of(joint.journal_frame),
+          .bearing = make_placement(joint.bearing),
+          .journal = make_placement(joint.journal),
+          .rows = {}};
+}
+
+TreeSpring make_spring(const PointSpring& spring, const JointFinder& finder) {
+  return {.from_joint = finder.joint_of(spring.from_frame),
+          .to_joint = finder.joint_of(spring.to_frame),
+          .from = make_placement({.p = spring.from}),
+          .to = make_placement({.p = spring.to}),
+          .stiffness = spring.stiffness,
+          .damping = spring.damping,
+          .free_length = spring.free_length};
+}
+
 }  // namespace
 
 CutRows rows_of(CutKind kind) {
@@ -155,11 +174,7 @@ TreeModel::TreeModel(const Mechanism& mechanism)
     for (int k = 0; k < joint.count() && !joint.driven; ++k) free.push_back(joint.first + k);
   int clearances = 0;
   for (const CutJoint& joint : mechanism.cut_joints) {
-    TreeCutJoint cut{.bearing_joint = finder.joint_of(joint.bearing_frame),
-                     .journal_joint = finder.joint_of(joint.journal_frame),
-                     .bearing = make_placement(joint.bearing),
-                     .journal = make_placement(joint.journal),
-                     .rows = {}};
+    TreeCutJoint cut = make_cut_joint(joint, finder);
     if (joint.clearance) {
       cut.clearance = clearances++;
     } else {
@@ -169,14 +184,7 @@ TreeModel::TreeModel(const Mechanism& mechanism)
     }
     cut_joints.push_back(cut);
   }
-  for (const PointSpring& spring : mechanism.springs)
-    springs.push_back({.from_joint = finder.joint_of(spring.from_frame),
-                       .to_joint = finder.joint_of(spring.to_frame),
-                       .from = make_placement({.p = spring.from}),
-                       .to = make_placement({.p = spring.to}),
-                       .stiffness = spring.stiffness,
-                       .damping = spring.damping,
-                       .free_length = spring.free_length});
+  for (const PointSpring& spring : mechanism.springs) springs.push_back(make_spring(spring, finder));
   first_coupling_row = rows;
   rows += static_cast<int>(couplings.size());
   first_drive_row = rows;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/flexible/rfem.h"
 #include "engine/model/rpsup_geometry.h"
@@ -95,15 +96,10 @@ LinkageFreedom driven(std::string name, const DriveLaw& law) {
   return {.name = std::move(name), .drive = law};
 }
 
-Linkage describe_rpsup(const RpsupParameters& p) {
-  Linkage linkage;
-  linkage.bodies = {make_round_link(p, Link::k11, "1,1", p.crank_length, p.crank),
-                    make_round_link(p, Link::k12, "1,2", p.rod_length, p.rod),
-                    make_round_link(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)),
-                    make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
+std::vector<LinkageJoint> describe_joints(const RpsupParameters& p) {
   const double guide = guide_position(p);
   const AssemblyGuess guess = calc_assembly_guess(p);
-  linkage.joints = {
+  return {
       {.name = "crank",
        .from = kGroundName,
        .to = "1,1",
@@ -145,6 +141,15 @@ Linkage describe_rpsup(const RpsupParameters& p) {
        .cut = true,
        .to_placement = journal_placement(p)},
   };
+}
+
+Linkage describe_rpsup(const RpsupParameters& p) {
+  Linkage linkage;
+  linkage.bodies = {make_round_link(p, Link::k11, "1,1", p.crank_length, p.crank),
+                    make_round_link(p, Link::k12, "1,2", p.rod_length, p.rod),
+                    make_round_link(p, Link::k13, "1,3", p.coupler_length, form_of_coupler(p)),
+                    make_body(p, Link::k21, "2,1", 0.0), make_cross(p)};
+  linkage.joints = describe_joints(p);
   if (p.c_r > 0.0) linkage.joints.back().clearance = make_clearance(p);
   linkage.drive_rows =
       p.drive == DriveEnforcement::kBaumgarte ? DriveRows::kMultipliers : DriveRows::kEliminated;

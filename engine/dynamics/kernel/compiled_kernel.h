@@ -13,10 +13,40 @@
 #include "engine/dynamics/kernel/tangent/seed_schedule.h"
 #include "engine/dynamics/kernel/tangent/state_jacobian.h"
 #include "engine/dynamics/state_layout.h"
+#include "engine/kinematics/plain_frame.h"
 #include "engine/math/complex.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
+
+/// Reads out the frame of a joint's k-th coordinate. Numbers are copied one by one, here and below: functions
+/// of Eigen would be shared between instruction sets by the linker.
+inline void read_out_frame(const Frame<double, double>& from, const JointAxes& axes, int k,
+                           FrameMotion& to) {
+  copy(axes.axis[k], to.axis.data());
+  copy(k == 0 ? axes.r : Vec3<double>{}, to.p_parent.data());
+  copy(from.R, to.R.data());
+  copy(from.p, to.p.data());
+  copy(from.w, to.w.data());
+  copy(from.v, to.v.data());
+}
+
+inline void read_out_joint(const CutJointMotion<double, double>& from, JointState& to) {
+  copy(from.journal.R, to.journal.R_bj.data());
+  copy(from.journal.p, to.journal.p_bj.data());
+  copy(from.journal.v, to.journal.v.data());
+  copy(from.journal.w, to.journal.w.data());
+  copy(from.reaction, to.reaction_W.data());
+  copy(from.moment, to.moment_W.data());
+  copy(from.load.force, to.load.force.data());
+  copy(from.load.moment, to.load.moment.data());
+  to.load.radial_normal_sum = from.load.radial_normal_sum;
+  to.load.friction_sum = from.load.friction_sum;
+  to.load.max_penetration = from.load.max_penetration;
+  to.load.elastic_energy = from.load.elastic_energy;
+  to.load.impact_power = from.load.impact_power;
+  to.load.friction_power = from.load.friction_power;
+}
 
 /// The dynamics kernel of a topology: state vectors in and out, around ForwardDynamics, LinearisedDynamics
 /// and the Newton solvers.
@@ -240,57 +270,18 @@ class CompiledKernel final : public DynamicsKernel {
   NewtonSolver newton_solver_ = NewtonSolver::kDense;  ///< of the last linearise()
 };
 
-/// Copies numbers one by one: functions of Eigen would be shared between instruction sets by the linker.
 template <typename Topology>
 void CompiledKernel<Topology>::read_out(Evaluation& at) const {
-  const auto copy = [](const Vec3<double>& v, double* to) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-  };
-  const auto copy_matrix = [&](const Mat3<double>& m, double* to) {
-    copy(m.x, to);
-    copy(m.y, to + 3);
-    copy(m.z, to + 6);
-  };
   for (std::size_t i = 0; i < kept_.q.size(); ++i) {
     at.q.data()[i] = kept_.q[i];
     at.qd.data()[i] = kept_.qd[i];
     at.qdd.data()[i] = kept_.qdd[i];
   }
-  for (std::size_t i = 0; i < model_.joints.size(); ++i) {
-    const TreeJoint& joint = model_.joints[i];
-    const Frame<double, double>& from = kept_.frames[i];
-    const JointAxes& axes = kept_.axes[i];
-    for (int k = 0; k < joint.count(); ++k) {
-      FrameMotion& to = at.frames.data()[joint.first + k];
-      copy(axes.axis[k], to.axis.data());
-      copy(k == 0 ? axes.r : Vec3<double>{}, to.p_parent.data());
-      copy_matrix(from.R, to.R.data());
-      copy(from.p, to.p.data());
-      copy(from.w, to.w.data());
-      copy(from.v, to.v.data());
-    }
-  }
+  for (std::size_t i = 0; i < model_.joints.size(); ++i)
+    for (int k = 0; k < model_.joints[i].count(); ++k)
+      read_out_frame(kept_.frames[i], kept_.axes[i], k, at.frames.data()[model_.joints[i].first + k]);
   for (std::size_t k = 0; k < model_.drives.size(); ++k) at.drive_force.data()[k] = kept_.drive_force[k];
-  for (std::size_t k = 0; k < kept_.cuts.size(); ++k) {
-    const CutJointMotion<double, double>& from = kept_.cuts[k];
-    JointState& to = at.joints.data()[k];
-    copy_matrix(from.journal.R, to.journal.R_bj.data());
-    copy(from.journal.p, to.journal.p_bj.data());
-    copy(from.journal.v, to.journal.v.data());
-    copy(from.journal.w, to.journal.w.data());
-    copy(from.reaction, to.reaction_W.data());
-    copy(from.moment, to.moment_W.data());
-    copy(from.load.force, to.load.force.data());
-    copy(from.load.moment, to.load.moment.data());
-    to.load.radial_normal_sum = from.load.radial_normal_sum;
-    to.load.friction_sum = from.load.friction_sum;
-    to.load.max_penetration = from.load.max_penetration;
-    to.load.elastic_energy = from.load.elastic_energy;
-    to.load.impact_power = from.load.impact_power;
-    to.load.friction_power = from.load.friction_power;
-  }
+  for (std::size_t k = 0; k < kept_.cuts.size(); ++k) read_out_joint(kept_.cuts[k], at.joints.data()[k]);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -99,44 +99,8 @@ class ArticulatedBodies {
   template <typename T, typename Tau, typename Qdd>
   RPSUP_INLINE void solve(const JointAxes* axes, const Tau& tau, Workspace<T>& work, const Qdd& qdd,
                           const SlenderBodyMotion* slender = nullptr) const {
-    Topology::tip_to_base(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      SpatialForce<T>& force = work.bias_forces[i];
-      if (!joint.driven) {
-        Vec3<T> first_moment;
-        if (joint.is_slender && joint.has_moving_children) first_moment = work.first_moments[i];
-        if (joint.is_slender && slender)
-          first_moment = first_moment + in_first_lane<T>(slender[i].first_moment);
-        with_kind(joint, factors_[i], [&](const auto& factor) RPSUP_INLINE_LAMBDA {
-          factor.tip_to_base_force(joint, axes[i], tau + joint.first, first_moment, work.local[i], force);
-        });
-      }
-      if (joint.parent < 0) return;
-      const int p = joint.parent;
-      SpatialForce<T>& parent = work.bias_forces[p];
-      parent.force += force.force;
-      if (joint.parent_is_slender) {
-        work.first_moments[p] =
-            joint.data().placement.p[0] * force.force;  // the only child: see complete_traits()
-        parent.moment += force.moment;
-      } else if (joint.parent_frame_rotates) {
-        parent.moment += force.moment + cross(axes[i].r, force.force);
-      }
-    });
-    Topology::base_to_tip(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
-      if (!joint.moves) return;
-      SpatialAcceleration<T> a;
-      if (joint.parent_moves) {
-        a = work.accelerations[joint.parent];
-        if (joint.parent_moment_matters) a.linear += cross(a.angular, axes[i].r);
-      }
-      if (!joint.driven) {
-        with_kind(joint, factors_[i], [&](const auto& factor) RPSUP_INLINE_LAMBDA {
-          factor.base_to_tip_acceleration(joint, axes[i], work.local[i], slender ? &slender[i] : nullptr, a,
-                                          qdd + joint.first);
-        });
-      }
-      if (joint.has_moving_children || joint.driven || Topology::has_constraints) work.accelerations[i] = a;
-    });
+    calc_forces(axes, tau, work, slender);
+    calc_accelerations(axes, work, qdd, slender);
   }
 
   /// solve() of a pack of seeds. Much code with several callers: not inlined into each of them.
@@ -173,6 +137,56 @@ class ArticulatedBodies {
     SlenderBodyFactor slender;
     SingleAxisFactor single_axis;
   };
+
+  /// The forces of solve(), tip to base.
+  template <typename T, typename Tau>
+  RPSUP_INLINE void calc_forces(const JointAxes* axes, const Tau& tau, Workspace<T>& work,
+                                const SlenderBodyMotion* slender) const {
+    Topology::tip_to_base(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      SpatialForce<T>& force = work.bias_forces[i];
+      if (!joint.driven) {
+        Vec3<T> first_moment;
+        if (joint.is_slender && joint.has_moving_children) first_moment = work.first_moments[i];
+        if (joint.is_slender && slender)
+          first_moment = first_moment + in_first_lane<T>(slender[i].first_moment);
+        with_kind(joint, factors_[i], [&](const auto& factor) RPSUP_INLINE_LAMBDA {
+          factor.tip_to_base_force(joint, axes[i], tau + joint.first, first_moment, work.local[i], force);
+        });
+      }
+      if (joint.parent < 0) return;
+      const int p = joint.parent;
+      SpatialForce<T>& parent = work.bias_forces[p];
+      parent.force += force.force;
+      if (joint.parent_is_slender) {
+        work.first_moments[p] =
+            joint.data().placement.p[0] * force.force;  // the only child: see complete_traits()
+        parent.moment += force.moment;
+      } else if (joint.parent_frame_rotates) {
+        parent.moment += force.moment + cross(axes[i].r, force.force);
+      }
+    });
+  }
+
+  /// The accelerations of solve(), base to tip.
+  template <typename T, typename Qdd>
+  RPSUP_INLINE void calc_accelerations(const JointAxes* axes, Workspace<T>& work, const Qdd& qdd,
+                                       const SlenderBodyMotion* slender) const {
+    Topology::base_to_tip(model_, [&](std::size_t i, const auto& joint) RPSUP_INLINE_LAMBDA {
+      if (!joint.moves) return;
+      SpatialAcceleration<T> a;
+      if (joint.parent_moves) {
+        a = work.accelerations[joint.parent];
+        if (joint.parent_moment_matters) a.linear += cross(a.angular, axes[i].r);
+      }
+      if (!joint.driven) {
+        with_kind(joint, factors_[i], [&](const auto& factor) RPSUP_INLINE_LAMBDA {
+          factor.base_to_tip_acceleration(joint, axes[i], work.local[i], slender ? &slender[i] : nullptr, a,
+                                          qdd + joint.first);
+        });
+      }
+      if (joint.has_moving_children || joint.driven || Topology::has_constraints) work.accelerations[i] = a;
+    });
+  }
 
   /// Calls f with the factor of the joint's kind.
   template <typename Joint, typename Factor, typename Function>
