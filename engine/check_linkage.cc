@@ -126,10 +126,9 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
 
 /// The cut joint whose parts stand furthest apart.
 std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& at) {
-  const auto place_of = [&](FrameIndex frame, const Placement& placement) -> Eigen::Vector3d {
-    if (frame == kGround) return placement.p;
-    const FrameMotion& f = at.frames[static_cast<std::size_t>(frame)];
-    return f.p + f.R * placement.p;
+  const auto point_of = [&](FrameIndex frame, const Placement& placement) -> Eigen::Vector3d {
+    const FrameMotion body = motion_of(frame, at.frames);
+    return body.p + body.R * placement.p;
   };
   std::string widest;
   double most = -1.0;
@@ -137,7 +136,7 @@ std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const 
     if (built.joints[k].cut < 0) continue;
     const CutJoint& joint = built.mechanism.cut_joints[static_cast<std::size_t>(built.joints[k].cut)];
     const double gap =
-        (place_of(joint.journal_frame, joint.journal) - place_of(joint.bearing_frame, joint.bearing)).norm();
+        (point_of(joint.journal_frame, joint.journal) - point_of(joint.bearing_frame, joint.bearing)).norm();
     if (gap > most) {
       most = gap;
       widest = linkage.joints[k].name;

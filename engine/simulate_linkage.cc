@@ -21,11 +21,7 @@ RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, do
                        RunChannels(quantities.channels(), built.mechanism.links, quantities.prepare()),
                        stop_requested);
   const RunOutcome outcome = simulate(built.mechanism, options, observer);
-  RunResult result{.status = outcome.status,
-                   .t_end = outcome.t,
-                   .detail = outcome.detail,
-                   .metrics = {},
-                   .trajectory = {}};
+  RunResult result{.status = outcome.status, .t_end = outcome.t, .detail = outcome.detail};
   if (outcome.status == RunStatus::kSucceeded)
     result.metrics = quantities.calc_metrics(observer.metrics, outcome);
   result.trajectory = observer.channels.finish(0.0);

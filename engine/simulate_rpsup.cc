@@ -43,11 +43,7 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
                          RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links),
                          sliding_work, stop_requested);
   const RunOutcome outcome = simulate(rpsup.mechanism, options, observer);
-  RunResult result{.status = outcome.status,
-                   .t_end = outcome.t,
-                   .detail = outcome.detail,
-                   .metrics = {},
-                   .trajectory = {}};
+  RunResult result{.status = outcome.status, .t_end = outcome.t, .detail = outcome.detail};
   if (outcome.status == RunStatus::kSucceeded) {
     const std::optional<Peak> ideal =
         find_ideal_peak(parameters, parameters.run_up, options.duration, stop_requested);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/dynamics/loop_closure.h"
@@ -53,9 +52,7 @@ class IdealPeakSearch {
   [[nodiscard]] bool advance(double to) {
     while (last_.t < to) {
       piece_start_ = last_.t;
-      piece_end_ = to;
-      for (const Drive& drive : ideal_.mechanism.drives)
-        piece_end_ = std::min(piece_end_, find_next_corner(drive.law, last_.t));
+      piece_end_ = std::min(to, find_next_corner(ideal_.mechanism.drives, last_.t));
       if (to - piece_end_ <= 1e-12 * to) piece_end_ = to;
       scale_ = 0.0;
       while (last_.t < piece_end_)
@@ -101,10 +98,7 @@ class IdealPeakSearch {
 
   /// The longest interval from the last node on that the drives allow.
   [[nodiscard]] double calc_longest() const {
-    double longest = std::numeric_limits<double>::infinity();
-    for (const Drive& drive : ideal_.mechanism.drives)
-      longest = std::min(longest, kIntervalOfTimeScale * calc_time_scale(drive.law, last_.t));
-    return longest;
+    return kIntervalOfTimeScale * calc_time_scale(ideal_.mechanism.drives, last_.t);
   }
 
   /// Position, velocity and acceleration at t, from those of two instants: see LoopClosure::extrapolate.

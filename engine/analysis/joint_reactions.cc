@@ -31,10 +31,7 @@ void JointReactions::add_spring(const PointSpring& spring) {
 
 /// Force and moment act where the journal's centre is, the opposite ones on the bearing there.
 void JointReactions::add_cut_joint(const CutJoint& joint, const JointState& state) {
-  const auto frame_of = [&](FrameIndex index) {
-    return index == kGround ? FrameMotion{} : frames_[static_cast<std::size_t>(index)];
-  };
-  const FrameMotion journal = frame_of(joint.journal_frame);
+  const FrameMotion journal = motion_of(joint.journal_frame, frames_);
   const Eigen::Vector3d point = journal.p + journal.R * joint.journal.p;
   const auto add = [&](FrameIndex index, double sign) {
     if (index == kGround) return;

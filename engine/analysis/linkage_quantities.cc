@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/analysis/linkage_quantities.h"
 
-#include <array>
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "engine/dynamics/spring_motion.h"
@@ -13,7 +11,7 @@ namespace engine {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kAxisNames{"x", "y", "z"};
+constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
 }  // namespace
 
@@ -112,15 +110,13 @@ void LinkageQuantities::add_reaction(const LinkageJoint& joint,
                                      const std::function<Wrench(const Evaluation&)>& wrench) {
   const std::string of = " of the joint on its second body: ";
   for (int axis = 0; axis < 3; ++axis)
-    add_channel(
-        joint.name + "_force_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_n",
-        "Force" + of + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + " in the global frame",
-        [=](const Evaluation& at) { return wrench(at).force[axis]; });
+    add_channel(joint.name + "_force_" + kAxisNames[axis] + "_n",
+                "Force" + of + kAxisNames[axis] + " in the global frame",
+                [=](const Evaluation& at) { return wrench(at).force[axis]; });
   for (int axis = 0; axis < 3; ++axis)
-    add_channel(
-        joint.name + "_moment_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_n_m",
-        "Moment" + of + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + " in the global frame",
-        [=](const Evaluation& at) { return wrench(at).moment[axis]; });
+    add_channel(joint.name + "_moment_" + kAxisNames[axis] + "_n_m",
+                "Moment" + of + kAxisNames[axis] + " in the global frame",
+                [=](const Evaluation& at) { return wrench(at).moment[axis]; });
   add_load("peak_" + joint.name + "_reaction_n",
            "Largest magnitude of the force in the joint in the whole run", 1.0,
            [=](const Evaluation& at) { return wrench(at).force.norm(); });
@@ -128,10 +124,9 @@ void LinkageQuantities::add_reaction(const LinkageJoint& joint,
 
 void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut) {
   for (int axis = 0; axis < 3; ++axis)
-    add_channel(
-        joint.name + "_journal_" + std::string(kAxisNames[static_cast<std::size_t>(axis)]) + "_mm",
-        "Journal centre in the bearing frame: " + std::string(kAxisNames[static_cast<std::size_t>(axis)]),
-        [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
+    add_channel(joint.name + "_journal_" + kAxisNames[axis] + "_mm",
+                std::string("Journal centre in the bearing frame: ") + kAxisNames[axis],
+                [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
   add_channel(joint.name + "_journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [=](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[cut].journal); });
   const Reading force = [=](const Evaluation& at) { return at.joints[cut].load.radial_normal_sum; };

@@ -17,8 +17,8 @@ struct RunResult {
   std::string detail;           ///< of a failure: what happened, for the user
   /// One for each of the linkage's metrics (metric_table() of RPSUP's); NaN: does not apply to this run.
   /// Empty on failure.
-  std::vector<double> metrics;
-  Trajectory trajectory;
+  std::vector<double> metrics = {};
+  Trajectory trajectory = {};
 };
 
 /// Asked now and then (every 256 steps) with the simulated time; true ends the run with kStopped.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/clearance/clearance_joint.h"
 
-#include "engine/clearance/continuum_law.h"
-#include "engine/clearance/elements_law.h"
-#include "engine/clearance/faces_law.h"
+#include "engine/clearance/joint_contact.h"
 
 namespace engine {
 
@@ -29,14 +27,8 @@ int ClearanceJoint::ring_count() const {
 
 bool ClearanceJoint::calc(const JournalMotion& journal, const double* bristles, double* bristle_rates,
                           ContactLoad& load) const {
-  const RelativeMotion<double, double> motion = to_relative_motion(journal);
   JointLoad<double> sum;
-  bool complete = true;
-  add_faces(faces_, motion, sum);
-  if (const RadialElements* points = elements())
-    complete = add_elements(*points, motion, bristles, bristle_rates, sum);
-  else
-    add_continuum(*continuum(), motion, bristles, bristle_rates, sum);
+  const bool complete = add_contacts(*this, to_relative_motion(journal), bristles, bristle_rates, sum);
   load = to_contact_load(sum);
   return complete;
 }

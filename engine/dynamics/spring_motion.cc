@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/dynamics/spring_motion.h"
 
-#include <cstddef>
-
 #include <Eigen/Geometry>
 
 namespace engine {
 
 SpringMotion calc_spring_motion(const PointSpring& spring, const std::vector<FrameMotion>& frames) {
-  const auto body_of = [&](FrameIndex frame) {
-    return frame == kGround ? FrameMotion{} : frames[static_cast<std::size_t>(frame)];
-  };
-  const FrameMotion from = body_of(spring.from_frame), to = body_of(spring.to_frame);
+  const FrameMotion from = motion_of(spring.from_frame, frames), to = motion_of(spring.to_frame, frames);
   SpringMotion motion;
   motion.from = from.p + from.R * spring.from;
   motion.to = to.p + to.R * spring.to;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,10 +107,7 @@ class KinematicRun {
   }
 
   [[nodiscard]] double calc_longest() const {
-    double longest = std::numeric_limits<double>::infinity();
-    for (const Drive& drive : mechanism_.drives)
-      longest = std::min(longest, kStepOfTimeScale * calc_time_scale(drive.law, nodes_[0].t));
-    return longest;
+    return kStepOfTimeScale * calc_time_scale(mechanism_.drives, nodes_[0].t);
   }
 
   /// Solves the instants of the next block, with the step halved until the block is resolved. False if the
@@ -120,9 +116,7 @@ class KinematicRun {
     constexpr double kShortest = 1e-9;        // of the longest step: a motion that it cannot follow is locked
     constexpr double kEasy = 1.0 / 32.0;      // twice the step makes sixteen times the error
     constexpr double kShortResolved = 1e-3;   // of the drives' step: a shorter one may be unresolved
-    double limit = options_.duration;
-    for (const Drive& drive : mechanism_.drives)
-      limit = std::min(limit, find_next_corner(drive.law, nodes_[0].t));
+    double limit = std::min(options_.duration, find_next_corner(mechanism_.drives, nodes_[0].t));
     if (options_.duration - limit < kSameInstant * limit) limit = options_.duration;
     const double allowed = calc_longest();
     const double longest = std::min(allowed, 2.0 * (limit - nodes_[0].t));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,11 @@ struct FrameMotion {
 
 /// The motion of the ground as the frames on it see it: at rest, gravity as an upward acceleration.
 [[nodiscard]] FrameMotion ground_motion(const Mechanism& mechanism);
+
+/// The motion of a frame; of the ground: at rest, without gravity. @param frames  one a coordinate
+[[nodiscard]] inline FrameMotion motion_of(FrameIndex frame, const std::vector<FrameMotion>& frames) {
+  return frame == kGround ? FrameMotion{} : frames[static_cast<std::size_t>(frame)];
+}
 
 /// Computes the pose of every frame from the joint coordinates, root to tip, Eq. (2).
 /// @param q       one entry a coordinate

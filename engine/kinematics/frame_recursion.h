@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
-
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/dual.h"
 #include "engine/math/vec3.h"

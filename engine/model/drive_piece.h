@@ -9,6 +9,20 @@
 
 namespace engine {
 
+/// The least of calc_time_scale() of the drives' laws.
+[[nodiscard]] inline double calc_time_scale(const std::vector<Drive>& drives, double t) {
+  double scale = std::numeric_limits<double>::infinity();
+  for (const Drive& drive : drives) scale = std::min(scale, calc_time_scale(drive.law, t));
+  return scale;
+}
+
+/// The first of find_next_corner() of the drives' laws.
+[[nodiscard]] inline double find_next_corner(const std::vector<Drive>& drives, double t) {
+  double corner = std::numeric_limits<double>::infinity();
+  for (const Drive& drive : drives) corner = std::min(corner, find_next_corner(drive.law, t));
+  return corner;
+}
+
 /// The stretch of time between two jumps of the drives' accelerations. A step does not cross a jump: it ends
 /// there, with the accelerations before the jump, and the next one begins with those behind it. Steps may end
 /// a rounding beside the jump; is_over() decides, not a comparison of instants.

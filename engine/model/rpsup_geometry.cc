@@ -70,18 +70,12 @@ Placement guide_frame(const RpsupParameters& p) {
 
 Eigen::Vector3d gravity_direction_W(Direction direction) {
   switch (direction) {
-    case Direction::kX:
-      return Eigen::Vector3d::UnitX();
-    case Direction::kMinusX:
-      return -Eigen::Vector3d::UnitX();
-    case Direction::kY:
-      return Eigen::Vector3d::UnitY();
-    case Direction::kMinusY:
-      return -Eigen::Vector3d::UnitY();
-    case Direction::kZ:
-      return Eigen::Vector3d::UnitZ();
-    case Direction::kMinusZ:
-      return -Eigen::Vector3d::UnitZ();
+    case Direction::kX: return Eigen::Vector3d::UnitX();
+    case Direction::kMinusX: return -Eigen::Vector3d::UnitX();
+    case Direction::kY: return Eigen::Vector3d::UnitY();
+    case Direction::kMinusY: return -Eigen::Vector3d::UnitY();
+    case Direction::kZ: return Eigen::Vector3d::UnitZ();
+    case Direction::kMinusZ: return -Eigen::Vector3d::UnitZ();
   }
   return Eigen::Vector3d::Zero();
 }

@@ -16,6 +16,15 @@ DynamicsKernel* try_topology(const TreeModel& model, const std::vector<Clearance
   return Topology::fit(model) ? new CompiledKernel<Topology>(model, joints, bristles) : nullptr;
 }
 
+/// The kernel of the first topology that fits.
+template <typename... Topologies>
+DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
+                               std::size_t bristles) {
+  DynamicsKernel* kernel = nullptr;
+  (void)(((kernel = try_topology<Topologies>(model, joints, bristles)) != nullptr) || ...);
+  return kernel;
+}
+
 }  // namespace
 
 /// Eight topologies are static: the paper's linkage with prescribed drives, its yoke about the guide or
@@ -24,26 +33,12 @@ DynamicsKernel* try_topology(const TreeModel& model, const std::vector<Clearance
 /// registers anyway, so that the flexible ones are rolled.
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
                                      std::size_t bristles) {
-  if (DynamicsKernel* rigid = try_topology<StaticTopology<kRigidRpsup, true>>(model, joints, bristles))
-    return rigid;
-  if (DynamicsKernel* flexible = try_topology<StaticTopology<kFlexibleRpsup, true>>(model, joints, bristles))
-    return flexible;
-  if (DynamicsKernel* ideal = try_topology<StaticTopology<kRigidRpsup, false>>(model, joints, bristles))
-    return ideal;
-  if (DynamicsKernel* flexible_ideal =
-          try_topology<StaticTopology<kFlexibleRpsup, false>::Rolled>(model, joints, bristles))
-    return flexible_ideal;
-  if (DynamicsKernel* rigid = try_topology<StaticTopology<kRigidRpsupAcross, true>>(model, joints, bristles))
-    return rigid;
-  if (DynamicsKernel* flexible =
-          try_topology<StaticTopology<kFlexibleRpsupAcross, true>>(model, joints, bristles))
-    return flexible;
-  if (DynamicsKernel* ideal = try_topology<StaticTopology<kRigidRpsupAcross, false>>(model, joints, bristles))
-    return ideal;
-  if (DynamicsKernel* flexible_ideal =
-          try_topology<StaticTopology<kFlexibleRpsupAcross, false>::Rolled>(model, joints, bristles))
-    return flexible_ideal;
-  return try_topology<DynamicTopology>(model, joints, bristles);
+  return try_topologies<
+      StaticTopology<kRigidRpsup, true>, StaticTopology<kFlexibleRpsup, true>,
+      StaticTopology<kRigidRpsup, false>, StaticTopology<kFlexibleRpsup, false>::Rolled,
+      StaticTopology<kRigidRpsupAcross, true>, StaticTopology<kFlexibleRpsupAcross, true>,
+      StaticTopology<kRigidRpsupAcross, false>, StaticTopology<kFlexibleRpsupAcross, false>::Rolled,
+      DynamicTopology>(model, joints, bristles);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

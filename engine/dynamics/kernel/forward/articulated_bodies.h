@@ -9,7 +9,6 @@
 #include "engine/dynamics/newton_euler.h"
 #include "engine/kinematics/frame_recursion.h"
 #include "engine/kinematics/tree_model.h"
-#include "engine/math/buffer.h"
 #include "engine/math/lanes.h"
 #include "engine/math/vec3.h"
 

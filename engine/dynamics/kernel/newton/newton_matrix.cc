@@ -2,7 +2,6 @@
 // Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
 #include "engine/dynamics/kernel/newton/newton_matrix.h"
 
-#include <cstddef>
 #include <utility>
 
 #include "engine/math/complex.h"

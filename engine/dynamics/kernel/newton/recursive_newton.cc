@@ -2,8 +2,6 @@
 // Compiled once for each instruction set: RPSUP_INSTRUCTION_SET is its name.
 #include "engine/dynamics/kernel/newton/recursive_newton.h"
 
-#include <cstddef>
-
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
