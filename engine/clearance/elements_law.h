@@ -135,25 +135,6 @@ RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMoti
   return bristle >= 0;
 }
 
-/// Friction at eight contact points side by side; by laws with branches, at one point after the other.
-[[nodiscard]] RPSUP_INLINE FrictionForce<Lanes> calc_friction(const FrictionParameters& p, const Lanes& v_t,
-                                                              const Lanes& v_z, const Lanes& z_t,
-                                                              const Lanes& z_z) {
-  if (p.law == FrictionLaw::kLuGre || p.law == FrictionLaw::kDahl) {
-    const Lanes decay = calc_bristle_decay(p, sqrt(v_t * v_t + v_z * v_z));
-    return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
-  }
-  FrictionForce<Lanes> all{};
-  for (int lane = 0; lane < Lanes::kCount; ++lane) {
-    const FrictionForce<double> one = calc_friction(p, v_t[lane], v_z[lane], z_t[lane], z_z[lane]);
-    all.along_t.force_ratio.set(lane, one.along_t.force_ratio);
-    all.along_t.rate.set(lane, one.along_t.rate);
-    all.along_z.force_ratio.set(lane, one.along_z.force_ratio);
-    all.along_z.rate.set(lane, one.along_z.rate);
-  }
-  return all;
-}
-
 /// Eight neighbours on a ring side by side, the first of them k, with bristles from `bristle` on. Those that
 /// do not touch add zeros.
 RPSUP_INLINE void add_neighbours(const RadialElements& elements,

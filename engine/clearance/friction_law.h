@@ -105,5 +105,27 @@ template <typename V>
   return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
 }
 
+/// Friction at several contact points side by side; by laws with branches, at one point after the other.
+template <int count>
+[[nodiscard]] RPSUP_INLINE FrictionForce<LaneBlock<count>> calc_friction(const FrictionParameters& p,
+                                                                         const LaneBlock<count>& v_t,
+                                                                         const LaneBlock<count>& v_z,
+                                                                         const LaneBlock<count>& z_t,
+                                                                         const LaneBlock<count>& z_z) {
+  if (p.law == FrictionLaw::kLuGre || p.law == FrictionLaw::kDahl) {
+    const LaneBlock<count> decay = calc_bristle_decay(p, sqrt(v_t * v_t + v_z * v_z));
+    return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
+  }
+  FrictionForce<LaneBlock<count>> all{};
+  for (int lane = 0; lane < count; ++lane) {
+    const FrictionForce<double> one = calc_friction(p, v_t[lane], v_z[lane], z_t[lane], z_z[lane]);
+    all.along_t.force_ratio.set(lane, one.along_t.force_ratio);
+    all.along_t.rate.set(lane, one.along_t.rate);
+    all.along_z.force_ratio.set(lane, one.along_z.force_ratio);
+    all.along_z.rate.set(lane, one.along_z.rate);
+  }
+  return all;
+}
+
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

@@ -12,23 +12,6 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-[[nodiscard]] RPSUP_INLINE BristleLaw<LanePair> join(const BristleLaw<double>& a,
-                                                     const BristleLaw<double>& b) {
-  return {join(a.force_ratio, b.force_ratio), join(a.rate, b.rate)};
-}
-/// Friction at two contact points side by side; by laws with branches, at one point after the other.
-[[nodiscard]] RPSUP_INLINE FrictionForce<LanePair> calc_friction(const FrictionParameters& p,
-                                                                 const LanePair& v_t, const LanePair& v_z,
-                                                                 const LanePair& z_t, const LanePair& z_z) {
-  if (p.law == FrictionLaw::kLuGre || p.law == FrictionLaw::kDahl) {
-    const LanePair decay = calc_bristle_decay(p, sqrt(v_t * v_t + v_z * v_z));
-    return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
-  }
-  const FrictionForce<double> a = calc_friction(p, v_t[0], v_z[0], z_t[0], z_z[0]),
-                              b = calc_friction(p, v_t[1], v_z[1], z_t[1], z_z[1]);
-  return {join(a.along_t, b.along_t), join(a.along_z, b.along_z)};
-}
-
 /// Adds the load of one of two rings.
 RPSUP_INLINE void add_lane(const JointLoad<LanePair>& two, int lane, JointLoad<double>& load) {
   load.force += Vec3<double>{two.force.x[lane], two.force.y[lane], two.force.z[lane]};

@@ -111,28 +111,25 @@ class CompiledKernel final : public DynamicsKernel {
   }
 
   bool factor(double shift) override {
-    return newton_solver_ == NewtonSolver::kRecursive ? recursive_->real.factor(shift)
-                                                      : dense_->real.factor(shift);
+    return with_solvers([&](auto& solvers) { return solvers.real.factor(shift); });
   }
   bool factor(double real, double imag) override {
-    const Complex<double> shift{real, imag};
-    return newton_solver_ == NewtonSolver::kRecursive ? recursive_->complex.factor(shift)
-                                                      : dense_->complex.factor(shift);
+    return with_solvers([&](auto& solvers) { return solvers.complex.factor({real, imag}); });
   }
   void solve(double* x) override {
-    if (newton_solver_ == NewtonSolver::kRecursive)
-      recursive_->real.solve_in_place({x});
-    else
-      dense_->real.solve_in_place({x});
+    with_solvers([&](auto& solvers) { solvers.real.solve_in_place({x}); });
   }
   void solve(double* real, double* imag) override {
-    if (newton_solver_ == NewtonSolver::kRecursive)
-      recursive_->complex.solve_in_place({real, imag});
-    else
-      dense_->complex.solve_in_place({real, imag});
+    with_solvers([&](auto& solvers) { solvers.complex.solve_in_place({real, imag}); });
   }
 
  private:
+  /// Calls f with the solvers, dense or recursive, of the last linearise().
+  template <typename Function>
+  auto with_solvers(const Function& f) {
+    return newton_solver_ == NewtonSolver::kRecursive ? f(*recursive_) : f(*dense_);
+  }
+
   template <typename Visited>
   RPSUP_INLINE EvaluationStatus evaluate(const double* y, const DrivenMotion* drives,
                                          ForwardDynamics<Visited>& at, double* dydt) const {
