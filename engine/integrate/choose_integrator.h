@@ -12,9 +12,9 @@ namespace engine {
 [[nodiscard]] bool has_clearance(const Mechanism& mechanism);
 
 /// The integrator that is used: the requested one; for kAuto radau5. With radau5 at the tolerance of
-/// choose_tolerance() nearly all converging peaks are right to 0.1 %; no other method was as right for clearly
-/// less work. Exception: friction without bristles between rigid links asks for tolerances at which dopri5
-/// takes half the time.
+/// choose_tolerance() nearly all converging peaks are right to 0.1 %; no other method was as right for
+/// clearly less work. Exception: friction without bristles between rigid links asks for tolerances at which
+/// dopri5 takes half the time.
 [[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator requested);
 
 /// Longest step of an error-controlled integrator, [s]. With radau5 and clearance it is shorter where
