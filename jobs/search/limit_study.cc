@@ -21,10 +21,10 @@ SearchRequest search_of(const StudyRow& row) {
   return parse_search_request(ordered_json::parse(row.request), std::numeric_limits<std::size_t>::max());
 }
 
-/// State of a search: computes limits only of combinations without pending jobs.
-class LimitState final : public StudyState {
+/// Sampler of a search: computes limits only of combinations without pending jobs.
+class LimitSampler final : public StudySampler {
  public:
-  LimitState(SearchRequest search, const SweepResults& results)
+  LimitSampler(SearchRequest search, const SweepResults& results)
       : search_(std::move(search)), results_(search_, results.sweep), open_(results_.combinations.size()) {
     for (const ResultRow& job : results.rows) results_.add(job);
     for (std::size_t k = 0; k < open_; ++k) add_if_ready(k);
@@ -73,9 +73,9 @@ class LimitStudy final : public StudyType {
     return {std::move(sweep), std::move(plan)};
   }
 
-  [[nodiscard]] std::unique_ptr<StudyState> make_state(const StudyRow& row,
-                                                       const SweepResults& results) const override {
-    return std::make_unique<LimitState>(search_of(row), results);
+  [[nodiscard]] std::unique_ptr<StudySampler> make_sampler(const StudyRow& row,
+                                                           const SweepResults& results) const override {
+    return std::make_unique<LimitSampler>(search_of(row), results);
   }
 
   [[nodiscard]] json make_resource(const StudyRow& row, const SweepResults& results,

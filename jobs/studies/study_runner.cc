@@ -16,8 +16,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kNoLimit =
-    std::numeric_limits<std::size_t>::max();  // for requests that have been accepted
+/// For requests that have been accepted.
+constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
 
@@ -37,7 +37,7 @@ json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& i
       }};
   const std::string id = store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(),
                                           request.dump(), limits_.max_queued_jobs, record);
-  ++generation_;
+  ++wakeups_;
   return find(id).value();
 }
 
@@ -79,7 +79,7 @@ bool StudyRunner::retry(const std::string& id, const std::function<void(const st
   if (row->state == "running") return true;
   active_.erase(id);
   retry_sweep(row->sweep_id);
-  ++generation_;
+  ++wakeups_;
   return true;
 }
 
@@ -94,16 +94,16 @@ void StudyRunner::change_sweep(const std::string& sweep_id, const std::function<
   const std::lock_guard lock(mutex_);
   std::erase_if(active_, [&](const auto& study) { return study.second.sweep_id == sweep_id; });
   change();
-  ++generation_;
+  ++wakeups_;
 }
 
 StudyChanges StudyRunner::advance() {
   const std::lock_guard lock(mutex_);
-  const std::uint64_t generation = generation_;
-  if (idle_generation_ == generation) return {};  // without a study, no query after each job
+  const std::uint64_t wakeups = wakeups_;
+  if (idle_wakeups_ == wakeups) return {};  // without a study, no query after each job
   const auto running = store_.studies.list(type_->id_prefix(), "running", "", kNoLimit >> 1U);
   forget_ended(running);
-  if (running.empty()) idle_generation_ = generation;
+  if (running.empty()) idle_wakeups_ = wakeups;
   StudyChanges changes;
   for (const StudyRow& study : running) {
     for (bool goes_on = true; goes_on;) {  // the results of added jobs may be known already
@@ -127,7 +127,9 @@ void StudyRunner::forget_ended(const std::vector<StudyRow>& running) {
 
 StudyChanges StudyRunner::advance(const StudyRow& study) {
   try {
-    return tell_results(study) ? add_next_cases(study) : StudyChanges{};
+    const auto active = active_.find(study.id);
+    const bool is_new = active == active_.end() ? activate(study) : tell_ended_jobs(active->second);
+    return is_new ? add_next_cases(study) : StudyChanges{};
   } catch (const InvalidRequest& invalid) {  // two values may be valid and one between them not
     store_.studies.set_state(study.id, "running", "failed", invalid.what());
     active_.erase(study.id);
@@ -138,39 +140,38 @@ StudyChanges StudyRunner::advance(const StudyRow& study) {
   }
 }
 
-bool StudyRunner::tell_results(const StudyRow& study) {
-  const auto known = active_.find(study.id);
-  const auto ended = known == active_.end() ? std::vector<ResultRow>{}
-                                            : store_.reader.find_ended(study.sweep_id, known->second.change);
-  if (known == active_.end()) {
-    const auto results = store_.reader.find_results(study.sweep_id);
-    if (!results) return false;  // it has been deleted
-    ActiveStudy active{.sweep_id = study.sweep_id,
-                       .common = ordered_json::parse(results->sweep.request),
-                       .state = type_->make_state(study, *results)};
-    active.common.erase("cases");
-    for (const ResultRow& job : results->rows) active.change = std::max(active.change, job.change);
-    active_.emplace(study.id, std::move(active));
-    return true;
-  }
-  for (const ResultRow& job : ended) known->second.state->tell(job);
-  if (!ended.empty()) known->second.change = ended.back().change;
+bool StudyRunner::activate(const StudyRow& study) {
+  const auto results = store_.reader.find_results(study.sweep_id);
+  if (!results) return false;
+  ActiveStudy active{.sweep_id = study.sweep_id,
+                     .common = ordered_json::parse(results->sweep.request),
+                     .sampler = type_->make_sampler(study, *results)};
+  active.common.erase("cases");
+  for (const ResultRow& job : results->rows) active.change = std::max(active.change, job.change);
+  active_.emplace(study.id, std::move(active));
+  return true;
+}
+
+bool StudyRunner::tell_ended_jobs(ActiveStudy& study) {
+  const auto ended = store_.reader.find_ended(study.sweep_id, study.change);
+  for (const ResultRow& job : ended) study.sampler->tell(job);
+  if (!ended.empty()) study.change = ended.back().change;
   return !ended.empty();
 }
 
 StudyChanges StudyRunner::add_next_cases(const StudyRow& study) {
-  ActiveStudy& known = active_.at(study.id);
-  const NextCases next = known.state->ask();
+  ActiveStudy& active = active_.at(study.id);
+  const NextCases next = active.sampler->ask();
   {
     const std::lock_guard lock(progress_mutex_);
-    progress_[study.id] = known.state->progress();
+    progress_[study.id] = active.sampler->progress();
   }
   if (next.end_state) {
     store_.studies.set_state(study.id, "running", *next.end_state, next.error);
     return {.any = true};
   }
   if (next.cases.empty()) return {.any = true};
-  ordered_json request = known.common;
+  ordered_json request = active.common;
   request["cases"] = next.cases;
   const bool added = store_.queue.add_cases(study.sweep_id, next.cases, plan_sweep(request, kNoLimit).jobs);
   return {.any = true, .added = added};

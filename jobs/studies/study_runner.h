@@ -33,14 +33,15 @@ struct NextCases {
   std::optional<std::string> error;      ///< why it could not go on
 };
 
-/// State of a study that runs, in the ask-and-tell interface of adaptive sampling (Optuna's Study.ask and
-/// Study.tell, Nevergrad's Optimizer.ask and Optimizer.tell): tell() takes the result of a job, ask() gives
-/// the cases to compute next. The cost of both does not depend on how many jobs there were before.
-class StudyState {
+/// Sampler of a running study, with the ask-and-tell interface of adaptive sampling (Optuna's Study.ask and
+/// Study.tell, Optimizer.ask and Optimizer.tell of scikit-optimize and Nevergrad): tell() takes the result of
+/// a job, ask() gives the cases to compute next. The cost of both does not depend on the number of earlier
+/// jobs.
+class StudySampler {
  public:
-  virtual ~StudyState() = default;
+  virtual ~StudySampler() = default;
 
-  /// Takes a job that has ended since the state was made, or since ask() asked for it.
+  /// Takes a job that has ended since the sampler was made, or since ask() asked for it.
   virtual void tell(const ResultRow& ended) = 0;
   /// The caller adds the cases to the sweep.
   [[nodiscard]] virtual NextCases ask() = 0;
@@ -59,7 +60,7 @@ struct FirstSweep {
   SweepPlan plan;
 };
 
-/// Interface of one type of study. A study is a sweep to which cases are added as its results ask for them.
+/// Interface of one kind of study. A study is a sweep to which cases are added as its results ask for them.
 /// The sweep is all that is stored, so a study goes on after a crash.
 class StudyType {
  public:
@@ -69,8 +70,8 @@ class StudyType {
   /// @throws InvalidRequest with every fault
   [[nodiscard]] virtual FirstSweep plan_first(const nlohmann::ordered_json& request,
                                               std::size_t max_jobs) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<StudyState> make_state(const StudyRow& study,
-                                                               const SweepResults& results) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<StudySampler> make_sampler(const StudyRow& study,
+                                                                   const SweepResults& results) const = 0;
 
   /// Resource as users see it. @param threads  how many jobs are computed at a time
   [[nodiscard]] virtual nlohmann::json make_resource(const StudyRow& study, const SweepResults& results,
@@ -88,7 +89,7 @@ struct StudyLimits {
   int threads;                  ///< jobs computed at a time
 };
 
-/// Runner of all studies of one type: stores them, and adds the jobs that their results ask for. All members
+/// Runner of all studies of one kind: stores them, and adds the jobs that their results ask for. All members
 /// may be called from any thread.
 class StudyRunner {
  public:
@@ -127,14 +128,15 @@ class StudyRunner {
     std::string sweep_id;
     nlohmann::ordered_json common;  ///< the sweep's request without its cases
     std::int64_t change = 0;        ///< ResultRow::change of the last job that was told
-    std::unique_ptr<StudyState> state;
+    std::unique_ptr<StudySampler> sampler;
   };
 
   void forget_ended(const std::vector<StudyRow>& running);
   StudyChanges advance(const StudyRow& study);
-  /// Makes the state of a study from its sweep, or tells it the jobs that have ended since. False if there is
-  /// nothing new, or no sweep any more.
-  bool tell_results(const StudyRow& study);
+  /// Makes the sampler of a study from its sweep. False if the sweep has been deleted.
+  bool activate(const StudyRow& study);
+  /// Tells the sampler the jobs that have ended since it was told last. False if there are none.
+  bool tell_ended_jobs(ActiveStudy& study);
   StudyChanges add_next_cases(const StudyRow& study);
 
   Store& store_;
@@ -142,8 +144,8 @@ class StudyRunner {
   std::unique_ptr<StudyType> type_;
   std::mutex mutex_;  ///< held while a study changes, so that no job is added to one that is being cancelled
   std::map<std::string, ActiveStudy> active_;  ///< by id; guarded by mutex_
-  std::atomic<std::uint64_t> generation_ = 1;  ///< grows when a study begins or goes on
-  std::uint64_t idle_generation_ = 0;          ///< generation_ when no study ran; guarded by mutex_
+  std::atomic<std::uint64_t> wakeups_ = 1;  ///< counts the studies that begin or go on
+  std::uint64_t idle_wakeups_ = 0;          ///< wakeups_ when no study ran; guarded by mutex_
   mutable std::mutex progress_mutex_;
   std::map<std::string, double> progress_;     ///< by id; guarded by progress_mutex_
 };

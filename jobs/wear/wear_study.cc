@@ -87,10 +87,10 @@ class WearRates {
   std::map<std::string, WearGrid> rates_;  ///< by job
 };
 
-/// State of a wear study. The k-th job is that of the k-th case of its sweep.
-class WearState final : public StudyState {
+/// Sampler of a wear study. Its k-th job computes the k-th case of its sweep.
+class WearSampler final : public StudySampler {
  public:
-  WearState(WearStudyRequest study, const SweepResults& results, WearRates& rates)
+  WearSampler(WearStudyRequest study, const SweepResults& results, WearRates& rates)
       : study_(std::move(study)), rates_(rates), integrator_(study_.rule, study_.round_bore()) {
     const json request = json::parse(results.sweep.request);
     for (const json& bore : request.at("cases")) {
@@ -170,21 +170,21 @@ class WearStudy final : public StudyType {
     return {std::move(sweep), std::move(plan)};
   }
 
-  [[nodiscard]] std::unique_ptr<StudyState> make_state(const StudyRow& row,
-                                                       const SweepResults& results) const override {
-    return std::make_unique<WearState>(study_of(row), results, rates_);
+  [[nodiscard]] std::unique_ptr<StudySampler> make_sampler(const StudyRow& row,
+                                                           const SweepResults& results) const override {
+    return std::make_unique<WearSampler>(study_of(row), results, rates_);
   }
 
   [[nodiscard]] json make_resource(const StudyRow& row, const SweepResults& results,
                                    int threads) const override {
-    const WearState state(study_of(row), results, rates_);
-    return wear_study_json(row, state.study(), results, state.history(), threads);
+    const WearSampler sampler(study_of(row), results, rates_);
+    return wear_study_json(row, sampler.study(), results, sampler.history(), threads);
   }
   [[nodiscard]] json make_summary(const StudyRow& row) const override { return wear_summary_json(row); }
   [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return wear_listing_keys(); }
   [[nodiscard]] ResultTable make_table(const StudyRow& row, const SweepResults& results) const override {
-    const WearState state(study_of(row), results, rates_);
-    return wear_table(row, state.study(), results, state.history());
+    const WearSampler sampler(study_of(row), results, rates_);
+    return wear_table(row, sampler.study(), results, sampler.history());
   }
 
  private:
