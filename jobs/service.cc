@@ -216,8 +216,7 @@ std::optional<SweepNews> Service::find_news(const std::string& sweep_id, std::in
   if (!changes) return std::nullopt;
   SweepNews news{.progress = progress_json(changes->sweep, slots_for(changes->sweep)),
                  .ended = has_ended(changes->sweep.counts), .jobs = {}};
-  for (const EndedJob& job : changes->ended) news.jobs.push_back({.change = job.change,
-                                                                  .job = ended_job_json(job)});
+  for (const EndedJob& job : changes->ended) news.jobs.push_back({job.change, ended_job_json(job)});
   return news;
 }
 

@@ -68,17 +68,17 @@ struct SweepNews {
   /// "sweep_id", "state", "counts", "progress"}
   nlohmann::json progress;
   bool ended = false;
-  /// A job that has ended: {"job_id", "state", "error_reason", "ended_at", "reused"}.
-  struct EndedJob {
-    std::int64_t change = 0;             ///< grows from end to end; jobs that ended together share it
+  /// End of a job: {"job_id", "state", "error_reason", "ended_at", "reused"}.
+  struct JobEvent {
+    std::int64_t change = 0;  ///< EndedJob::change
     nlohmann::json job;
   };
-  std::vector<EndedJob> jobs;            ///< by change
+  std::vector<JobEvent> jobs;  ///< by change
 };
 
-/// Types of study: a sweep to which cases are added as its results ask for them. kLimit searches the limit of
-/// a parameter, kWear follows a bearing that is worn over the hours.
-enum class Study { kLimit, kWear };
+/// Kind of study. kLimit searches the limit of a parameter, kWear follows a bearing that is worn over the
+/// hours.
+enum class StudyKind { kLimit, kWear };
 
 /// Service of sweeps, jobs and studies: validates, stores, computes and hands them out. One per store.
 ///
@@ -130,19 +130,19 @@ class Service {
 
   /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves.
   /// See parse_search_request() and parse_wear_request(). @param key as of submit_sweep()
-  nlohmann::json submit_study(Study study, const nlohmann::ordered_json& request,
+  nlohmann::json submit_study(StudyKind kind, const nlohmann::ordered_json& request,
                               const std::string& key = {});
-  [[nodiscard]] std::optional<nlohmann::json> find_study(Study study, const std::string& id) const;
-  [[nodiscard]] nlohmann::json list_studies(Study study, const PageQuery& query) const;
+  [[nodiscard]] std::optional<nlohmann::json> find_study(StudyKind kind, const std::string& id) const;
+  [[nodiscard]] nlohmann::json list_studies(StudyKind kind, const PageQuery& query) const;
   /// Flat rows: the limits of a search, the cycles of a bearing that is worn. @param query of the columns
   /// that they have
-  [[nodiscard]] std::optional<ResultTable> find_study_table(Study study, const std::string& id,
+  [[nodiscard]] std::optional<ResultTable> find_study_table(StudyKind kind, const std::string& id,
                                                             const ResultQuery& query = {}) const;
-  std::optional<nlohmann::json> cancel_study(Study study, const std::string& id);
+  std::optional<nlohmann::json> cancel_study(StudyKind kind, const std::string& id);
   /// Queues failed and cancelled jobs of a study again, and lets it go on.
-  std::optional<nlohmann::json> retry_study(Study study, const std::string& id);
+  std::optional<nlohmann::json> retry_study(StudyKind kind, const std::string& id);
   /// Deletes a study that has ended, with the sweep of its evaluations. False if there is none.
-  bool delete_study(Study study, const std::string& id);
+  bool delete_study(StudyKind kind, const std::string& id);
 
   [[nodiscard]] QueueStats read_queue_stats() const;
   /// Executors: {"items": [status, ...]}, the default one first. See Executor::status().
@@ -162,7 +162,7 @@ class Service {
   [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const;
   /// Jobs of a study that have ended since that change. The study has ended when nothing is left to compute
   /// for it.
-  [[nodiscard]] std::optional<SweepNews> find_study_news(Study study, const std::string& id,
+  [[nodiscard]] std::optional<SweepNews> find_study_news(StudyKind kind, const std::string& id,
                                                          std::int64_t after) const;
   /// A number that grows whenever a job begins or ends, or is changed otherwise.
   [[nodiscard]] std::uint64_t activity() const { return activity_; }
@@ -178,7 +178,7 @@ class Service {
   /// The same of a job
   bool wait_for_job(const std::string& id, std::chrono::milliseconds at_most) const;
   /// The same of a study
-  bool wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const;
+  bool wait_for_study(StudyKind kind, const std::string& id, std::chrono::milliseconds at_most) const;
 
   /// Ends the pool: running jobs are stopped and go back to the queue. Nothing can be submitted afterwards.
   void stop();
@@ -204,7 +204,9 @@ class Service {
   /// have ended
   bool finish_cancelling(const Cancellation& cancellation, const char* why_not);
 
-  [[nodiscard]] StudyRunner& runner(Study study) const { return *runners_[static_cast<std::size_t>(study)]; }
+  [[nodiscard]] StudyRunner& runner(StudyKind kind) const {
+    return *runners_[static_cast<std::size_t>(kind)];
+  }
   /// Changes the jobs of a sweep while no study looks at them.
   void change_sweep(const std::string& id, const std::function<void()>& change);
   /// Lets studies go on after each change, until stop().
@@ -215,7 +217,7 @@ class Service {
   std::atomic<std::uint64_t> activity_ = 0;
   InFlightKeys keys_;
   std::unique_ptr<Store> store_;
-  std::array<std::unique_ptr<StudyRunner>, 2> runners_;  ///< by Study
+  std::array<std::unique_ptr<StudyRunner>, 2> runners_;  ///< by StudyKind
   /// End before the store they work for; none before start()
   std::vector<std::unique_ptr<Executor>> executors_;
   std::mutex stop_mutex_;                                ///< guards the joining of study_thread_

@@ -10,75 +10,75 @@ namespace jobs {
 
 using nlohmann::json;
 
-json Service::submit_study(Study study, const nlohmann::ordered_json& request, const std::string& key) {
-  const char* const route = study == Study::kLimit ? "POST /v1/searches " : "POST /v1/wear-studies ";
+json Service::submit_study(StudyKind kind, const nlohmann::ordered_json& request, const std::string& key) {
+  const char* const route = kind == StudyKind::kLimit ? "POST /v1/searches " : "POST /v1/wear-studies ";
   return answer_once(key, route + sha256_hex(request.dump()), [&](const IdempotentRequest& idempotency) {
-    json begun = runner(study).submit(request, idempotency);
+    json begun = runner(kind).submit(request, idempotency);
     wake();
     tell_change();  // its first results may be known already
     return begun;
   });
 }
 
-std::optional<json> Service::find_study(Study study, const std::string& id) const {
-  return runner(study).find(id);
+std::optional<json> Service::find_study(StudyKind kind, const std::string& id) const {
+  return runner(kind).find(id);
 }
 
-json Service::list_studies(Study study, const PageQuery& query) const { return runner(study).list(query); }
+json Service::list_studies(StudyKind kind, const PageQuery& query) const { return runner(kind).list(query); }
 
-std::optional<ResultTable> Service::find_study_table(Study study, const std::string& id,
+std::optional<ResultTable> Service::find_study_table(StudyKind kind, const std::string& id,
                                                      const ResultQuery& query) const {
-  auto table = runner(study).find_table(id);
+  auto table = runner(kind).find_table(id);
   if (table) jobs::apply(query, *table, kStudyColumns);
   return table;
 }
 
-std::optional<SweepNews> Service::find_study_news(Study study, const std::string& id,
+std::optional<SweepNews> Service::find_study_news(StudyKind kind, const std::string& id,
                                                   std::int64_t after) const {
-  const auto row = runner(study).find_row(id);
+  const auto row = runner(kind).find_row(id);
   if (!row) return std::nullopt;
   auto news = find_news(row->sweep_id, after);
   if (!news) return std::nullopt;
   const bool runs = row->state == "running";
   news->progress = {{"id", id}, {"sweep_id", row->sweep_id}, {"state", row->state},
                     {"counts", news->progress.at("counts")},
-                    {"progress", runs ? runner(study).find_progress(id) : 1.0}};
+                    {"progress", runs ? runner(kind).find_progress(id) : 1.0}};
   news->ended = news->ended && !runs;
   return news;
 }
 
-bool Service::wait_for_study(Study study, const std::string& id, std::chrono::milliseconds at_most) const {
+bool Service::wait_for_study(StudyKind kind, const std::string& id, std::chrono::milliseconds at_most) const {
   return changes_.wait_for(at_most, [&]() -> std::optional<bool> {
-    const auto row = runner(study).find_row(id);
+    const auto row = runner(kind).find_row(id);
     return row ? std::optional(row->state != "running") : std::nullopt;
   });
 }
 
-std::optional<json> Service::cancel_study(Study study, const std::string& id) {
+std::optional<json> Service::cancel_study(StudyKind kind, const std::string& id) {
   const auto cancel_sweep = [this](const std::string& sweep) {
     finish_cancelling(store_->queue.cancel_sweep(sweep), nullptr);
   };
-  return runner(study).cancel(id, cancel_sweep) ? runner(study).find(id) : std::nullopt;
+  return runner(kind).cancel(id, cancel_sweep) ? runner(kind).find(id) : std::nullopt;
 }
 
-std::optional<json> Service::retry_study(Study study, const std::string& id) {
+std::optional<json> Service::retry_study(StudyKind kind, const std::string& id) {
   check_open();
   const auto retry_sweep = [this](const std::string& sweep) {
     store_->queue.retry_sweep(sweep, options_.max_queued_jobs);
   };
-  if (!runner(study).retry(id, retry_sweep)) return std::nullopt;
+  if (!runner(kind).retry(id, retry_sweep)) return std::nullopt;
   wake();
   tell_change();
-  return runner(study).find(id);
+  return runner(kind).find(id);
 }
 
-bool Service::delete_study(Study study, const std::string& id) {
-  const auto sweep = runner(study).find_ended_sweep(id);
+bool Service::delete_study(StudyKind kind, const std::string& id) {
+  const auto sweep = runner(kind).find_ended_sweep(id);
   return sweep && delete_sweep(*sweep);
 }
 
 void Service::change_sweep(const std::string& id, const std::function<void()>& change) {
-  runner(Study::kLimit).change_sweep(id, [&] { runner(Study::kWear).change_sweep(id, change); });
+  runner(StudyKind::kLimit).change_sweep(id, [&] { runner(StudyKind::kWear).change_sweep(id, change); });
 }
 
 void Service::run_studies() {

@@ -20,114 +20,100 @@ namespace server {
 
 namespace {
 
-using jobs::Study;
+using jobs::StudyKind;
 
 /// Name that users know a kind of study by, and path of its resources.
-struct KindOfStudy {
+struct KindInfo {
   const char* name;
   const char* path;
 };
 
-constexpr KindOfStudy kind_of_study(Study study) {
-  return study == Study::kLimit ? KindOfStudy{"search", "/v1/searches/"}
-                                : KindOfStudy{"wear study", "/v1/wear-studies/"};
+constexpr KindInfo kind_info(StudyKind kind) {
+  return kind == StudyKind::kLimit ? KindInfo{"search", "/v1/searches/"}
+                                   : KindInfo{"wear study", "/v1/wear-studies/"};
 }
 
-HttpError no_such(Study study, const std::string& id) {
-  return {404, std::string("there is no ") + kind_of_study(study).name + " " + id};
+HttpError no_such(StudyKind kind, const std::string& id) {
+  return {404, std::string("there is no ") + kind_info(kind).name + " " + id};
 }
 
-Resource study_resource(Study study, const RequestContext& context) {
+Resource study_resource(StudyKind kind, const RequestContext& context) {
   jobs::Service& service = context.service;
-  return {.path = kind_of_study(study).path,
-          .find = [&service, study](const std::string& id) { return service.find_study(study, id); },
-          .wait_for = [&service, study](
-                          const std::string& id,
-                          std::chrono::seconds at_most) { service.wait_for_study(study, id, at_most); },
+  return {.path = kind_info(kind).path,
+          .find = [&service, kind](const std::string& id) { return service.find_study(kind, id); },
+          .wait_for =
+              [&service, kind](const std::string& id, std::chrono::seconds at_most) {
+                service.wait_for_study(kind, id, at_most);
+              },
           .has_ended = [](const nlohmann::json& found) { return found.at("state") != "running"; },
-          .missing = [study](const std::string& id) { return no_such(study, id); }};
+          .missing = [kind](const std::string& id) { return no_such(kind, id); }};
 }
 
 }  // namespace
 
-template <Study kStudy>
-Response post_study(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::post(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_created(context, study_resource(kStudy, context),
-                         context.service.submit_study(kStudy, parse_json(context.request.body),
+  return respond_created(context, study_resource(kKind, context),
+                         context.service.submit_study(kKind, parse_json(context.request.body),
                                                       find_idempotency_key(context.request)));
 }
 
-template <Study kStudy>
-Response get_studies(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::list(const RequestContext& context) {
   return json_response(200, to_text(list_page(context.request, [&](const jobs::PageQuery& page) {
-                         return context.service.list_studies(kStudy, page);
+                         return context.service.list_studies(kKind, page);
                        })));
 }
 
-template <Study kStudy>
-Response get_study(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::get(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_found(context, study_resource(kStudy, context));
+  return respond_found(context, study_resource(kKind, context));
 }
 
-template <Study kStudy>
-Response delete_study(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::erase(const RequestContext& context) {
   Query(context.request, {}).check();
-  if (!context.service.delete_study(kStudy, context.id)) throw no_such(kStudy, context.id);
+  if (!context.service.delete_study(kKind, context.id)) throw no_such(kKind, context.id);
   return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
 }
 
-template <Study kStudy>
-Response get_study_results(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::get_results(const RequestContext& context) {
   Query query(context.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
   const TableFormat format = find_row_format(context.request, query);
   const jobs::ResultQuery wanted = read_result_query(query);
   const auto table =
-      query.check_and([&] { return context.service.find_study_table(kStudy, context.id, wanted); });
-  if (!table) throw no_such(kStudy, context.id);
-  const std::string name = (kStudy == Study::kLimit ? "search-" : "wear-study-") + context.id;
+      query.check_and([&] { return context.service.find_study_table(kKind, context.id, wanted); });
+  if (!table) throw no_such(kKind, context.id);
+  const std::string name = (kKind == StudyKind::kLimit ? "search-" : "wear-study-") + context.id;
   return with_etag_if(table->ended, context.request, make_table(format, to_text(*table, format), name));
 }
 
-template <Study kStudy>
-Response get_study_events(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::get_events(const RequestContext& context) {
   const auto find_news = [&service = context.service, id = context.id](std::int64_t after) {
-    return service.find_study_news(kStudy, id, after);
+    return service.find_study_news(kKind, id, after);
   };
-  return answer_events(context, find_news, no_such(kStudy, context.id));
+  return answer_events(context, find_news, no_such(kKind, context.id));
 }
 
-template <Study kStudy>
-Response cancel_study(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::cancel(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_updated(context, study_resource(kStudy, context),
-                         context.service.cancel_study(kStudy, context.id));
+  return respond_updated(context, study_resource(kKind, context),
+                         context.service.cancel_study(kKind, context.id));
 }
 
-template <Study kStudy>
-Response retry_study(const RequestContext& context) {
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::retry(const RequestContext& context) {
   Query(context.request, {}).check();
-  return respond_updated(context, study_resource(kStudy, context),
-                         context.service.retry_study(kStudy, context.id));
+  return respond_updated(context, study_resource(kKind, context),
+                         context.service.retry_study(kKind, context.id));
 }
 
-template Response post_study<Study::kLimit>(const RequestContext&);
-template Response get_studies<Study::kLimit>(const RequestContext&);
-template Response get_study<Study::kLimit>(const RequestContext&);
-template Response delete_study<Study::kLimit>(const RequestContext&);
-template Response get_study_results<Study::kLimit>(const RequestContext&);
-template Response get_study_events<Study::kLimit>(const RequestContext&);
-template Response cancel_study<Study::kLimit>(const RequestContext&);
-template Response retry_study<Study::kLimit>(const RequestContext&);
-
-template Response post_study<Study::kWear>(const RequestContext&);
-template Response get_studies<Study::kWear>(const RequestContext&);
-template Response get_study<Study::kWear>(const RequestContext&);
-template Response delete_study<Study::kWear>(const RequestContext&);
-template Response get_study_results<Study::kWear>(const RequestContext&);
-template Response get_study_events<Study::kWear>(const RequestContext&);
-template Response cancel_study<Study::kWear>(const RequestContext&);
-template Response retry_study<Study::kWear>(const RequestContext&);
+template struct StudyRoutes<StudyKind::kLimit>;
+template struct StudyRoutes<StudyKind::kWear>;
 
 }  // namespace server

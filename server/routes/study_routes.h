@@ -6,23 +6,20 @@
 
 namespace server {
 
-// The routes below /v1/searches and /v1/wear-studies, which do the same with studies of their kind.
+/// Routes of one kind of study, below /v1/searches or /v1/wear-studies.
+template <jobs::StudyKind kKind>
+struct StudyRoutes {
+  static Response post(const RequestContext& context);
+  static Response list(const RequestContext& context);
+  static Response get(const RequestContext& context);
+  static Response erase(const RequestContext& context);
+  static Response get_results(const RequestContext& context);
+  static Response get_events(const RequestContext& context);
+  static Response cancel(const RequestContext& context);
+  static Response retry(const RequestContext& context);
+};
 
-template <jobs::Study kStudy>
-[[nodiscard]] Response post_study(const RequestContext& context);
-template <jobs::Study kStudy>
-[[nodiscard]] Response get_studies(const RequestContext& context);
-template <jobs::Study kStudy>
-[[nodiscard]] Response get_study(const RequestContext& context);
-template <jobs::Study kStudy>
-[[nodiscard]] Response delete_study(const RequestContext& context);
-template <jobs::Study kStudy>
-[[nodiscard]] Response get_study_results(const RequestContext& context);
-template <jobs::Study kStudy>
-[[nodiscard]] Response get_study_events(const RequestContext& context);
-template <jobs::Study kStudy>
-[[nodiscard]] Response cancel_study(const RequestContext& context);
-template <jobs::Study kStudy>
-[[nodiscard]] Response retry_study(const RequestContext& context);
+using SearchRoutes = StudyRoutes<jobs::StudyKind::kLimit>;
+using WearRoutes = StudyRoutes<jobs::StudyKind::kWear>;
 
 }  // namespace server

@@ -17,6 +17,7 @@
 namespace jobs_tests {
 namespace {
 
+using jobs::StudyKind;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
@@ -30,7 +31,7 @@ ordered_json request_for(double crank_velocity) {
 
 json wait_for_end(const jobs::Service& service, const std::string& id) {
   for (int tries = 0; tries < 4000; ++tries) {
-    json search = service.find_study(jobs::Study::kLimit, id).value();
+    json search = service.find_study(StudyKind::kLimit, id).value();
     if (search.at("state") != "running") return search;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -41,12 +42,12 @@ json list(const jobs::Service& service, const std::string& state, const std::str
   jobs::PageQuery query;
   query.state = state;
   query.fields = fields;
-  return service.list_studies(jobs::Study::kLimit, query).at("items");
+  return service.list_studies(StudyKind::kLimit, query).at("items");
 }
 
 std::set<std::string> search_faults_of(jobs::Service& service, const ordered_json& request) {
   try {
-    (void)service.submit_study(jobs::Study::kLimit, request);
+    (void)service.submit_study(StudyKind::kLimit, request);
   } catch (const jobs::InvalidRequest& invalid) {
     std::set<std::string> pointers;
     for (const jobs::Fault& fault : invalid.faults()) pointers.insert(fault.pointer);
@@ -59,7 +60,7 @@ TEST(Search, FindsTheLimitWithTheExpectedNumberOfRuns) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
-  const json begun = service.submit_study(jobs::Study::kLimit, request_for(5.3));
+  const json begun = service.submit_study(StudyKind::kLimit, request_for(5.3));
   EXPECT_EQ(begun.at("most_evaluations"), 13);
   const json ended = wait_for_end(service, begun.at("id"));
   EXPECT_EQ(ended.at("state"), "succeeded");
@@ -76,7 +77,8 @@ TEST(Search, FindsTheLimitWithTheExpectedNumberOfRuns) {
   // Every evaluation is a job of a sweep like any other, and a result that others use.
   const auto results = service.find_results(ended.at("sweep_id")).value();
   EXPECT_EQ(results.rows.size(), 13U);
-  const json again = wait_for_end(service, service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id"));
+  const json again =
+      wait_for_end(service, service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id"));
   EXPECT_EQ(again.at("limits").at(0).at("limit"), limit.at("limit"));
   EXPECT_EQ(engine.begun_speeds().size(), 13U) << "nothing is computed twice";
 }
@@ -88,7 +90,7 @@ TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
   ordered_json request = request_for(5.3);
   request["sweep"] = {{"coupler", {"rigid", "flexible"}}, {"restitution", {0.8, 0.9}}};
   request["replicates"] = {{"count", 3}};
-  const json ended = wait_for_end(service, service.submit_study(jobs::Study::kLimit, request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
   ASSERT_EQ(ended.at("limits").size(), 4U);
   for (const json& limit : ended.at("limits")) {
     EXPECT_EQ(limit.at("verdict"), "found");
@@ -102,7 +104,7 @@ TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
   EXPECT_EQ(ended.at("limits").at(1).at("coupler"), "rigid");
   EXPECT_EQ(ended.at("limits").at(1).at("restitution"), 0.9);
   EXPECT_EQ(ended.at("counts").at("total"), 4 * 13 * 3);
-  const auto table = service.find_study_table(jobs::Study::kLimit, ended.at("id")).value();
+  const auto table = service.find_study_table(StudyKind::kLimit, ended.at("id")).value();
   EXPECT_EQ(table.columns.at(0), "coupler");
   EXPECT_EQ(table.rows.size(), 4U);
   EXPECT_TRUE(table.ended);
@@ -115,7 +117,7 @@ TEST(Search, GoesOnAfterARestart) {
   {
     jobs::Service service(options_of(store, engine, 1));
     engine.hold();
-    id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
+    id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
     engine.await_running(1);
   }
   engine.release();
@@ -128,20 +130,20 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
   engine.hold();
-  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
+  const std::string id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
   engine.await_running(1);
-  EXPECT_THROW(service.delete_study(jobs::Study::kLimit, id), jobs::WrongState);
-  EXPECT_EQ(service.cancel_study(jobs::Study::kLimit, id).value().at("state"), "cancelled");
-  EXPECT_EQ(service.cancel_study(jobs::Study::kLimit, id).value().at("counts").at("cancelled"), 5);
+  EXPECT_THROW(service.delete_study(StudyKind::kLimit, id), jobs::WrongState);
+  EXPECT_EQ(service.cancel_study(StudyKind::kLimit, id).value().at("state"), "cancelled");
+  EXPECT_EQ(service.cancel_study(StudyKind::kLimit, id).value().at("counts").at("cancelled"), 5);
   engine.release();
-  EXPECT_EQ(service.retry_study(jobs::Study::kLimit, id).value().at("state"), "running");
+  EXPECT_EQ(service.retry_study(StudyKind::kLimit, id).value().at("state"), "running");
   EXPECT_EQ(wait_for_end(service, id).at("state"), "succeeded");
-  EXPECT_THROW(service.cancel_study(jobs::Study::kLimit, id), jobs::WrongState);
-  const std::string sweep = service.find_study(jobs::Study::kLimit, id).value().at("sweep_id");
-  EXPECT_TRUE(service.delete_study(jobs::Study::kLimit, id));
-  EXPECT_FALSE(service.find_study(jobs::Study::kLimit, id).has_value());
+  EXPECT_THROW(service.cancel_study(StudyKind::kLimit, id), jobs::WrongState);
+  const std::string sweep = service.find_study(StudyKind::kLimit, id).value().at("sweep_id");
+  EXPECT_TRUE(service.delete_study(StudyKind::kLimit, id));
+  EXPECT_FALSE(service.find_study(StudyKind::kLimit, id).has_value());
   EXPECT_FALSE(service.find_sweep(sweep).has_value());
-  EXPECT_FALSE(service.delete_study(jobs::Study::kLimit, id));
+  EXPECT_FALSE(service.delete_study(StudyKind::kLimit, id));
 }
 
 TEST(Search, TakesWhatIsAddedToItsSweepByHand) {
@@ -149,9 +151,15 @@ TEST(Search, TakesWhatIsAddedToItsSweepByHand) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
   engine.hold();
-  const json begun = service.submit_study(jobs::Study::kLimit, request_for(5.3));
+  const json begun = service.submit_study(StudyKind::kLimit, request_for(5.3));
   engine.await_running(1);
-  EXPECT_EQ(service.extend_sweep(begun.at("sweep_id"), ordered_json::parse(R"({"cases": [{"crank_velocity_rad_s": 5.2}]})")).value().at("counts").at("total"), 6);
+  EXPECT_EQ(service
+                .extend_sweep(begun.at("sweep_id"),
+                              ordered_json::parse(R"({"cases": [{"crank_velocity_rad_s": 5.2}]})"))
+                .value()
+                .at("counts")
+                .at("total"),
+            6);
   engine.release();
   const json limit = wait_for_end(service, begun.at("id")).at("limits").at(0);
   EXPECT_EQ(limit.at("verdict"), "found");
@@ -164,14 +172,15 @@ TEST(Search, IsStoredOnceUnderOneKey) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const json first = service.submit_study(jobs::Study::kLimit, request_for(5.3), "key-1");
+  const json first = service.submit_study(StudyKind::kLimit, request_for(5.3), "key-1");
   EXPECT_EQ(first.at("state"), "running");
   (void)wait_for_end(service, first.at("id"));
-  EXPECT_EQ(service.submit_study(jobs::Study::kLimit, request_for(5.3), "key-1"), first);
-  EXPECT_THROW((void)service.submit_study(jobs::Study::kLimit, request_for(5.4), "key-1"), jobs::InvalidRequest);
+  EXPECT_EQ(service.submit_study(StudyKind::kLimit, request_for(5.3), "key-1"), first);
+  EXPECT_THROW((void)service.submit_study(StudyKind::kLimit, request_for(5.4), "key-1"),
+               jobs::InvalidRequest);
   EXPECT_EQ(list(service, "").size(), 1U);
   // What has been computed is known when the next one begins, but its answer is kept as it begins.
-  const json second = service.submit_study(jobs::Study::kLimit, request_for(5.3), "key-2");
+  const json second = service.submit_study(StudyKind::kLimit, request_for(5.3), "key-2");
   EXPECT_EQ(second.at("state"), "running");
   EXPECT_EQ(second.at("counts").at("succeeded"), 5);
   EXPECT_EQ(second.at("limits").at(0).at("points").at(0).at("pending"), 1);
@@ -182,13 +191,13 @@ TEST(Search, IsWaitedFor) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
   engine.hold();
-  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
-  EXPECT_FALSE(service.wait_for_study(jobs::Study::kLimit, id, std::chrono::milliseconds(20)));
-  EXPECT_FALSE(service.wait_for_study(jobs::Study::kLimit, "sch_none", std::chrono::hours(1)));
-  EXPECT_FALSE(service.wait_for_study(jobs::Study::kWear, id, std::chrono::hours(1)));
+  const std::string id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
+  EXPECT_FALSE(service.wait_for_study(StudyKind::kLimit, id, std::chrono::milliseconds(20)));
+  EXPECT_FALSE(service.wait_for_study(StudyKind::kLimit, "sch_none", std::chrono::hours(1)));
+  EXPECT_FALSE(service.wait_for_study(StudyKind::kWear, id, std::chrono::hours(1)));
   engine.release();
-  EXPECT_TRUE(service.wait_for_study(jobs::Study::kLimit, id, std::chrono::seconds(20)));
-  EXPECT_EQ(service.find_study(jobs::Study::kLimit, id).value().at("state"), "succeeded");
+  EXPECT_TRUE(service.wait_for_study(StudyKind::kLimit, id, std::chrono::seconds(20)));
+  EXPECT_EQ(service.find_study(StudyKind::kLimit, id).value().at("state"), "succeeded");
 }
 
 // The fake engine fails at a restitution of 0.5.
@@ -198,7 +207,7 @@ TEST(Search, SaysWhichCombinationIsLostToAFailedJob) {
   jobs::Service service(options_of(store, engine, 2));
   ordered_json request = request_for(5.3);
   request["sweep"] = {{"restitution", {0.5, 0.9}}};
-  const json ended = wait_for_end(service, service.submit_study(jobs::Study::kLimit, request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
   EXPECT_EQ(ended.at("state"), "failed");
   const json& lost = ended.at("limits").at(0);
   EXPECT_EQ(lost.at("verdict"), "lost");
@@ -215,12 +224,12 @@ TEST(Search, SaysThatItsMetricDoesNotApply) {
   jobs::Service service(options_of(store, engine, 2));
   ordered_json request = request_for(5.3);
   request["metric"] = engine::metric_table()[1].key;
-  const std::string id = service.submit_study(jobs::Study::kLimit, request).at("id");
+  const std::string id = service.submit_study(StudyKind::kLimit, request).at("id");
   const json ended = wait_for_end(service, id);
   EXPECT_EQ(ended.at("counts").at("succeeded"), 5);
   EXPECT_EQ(ended.at("limits").at(0).at("verdict"), "lost");
   EXPECT_EQ(ended.at("limits").at(0).at("lost_reason"), "no_value");
-  const jobs::ResultTable table = service.find_study_table(jobs::Study::kLimit, id).value();
+  const jobs::ResultTable table = service.find_study_table(StudyKind::kLimit, id).value();
   ASSERT_EQ(table.columns.back(), "lost_reason");
   EXPECT_EQ(table.rows.at(0).back(), "no_value");
 }
@@ -229,25 +238,30 @@ TEST(Search, IsRefusedWithEveryFault) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  EXPECT_EQ(search_faults_of(service, ordered_json::object()), (std::set<std::string>{"/over", "/metric", "/bound"}));
+  EXPECT_EQ(search_faults_of(service, ordered_json::object()),
+            (std::set<std::string>{"/over", "/metric", "/bound"}));
   ordered_json request = request_for(5.3);
-  request["over"]["crank_velocity_rad_s"] = {{"from", 1}, {"to", 5000}, {"tolerance", 0}, {"first", 1}, {"steps", 3}};
+  request["over"]["crank_velocity_rad_s"] = {
+      {"from", 1}, {"to", 5000}, {"tolerance", 0}, {"first", 1}, {"steps", 3}};
   request["metric"] = "peak";
   request["quantile"] = 1.5;
   request["sweep"] = {{"restitution", {2}}};
   request["bounds"] = 1;
   EXPECT_EQ(search_faults_of(service, request),
-            (std::set<std::string>{"/bounds", "/over/crank_velocity_rad_s/steps", "/over/crank_velocity_rad_s/tolerance",
-                "/over/crank_velocity_rad_s/first",
+            (std::set<std::string>{"/bounds", "/over/crank_velocity_rad_s/steps",
+                                   "/over/crank_velocity_rad_s/tolerance", "/over/crank_velocity_rad_s/first",
                                    "/metric", "/quantile", "/sweep/restitution/0"}));
   request = request_for(5.3);
   request["sweep"] = {{"crank_velocity_rad_s", {5}}};
   EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"});
   request = request_for(5.3);
   request["replicates"] = {{"count", 5000}};
-  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"}) << "65,000 jobs";
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/crank_velocity_rad_s"})
+      << "65,000 jobs";
   // The clearance is less than the bearing's radius, which only both together show.
-  request = {{"over", {{"clearance_mm", {{"from", 1}, {"to", 6}}}}}, {"metric", engine::metric_table()[0].key}, {"bound", 1}};
+  request = {{"over", {{"clearance_mm", {{"from", 1}, {"to", 6}}}}},
+             {"metric", engine::metric_table()[0].key},
+             {"bound", 1}};
   EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/clearance_mm"});
   request["over"] = {{"bristle_stiffness_1_m", {{"from", 1e-310}, {"to", 1e9}, {"scale", "log"}}}};
   EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/bristle_stiffness_1_m/to"});
@@ -259,7 +273,8 @@ TEST(Search, IsRefusedOverNumbersOfADescribedLinkage) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  for (const std::string path : {"linkage.bodies.rod.mass_kg", "linkage.01", "linkage.3000", "linkage.-", "linkage.123456789012345678901"}) {
+  for (const std::string path : {"linkage.bodies.rod.mass_kg", "linkage.01", "linkage.3000", "linkage.-",
+                                 "linkage.123456789012345678901"}) {
     ordered_json request = request_for(5.3);
     request["over"] = {{path, {{"from", 0}, {"to", 1}}}};
     EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/" + path});
@@ -273,7 +288,7 @@ TEST(Search, IsListedByItsState) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
+  const std::string id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
   (void)wait_for_end(service, id);
   EXPECT_EQ(list(service, "succeeded").at(0).at("id"), id);
   EXPECT_TRUE(list(service, "running").empty());

@@ -21,7 +21,7 @@
 namespace jobs_tests {
 namespace {
 
-using jobs::Study;
+using jobs::StudyKind;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
@@ -45,7 +45,8 @@ class SlidingEngine {
     while (held && !stop(0.0)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     if (held) result.status = engine::RunStatus::kStopped;
     double deepest = 0.0;
-    for (const auto& ring : spec.parameters.wear_depth) deepest = std::max(deepest, *std::ranges::max_element(ring));
+    for (const auto& ring : spec.parameters.wear_depth)
+      deepest = std::max(deepest, *std::ranges::max_element(ring));
     if (1e6 * deepest > fails_beyond_um) result.status = engine::RunStatus::kNonFinite;
     if (result.status != engine::RunStatus::kSucceeded) return result;
     result.metrics.assign(engine::metric_table().size(), 1e6 * deepest);
@@ -62,7 +63,10 @@ class SlidingEngine {
   static double factor_of(const std::string& key) {
     if (key == "t_s") return 1.0;
     if (!key.starts_with("ring_")) return 0.0;
-    return kPower * (key.ends_with("_x_j") ? std::cos(1.0) : key.ends_with("_y_j") ? std::sin(1.0) : key.ends_with("_m") ? 2e-6 : 1.0);
+    return kPower * (key.ends_with("_x_j")   ? std::cos(1.0)
+                     : key.ends_with("_y_j") ? std::sin(1.0)
+                     : key.ends_with("_m")   ? 2e-6
+                                             : 1.0);
   }
 };
 
@@ -74,12 +78,15 @@ jobs::ServiceOptions options_for(const TemporaryStore& store, SlidingEngine& eng
   return options;
 }
 
-const ordered_json kRequest{{"name", "worn"}, {"parameters", {{"duration_s", 3}, {"output_rate_hz", 10}}}, {"wear_coefficient_m2_n", 1e-15},
-                            {"hours", 2}, {"max_rate_change", 10}};
+const ordered_json kRequest{{"name", "worn"},
+                            {"parameters", {{"duration_s", 3}, {"output_rate_hz", 10}}},
+                            {"wear_coefficient_m2_n", 1e-15},
+                            {"hours", 2},
+                            {"max_rate_change", 10}};
 
 json wait_for_study_end(const jobs::Service& service, const std::string& id) {
   for (int tries = 0; tries < 4000; ++tries) {
-    json study = service.find_study(Study::kWear, id).value();
+    json study = service.find_study(StudyKind::kWear, id).value();
     if (study.at("state") != "running") return study;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -88,7 +95,8 @@ json wait_for_study_end(const jobs::Service& service, const std::string& id) {
 
 template <typename Condition>
 void wait_until(const Condition& condition) {
-  for (int tries = 0; tries < 4000 && !condition(); ++tries) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  for (int tries = 0; tries < 4000 && !condition(); ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_TRUE(condition());
 }
 
@@ -97,7 +105,7 @@ TEST(WearStudy, WearsTheVolumeOfItsSlidingWork) {
   const TemporaryStore store;
   SlidingEngine engine;
   jobs::Service service(options_for(store, engine));
-  const json begun = service.submit_study(Study::kWear, kRequest);
+  const json begun = service.submit_study(StudyKind::kWear, kRequest);
   const json ended = wait_for_study_end(service, begun.at("id"));
   EXPECT_EQ(ended.at("state"), "succeeded");
   EXPECT_EQ(ended.at("verdict"), "hours_reached");
@@ -110,22 +118,24 @@ TEST(WearStudy, WearsTheVolumeOfItsSlidingWork) {
   EXPECT_TRUE(cycles.at(0).at("deepest_angle_rad").is_null());
   const json& last = cycles.back();
   EXPECT_DOUBLE_EQ(last.at("hours"), 2.0);
-  EXPECT_NEAR(last.at("worn_volume_mm3"), 1e9 * 1e-15 * 3.0 * kPower * 7200.0, 1e-6);  // channels keep seven digits
+  EXPECT_NEAR(last.at("worn_volume_mm3"), 1e9 * 1e-15 * 3.0 * kPower * 7200.0,
+              1e-6);  // channels keep seven digits
   EXPECT_NEAR(last.at("deepest_angle_rad"), 1.0, 2.0 * std::numbers::pi / 36.0);
   for (std::size_t k = 1; k < cycles.size(); ++k)
-    EXPECT_LE(cycles[k].at("deepest_um").get<double>() - cycles[k - 1].at("deepest_um").get<double>(), 1.0 + 1e-9);
+    EXPECT_LE(cycles[k].at("deepest_um").get<double>() - cycles[k - 1].at("deepest_um").get<double>(),
+              1.0 + 1e-9);
   // The bore of a cycle is a parameter of its job, and its rings are worn alike.
   const json job = service.find_job(last.at("job_id")).value();
   EXPECT_EQ(job.at("parameters").at("wear_depth_um"), last.at("wear_depth_um"));
   ASSERT_EQ(last.at("wear_depth_um").size(), 3U);
   for (const json& ring : last.at("wear_depth_um")) EXPECT_EQ(ring, last.at("wear_depth_um").at(0));
   // Rows say the same, with the metrics of the jobs, here the depth.
-  const auto table = service.find_study_table(Study::kWear, ended.at("id")).value();
+  const auto table = service.find_study_table(StudyKind::kWear, ended.at("id")).value();
   ASSERT_EQ(table.rows.size(), cycles.size());
   EXPECT_EQ(table.columns.at(11), engine::metric_table()[0].key);
   EXPECT_NEAR(table.rows.back().at(11).get<double>(), last.at("deepest_um"), 1e-9);
   // The same study once more takes what has been computed.
-  const json again = wait_for_study_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
+  const json again = wait_for_study_end(service, service.submit_study(StudyKind::kWear, kRequest).at("id"));
   EXPECT_EQ(again.at("cycles").back().at("wear_depth_um"), last.at("wear_depth_um"));
   EXPECT_EQ(cycles.size(), static_cast<std::size_t>(engine.begun));
 }
@@ -136,7 +146,7 @@ TEST(WearStudy, GoesOnAfterARestart) {
   std::string id;
   {
     jobs::Service service(options_for(store, engine));
-    id = service.submit_study(Study::kWear, kRequest).at("id");
+    id = service.submit_study(StudyKind::kWear, kRequest).at("id");
     wait_until([&] { return engine.begun >= 2; });
     engine.held = true;
   }
@@ -152,28 +162,29 @@ TEST(WearStudy, IsCancelledAndTakenUpAgain) {
   SlidingEngine engine;
   engine.held = true;
   jobs::Service service(options_for(store, engine));
-  const std::string id = service.submit_study(Study::kWear, kRequest).at("id");
-  EXPECT_THROW((void)service.delete_study(Study::kWear, id), jobs::WrongState);
-  EXPECT_EQ(service.cancel_study(Study::kWear, id).value().at("state"), "cancelled");
-  wait_until([&] { return service.find_study(Study::kWear, id).value().at("counts").at("cancelled") == 1; });
+  const std::string id = service.submit_study(StudyKind::kWear, kRequest).at("id");
+  EXPECT_THROW((void)service.delete_study(StudyKind::kWear, id), jobs::WrongState);
+  EXPECT_EQ(service.cancel_study(StudyKind::kWear, id).value().at("state"), "cancelled");
+  wait_until(
+      [&] { return service.find_study(StudyKind::kWear, id).value().at("counts").at("cancelled") == 1; });
   engine.held = false;
-  EXPECT_EQ(service.retry_study(Study::kWear, id).value().at("state"), "running");
+  EXPECT_EQ(service.retry_study(StudyKind::kWear, id).value().at("state"), "running");
   EXPECT_EQ(wait_for_study_end(service, id).at("verdict"), "hours_reached");
-  EXPECT_TRUE(service.delete_study(Study::kWear, id));
-  EXPECT_FALSE(service.find_study(Study::kWear, id));
+  EXPECT_TRUE(service.delete_study(StudyKind::kWear, id));
+  EXPECT_FALSE(service.find_study(StudyKind::kWear, id));
 }
 
 TEST(WearStudy, IsStoredOnceUnderOneKey) {
   const TemporaryStore store;
   SlidingEngine engine;
   jobs::Service service(options_for(store, engine));
-  (void)wait_for_study_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
+  (void)wait_for_study_end(service, service.submit_study(StudyKind::kWear, kRequest).at("id"));
   // The first job's result is known at once; the kept answer is of a study that begins all the same.
-  const json first = service.submit_study(Study::kWear, kRequest, "key");
+  const json first = service.submit_study(StudyKind::kWear, kRequest, "key");
   EXPECT_EQ(first.at("verdict"), "open");
   EXPECT_EQ(wait_for_study_end(service, first.at("id")).at("verdict"), "hours_reached");
-  EXPECT_EQ(service.submit_study(Study::kWear, kRequest, "key"), first);
-  EXPECT_EQ(service.list_studies(Study::kWear, {}).at("items").size(), 2U);
+  EXPECT_EQ(service.submit_study(StudyKind::kWear, kRequest, "key"), first);
+  EXPECT_EQ(service.list_studies(StudyKind::kWear, {}).at("items").size(), 2U);
 }
 
 TEST(WearStudy, SaysThatAJobIsInItsWay) {
@@ -181,7 +192,7 @@ TEST(WearStudy, SaysThatAJobIsInItsWay) {
   SlidingEngine engine;
   engine.fails_beyond_um = 1.5;
   jobs::Service service(options_for(store, engine));
-  const json ended = wait_for_study_end(service, service.submit_study(Study::kWear, kRequest).at("id"));
+  const json ended = wait_for_study_end(service, service.submit_study(StudyKind::kWear, kRequest).at("id"));
   EXPECT_EQ(ended.at("state"), "failed");
   EXPECT_EQ(ended.at("verdict"), "lost");
   EXPECT_TRUE(ended.at("error").is_string());
@@ -190,7 +201,7 @@ TEST(WearStudy, SaysThatAJobIsInItsWay) {
 
 std::set<std::string> wear_faults_of(jobs::Service& service, const ordered_json& request) {
   try {
-    (void)service.submit_study(Study::kWear, request);
+    (void)service.submit_study(StudyKind::kWear, request);
   } catch (const jobs::InvalidRequest& invalid) {
     std::set<std::string> pointers;
     for (const jobs::Fault& fault : invalid.faults()) pointers.insert(fault.pointer);
@@ -206,16 +217,26 @@ TEST(WearStudy, IsRefusedWithEveryFault) {
   jobs::Service service(options_for(store, engine));
   EXPECT_EQ(wear_faults_of(service, ordered_json::array()), Pointers{""});
   EXPECT_EQ(wear_faults_of(service, {{"hour", 3}}), (Pointers{"/hour", "/hours"}));
-  EXPECT_EQ(wear_faults_of(service, {{"hours", 0}, {"sectors", 7}, {"max_depth_step_um", "fine"}, {"max_cycles", 1.5}, {"wear_coefficient_m2_n", -1},
-                                {"max_rate_change", 0}, {"worn_clearance_mm", 0.25}}),
-            (Pointers{"/hours", "/sectors", "/max_depth_step_um", "/max_cycles", "/wear_coefficient_m2_n", "/max_rate_change",
-                      "/worn_clearance_mm"}));
-  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"contact", "elements"}, {"duration_s", 2}}}}),
-            (Pointers{"/parameters/contact", "/parameters/duration_s"}));
-  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"clearance_mm", 0}}}}), Pointers{"/parameters/clearance_mm"});
-  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"wear_depth_um", json::array({std::vector<double>(8)})}}}}),
-            Pointers{"/parameters/wear_depth_um"});
-  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"clearance", 0.1}}}}), Pointers{"/parameters/clearance"});
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 0},
+                                     {"sectors", 7},
+                                     {"max_depth_step_um", "fine"},
+                                     {"max_cycles", 1.5},
+                                     {"wear_coefficient_m2_n", -1},
+                                     {"max_rate_change", 0},
+                                     {"worn_clearance_mm", 0.25}}),
+            (Pointers{"/hours", "/sectors", "/max_depth_step_um", "/max_cycles", "/wear_coefficient_m2_n",
+                      "/max_rate_change", "/worn_clearance_mm"}));
+  EXPECT_EQ(
+      wear_faults_of(service, {{"hours", 1}, {"parameters", {{"contact", "elements"}, {"duration_s", 2}}}}),
+      (Pointers{"/parameters/contact", "/parameters/duration_s"}));
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"clearance_mm", 0}}}}),
+            Pointers{"/parameters/clearance_mm"});
+  EXPECT_EQ(
+      wear_faults_of(service, {{"hours", 1},
+                               {"parameters", {{"wear_depth_um", json::array({std::vector<double>(8)})}}}}),
+      Pointers{"/parameters/wear_depth_um"});
+  EXPECT_EQ(wear_faults_of(service, {{"hours", 1}, {"parameters", {{"clearance", 0.1}}}}),
+            Pointers{"/parameters/clearance"});
   EXPECT_EQ(engine.begun, 0);
 }
 
@@ -223,12 +244,12 @@ TEST(WearStudy, IsListedApartFromSearches) {
   const TemporaryStore store;
   SlidingEngine engine;
   jobs::Service service(options_for(store, engine));
-  const std::string id = service.submit_study(Study::kWear, kRequest).at("id");
+  const std::string id = service.submit_study(StudyKind::kWear, kRequest).at("id");
   (void)wait_for_study_end(service, id);
-  EXPECT_EQ(service.list_studies(Study::kWear, {}).at("items").at(0).at("id"), id);
-  EXPECT_TRUE(service.list_studies(Study::kLimit, {}).at("items").empty());
-  EXPECT_FALSE(service.find_study(Study::kLimit, id));
-  EXPECT_FALSE(service.cancel_study(Study::kLimit, id));
+  EXPECT_EQ(service.list_studies(StudyKind::kWear, {}).at("items").at(0).at("id"), id);
+  EXPECT_TRUE(service.list_studies(StudyKind::kLimit, {}).at("items").empty());
+  EXPECT_FALSE(service.find_study(StudyKind::kLimit, id));
+  EXPECT_FALSE(service.cancel_study(StudyKind::kLimit, id));
 }
 
 }  // namespace

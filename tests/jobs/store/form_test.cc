@@ -15,14 +15,18 @@
 namespace jobs_tests {
 namespace {
 
-/// A store as the last program wrote it that knew no newer form. Each has a sweep of two jobs that have succeeded.
+using jobs::StudyKind;
+
+/// A store as the last program wrote it that knew no newer form. Each has a sweep of two jobs that have
+/// succeeded.
 void make_store_of_form(int form, const std::filesystem::path& file) {
   { std::ofstream(file) << ""; }
   execute_sql(file, "PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL");
   std::ifstream dump(std::string(STORE_FORMS) + "/form_" + std::to_string(form) + ".sql");
   const std::string text{std::istreambuf_iterator<char>(dump), {}};
   ASSERT_FALSE(text.empty());
-  execute_sql(file, text + "PRAGMA application_id = 0x52505355; PRAGMA user_version = " + std::to_string(form));
+  execute_sql(file,
+              text + "PRAGMA application_id = 0x52505355; PRAGMA user_version = " + std::to_string(form));
 }
 
 TEST(StoreForm, TakesOverAStoreOfForm1) {
@@ -53,7 +57,8 @@ TEST(StoreForm, TakesOverAStoreOfForm1) {
 TEST(StoreForm, CountsOnFromTheChangesThatAStoreHas) {
   const TemporaryStore temporary;
   make_store_of_form(1, temporary.file());
-  execute_sql(temporary.file(), "UPDATE jobs SET state = 'queued', result = NULL, ended_ms = NULL WHERE seq = 2");
+  execute_sql(temporary.file(),
+              "UPDATE jobs SET state = 'queued', result = NULL, ended_ms = NULL WHERE seq = 2");
   const std::string id = query_sql(temporary.file(), "SELECT id FROM sweeps");
   for (const std::int64_t change : {1, 2}) {
     jobs::Store store(temporary.file());
@@ -95,7 +100,8 @@ class FormerAnswers : public FormerStore {};
 TEST_P(FormerAnswers, AreGivenAgain) {
   jobs::Service service(options_of(store_, engine_, 1));
   const std::string id = service.list_sweeps({}).at("items").back().at("id");
-  const auto request = nlohmann::ordered_json::parse(R"({"name": "kept", "priority": 3, "parameters": {"duration_s": 0.01, "run_up_s": 0.005,
+  const auto request = nlohmann::ordered_json::parse(
+      R"({"name": "kept", "priority": 3, "parameters": {"duration_s": 0.01, "run_up_s": 0.005,
     "output_rate_hz": 100}, "sweep": {"clearance_mm": [0, 0.3]}})");
   EXPECT_EQ(service.submit_sweep(request, "sweep-key").at("id"), id);
   EXPECT_NE(service.submit_sweep(request, "another-key").at("id"), id);
@@ -108,8 +114,8 @@ TEST(StoreForm, TakesOverTheSearchesOfForm3) {
   FakeEngine engine;
   make_store_of_form(3, temporary.file());
   jobs::Service service(options_of(temporary, engine, 1));
-  const std::string id = service.list_studies(jobs::Study::kLimit, {}).at("items").at(0).at("id");
-  const auto search = service.find_study(jobs::Study::kLimit, id).value();
+  const std::string id = service.list_studies(StudyKind::kLimit, {}).at("items").at(0).at("id");
+  const auto search = service.find_study(StudyKind::kLimit, id).value();
   EXPECT_EQ(search.at("state"), "succeeded");
   EXPECT_EQ(search.at("limits").at(0).at("verdict"), "never_exceeded");
 }
