@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,9 +34,6 @@ inline constexpr std::string_view kRpsupName = "rpsup";
 
 /// A description in the one form in which it is stored: all numbers as doubles, -0 as 0.
 [[nodiscard]] nlohmann::json canonical_linkage(const nlohmann::json& description);
-
-/// Freedoms of a joint of a known kind.
-[[nodiscard]] std::size_t count_freedoms(std::string_view kind);
 
 /// JSON Schema of the key "linkage".
 [[nodiscard]] nlohmann::json linkage_schema();

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "jobs/linkages/linkage_json.h"
+#include "jobs/linkages/linkage_joint.h"
 
 namespace jobs {
 namespace {
@@ -28,8 +28,8 @@ std::size_t elements_of(const json& beam, std::size_t otherwise) {
 LinkageSize size_of_linkage(const json& description, std::size_t elements) {
   LinkageSize size;
   for (const json& joint : description.at("joints")) {
-    const std::size_t freedoms = count_freedoms(joint.at("kind").get_ref<const std::string&>());
-    if (joint.value("closes_loop", false)) size.constraints += kFreedomsOfABody - freedoms;
+    const std::size_t freedoms = count_freedoms(joint);
+    if (closes_loop(joint)) size.constraints += kFreedomsOfABody - freedoms;
     else size.freedoms += freedoms;
   }
   size.coordinates = size.freedoms;

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/linkages/make_linkage.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "engine/model/rpsup.h"
+#include "jobs/linkages/linkage_beam.h"
+#include "jobs/linkages/linkage_drive.h"
+#include "jobs/linkages/linkage_fields.h"
+#include "jobs/linkages/linkage_joint.h"
+#include "jobs/parameters/units.h"
+
+namespace jobs {
+namespace {
+
+using engine::JointKind;
+using nlohmann::json;
+
+Eigen::Vector3d point_of(const json& object, const char* key) {
+  if (!object.contains(key)) return Eigen::Vector3d::Zero();
+  const auto values = object.at(key).get<std::array<double, 3>>();
+  return {values[0], values[1], values[2]};
+}
+
+/// Sine and cosine, exact at multiples of 90 degrees.
+std::pair<double, double> sine_and_cosine(double degrees) {
+  const double quarters = degrees / 90.0;
+  if (quarters != std::round(quarters)) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    return {std::sin(angle), std::cos(angle)};
+  }
+  constexpr std::array<double, 4> kSines{0.0, 1.0, 0.0, -1.0};
+  const auto quarter = static_cast<std::size_t>(((std::lround(quarters) % 4) + 4) % 4);
+  return {kSines[quarter], kSines[(quarter + 1) % 4]};
+}
+
+/// R_z(c) R_y(b) R_x(a) of (a, b, c).
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& degrees) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (const int axis : {2, 1, 0}) {
+    const auto [s, c] = sine_and_cosine(degrees[axis]);
+    Eigen::Matrix3d R_axis = Eigen::Matrix3d::Identity();
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    R_axis(i, i) = R_axis(j, j) = c;
+    R_axis(j, i) = s;
+    R_axis(i, j) = -s;
+    R = R * R_axis;
+  }
+  return R;
+}
+
+engine::Axis axis_of(const json& joint, const char* key, char otherwise) {
+  const char letter = joint.value(key, std::string(1, otherwise))[0];
+  return static_cast<engine::Axis>(letter - 'x');
+}
+
+/// Cyclic permutation of the axes that brings one where another one is.
+Eigen::Matrix3d rotation_between(engine::Axis from, engine::Axis to) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+  const int by = static_cast<int>(to) - static_cast<int>(from) + 3;
+  for (int i = 0; i < 3; ++i) R((i + by) % 3, i) = 1.0;
+  return R;
+}
+
+Eigen::Matrix3d inertia_of(const json& values) {
+  const auto at = [&](std::size_t i) { return i < values.size() ? values[i].get<double>() : 0.0; };
+  Eigen::Matrix3d I;
+  I << at(0), at(3), at(4), at(3), at(1), at(5), at(4), at(5), at(2);
+  return I;
+}
+
+class LinkageMaker {
+ public:
+  LinkageMaker(const json& given, const engine::RpsupParameters& defaults)
+      : given_(given), defaults_(defaults) {}
+
+  [[nodiscard]] engine::Linkage make(const std::vector<std::string>& order) const {
+    engine::Linkage linkage;
+    for (const auto& [name, body] : given_.at("bodies").items())
+      linkage.bodies.push_back(make_body(name, body));
+    for (const std::string& name : order)
+      linkage.joints.push_back(make_joint(name, given_.at("joints").at(name)));
+    if (given_.contains("springs"))
+      for (const auto& [name, spring] : given_.at("springs").items())
+        linkage.springs.push_back(make_spring(name, spring));
+    linkage.gravity_W = given_.contains("gravity_m_s2") ? point_of(given_, "gravity_m_s2")
+                                                        : Eigen::Vector3d(0.0, -defaults_.gravity, 0.0);
+    linkage.drive_rows = defaults_.drive == engine::DriveEnforcement::kBaumgarte
+                             ? engine::DriveRows::kMultipliers
+                             : engine::DriveRows::kEliminated;
+    linkage.baumgarte_alpha = defaults_.baumgarte_alpha;
+    linkage.baumgarte_beta = defaults_.baumgarte_beta;
+    return linkage;
+  }
+
+ private:
+  [[nodiscard]] engine::LinkageBody make_body(const std::string& name, const json& given) const {
+    engine::LinkageBody body;
+    body.name = name;
+    body.mass = given.at("mass_kg").get<double>();
+    if (given.contains("beam")) {
+      body.beam = read_beam(given.at("beam"), body.mass, defaults_);
+      body.elements = given.at("beam").value("elements", defaults_.rigid_elements);
+      return body;
+    }
+    body.com = point_of(given, "centre_of_mass_m");
+    if (given.contains("inertia_about_origin_kg_m2")) {
+      body.inertia = inertia_of(given.at("inertia_about_origin_kg_m2"));
+      return body;
+    }
+    if (given.contains("inertia_kg_m2")) body.inertia = inertia_of(given.at("inertia_kg_m2"));
+    body.inertia +=
+        body.mass * (body.com.squaredNorm() * Eigen::Matrix3d::Identity() - body.com * body.com.transpose());
+    return body;
+  }
+
+  [[nodiscard]] engine::LinkageJoint make_joint(const std::string& name, const json& given) const {
+    engine::LinkageJoint joint;
+    joint.name = name;
+    joint.kind = find_joint_kind(given).value();
+    joint.from = given.at("from").get<std::string>();
+    joint.to = given.at("to").get<std::string>();
+    joint.placement = {rotation_of(point_of(given, "turned_deg")), point_of(given, "at_m")};
+    joint.cut = closes_loop(given);
+    if (joint.cut) {
+      finish_cut(given, joint);
+      return joint;
+    }
+    joint.axes = {axis_of(given, "axis", 'z'), axis_of(given, "second_axis", 'y')};
+    joint.lead = given.value("lead_mm", 0.0) / kMmPerM / (2.0 * std::numbers::pi);
+    for (const auto& [part, motion] : freedoms_of(joint.kind)) {
+      const std::string key(part);
+      joint.freedoms.push_back(
+          part.empty()
+              ? make_freedom(name, given, motion)
+              : make_freedom(name + "_" + key,
+                             given.value("freedoms", json::object()).value(key, json::object()), motion));
+    }
+    return joint;
+  }
+
+  [[nodiscard]] static engine::LinkageSpring make_spring(const std::string& name, const json& given) {
+    return {.name = name,
+            .from = given.at("from").get<std::string>(),
+            .to = given.at("to").get<std::string>(),
+            .at = point_of(given, "at_m"),
+            .to_at = point_of(given, "to_at_m"),
+            .stiffness = given.value("stiffness_n_m", 0.0),
+            .damping = given.value("damping_n_s_m", 0.0),
+            .free_length = given.contains("free_length_m")
+                               ? std::optional(given.at("free_length_m").get<double>())
+                               : std::nullopt};
+  }
+
+  /// The engine's cut joints have their axis along z, the second one of a universal joint along the journal's
+  /// x.
+  void finish_cut(const json& given, engine::LinkageJoint& joint) const {
+    joint.to_placement = {rotation_of(point_of(given, "to_turned_deg")), point_of(given, "to_at_m")};
+    const engine::Axis axis = axis_of(given, "axis", 'z');
+    joint.placement.R = joint.placement.R * rotation_between(engine::Axis::kZ, axis);
+    joint.to_placement.R =
+        joint.to_placement.R * (joint.kind == JointKind::kUniversal
+                                    ? rotation_between(engine::Axis::kX, axis_of(given, "second_axis", 'y'))
+                                    : rotation_between(engine::Axis::kZ, axis));
+    if (!given.contains("clearance")) return;
+    const engine::RpsupParameters parameters = clearance_parameters(given.at("clearance"), defaults_);
+    if (parameters.c_r > 0.0) joint.clearance = engine::make_clearance(parameters);
+  }
+
+  [[nodiscard]] engine::LinkageFreedom make_freedom(std::string name, const json& given,
+                                                    engine::Motion motion) const {
+    const auto optional = [&](const char* in_metres, const char* in_radians) {
+      const char* const key = slides(motion) ? in_metres : in_radians;
+      return given.contains(key) ? std::optional(given.at(key).get<double>()) : std::nullopt;
+    };
+    engine::LinkageFreedom freedom;
+    freedom.name = std::move(name);
+    freedom.guess = optional("guess_m", "guess_rad").value_or(0.0);
+    freedom.start = optional("start_m", "start_rad");
+    freedom.start_rate = optional("start_rate_m_s", "start_rate_rad_s");
+    freedom.stiffness = optional("stiffness_n_m", "stiffness_n_m_rad").value_or(0.0);
+    freedom.damping = optional("damping_n_s_m", "damping_n_m_s_rad").value_or(0.0);
+    if (given.contains("drive")) freedom.drive = read_drive(given.at("drive"), motion, defaults_);
+    return freedom;
+  }
+
+  const json& given_;
+  const engine::RpsupParameters& defaults_;
+};
+
+}  // namespace
+
+engine::Linkage make_linkage(const json& description, const engine::RpsupParameters& defaults,
+                             const std::vector<std::string>& order) {
+  return LinkageMaker(description, defaults).make(order);
+}
+
+}  // namespace jobs
