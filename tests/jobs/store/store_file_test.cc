@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whom the file of a store is for, and which files are refused and left alone.
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "jobs/base/errors.h"
+#include "jobs/store/store.h"
+#include "tests/jobs/service_support.h"
+#include "tests/jobs/store/store_support.h"
+
+namespace jobs_tests {
+namespace {
+
+TEST(Store, IsRefusedToASecondOpener) {
+  const TemporaryStore temporary;
+  {
+    const jobs::Store store(temporary.file());
+    EXPECT_THROW(jobs::Store second(temporary.file()), jobs::StorageError);
+  }
+  EXPECT_NO_THROW(jobs::Store third(temporary.file()));
+}
+
+TEST(Store, IsForItsOwnerOnly) {
+  const TemporaryStore temporary;
+  const jobs::Store store(temporary.file());
+  for (const char* suffix : {"", ".lock", "-wal"}) {
+    struct stat status {};
+    ASSERT_EQ(::stat((temporary.file().string() + suffix).c_str(), &status), 0) << suffix;
+    EXPECT_EQ(status.st_mode & 0777U, 0600U) << suffix;
+  }
+}
+
+TEST(Store, IsTakenFromOthersWhoCouldReadIt) {
+  const TemporaryStore temporary;
+  { const jobs::Store store(temporary.file()); }
+  ASSERT_EQ(::chmod(temporary.file().c_str(), 0644), 0);
+  const std::string log = temporary.file().string() + "-wal";
+  { std::ofstream(log) << ""; }
+  ASSERT_EQ(::chmod(log.c_str(), 0666), 0);
+  const jobs::Store store(temporary.file());
+  for (const std::string& file : {temporary.file().string(), log}) {
+    struct stat status {};
+    ASSERT_EQ(::stat(file.c_str(), &status), 0) << file;
+    EXPECT_EQ(status.st_mode & 0777U, 0600U) << file;
+  }
+}
+
+std::string store_refusal_of(const std::filesystem::path& file) {
+  try {
+    const jobs::Store store(file);
+  } catch (const jobs::StorageError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string stored_bytes(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Store, RefusesTheFormOfANewerProgramAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  { const jobs::Store store(temporary.file()); }
+  execute_sql(temporary.file(), "PRAGMA user_version = 1000");
+  EXPECT_NE(store_refusal_of(temporary.file()).find("newer program"), std::string::npos);
+  EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "1000");
+}
+
+TEST(Store, RefusesTheDatabaseOfAnotherProgramAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  { std::ofstream(temporary.file()) << ""; }
+  execute_sql(temporary.file(), "CREATE TABLE notes (text)");
+  const std::string before = stored_bytes(temporary.file());
+  EXPECT_NE(store_refusal_of(temporary.file()).find("not a store of this program"), std::string::npos);
+  EXPECT_EQ(stored_bytes(temporary.file()), before);
+}
+
+TEST(Store, RefusesWhatIsNoDatabaseAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  const std::string text(10'000, 'x');
+  { std::ofstream(temporary.file()) << text; }
+  EXPECT_NE(store_refusal_of(temporary.file()).find("left as it is"), std::string::npos);
+  EXPECT_EQ(stored_bytes(temporary.file()), text);
+}
+
+TEST(Store, RefusesADamagedFileAndLeavesItAlone) {
+  const TemporaryStore temporary;
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 300}}})");
+  }
+  std::string damaged = stored_bytes(temporary.file());
+  ASSERT_GT(damaged.size(), 400'000U);
+  for (std::size_t i = damaged.size() / 4; i < damaged.size(); ++i) damaged[i] = static_cast<char>(i * 37);
+  { std::ofstream(temporary.file(), std::ios::binary) << damaged; }
+  EXPECT_NE(store_refusal_of(temporary.file()).find("damaged"), std::string::npos);
+  EXPECT_EQ(stored_bytes(temporary.file()), damaged);
+}
+
+TEST(Store, RefusesAFileThatWasCutOff) {
+  const TemporaryStore temporary;
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 300}}})");
+  }
+  std::filesystem::resize_file(temporary.file(), std::filesystem::file_size(temporary.file()) / 2);
+  EXPECT_NE(store_refusal_of(temporary.file()).find("damaged"), std::string::npos);
+}
+
+/// The files of a store that is in use, as a kill would leave them.
+void copy_files(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::filesystem::copy_file(from, to);
+  std::filesystem::copy_file(from.string() + "-wal", to.string() + "-wal");
+}
+
+TEST(Store, LeavesTheLogOfAStoreThatItRefusesAlone) {
+  const TemporaryStore temporary;
+  const std::filesystem::path killed = temporary.file().string() + ".killed";
+  { const jobs::Store store(temporary.file()); }
+  {
+    SQLite::Database newer(temporary.file().string(), SQLite::OPEN_READWRITE);
+    newer.exec("PRAGMA user_version = 1000");
+    copy_files(temporary.file(), killed);
+  }
+  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
+  ASSERT_FALSE(log.empty());
+  EXPECT_NE(store_refusal_of(killed).find("newer program"), std::string::npos);
+  EXPECT_EQ(stored_bytes(killed.string() + "-wal"), log);
+  EXPECT_EQ(stored_bytes(killed), file);
+}
+
+TEST(Store, LeavesTheLogOfAStoreAloneWhoseDamageIsOnlySeenAsItIsWritten) {
+  const TemporaryStore temporary;
+  const std::filesystem::path killed = temporary.file().string() + ".killed";
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 1000}}})");
+  }
+  // Putting these back into the queue takes pages from the list of free ones, which leads nowhere. No table has it, so none seems damaged.
+  execute_sql(temporary.file(), "UPDATE jobs SET state = 'running', started_ms = created_ms");
+  constexpr std::streamoff kFreePages = 32;
+  {
+    std::fstream file(temporary.file(), std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(kFreePages);
+    file << std::string{0, 0x7f, 0, 0, 0, 0, 0, 5};
+  }
+  {
+    SQLite::Database other(temporary.file().string(), SQLite::OPEN_READWRITE);
+    other.exec("UPDATE sweeps SET name = 'in the log'");
+    copy_files(temporary.file(), killed);
+  }
+  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
+  ASSERT_FALSE(log.empty());
+  EXPECT_NE(store_refusal_of(killed).find("is damaged"), std::string::npos);
+  EXPECT_TRUE(stored_bytes(killed.string() + "-wal") == log);
+  EXPECT_TRUE(stored_bytes(killed) == file);
+}
+
+TEST(Store, RefusesALogWhoseStoreIsGone) {
+  const TemporaryStore temporary;
+  const std::filesystem::path killed = temporary.file().string() + ".killed";
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, R"({"sweep": {"clearance_mm": [0.1, 0.2]}})");
+    copy_files(temporary.file(), killed);
+  }
+  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
+  ASSERT_FALSE(log.empty());
+  std::filesystem::remove(killed);
+  EXPECT_NE(store_refusal_of(killed).find("its log"), std::string::npos);
+  EXPECT_EQ(stored_bytes(killed.string() + "-wal"), log);
+  EXPECT_FALSE(std::filesystem::exists(killed));
+  { std::ofstream(killed) << file; }
+  const jobs::Store store(killed);
+  EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1U) << "the store was put back";
+}
+
+TEST(Store, TurnsADirectoryOrAMissingFolderDown) {
+  const TemporaryStore temporary;
+  std::filesystem::create_directory(temporary.file());
+  EXPECT_THROW(jobs::Store store(temporary.file()), jobs::StorageError);
+  EXPECT_THROW(jobs::Store store(temporary.file() / "no" / "such" / "folder.db"), jobs::StorageError);
+}
+
+}  // namespace
+}  // namespace jobs_tests
