@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a client sends down a connection: through the stream, the guard and the library, to handlers that answer at once.
+// Whatever a client sends down a connection: through the stream, the guard and the library, to handlers that
+// answer at once.
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -37,8 +38,8 @@ std::string seen_of(const httplib::Request& request) {
   return text;
 }
 
-/// A guarded server that answers every POST with the body that it had, and every other request with its head as seen.
-/// It lives as long as the fuzzer.
+/// A guarded server that answers every POST with the body that it had, and every other request with its head
+/// as seen. It lives as long as the fuzzer.
 class Target {
  public:
   Target() {
@@ -48,7 +49,8 @@ class Target {
       response.set_content(seen_of(request), "text/plain");
       return httplib::Server::HandlerResponse::Handled;
     });
-    guard_.Post(R"([\s\S]*)", [](const httplib::Request&, httplib::Response& response, const httplib::ContentReader& reader) {
+    guard_.Post(R"([\s\S]*)", [](const httplib::Request&, httplib::Response& response,
+                                 const httplib::ContentReader& reader) {
       std::string body;
       reader([&](const char* data, std::size_t size) {
         body.append(data, size);
@@ -69,7 +71,8 @@ class Target {
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port_));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    fuzz::expect(::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0, "a connection is taken");
+    fuzz::expect(::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0,
+                 "a connection is taken");
     const linger reset{.l_onoff = 1, .l_linger = 0};  // else so many connections would use up the ports
     ::setsockopt(socket, SOL_SOCKET, SO_LINGER, &reset, sizeof reset);
     send_all(socket, first);
@@ -77,7 +80,8 @@ class Target {
     ::shutdown(socket, SHUT_WR);
     std::string answer;
     char bytes[16 * 1024];
-    for (ssize_t got = 0; (got = ::recv(socket, bytes, sizeof bytes, 0)) > 0;) answer.append(bytes, static_cast<std::size_t>(got));
+    for (ssize_t got = 0; (got = ::recv(socket, bytes, sizeof bytes, 0)) > 0;)
+      answer.append(bytes, static_cast<std::size_t>(got));
     ::close(socket);
     return answer;
   }
@@ -91,7 +95,9 @@ class Target {
     }
   }
 
-  server::GuardedServer guard_{short_limits(), [](int status, const std::string& detail) { return server::make_problem(status, detail); }};
+  server::GuardedServer guard_{short_limits(), [](int status, const std::string& detail) {
+                                 return server::make_problem(status, detail);
+                               }};
   int port_ = 0;
 };
 

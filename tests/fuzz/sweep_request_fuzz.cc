@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bodies of POST /v1/sweeps, of its extension, of POST /v1/searches and of POST /v1/wear-studies, from their bytes to the jobs that they mean.
+// The bodies of POST /v1/sweeps, of its extension, of POST /v1/searches and of POST /v1/wear-studies, from
+// their bytes to the jobs that they mean.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,15 +26,18 @@ void check_extension(const nlohmann::ordered_json& request) {
   }
   if (own.empty()) return;
   const jobs::Extension nothing = jobs::plan_extension(request, own, kMostJobs);
-  fuzz::expect(nothing.jobs.empty() && nothing.request == request, "a sweep has its own axes and cases already");
+  fuzz::expect(nothing.jobs.empty() && nothing.request == request,
+               "a sweep has its own axes and cases already");
 }
 
 void check_plan(const nlohmann::ordered_json& request, const jobs::SweepPlan& plan) {
-  fuzz::expect(!plan.jobs.empty() && plan.jobs.size() <= kMostJobs, "a sweep has from one job to as many as are allowed");
+  fuzz::expect(!plan.jobs.empty() && plan.jobs.size() <= kMostJobs,
+               "a sweep has from one job to as many as are allowed");
   const jobs::SweepPlan again = jobs::plan_sweep(server::parse_json(server::to_text(request)), kMostJobs);
   fuzz::expect(again.jobs.size() == plan.jobs.size(), "a request that was stored means as many jobs");
   for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
-    fuzz::expect(again.jobs[i].content_id == plan.jobs[i].content_id, "a request that was stored means the same jobs");
+    fuzz::expect(again.jobs[i].content_id == plan.jobs[i].content_id,
+                 "a request that was stored means the same jobs");
   }
   const jobs::PlannedJob& last = plan.jobs.back();
   const jobs::PlannedJob alone = jobs::plan_job(nlohmann::json::parse(last.parameters));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blobs of trajectories: those of a damaged store, and those whose checksums are right and whose content is not.
+// Blobs of trajectories: those of a damaged store, and those whose checksums are right and whose content is
+// not.
 
 #include <fuzzer/FuzzedDataProvider.h>
 
@@ -20,7 +21,8 @@ std::string make_blob(FuzzedDataProvider& from) {
   jobs::ByteWriter header;
   std::string frames;
   const auto version = from.ConsumeIntegral<std::uint8_t>();
-  header.number(from.ConsumeBool() ? std::uint64_t{from.ConsumeIntegral<std::uint8_t>()} : from.ConsumeIntegral<std::uint64_t>());
+  header.number(from.ConsumeBool() ? std::uint64_t{from.ConsumeIntegral<std::uint8_t>()}
+                                   : from.ConsumeIntegral<std::uint64_t>());
   const auto channels = from.ConsumeIntegralInRange<std::uint32_t>(0, 8);
   header.number(from.ConsumeProbability<float>() < 0.9F ? channels : from.ConsumeIntegral<std::uint32_t>());
   for (std::uint32_t i = 0; i < channels; ++i) {
@@ -31,7 +33,8 @@ std::string make_blob(FuzzedDataProvider& from) {
     if (from.ConsumeBool()) {
       header.number(from.ConsumeIntegral<std::uint32_t>());  // a copy, or a wrong size
     } else {
-      header.number(static_cast<std::uint32_t>(compressor.append_frame(from.ConsumeRandomLengthString(512), jobs::Effort::kFull, frames)));
+      header.number(static_cast<std::uint32_t>(
+          compressor.append_frame(from.ConsumeRandomLengthString(512), jobs::Effort::kFull, frames)));
     }
   }
   std::string packed;
@@ -46,7 +49,8 @@ void check_blob(const std::string& blob) {
   const auto bytes = std::as_bytes(std::span(blob));
   const engine::Trajectory run = jobs::decode_trajectory(bytes, {});
   fuzz::expect(run.channels.size() == run.columns.size(), "each channel has its column");
-  fuzz::expect(jobs::decode_channels(bytes).size() == run.channels.size(), "a blob says how many channels it has");
+  fuzz::expect(jobs::decode_channels(bytes).size() == run.channels.size(),
+               "a blob says how many channels it has");
   jobs::check_is_table(run);
   const std::string packed = jobs::encode_trajectory(run);
   const engine::Trajectory back = jobs::decode_trajectory(std::as_bytes(std::span(packed)), {});

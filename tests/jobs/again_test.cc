@@ -23,7 +23,9 @@ json await(const jobs::Service& service, const std::string& id) {
   return service.find_sweep(id).value();
 }
 
-std::string submit(jobs::Service& service, const char* request) { return service.submit_sweep(request_of(request)).at("id"); }
+std::string submit(jobs::Service& service, const char* request) {
+  return service.submit_sweep(request_of(request)).at("id");
+}
 
 TEST(Retry, QueuesFailedAndCancelledJobsOnly) {
   const TemporaryStore temporary;
@@ -80,7 +82,8 @@ TEST(Retry, ComputesWithTheEngineOfToday) {
   std::string id;
   {
     jobs::Store store(temporary.file());
-    id = store.queue.add_sweep(jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
+    id = store.queue.add_sweep(
+        jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
     static_cast<void>(store.queue.cancel_sweep(id));
   }
   const std::string name = query_sql(temporary.file(), "SELECT content_id FROM contents");
@@ -89,7 +92,9 @@ TEST(Retry, ComputesWithTheEngineOfToday) {
     jobs::Store store(temporary.file());
     EXPECT_TRUE(store.queue.retry_sweep(id, 10));
   }
-  EXPECT_EQ(query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"), name);
+  EXPECT_EQ(
+      query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"),
+      name);
 }
 
 TEST(Again, SaysOnceThatTheStoreIsOfAnotherEngineAndComputesAnew) {
@@ -123,7 +128,8 @@ TEST(Retry, ForgetsNoNumberOfAnEnd) {
   std::int64_t last = 0;
   {
     jobs::Store store(temporary.file());
-    id = store.queue.add_sweep(jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
+    id = store.queue.add_sweep(
+        jobs::plan_sweep(request_of(R"({"sweep": {"crank_velocity_rad_s": [5]}})"), 10), "{}", 10);
     for (int times = 0; times < 3; ++times) {
       static_cast<void>(store.queue.cancel_sweep(id));
       last = store.reader.find_changes(id, 0)->ended.at(0).change;
@@ -188,8 +194,13 @@ TEST(Extend, RunsNewJobsOnlyAndReadsAsTheUnion) {
   EXPECT_EQ(after[0], before[0]);
   EXPECT_EQ(after[2][2], 7.0);
   // The same again changes nothing; what is faulty is refused; another sweep has nothing of it.
-  EXPECT_EQ(service.extend_sweep(id, request_of(R"({"sweep": {"crank_velocity_rad_s": [7]}})"))->at("counts").at("total"), 3);
-  EXPECT_EQ(pointers_of(faults_of([&] { service.extend_sweep(id, request_of(R"({"sweep": {"restitution": [0.8]}})")); })), (Strings{"/sweep/restitution"}));
+  EXPECT_EQ(service.extend_sweep(id, request_of(R"({"sweep": {"crank_velocity_rad_s": [7]}})"))
+                ->at("counts")
+                .at("total"),
+            3);
+  EXPECT_EQ(pointers_of(faults_of(
+                [&] { service.extend_sweep(id, request_of(R"({"sweep": {"restitution": [0.8]}})")); })),
+            (Strings{"/sweep/restitution"}));
   EXPECT_FALSE(service.extend_sweep("swp_none", request_of("{}")).has_value());
 }
 
@@ -237,7 +248,8 @@ TEST(Idempotency, RefusesAKeyOfAnotherRequest) {
   const std::string job = service.submit_job(json::object(), "key").dump();
   EXPECT_EQ(service.submit_job(json::object(), "key").dump(), job);
   EXPECT_THROW((void)service.submit_job({{"clearance_mm", 0.5}}, "key"), jobs::InvalidRequest);
-  EXPECT_THROW((void)service.submit_sweep(request_of("{}"), "key"), jobs::InvalidRequest);  // the same text, but to another route
+  // the same text, but to another route
+  EXPECT_THROW((void)service.submit_sweep(request_of("{}"), "key"), jobs::InvalidRequest);
   EXPECT_EQ(service.list_jobs({}).at("items").size(), 1U);
 }
 
@@ -253,7 +265,8 @@ TEST(Idempotency, StoresOneSweepOfManyRequestsAtATime) {
   const TemporaryStore temporary;
   FakeEngine engine;
   jobs::Service service(options_of(temporary, engine, 1));
-  const auto request = request_of(R"({"sweep": {"crank_velocity_rad_s": {"from": 5, "to": 6, "count": 500}}})");
+  const auto request =
+      request_of(R"({"sweep": {"crank_velocity_rad_s": {"from": 5, "to": 6, "count": 500}}})");
   std::mutex mutex;
   std::set<std::string> answers;
   int in_flight = 0;
@@ -339,7 +352,8 @@ TEST(CopyOfTheStore, IsAStoreWithAllOfIt) {
   await(service, id);
   EXPECT_TRUE(service.copy_store_to(copy));
   EXPECT_THROW((void)service.copy_store_to(copy), jobs::StorageError);  // never over a file that is there
-  EXPECT_EQ(std::filesystem::status(copy).permissions(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  EXPECT_EQ(std::filesystem::status(copy).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   auto options = options_of(temporary, engine, 1);
   options.store = copy;
   const jobs::Service other(options);
@@ -353,7 +367,8 @@ TEST(CopyOfTheStore, EndsWhenItIsToldTo) {
   const auto copy = temporary.file().parent_path() / "copy.db";
   {
     jobs::Service service(options_of(temporary, engine, 1));
-    await(service, submit(service, R"({"sweep": {"crank_velocity_rad_s": {"from": 5, "to": 6, "count": 1000}}})"));
+    await(service,
+          submit(service, R"({"sweep": {"crank_velocity_rad_s": {"from": 5, "to": 6, "count": 1000}}})"));
   }
   EXPECT_FALSE(jobs::copy_store(temporary.file(), copy, [] { return true; }));
   EXPECT_FALSE(std::filesystem::exists(copy));
@@ -363,14 +378,22 @@ TEST(Results, ShowParametersThatAreNotSwept) {
   const TemporaryStore temporary;
   FakeEngine engine;
   jobs::Service service(options_of(temporary, engine, 1));
-  const std::string id = submit(service, R"({"parameters": {"restitution": 0.8}, "sweep": {"crank_velocity_rad_s": [5, 6]}})");
+  const std::string id =
+      submit(service, R"({"parameters": {"restitution": 0.8}, "sweep": {"crank_velocity_rad_s": [5, 6]}})");
   await(service, id);
-  const auto table = service.find_results(id, {.fields = "crank_velocity_rad_s,restitution,links.1,3.mass_kg", .filters = {{"restitution_gt", "0.7"}},
-                                               .order_by = "-crank_velocity_rad_s", .limit = 1}).value();
+  const auto table = service
+                         .find_results(id, {.fields = "crank_velocity_rad_s,restitution,links.1,3.mass_kg",
+                                            .filters = {{"restitution_gt", "0.7"}},
+                                            .order_by = "-crank_velocity_rad_s",
+                                            .limit = 1})
+                         .value();
   EXPECT_EQ(table.columns, (Strings{"crank_velocity_rad_s", "restitution", "links.1,3.mass_kg"}));
   EXPECT_EQ(table.rows, (std::vector<std::vector<json>>{{6.0, 0.8, 0.306}}));
   EXPECT_TRUE(table.ended);
-  EXPECT_TRUE(service.find_results(id, {.fields = {}, .filters = {{"restitution", "0.9"}}, .order_by = {}, .limit = {}})->rows.empty());
+  EXPECT_TRUE(
+      service
+          .find_results(id, {.fields = {}, .filters = {{"restitution", "0.9"}}, .order_by = {}, .limit = {}})
+          ->rows.empty());
 }
 
 TEST(Listings, ShowTheFieldsThatAreWanted) {

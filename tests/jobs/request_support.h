@@ -30,6 +30,8 @@ inline std::vector<std::string> pointers_of(const std::vector<jobs::Fault>& faul
 }
 
 inline nlohmann::json json_of(const std::string& text) { return nlohmann::json::parse(text); }
-inline nlohmann::ordered_json request_of(const std::string& text) { return nlohmann::ordered_json::parse(text); }
+inline nlohmann::ordered_json request_of(const std::string& text) {
+  return nlohmann::ordered_json::parse(text);
+}
 
 }  // namespace jobs_tests

@@ -22,7 +22,9 @@ TemporaryStore::~TemporaryStore() {
 }
 
 jobs::Runner FakeEngine::runner() {
-  return [this](const jobs::JobSpec& spec, const engine::StopQuery& stop_requested) { return run(spec, stop_requested); };
+  return [this](const jobs::JobSpec& spec, const engine::StopQuery& stop_requested) {
+    return run(spec, stop_requested);
+  };
 }
 
 engine::RunResult FakeEngine::run(const jobs::JobSpec& spec, const engine::StopQuery& stop_requested) {
@@ -46,7 +48,8 @@ engine::RunResult FakeEngine::run(const jobs::JobSpec& spec, const engine::StopQ
     result.trajectory.columns[0].push_back(k / 10.0);
     result.trajectory.columns[1].push_back(std::sqrt(x + k));
   }
-  result.trajectory.channels = {{.key = "t_s", .help = "Time"}, {.key = "slider_position_m", .help = "Position"}};
+  result.trajectory.channels = {{.key = "t_s", .help = "Time"},
+                                {.key = "slider_position_m", .help = "Position"}};
   result.t_end = 1.0;
   if (result.status == engine::RunStatus::kStopped) return result;
   if (spec.parameters.restitution == 0.4) throw std::runtime_error("the fake engine broke");
@@ -55,7 +58,8 @@ engine::RunResult FakeEngine::run(const jobs::JobSpec& spec, const engine::StopQ
     result.detail = "the fake state is no number";
     return result;
   }
-  for (std::size_t i = 0; i < engine::metric_table().size(); ++i) result.metrics.push_back(i == 1 ? std::nan("") : std::sqrt(x) * static_cast<double>(i + 1));
+  for (std::size_t i = 0; i < engine::metric_table().size(); ++i)
+    result.metrics.push_back(i == 1 ? std::nan("") : std::sqrt(x) * static_cast<double>(i + 1));
   return result;
 }
 
@@ -72,7 +76,8 @@ void FakeEngine::release() {
 
 void FakeEngine::await_running(int count) {
   std::unique_lock lock(mutex_);
-  if (!changed_.wait_for(lock, std::chrono::seconds(20), [&] { return running_ == count; })) throw std::runtime_error("no such number of runs began");
+  if (!changed_.wait_for(lock, std::chrono::seconds(20), [&] { return running_ == count; }))
+    throw std::runtime_error("no such number of runs began");
 }
 
 std::vector<double> FakeEngine::begun_speeds() {
@@ -93,7 +98,9 @@ jobs::ServiceOptions options_of(const TemporaryStore& store, FakeEngine& engine,
   return options;
 }
 
-void execute_sql(const std::filesystem::path& file, const std::string& sql) { SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec(sql); }
+void execute_sql(const std::filesystem::path& file, const std::string& sql) {
+  SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec(sql);
+}
 
 std::string query_sql(const std::filesystem::path& file, const std::string& sql) {
   SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);

@@ -25,8 +25,8 @@ class TemporaryStore {
   std::filesystem::path folder_;
 };
 
-/// Stands for the engine: its results are plain functions of the parameters, and it can be held up. What a job does
-/// depends on its restitution: 0.5 fails as non_finite, 0.4 throws, anything else succeeds.
+/// Stands for the engine: its results are plain functions of the parameters, and it can be held up. What a
+/// job does depends on its restitution: 0.5 fails as non_finite, 0.4 throws, anything else succeeds.
 class FakeEngine {
  public:
   /// Safe to call from many threads. Must not outlive this.
@@ -36,7 +36,8 @@ class FakeEngine {
   void release();  ///< until this, or until they are asked to stop
   void await_running(int count);  ///< returns when so many runs are under way
 
-  [[nodiscard]] std::vector<double> begun_speeds();  ///< crank velocities of the runs so far, in order of their beginning
+  /// crank velocities of the runs so far, in order of their beginning
+  [[nodiscard]] std::vector<double> begun_speeds();
   [[nodiscard]] int stopped();                       ///< how many runs ended because they were asked to
 
  private:

@@ -26,7 +26,9 @@ using nlohmann::json;
 
 constexpr auto kLong = 20s;
 
-std::string submitted(jobs::Service& service, const char* request) { return service.submit_sweep(request_of(request)).at("id"); }
+std::string submitted(jobs::Service& service, const char* request) {
+  return service.submit_sweep(request_of(request)).at("id");
+}
 
 json finished(const jobs::Service& service, const std::string& sweep) {
   EXPECT_TRUE(service.wait_for_sweep(sweep, kLong));
@@ -39,25 +41,35 @@ std::size_t service_column(const jobs::ResultTable& table, const std::string& na
   return static_cast<std::size_t>(found - table.columns.begin());
 }
 
-std::string first_job(const jobs::Service& service, const std::string& sweep) { return service.find_results(sweep).value().rows.at(0).at(0); }
+std::string first_job(const jobs::Service& service, const std::string& sweep) {
+  return service.find_results(sweep).value().rows.at(0).at(0);
+}
 
 TEST(Service, ComputesASweepAndShowsIt) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
-  const char* request = R"({"name": "paper", "sweep": {"crank_velocity_rad_s": [5, 10], "clearance_mm": [0.5, 0.25]}, "replicates": {"count": 2}})";
+  const char* request =
+      R"({"name": "paper", "sweep": {"crank_velocity_rad_s": [5, 10], "clearance_mm": [0.5, 0.25]},
+         "replicates": {"count": 2}})";
   const std::string id = submitted(service, request);
   const json sweep = finished(service, id);
   EXPECT_EQ(sweep.at("state"), "succeeded");
-  EXPECT_EQ(sweep.at("counts"), json_of(R"({"queued": 0, "running": 0, "succeeded": 8, "failed": 0, "cancelled": 0, "total": 8})"));
+  EXPECT_EQ(
+      sweep.at("counts"),
+      json_of(R"({"queued": 0, "running": 0, "succeeded": 8, "failed": 0, "cancelled": 0, "total": 8})"));
   EXPECT_EQ(sweep.at("progress"), 1.0);
   EXPECT_EQ(sweep.at("eta_s"), 0.0);
   EXPECT_EQ(sweep.at("name"), "paper");
   EXPECT_EQ(sweep.at("request"), json_of(request));
   EXPECT_EQ(sweep.at("axes"), json_of(R"(["crank_velocity_rad_s", "clearance_mm"])"));
-  EXPECT_EQ(sweep.at("links"), (json{{"self", "/v1/sweeps/" + id}, {"results", "/v1/sweeps/" + id + "/results"}, {"events", "/v1/sweeps/" + id + "/events"},
-                                      {"cancel", "/v1/sweeps/" + id + "/cancel"}, {"retry", "/v1/sweeps/" + id + "/retry"},
-                                      {"extend", "/v1/sweeps/" + id + "/extend"}, {"move", "/v1/sweeps/" + id + "/move"}}));
+  EXPECT_EQ(sweep.at("links"), (json{{"self", "/v1/sweeps/" + id},
+                                     {"results", "/v1/sweeps/" + id + "/results"},
+                                     {"events", "/v1/sweeps/" + id + "/events"},
+                                     {"cancel", "/v1/sweeps/" + id + "/cancel"},
+                                     {"retry", "/v1/sweeps/" + id + "/retry"},
+                                     {"extend", "/v1/sweeps/" + id + "/extend"},
+                                     {"move", "/v1/sweeps/" + id + "/move"}}));
   for (const char* time : {"created_at", "started_at", "ended_at"}) {
     std::string form = sweep.at(time);
     std::replace_if(form.begin(), form.end(), [](char c) { return c >= '0' && c <= '9'; }, 'd');
@@ -65,13 +77,16 @@ TEST(Service, ComputesASweepAndShowsIt) {
   }
 
   const jobs::ResultTable table = service.find_results(id).value();
-  EXPECT_EQ((std::vector<std::string>(table.columns.begin(), table.columns.begin() + 5)),
-            (std::vector<std::string>{"job_id", "state", "replicate", "crank_velocity_rad_s", "clearance_mm"}));
+  EXPECT_EQ(
+      (std::vector<std::string>(table.columns.begin(), table.columns.begin() + 5)),
+      (std::vector<std::string>{"job_id", "state", "replicate", "crank_velocity_rad_s", "clearance_mm"}));
   EXPECT_EQ(table.columns.size(), 5 + engine::metric_table().size());
   ASSERT_EQ(table.rows.size(), 8U);
-  EXPECT_EQ((std::vector<json>(table.rows[5].begin() + 1, table.rows[5].begin() + 5)), (std::vector<json>{"succeeded", 1, 10.0, 0.5}));
+  EXPECT_EQ((std::vector<json>(table.rows[5].begin() + 1, table.rows[5].begin() + 5)),
+            (std::vector<json>{"succeeded", 1, 10.0, 0.5}));
   const std::string metric = engine::metric_table()[0].key;
-  EXPECT_EQ(table.rows[5][service_column(table, metric)], std::sqrt(10.0e3 + 0.5e-3));  // what the fake engine makes of it
+  // what the fake engine makes of it
+  EXPECT_EQ(table.rows[5][service_column(table, metric)], std::sqrt(10.0e3 + 0.5e-3));
   EXPECT_TRUE(table.rows[5][6].is_null());                                      // not a number there
 }
 
@@ -109,7 +124,10 @@ TEST(Service, TakesSingleJobs) {
   EXPECT_TRUE(job.at("sweep_id").is_null());
   EXPECT_TRUE(job.at("links").at("sweep").is_null());
   EXPECT_TRUE(job.at("metrics").is_null());
-  EXPECT_EQ(pointers_of(faults_of([&] { (void)service.submit_job({{"clearance_mm", -1}}); })), (std::vector<std::string>{"/clearance_mm"}));
+  EXPECT_EQ(pointers_of(faults_of([&] {
+              (void)service.submit_job({{"clearance_mm", -1}});
+            })),
+            (std::vector<std::string>{"/clearance_mm"}));
   engine.await_running(1);
   EXPECT_EQ(service.find_job(job.at("id")).value().at("state"), "running");
   engine.release();
@@ -131,7 +149,8 @@ TEST(Service, ComputesIdenticalJobsOnce) {
   EXPECT_EQ(service.find_sweep(third).value().at("state"), "succeeded");
   EXPECT_EQ(engine.begun_speeds().size(), 1U);
   EXPECT_EQ(service.find_job(first_job(service, second)).value().at("run").at("reused"), true);
-  const std::string forced = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5]}, "reuse": false})");
+  const std::string forced =
+      submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5]}, "reuse": false})");
   finished(service, forced);
   EXPECT_EQ(engine.begun_speeds().size(), 2U);
 }
@@ -204,7 +223,8 @@ TEST(Service, RunsWhatWaitedForACancelledJob) {
   EXPECT_EQ(finished(service, second).at("state"), "succeeded");
 }
 
-// The thread of a cancelled job may take a while to stop. A job that waited for it starts beside it, on a free thread.
+// The thread of a cancelled job may take a while to stop. A job that waited for it starts beside it, on a
+// free thread.
 TEST(Service, WakesAFreeThreadForWhatWaitedForACancelledJob) {
   const TemporaryStore store;
   FakeEngine engine;
@@ -244,7 +264,8 @@ TEST(Service, LeavesASweepRunningWhenAJobFails) {
   EXPECT_EQ(sweep.at("counts").at("succeeded"), 1);
   const auto rows = service.find_results(id).value().rows;
   const json numerical = service.find_job(rows[0][0]).value();
-  EXPECT_EQ(numerical.at("error"), json_of(R"({"reason": "non_finite", "detail": "the fake state is no number", "t_s": 1.0})"));
+  EXPECT_EQ(numerical.at("error"),
+            json_of(R"({"reason": "non_finite", "detail": "the fake state is no number", "t_s": 1.0})"));
   EXPECT_TRUE(numerical.at("metrics").is_null());
   EXPECT_TRUE(service.find_trajectory(rows[0][0], {}).has_value());  // as far as it came
   const json thrown = service.find_job(rows[1][0]).value();
@@ -253,8 +274,17 @@ TEST(Service, LeavesASweepRunningWhenAJobFails) {
   EXPECT_TRUE(thrown.at("error").at("t_s").is_null());
   EXPECT_FALSE(service.find_trajectory(rows[1][0], {}).has_value());
   // The same in a table, for those who ask.
-  const auto table = service.find_results(id, {.fields = "restitution,error_reason,error_detail,duration_s", .filters = {}, .order_by = {}, .limit = {}}).value();
-  EXPECT_EQ(json(table.rows), json_of(R"([[0.5, "non_finite", "the fake state is no number", 5.0], [0.4, "internal", "the fake engine broke", 5.0],
+  const auto table = service
+                         .find_results(id, {.fields = "restitution,error_reason,error_detail,duration_s",
+                                            .filters = {},
+                                            .order_by = {},
+                                            .limit = {}})
+                         .value();
+  EXPECT_EQ(
+      json(table.rows),
+      json_of(
+          R"([[0.5, "non_finite", "the fake state is no number", 5.0], [0.4, "internal",
+             "the fake engine broke", 5.0],
                                           [0.9, null, null, 5.0]])"));
 }
 
@@ -294,7 +324,8 @@ std::string outcome_of(int threads, const char* request) {
 }
 
 TEST(Service, GivesTheSameBytesOnOneThreadAndOnTwo) {
-  const char* request = R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4, 5], "clearance_mm": [0, 0.1, 0.2]}})";
+  const char* request =
+      R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4, 5], "clearance_mm": [0, 0.1, 0.2]}})";
   const std::string one = outcome_of(1, request);
   EXPECT_GT(one.size(), 1000U);
   EXPECT_EQ(one, outcome_of(2, request));
@@ -309,13 +340,18 @@ TEST(Service, CutsTrajectories) {
   const std::string job = first_job(service, sweep);
   const auto all = service.find_trajectory(job, {}).value();
   ASSERT_EQ(all.columns[0].size(), 11U);
-  const auto part = service.find_trajectory(job, {.channels = {"slider_position_m"}, .from = 0.25, .to = 0.5}).value();
+  const auto part =
+      service.find_trajectory(job, {.channels = {"slider_position_m"}, .from = 0.25, .to = 0.5}).value();
   EXPECT_EQ(part.columns[0], (std::vector<double>{0.3, 0.4, 0.5}));  // both ends included
   EXPECT_EQ(part.columns[1], (std::vector<double>(all.columns[1].begin() + 3, all.columns[1].begin() + 6)));
-  EXPECT_EQ(service.find_trajectory(job, {.channels = {"t_s"}, .from = {}, .to = 0.0}).value().columns, (std::vector<std::vector<double>>{{0.0}}));
-  EXPECT_TRUE(service.find_trajectory(job, {.channels = {}, .from = 7.0, .to = {}}).value().columns[1].empty());
+  EXPECT_EQ(service.find_trajectory(job, {.channels = {"t_s"}, .from = {}, .to = 0.0}).value().columns,
+            (std::vector<std::vector<double>>{{0.0}}));
+  EXPECT_TRUE(
+      service.find_trajectory(job, {.channels = {}, .from = 7.0, .to = {}}).value().columns[1].empty());
   EXPECT_FALSE(service.find_trajectory("job_none", {}).has_value());
-  EXPECT_EQ(pointers_of(faults_of([&] { (void)service.find_trajectory(job, {.channels = {"t_s", "x"}, .from = 2.0, .to = 1.0}); })),
+  EXPECT_EQ(pointers_of(faults_of([&] {
+              (void)service.find_trajectory(job, {.channels = {"t_s", "x"}, .from = 2.0, .to = 1.0});
+            })),
             (std::vector<std::string>{"/channels/1", "/to"}));
 }
 
@@ -325,7 +361,9 @@ TEST(Service, ListsInPagesNewestFirst) {
   jobs::Service service(options_of(store, engine, 1));
   std::vector<std::string> ids;
   for (int i = 1; i <= 5; ++i) {
-    ids.push_back(submitted(service, (R"({"name": "n", "sweep": {"restitution": [)" + std::to_string(i == 2 ? 0.5 : 0.6) + "]}}").c_str()));
+    ids.push_back(submitted(
+        service, (R"({"name": "n", "sweep": {"restitution": [)" + std::to_string(i == 2 ? 0.5 : 0.6) + "]}}")
+                     .c_str()));
     finished(service, ids.back());
   }
   std::vector<std::string> listed;
@@ -350,11 +388,13 @@ TEST(Service, ListsInPagesNewestFirst) {
   const json some_jobs = service.list_jobs({.state = "succeeded", .limit = 3, .cursor = ""});
   EXPECT_EQ(some_jobs.at("items").size(), 3U);
   EXPECT_FALSE(some_jobs.at("items")[0].contains("parameters"));
-  const json rest = service.list_jobs({.state = "succeeded", .limit = 3, .cursor = some_jobs.at("next_cursor")});
+  const json rest =
+      service.list_jobs({.state = "succeeded", .limit = 3, .cursor = some_jobs.at("next_cursor")});
   EXPECT_EQ(rest.at("items").size(), 1U);
   EXPECT_EQ(rest.at("next_cursor"), "");
-  EXPECT_EQ(pointers_of(faults_of([&] { (void)service.list_jobs({.state = "odd", .limit = 0, .cursor = "'"}); })),
-            (std::vector<std::string>{"/cursor", "/limit", "/state"}));
+  EXPECT_EQ(
+      pointers_of(faults_of([&] { (void)service.list_jobs({.state = "odd", .limit = 0, .cursor = "'"}); })),
+      (std::vector<std::string>{"/cursor", "/limit", "/state"}));
 }
 
 TEST(Service, DeletesWhatHasEndedOnly) {
@@ -391,7 +431,8 @@ class SizeLimit {
   void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
 };
 
-// The log, which is new, may grow by a page more each time, until there is room to delete: then there is none yet to make the file smaller, too.
+// The log, which is new, may grow by a page more each time, until there is room to delete: then there is none
+// yet to make the file smaller, too.
 TEST(Service, DeletesOrRefusesToWhereTheDiskIsFull) {
   constexpr rlim_t kPage = 8192;
   const TemporaryStore temporary;
@@ -402,7 +443,11 @@ TEST(Service, DeletesOrRefusesToWhereTheDiskIsFull) {
     jobs::Service service(options);
     first = submitted(service, R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 100}}})");
     EXPECT_EQ(finished(service, first).at("state"), "succeeded");
-    EXPECT_EQ(finished(service, submitted(service, R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.2, "count": 100}}})")).at("state"), "succeeded");
+    EXPECT_EQ(
+        finished(service,
+                 submitted(service, R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.2, "count": 100}}})"))
+            .at("state"),
+        "succeeded");
   }
   std::vector<std::string> told;
   options.log = [&](const std::string& line) { told.push_back(line); };
@@ -451,7 +496,8 @@ TEST(Service, StoresNothingOfAFaultyRequest) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  EXPECT_THROW((void)service.submit_sweep(request_of(R"({"sweep": {"clearance_mm": [0, 9]}})")), jobs::InvalidRequest);
+  EXPECT_THROW((void)service.submit_sweep(request_of(R"({"sweep": {"clearance_mm": [0, 9]}})")),
+               jobs::InvalidRequest);
   EXPECT_EQ(service.list_jobs({}).at("items").size(), 0U);
 }
 
@@ -461,7 +507,8 @@ TEST(Service, ComputesNothingBeforeItIsTold) {
   jobs::ServiceOptions options = options_of(store, engine, 2);
   options.start = jobs::Start::kWhenTold;
   jobs::Service service(options);
-  const std::string id = service.submit_sweep(json::parse(R"({"sweep": {"crank_velocity_rad_s": [5, 6, 7]}})")).at("id");
+  const std::string id =
+      service.submit_sweep(json::parse(R"({"sweep": {"crank_velocity_rad_s": [5, 6, 7]}})")).at("id");
   EXPECT_FALSE(service.wait_for_sweep(id, std::chrono::milliseconds(50)));
   EXPECT_TRUE(engine.begun_speeds().empty());
   service.start();
@@ -476,7 +523,8 @@ TEST(Service, CancelsAndEndsWithoutHavingComputed) {
   jobs::ServiceOptions options = options_of(store, engine, 2);
   options.start = jobs::Start::kWhenTold;
   jobs::Service service(options);
-  const std::string id = service.submit_sweep(json::parse(R"({"sweep": {"crank_velocity_rad_s": [5, 6, 7]}})")).at("id");
+  const std::string id =
+      service.submit_sweep(json::parse(R"({"sweep": {"crank_velocity_rad_s": [5, 6, 7]}})")).at("id");
   EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
   service.stop();
   EXPECT_TRUE(engine.begun_speeds().empty());

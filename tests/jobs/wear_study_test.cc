@@ -118,8 +118,8 @@ TEST(WearStudy, WearsTheVolumeOfItsSlidingWork) {
   EXPECT_TRUE(cycles.at(0).at("deepest_angle_rad").is_null());
   const json& last = cycles.back();
   EXPECT_DOUBLE_EQ(last.at("hours"), 2.0);
-  EXPECT_NEAR(last.at("worn_volume_mm3"), 1e9 * 1e-15 * 3.0 * kPower * 7200.0,
-              1e-6);  // channels keep seven digits
+  // Channels keep seven digits.
+  EXPECT_NEAR(last.at("worn_volume_mm3"), 1e9 * 1e-15 * 3.0 * kPower * 7200.0, 1e-6);
   EXPECT_NEAR(last.at("deepest_angle_rad"), 1.0, 2.0 * std::numbers::pi / 36.0);
   for (std::size_t k = 1; k < cycles.size(); ++k)
     EXPECT_LE(cycles[k].at("deepest_um").get<double>() - cycles[k - 1].at("deepest_um").get<double>(),

@@ -14,9 +14,10 @@
 
 namespace server_tests {
 
-/// Appends a line of JSON to the file that the environment names in RPSUP_TEST_EXCHANGES, if it does: what was asked, and the answer.
-/// tests/openapi checks the lines against the OpenAPI document.
-inline void log_exchange(const std::string& method, const std::string& target, const server::Response& response) {
+/// Appends a line of JSON to the file that the environment names in RPSUP_TEST_EXCHANGES, if it does: what
+/// was asked, and the answer. tests/openapi checks the lines against the OpenAPI document.
+inline void log_exchange(const std::string& method, const std::string& target,
+                         const server::Response& response) {
   const char* const file = std::getenv("RPSUP_TEST_EXCHANGES");
   if (file == nullptr) return;
   nlohmann::json headers = nlohmann::json::object();
@@ -26,11 +27,17 @@ inline void log_exchange(const std::string& method, const std::string& target, c
     for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     headers[key] = value;
   }
-  const nlohmann::json line{{"method", method}, {"target", target}, {"status", response.status}, {"headers", headers}, {"body", response.body}};
-  std::ofstream(file, std::ios::app) << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const nlohmann::json line{{"method", method},
+                            {"target", target},
+                            {"status", response.status},
+                            {"headers", headers},
+                            {"body", response.body}};
+  std::ofstream(file, std::ios::app) << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                                            "\n";
 }
 
-/// The same of bytes that were sent and came back over a connection; whatever is no answer of HTTP is left out.
+/// The same of bytes that were sent and came back over a connection; whatever is no answer of HTTP is left
+/// out.
 inline void log_raw_exchange(std::string_view sent, std::string_view received) {
   const auto word = [](std::string_view& text, std::string_view ends) {
     const std::size_t end = std::min(text.find_first_of(ends), text.size());
@@ -45,14 +52,18 @@ inline void log_raw_exchange(std::string_view sent, std::string_view received) {
   const std::string target = word(sent, " \r\n");
   const std::size_t head_end = received.find("\r\n\r\n");
   if (head_end == std::string_view::npos) return;
-  server::Response response{.status = std::stoi(std::string(received.substr(9, 3))), .content_type = {}, .body = std::string(received.substr(head_end + 4)), .headers = {}};
+  server::Response response{.status = std::stoi(std::string(received.substr(9, 3))),
+                            .content_type = {},
+                            .body = std::string(received.substr(head_end + 4)),
+                            .headers = {}};
   std::string_view head = received.substr(0, head_end);
   word(head, "\n");
   while (!head.empty()) {
     std::string line = word(head, "\n");
     const std::size_t colon = line.find(": ");
     if (line.ends_with('\r')) line.pop_back();
-    if (colon != std::string::npos) response.headers.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+    if (colon != std::string::npos)
+      response.headers.emplace_back(line.substr(0, colon), line.substr(colon + 2));
   }
   log_exchange(method, target, response);
 }

@@ -41,12 +41,13 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A run whose numbers a test can say in advance: metric i is 100 i + clearance in mm, the last one is missing;
-/// sample k of channel c is k / 1000 for the time and 10 c + k for the rest, four samples.
+/// A run whose numbers a test can say in advance: metric i is 100 i + clearance in mm, the last one is
+/// missing; sample k of channel c is k / 1000 for the time and 10 c + k for the rest, four samples.
 inline engine::RunResult known_run(const jobs::JobSpec& spec, const engine::StopQuery&) {
   engine::RunResult result;
   const std::size_t metrics = engine::metric_table().size();
-  for (std::size_t i = 0; i < metrics; ++i) result.metrics.push_back(100.0 * static_cast<double>(i) + 1e3 * spec.parameters.c_r);
+  for (std::size_t i = 0; i < metrics; ++i)
+    result.metrics.push_back(100.0 * static_cast<double>(i) + 1e3 * spec.parameters.c_r);
   result.metrics.back() = std::numeric_limits<double>::quiet_NaN();
   result.t_end = 0.003;
   result.trajectory.channels = engine::channel_table(spec.parameters);
@@ -72,7 +73,8 @@ class Bench {
   explicit Bench(jobs::Runner runner = known_run) : service_(options(std::move(runner))), routes_(service_) {}
 
   server::Response call(const std::string& method, const std::string& path, const std::string& body = "",
-                        std::vector<std::pair<std::string, std::string>> query = {}, const std::string& accept = "") {
+                        std::vector<std::pair<std::string, std::string>> query = {},
+                        const std::string& accept = "") {
     return call({method, path, std::move(query), accept, body, "test-1"});
   }
 
@@ -92,7 +94,8 @@ class Bench {
   /// Submits a sweep and waits for its end.
   std::string run(const std::string& body) {
     const std::string id = submit(body);
-    if (!service_.wait_for_sweep(id, std::chrono::seconds(20))) throw std::runtime_error("the sweep does not end");
+    if (!service_.wait_for_sweep(id, std::chrono::seconds(20)))
+      throw std::runtime_error("the sweep does not end");
     return id;
   }
 

@@ -30,8 +30,10 @@ TEST_P(Validation, HoldsItsBounds) {
   const Findings findings = GetParam().compute();
   EXPECT_FALSE(findings.checks.empty());
   for (const Check& check : findings.checks) {
-    EXPECT_TRUE(check.holds()) << describe(check) << "; found " << check.found << ", expected " << check.expected;
-    EXPECT_FALSE(check.what.empty() || check.reference.empty() || check.unit.empty() || check.why.empty()) << check.what;
+    EXPECT_TRUE(check.holds()) << describe(check) << "; found " << check.found << ", expected "
+                               << check.expected;
+    EXPECT_FALSE(check.what.empty() || check.reference.empty() || check.unit.empty() || check.why.empty())
+        << check.what;
   }
 }
 

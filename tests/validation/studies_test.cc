@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the study's chapters stand on: parts computed on threads, look-up by case, requests that the service takes.
+// What the study's chapters stand on: parts computed on threads, look-up by case, requests that the service
+// takes.
 
 #include <atomic>
 #include <stdexcept>
@@ -24,13 +25,15 @@ Findings fail() { throw std::runtime_error("a part's own words"); }
 const PartDone kIgnore = [](const Part&, const Findings&) {};
 
 std::vector<Chapter> three_parts() {
-  return {{.title = "one", .text = "", .parts = {{"a", find_a}, {"b", find_b, Cost::kHeavy}}}, {.title = "two", .text = "", .parts = {{"c", find_c}}}};
+  return {{.title = "one", .text = "", .parts = {{"a", find_a}, {"b", find_b, Cost::kHeavy}}},
+          {.title = "two", .text = "", .parts = {{"c", find_c}}}};
 }
 
 TEST(ComputeChapters, KeepsTheOrderWhateverTheThreadsDo) {
   for (int round = 0; round < 50; ++round) {
     std::atomic<int> done = 0;
-    const auto computed = compute_chapters(three_parts(), Cost::kHeavy, 4, [&done](const Part&, const Findings&) { ++done; });
+    const auto computed =
+        compute_chapters(three_parts(), Cost::kHeavy, 4, [&done](const Part&, const Findings&) { ++done; });
     ASSERT_EQ(computed.size(), 2u);
     EXPECT_EQ(computed[0].findings.at(0).checks.at(0).what, "a");
     EXPECT_EQ(computed[0].findings.at(1).checks.at(0).what, "b");
@@ -60,7 +63,9 @@ TEST(ComputeChapters, ThrowsWhatAPartHasThrown) {
 
 StudyTable three_rows() {
   return StudyTable({.columns = {"job_id", "clearance_mm", "crank_velocity_rad_s", "coupler", "peak"},
-                     .rows = {{"j1", 0.25, 5.0, "rigid", 7.5}, {"j2", 0.25, 5.0, "rigid", nullptr}, {"j3", 0.5, 5.0, "rigid", 9.0}}});
+                     .rows = {{"j1", 0.25, 5.0, "rigid", 7.5},
+                              {"j2", 0.25, 5.0, "rigid", nullptr},
+                              {"j3", 0.5, 5.0, "rigid", 9.0}}});
 }
 
 TEST(StudyTable, FindsTheRowsOfACase) {
@@ -83,7 +88,8 @@ TEST(StudyRequests, AreSweepsThatTheServiceTakes) {
   const auto requests = study_requests();
   for (const auto& request : requests) jobs += plan_sweep(request, 1000).jobs.size();
   EXPECT_EQ(requests.size(), 3);
-  EXPECT_EQ(jobs, 8 + 80 + 60);  // the ideal joint; with clearance 16 of 5 replicates; 12 that converge of as many
+  // the ideal joint; with clearance 16 of 5 replicates; 12 that converge of as many
+  EXPECT_EQ(jobs, 8 + 80 + 60);
 }
 
 }  // namespace

@@ -30,12 +30,14 @@ engine::RunOptions tight(engine::RunOptions options) {
 
 }  // namespace
 
-Contest::Contest(std::string title, std::string method, engine::RpsupParameters parameters, engine::RunOptions options, std::vector<Rival> rivals)
+Contest::Contest(std::string title, std::string method, engine::RpsupParameters parameters,
+                 engine::RunOptions options, std::vector<Rival> rivals)
     : title_(std::move(title)),
       parameters_(std::move(parameters)),
       options_(options),
       rivals_(std::move(rivals)),
-      ours_{"rpsup, " + method, kOurAccuracy, 1.0, [job = parameters_, options] { return run_rpsup(job, options); }} {}
+      ours_{"rpsup, " + method, kOurAccuracy, 1.0,
+            [job = parameters_, options] { return run_rpsup(job, options); }} {}
 
 void Contest::run(int repeats) {
   reference_ = run_rpsup(parameters_, tight(options_));
@@ -48,7 +50,9 @@ void Contest::run(int repeats) {
 }
 
 bool Contest::is_fair() const {
-  const auto holds = [this](const Rival& rival) { return std::abs(calc_error(rival.last)) <= rival.accuracy; };
+  const auto holds = [this](const Rival& rival) {
+    return std::abs(calc_error(rival.last)) <= rival.accuracy;
+  };
   return holds(ours_) && std::all_of(rivals_.begin(), rivals_.end(), holds);
 }
 
@@ -69,8 +73,10 @@ std::vector<std::string> Contest::make_row(const Rival& rival) const {
 }
 
 void Contest::print(std::ostream& out) const {
-  out << '\n' << title_ << ": peak slider acceleration of a tight run " << digits(reference_.peak, 6) << " m/s^2\n\n";
-  Table table({"code", "CPU least [s]", "median [s]", "evaluations", "peak [m/s^2]", "error [%]", "allowed [%]", "ratio", "asked for", "met"});
+  out << '\n'
+      << title_ << ": peak slider acceleration of a tight run " << digits(reference_.peak, 6) << " m/s^2\n\n";
+  Table table({"code", "CPU least [s]", "median [s]", "evaluations", "peak [m/s^2]", "error [%]",
+               "allowed [%]", "ratio", "asked for", "met"});
   table.add(make_row(ours_));
   for (const Rival& rival : rivals_) table.add(make_row(rival));
   table.print(out);

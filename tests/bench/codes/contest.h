@@ -26,7 +26,8 @@ struct Rival {
 class Contest {
  public:
   /// @param method  what our options stand for
-  Contest(std::string title, std::string method, engine::RpsupParameters parameters, engine::RunOptions options, std::vector<Rival> rivals);
+  Contest(std::string title, std::string method, engine::RpsupParameters parameters,
+          engine::RunOptions options, std::vector<Rival> rivals);
 
   void run(int repeats);
   void print(std::ostream& out) const;

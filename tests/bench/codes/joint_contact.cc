@@ -19,13 +19,15 @@ class JointContact : public JointForces {
                                  double* bristle_rates) const override {
     const Seen seen = see(bearing, journal);
     engine::ContactLoad load;
-    (void)joint_.calc(seen.journal, bristles, bristle_rates, load);  // only elements may ask for more bristles
+    // only elements may ask for more bristles
+    (void)joint_.calc(seen.journal, bristles, bristle_rates, load);
     return {seen.p_j, seen.R_Wb * load.force, seen.R_Wb * load.moment};
   }
 
   bool end_step(double t, const BodyMotion& bearing, const BodyMotion& journal, double* bristles) override {
     const engine::JournalMotion now = see(bearing, journal).journal;
-    const bool changed = last_t_ >= 0.0 && t > last_t_ && joint_.advance(last_, now, t - last_t_, bristles).any;
+    const bool changed =
+        last_t_ >= 0.0 && t > last_t_ && joint_.advance(last_, now, t - last_t_, bristles).any;
     last_ = now;
     last_t_ = t;
     return changed;
@@ -62,7 +64,8 @@ class JointContact : public JointForces {
 }  // namespace
 
 std::unique_ptr<JointForces> make_joint_forces(const engine::CutJoint& joint) {
-  if (joint.clearance.value().form != engine::RadialForm::kContinuum) throw std::invalid_argument("other codes have no bristles that move");
+  if (joint.clearance.value().form != engine::RadialForm::kContinuum)
+    throw std::invalid_argument("other codes have no bristles that move");
   return std::make_unique<JointContact>(joint);
 }
 

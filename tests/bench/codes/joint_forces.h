@@ -12,7 +12,8 @@ struct BodyMotion {
   Eigen::Vector3d p, v, w;
 };
 
-/// Force through the journal's centre and moment about it, on the journal; on the bearing the opposite. All in W.
+/// Force through the journal's centre and moment about it, on the journal; on the bearing the opposite. All
+/// in W.
 struct JournalLoad {
   Eigen::Vector3d p_j;
   Eigen::Vector3d force, moment;
@@ -28,10 +29,11 @@ class JointForces {
 
   /// @param bearing, journal         the bodies that carry them
   /// @param bristles, bristle_rates  bristle_count() entries
-  [[nodiscard]] virtual JournalLoad calc(const BodyMotion& bearing, const BodyMotion& journal, const double* bristles,
-                                         double* bristle_rates) const = 0;
+  [[nodiscard]] virtual JournalLoad calc(const BodyMotion& bearing, const BodyMotion& journal,
+                                         const double* bristles, double* bristle_rates) const = 0;
 
-  /// Takes note of the contacts that began or ended since the last call; a bristle whose contact has ended is relaxed.
+  /// Takes note of the contacts that began or ended since the last call; a bristle whose contact has ended is
+  /// relaxed.
   /// @returns true if any did
   virtual bool end_step(double t, const BodyMotion& bearing, const BodyMotion& journal, double* bristles) = 0;
 };

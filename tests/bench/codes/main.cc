@@ -2,7 +2,8 @@
 // One job in this program, in MuJoCo and in Simbody, by turns in one run.
 //   bench_codes [REPEATS]
 //   bench_codes mujoco      only the processor time of MuJoCo's RK4 run of the rigid job, [s]
-// Fails if a code's peak is off by more than its method allows: a comparison of unequal physics is worth nothing.
+// Fails if a code's peak is off by more than its method allows: a comparison of unequal physics is worth
+// nothing.
 
 #include <cstdlib>
 #include <exception>
@@ -29,7 +30,8 @@ using engine::RpsupParameters;
 constexpr double kDuration = 4.0;  // [s]
 constexpr double kStep = 1e-5;     // of MuJoCo's integrators, [s]
 
-Rival mujoco(const RpsupParameters& parameters, MujocoIntegrator integrator, const char* name, double accuracy, double wanted_ratio) {
+Rival mujoco(const RpsupParameters& parameters, MujocoIntegrator integrator, const char* name,
+             double accuracy, double wanted_ratio) {
   return {name, accuracy, wanted_ratio,
           [=] { return run_mujoco(make_plain_linkage(parameters), integrator, kStep, kDuration); }};
 }
@@ -43,15 +45,22 @@ struct Method {
 std::vector<Method> our_methods() {
   return {{"default integrator", {.duration = kDuration}},
           {"dopri5 1e-6",
-           {.duration = kDuration, .integrator = engine::Integrator::kDopri5, .relative_tolerance = 1e-6, .absolute_tolerance = 1e-6}}};
+           {.duration = kDuration,
+            .integrator = engine::Integrator::kDopri5,
+            .relative_tolerance = 1e-6,
+            .absolute_tolerance = 1e-6}}};
 }
 
 Contest make_rigid_contest(const Method& method) {
   const RpsupParameters parameters = linkage(Coupler::kRigid, 0.25e-3, 10.0);
-  return {"rigid, 0.25 mm, 10 rad/s, 4 s", method.name, parameters, method.options,
+  return {"rigid, 0.25 mm, 10 rad/s, 4 s",
+          method.name,
+          parameters,
+          method.options,
           {mujoco(parameters, MujocoIntegrator::kEuler, "MuJoCo, Euler 1e-5 s", 5e-3, 10.0),
            mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 35.0),
-           {"Simbody, Merson 1e-6", 1e-3, 70.0, [=] { return run_simbody(make_plain_linkage(parameters), 1e-6, kDuration); }}}};
+           {"Simbody, Merson 1e-6", 1e-3, 70.0,
+            [=] { return run_simbody(make_plain_linkage(parameters), 1e-6, kDuration); }}}};
 }
 
 Contest make_flexible_contest(const Method& method) {
@@ -68,8 +77,9 @@ void print_evaluations() {
     const double ours = time_rpsup_evaluation(parameters);
     const double mujoco = time_mujoco_evaluation(make_plain_linkage_in_contact(parameters));
     const double simbody = time_simbody_evaluation(make_plain_linkage_in_contact(parameters));
-    table.add({coupler == Coupler::kRigid ? "rigid" : "flexible", digits(1e6 * ours, 3), digits(1e6 * mujoco, 3), digits(1e6 * simbody, 3),
-               digits(mujoco / ours, 3), digits(simbody / ours, 3)});
+    table.add({coupler == Coupler::kRigid ? "rigid" : "flexible", digits(1e6 * ours, 3),
+               digits(1e6 * mujoco, 3), digits(1e6 * simbody, 3), digits(mujoco / ours, 3),
+               digits(simbody / ours, 3)});
   }
   table.print(std::cout);
 }
@@ -81,9 +91,10 @@ void print_ideal_jobs(int repeats) {
     for (const Method& method : our_methods()) {
       Samples samples;
       for (int i = 0; i < 3 * repeats; ++i)
-        samples.add(1e3 / kDuration * time_cpu([&, c = coupler] { (void)run_rpsup(linkage(c, 0.0, 10.0), method.options); }));
-      table.add({coupler == Coupler::kRigid ? "rigid" : "flexible", method.name, digits(samples.least(), 3), digits(samples.median(), 3), digits(limit, 3),
-                 samples.median() < limit ? "yes" : "no"});
+        samples.add(1e3 / kDuration *
+                    time_cpu([&, c = coupler] { (void)run_rpsup(linkage(c, 0.0, 10.0), method.options); }));
+      table.add({coupler == Coupler::kRigid ? "rigid" : "flexible", method.name, digits(samples.least(), 3),
+                 digits(samples.median(), 3), digits(limit, 3), samples.median() < limit ? "yes" : "no"});
     }
   table.print(std::cout);
 }

@@ -10,9 +10,17 @@ namespace bench {
 
 namespace {
 
-PlainCoordinate take_coordinate(const engine::Mechanism& mechanism, engine::FrameIndex i, const Coordinates& at) {
+PlainCoordinate take_coordinate(const engine::Mechanism& mechanism, engine::FrameIndex i,
+                                const Coordinates& at) {
   const engine::Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
-  PlainCoordinate plain{c.name, c.motion == engine::Motion::kTranslation, static_cast<int>(c.axis), c.stiffness, c.damping, {}, at.q[i], at.qd[i]};
+  PlainCoordinate plain{c.name,
+                        c.motion == engine::Motion::kTranslation,
+                        static_cast<int>(c.axis),
+                        c.stiffness,
+                        c.damping,
+                        {},
+                        at.q[i],
+                        at.qd[i]};
   for (const engine::Drive& drive : mechanism.drives)
     if (drive.coordinate == i)
       plain.drive = [law = drive.law](double t) {
@@ -31,7 +39,8 @@ PlainLinkage take_tree(const engine::Rpsup& rpsup, const Coordinates& at) {
   PlainBody body;
   for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
     const engine::Coordinate& c = mechanism.coordinates[i];
-    if (!engine::is_unrotated(c.placement)) throw std::invalid_argument("a joint's frame is turned in its parent");
+    if (!engine::is_unrotated(c.placement))
+      throw std::invalid_argument("a joint's frame is turned in its parent");
     if (body.joint.empty()) {
       body.parent = c.parent == engine::kGround ? -1 : body_of[static_cast<std::size_t>(c.parent)];
       body.p_PJ = c.placement.p;

@@ -28,10 +28,12 @@ struct FreeModel {
 std::unique_ptr<mjModel, FreeModel> compile(const std::string& mjcf) {
   const auto vfs = std::make_unique<mjVFS>();
   mj_defaultVFS(vfs.get());
-  if (mj_makeEmptyFileVFS(vfs.get(), "linkage.xml", static_cast<int>(mjcf.size())) != 0) throw std::runtime_error("MuJoCo's file system");
+  if (mj_makeEmptyFileVFS(vfs.get(), "linkage.xml", static_cast<int>(mjcf.size())) != 0)
+    throw std::runtime_error("MuJoCo's file system");
   std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), "linkage.xml")], mjcf.data(), mjcf.size());
   std::array<char, 1000> error{};
-  std::unique_ptr<mjModel, FreeModel> model(mj_loadXML("linkage.xml", vfs.get(), error.data(), static_cast<int>(error.size())));
+  std::unique_ptr<mjModel, FreeModel> model(
+      mj_loadXML("linkage.xml", vfs.get(), error.data(), static_cast<int>(error.size())));
   mj_deleteVFS(vfs.get());
   if (!model) throw std::runtime_error("MuJoCo refuses the linkage: " + std::string(error.data()));
   return model;
@@ -53,7 +55,9 @@ class MujocoLinkage {
     journal_ = model_->dof_bodyid[dof_of(plain.journal)];
     active_ = this;
     mjcb_passive = [](const mjModel*, mjData*) { active_->add_forces(); };
-    mjcb_act_dyn = [](const mjModel*, const mjData*, int i) { return active_->rates_[static_cast<std::size_t>(i)]; };
+    mjcb_act_dyn = [](const mjModel*, const mjData*, int i) {
+      return active_->rates_[static_cast<std::size_t>(i)];
+    };
   }
   ~MujocoLinkage() {
     mjcb_passive = nullptr;
@@ -63,10 +67,12 @@ class MujocoLinkage {
   MujocoLinkage(const MujocoLinkage&) = delete;
   MujocoLinkage& operator=(const MujocoLinkage&) = delete;
 
-  /// Evaluates at the start of step k; contacts that began or ended in the step before are noted in the midst of it.
+  /// Evaluates at the start of step k; contacts that began or ended in the step before are noted in the midst
+  /// of it.
   SliderSample evaluate(long k) {
     data_->time = static_cast<double>(k) * model_->opt.timestep;
-    for (const Driven& driven : driven_) {  // exact again: their integration leaves rounding, or Euler's error
+    // exact again: their integration leaves rounding, or Euler's error
+    for (const Driven& driven : driven_) {
       const PlainDriven motion = driven.law(data_->time);
       data_->qpos[driven.dof] = motion.q;
       data_->qvel[driven.dof] = motion.qd;
@@ -91,7 +97,9 @@ class MujocoLinkage {
     std::function<PlainDriven(double)> law;
   };
 
-  int dof_of(const PlainCoordinate& c) const { return model_->jnt_dofadr[mj_name2id(model_.get(), mjOBJ_JOINT, c.name.c_str())]; }
+  int dof_of(const PlainCoordinate& c) const {
+    return model_->jnt_dofadr[mj_name2id(model_.get(), mjOBJ_JOINT, c.name.c_str())];
+  }
   int dof_of(int body) const { return dof_of(plain_.bodies[static_cast<std::size_t>(body)].joint.back()); }
 
   void take_coordinate(const PlainCoordinate& c) {
@@ -107,7 +115,8 @@ class MujocoLinkage {
     motion.R = Eigen::Map<const RowMajor>(data_->xmat + 9 * body);
     motion.p = Eigen::Map<const Eigen::Vector3d>(data_->xpos + 3 * body);
     motion.w = Eigen::Map<const Eigen::Vector3d>(data_->cvel + 6 * body);
-    motion.v = Eigen::Map<const Eigen::Vector3d>(data_->cvel + 6 * body + 3) + motion.w.cross(motion.p - reference_of(body));
+    motion.v = Eigen::Map<const Eigen::Vector3d>(data_->cvel + 6 * body + 3) +
+               motion.w.cross(motion.p - reference_of(body));
     return motion;
   }
 
@@ -118,7 +127,8 @@ class MujocoLinkage {
 
   /// The passive forces that MuJoCo has no words for: those of the drives and of the contacts.
   void add_forces() {
-    for (const Driven& driven : driven_) data_->qfrc_passive[driven.dof] += kDrivenArmature * driven.law(data_->time).qdd;
+    for (const Driven& driven : driven_)
+      data_->qfrc_passive[driven.dof] += kDrivenArmature * driven.law(data_->time).qdd;
     const BodyMotion bearing = motion_of(bearing_);
     const BodyMotion journal = motion_of(journal_);
     if (step_begins_) plain_.forces->end_step(data_->time, bearing, journal, data_->act);
@@ -131,7 +141,8 @@ class MujocoLinkage {
   /// By the joint axes that MuJoCo has at hand: faster than its mj_applyFT, which makes a whole Jacobian.
   void add_load(int body, double sign, const JournalLoad& load) {
     const Eigen::Vector3d torque = load.moment + (load.p_j - reference_of(body)).cross(load.force);
-    for (int i = model_->body_dofadr[body] + model_->body_dofnum[body] - 1; i >= 0; i = model_->dof_parentid[i]) {
+    for (int i = model_->body_dofadr[body] + model_->body_dofnum[body] - 1; i >= 0;
+         i = model_->dof_parentid[i]) {
       const Eigen::Map<const Eigen::Vector3d> turn(data_->cdof + 6 * i), shift(data_->cdof + 6 * i + 3);
       data_->qfrc_passive[i] += sign * (turn.dot(torque) + shift.dot(load.force));
     }
@@ -152,7 +163,8 @@ class MujocoLinkage {
 
 }  // namespace
 
-CodeRun run_mujoco(const PlainLinkage& plain, MujocoIntegrator integrator, double step, double duration, const StepViewer& viewer) {
+CodeRun run_mujoco(const PlainLinkage& plain, MujocoIntegrator integrator, double step, double duration,
+                   const StepViewer& viewer) {
   MujocoLinkage linkage(plain, integrator, step);
   SliderPeak peak(plain.steady_from);
   const long steps = std::lround(duration / step);

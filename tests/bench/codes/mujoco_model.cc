@@ -19,12 +19,14 @@ class MjcfWriter {
   explicit MjcfWriter(const PlainLinkage& linkage) : linkage_(linkage) { out_ << std::setprecision(17); }
 
   std::string write(const char* integrator, double step) {
-    out_ << "<mujoco><compiler angle=\"radian\"/><option timestep=\"" << step << "\" integrator=\"" << integrator << "\" gravity=\""
-         << vector_text(linkage_.gravity_W) << "\"><flag constraint=\"disable\"/></option><worldbody>";
+    out_ << "<mujoco><compiler angle=\"radian\"/><option timestep=\"" << step << "\" integrator=\""
+         << integrator << "\" gravity=\"" << vector_text(linkage_.gravity_W)
+         << "\"><flag constraint=\"disable\"/></option><worldbody>";
     add_children(-1);
     out_ << "</worldbody><actuator>";
     for (int i = 0; i < linkage_.forces->bristle_count(); ++i)
-      out_ << "<general joint=\"" << linkage_.bodies[0].joint[0].name << "\" dyntype=\"user\" gainprm=\"0\"/>";
+      out_ << "<general joint=\"" << linkage_.bodies[0].joint[0].name
+           << "\" dyntype=\"user\" gainprm=\"0\"/>";
     out_ << "</actuator></mujoco>";
     return out_.str();
   }
@@ -46,15 +48,16 @@ class MjcfWriter {
 
   void add_joint(const PlainCoordinate& c) {
     out_ << "<joint name=\"" << c.name << "\" type=\"" << (c.slides ? "slide" : "hinge") << "\" axis=\""
-         << vector_text(Eigen::Vector3d::Unit(c.axis)) << "\" stiffness=\"" << c.stiffness << "\" damping=\"" << c.damping
-         << "\" armature=\"" << (c.drive ? kDrivenArmature : 0.0) << "\"/>";
+         << vector_text(Eigen::Vector3d::Unit(c.axis)) << "\" stiffness=\"" << c.stiffness << "\" damping=\""
+         << c.damping << "\" armature=\"" << (c.drive ? kDrivenArmature : 0.0) << "\"/>";
   }
 
   /// MuJoCo has moments about the centre of mass, which lies on a principal axis.
   void add_inertia(const PlainBody& body) {
     const Eigen::Vector3d square = body.com.cwiseAbs2();
     const Eigen::Vector3d central = body.inertia - body.mass * (square.sum() - square.array()).matrix();
-    out_ << "<inertial pos=\"" << vector_text(body.com) << "\" mass=\"" << body.mass << "\" diaginertia=\"" << vector_text(central) << "\"/>";
+    out_ << "<inertial pos=\"" << vector_text(body.com) << "\" mass=\"" << body.mass << "\" diaginertia=\""
+         << vector_text(central) << "\"/>";
   }
 
   const PlainLinkage& linkage_;

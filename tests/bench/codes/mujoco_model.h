@@ -7,10 +7,12 @@
 
 namespace bench {
 
-/// The linkage in MuJoCo's XML: bodies, joints, springs and dampers; without what acts between bearing and journal.
+/// The linkage in MuJoCo's XML: bodies, joints, springs and dampers; without what acts between bearing and
+/// journal.
 ///
-/// Joints carry the names of the coordinates. Driven ones have an armature that nothing in the mechanism can move, so that a force of
-/// armature times the wanted acceleration drives them. Actuators without force hold the bristles as activations.
+/// Joints carry the names of the coordinates. Driven ones have an armature that nothing in the mechanism can
+/// move, so that a force of armature times the wanted acceleration drives them. Actuators without force hold
+/// the bristles as activations.
 /// @param step  [s]
 [[nodiscard]] std::string write_mjcf(const PlainLinkage& linkage, const char* integrator, double step);
 

@@ -27,17 +27,20 @@ struct PlainCoordinate {
   double start = 0.0, start_rate = 0.0;       ///< at t = 0
 };
 
-/// A body and the joint that carries it. Its frame is parallel to its parent's while its coordinates are zero.
+/// A body and the joint that carries it. Its frame is parallel to its parent's while its coordinates are
+/// zero.
 struct PlainBody {
   int parent = -1;                            ///< index of a body before it; -1: the ground
   Eigen::Vector3d p_PJ = Eigen::Vector3d::Zero();  ///< the joint in the parent's frame, [m]
   std::vector<PlainCoordinate> joint;         ///< one, or turns about z, y and x
   double mass = 0.0;                          ///< [kg]
   Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();  ///< moments about the frame's origin; its axes are principal, [kg m^2]
+  /// moments about the frame's origin; its axes are principal, [kg m^2]
+  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();
 };
 
-/// The linkage as any multibody code takes it, without a word of the engine's: some of them cannot read its headers.
+/// The linkage as any multibody code takes it, without a word of the engine's: some of them cannot read its
+/// headers.
 struct PlainLinkage {
   Eigen::Vector3d gravity_W = Eigen::Vector3d::Zero();  ///< [m/s^2]
   std::vector<PlainBody> bodies;              ///< parents first

@@ -32,12 +32,16 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
  public:
   ContactForce(SimTK::GeneralForceSubsystem& forces, JointForces& joint, const SimTK::MobilizedBody& bearing,
                const SimTK::MobilizedBody& journal)
-      : forces_(forces), joint_(joint), bearing_(bearing), journal_(journal), rates_(joint.bristle_count(), 0.0) {}
+      : forces_(forces),
+        joint_(joint),
+        bearing_(bearing),
+        journal_(journal),
+        rates_(joint.bristle_count(), 0.0) {}
 
   void realizeTopology(SimTK::State& state) const override { first_ = forces_.allocateZ(state, rates_); }
 
-  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector_<SimTK::Vec3>&,
-                 SimTK::Vector&) const override {
+  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector&) const override {
     const BodyMotion b = motion_of(bearing_, state);
     const BodyMotion j = motion_of(journal_, state);
     const JournalLoad load = joint_.calc(b, j, &forces_.getZ(state)[first_], &rates_[0]);
@@ -49,18 +53,22 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
   }
   SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0.0; }
 
-  /// Takes note of contacts that began or ended up to this state. @returns true if any did: the forces are others then
+  /// Takes note of contacts that began or ended up to this state. @returns true if any did: the forces are
+  /// others then
   bool end_step(const SimTK::State& state, SimTK::Real* bristles) {
     return joint_.end_step(state.getTime(), motion_of(bearing_, state), motion_of(journal_, state), bristles);
   }
   [[nodiscard]] SimTK::Real* bristles(SimTK::State& state) const { return &forces_.updZ(state)[first_]; }
-  [[nodiscard]] const SimTK::Real* bristles(const SimTK::State& state) const { return &forces_.getZ(state)[first_]; }
+  [[nodiscard]] const SimTK::Real* bristles(const SimTK::State& state) const {
+    return &forces_.getZ(state)[first_];
+  }
 
  private:
-  static void add(const JournalLoad& load, double sign, const BodyMotion& motion, const SimTK::MobilizedBody& body,
-                  SimTK::Vector_<SimTK::SpatialVec>& body_forces) {
+  static void add(const JournalLoad& load, double sign, const BodyMotion& motion,
+                  const SimTK::MobilizedBody& body, SimTK::Vector_<SimTK::SpatialVec>& body_forces) {
     const Eigen::Vector3d torque = load.moment + (load.p_j - motion.p).cross(load.force);
-    body_forces[body.getMobilizedBodyIndex()] += SimTK::SpatialVec(to_simbody(sign * torque), to_simbody(sign * load.force));
+    body_forces[body.getMobilizedBodyIndex()] +=
+        SimTK::SpatialVec(to_simbody(sign * torque), to_simbody(sign * load.force));
   }
 
   SimTK::GeneralForceSubsystem& forces_;
@@ -75,7 +83,8 @@ class SimbodyLinkage {
  public:
   explicit SimbodyLinkage(const PlainLinkage& plain)
       : model_(plain),
-        contact_(new ContactForce(model_.forces, *plain.forces, model_.body(plain.bearing), model_.body(plain.journal))),
+        contact_(new ContactForce(model_.forces, *plain.forces, model_.body(plain.bearing),
+                                  model_.body(plain.journal))),
         slider_(model_.body(plain.slider)),
         bristles_(static_cast<std::size_t>(plain.forces->bristle_count())) {
     SimTK::Force::Custom(model_.forces, contact_);  // owns it
@@ -89,7 +98,8 @@ class SimbodyLinkage {
   [[nodiscard]] SimTK::MultibodySystem& system() { return model_.system; }
   [[nodiscard]] SliderSample sample(const SimTK::State& state) const {
     model_.system.realize(state, SimTK::Stage::Acceleration);
-    return {state.getTime(), slider_.getOneQ(state, 0), slider_.getOneU(state, 0), slider_.getOneUDot(state, 0)};
+    return {state.getTime(), slider_.getOneQ(state, 0), slider_.getOneU(state, 0),
+            slider_.getOneUDot(state, 0)};
   }
   /// Where contacts changed in the step, the integrator evaluates its end again.
   void end_step(SimTK::Integrator& integrator) {

@@ -6,10 +6,12 @@
 
 namespace bench {
 
-/// Runs a linkage in Simbody from rest, by Runge-Kutta-Merson with error control. The joint's memory of contacts is used up: a linkage runs once.
+/// Runs a linkage in Simbody from rest, by Runge-Kutta-Merson with error control. The joint's memory of
+/// contacts is used up: a linkage runs once.
 /// @param accuracy  Simbody's measure of relative accuracy, [1]
 /// @param duration  [s]
-[[nodiscard]] CodeRun run_simbody(const PlainLinkage& plain, double accuracy, double duration, const StepViewer& viewer = {});
+[[nodiscard]] CodeRun run_simbody(const PlainLinkage& plain, double accuracy, double duration,
+                                  const StepViewer& viewer = {});
 
 /// Processor time of realizing Simbody's accelerations anew with the linkage as it starts, [s].
 [[nodiscard]] double time_simbody_evaluation(const PlainLinkage& plain);

@@ -16,15 +16,18 @@ using SimTK::Vec3;
 Vec3 to_simbody(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 SimTK::MobilizedBody make_joint(const PlainBody& plain, SimTK::MobilizedBody& parent) {
-  const SimTK::Body::Rigid body(SimTK::MassProperties(plain.mass, to_simbody(plain.com), SimTK::Inertia(to_simbody(plain.inertia))));
+  const SimTK::Body::Rigid body(
+      SimTK::MassProperties(plain.mass, to_simbody(plain.com), SimTK::Inertia(to_simbody(plain.inertia))));
   const Vec3 p = to_simbody(plain.p_PJ);
   const SimTK::CoordinateAxis axis(plain.joint[0].axis);
   if (plain.joint.size() == 3) {
     const Rotation turned(UnitVec3(SimTK::ZAxis), SimTK::XAxis, Vec3(0, 1, 0), SimTK::YAxis);
     return SimTK::MobilizedBody::Gimbal(parent, Transform(turned, p), body, Transform(turned, Vec3(0)));
   }
-  const Rotation turned(UnitVec3(axis), SimTK::CoordinateAxis(plain.joint[0].slides ? 0 : 2));  // a Slider's own axis, and a Pin's
-  if (plain.joint[0].slides) return SimTK::MobilizedBody::Slider(parent, Transform(turned, p), body, Transform(turned, Vec3(0)));
+  // a Slider's own axis, and a Pin's
+  const Rotation turned(UnitVec3(axis), SimTK::CoordinateAxis(plain.joint[0].slides ? 0 : 2));
+  if (plain.joint[0].slides)
+    return SimTK::MobilizedBody::Slider(parent, Transform(turned, p), body, Transform(turned, Vec3(0)));
   return SimTK::MobilizedBody::Pin(parent, Transform(turned, p), body, Transform(turned, Vec3(0)));
 }
 
@@ -35,9 +38,15 @@ class PrescribedMotion : public SimTK::Motion::Custom::Implementation {
 
   Implementation* clone() const override { return new PrescribedMotion(*this); }
   SimTK::Motion::Level getLevel(const SimTK::State&) const override { return SimTK::Motion::Position; }
-  void calcPrescribedPosition(const SimTK::State& s, int, SimTK::Real* q) const override { *q = law_(s.getTime()).q; }
-  void calcPrescribedPositionDot(const SimTK::State& s, int, SimTK::Real* qd) const override { *qd = law_(s.getTime()).qd; }
-  void calcPrescribedPositionDotDot(const SimTK::State& s, int, SimTK::Real* qdd) const override { *qdd = law_(s.getTime()).qdd; }
+  void calcPrescribedPosition(const SimTK::State& s, int, SimTK::Real* q) const override {
+    *q = law_(s.getTime()).q;
+  }
+  void calcPrescribedPositionDot(const SimTK::State& s, int, SimTK::Real* qd) const override {
+    *qd = law_(s.getTime()).qd;
+  }
+  void calcPrescribedPositionDotDot(const SimTK::State& s, int, SimTK::Real* qdd) const override {
+    *qdd = law_(s.getTime()).qdd;
+  }
 
  private:
   std::function<PlainDriven(double)> law_;
@@ -51,15 +60,19 @@ double sign_of(int which) { return which == 2 ? -1.0 : 1.0; }
 SimbodyModel::SimbodyModel(const PlainLinkage& plain) : matter(system), forces(system), plain_(plain) {
   SimTK::Force::UniformGravity(forces, matter, to_simbody(plain.gravity_W));
   for (const PlainBody& body : plain.bodies) {
-    SimTK::MobilizedBody parent = body.parent < 0 ? matter.Ground() : bodies_[static_cast<std::size_t>(body.parent)];
+    SimTK::MobilizedBody parent =
+        body.parent < 0 ? matter.Ground() : bodies_[static_cast<std::size_t>(body.parent)];
     bodies_.push_back(make_joint(body, parent));
-    for (std::size_t k = 0; k < body.joint.size(); ++k) add_forces(body.joint[k], bodies_.back(), static_cast<int>(k));
+    for (std::size_t k = 0; k < body.joint.size(); ++k)
+      add_forces(body.joint[k], bodies_.back(), static_cast<int>(k));
   }
 }
 
 void SimbodyModel::add_forces(const PlainCoordinate& c, SimTK::MobilizedBody& body, int which) {
-  if (c.stiffness > 0.0) SimTK::Force::MobilityLinearSpring(forces, body, SimTK::MobilizerQIndex(which), c.stiffness, 0.0);
-  if (c.damping > 0.0) SimTK::Force::MobilityLinearDamper(forces, body, SimTK::MobilizerUIndex(which), c.damping);
+  if (c.stiffness > 0.0)
+    SimTK::Force::MobilityLinearSpring(forces, body, SimTK::MobilizerQIndex(which), c.stiffness, 0.0);
+  if (c.damping > 0.0)
+    SimTK::Force::MobilityLinearDamper(forces, body, SimTK::MobilizerUIndex(which), c.damping);
   if (c.drive) SimTK::Motion::Custom(body, new PrescribedMotion(c.drive));  // which owns it
 }
 

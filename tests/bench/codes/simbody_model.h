@@ -9,9 +9,11 @@
 
 namespace bench {
 
-/// The linkage's tree in Simbody: bodies, joints, gravity, springs and dampers, drives; without what acts between bearing and journal.
+/// The linkage's tree in Simbody: bodies, joints, gravity, springs and dampers, drives; without what acts
+/// between bearing and journal.
 ///
-/// Three rotations about z, y, x are a Gimbal; its frames are turned so that it turns about x, y, z of its own, the last one backwards.
+/// Three rotations about z, y, x are a Gimbal; its frames are turned so that it turns about x, y, z of its
+/// own, the last one backwards.
 class SimbodyModel {
  public:
   explicit SimbodyModel(const PlainLinkage& plain);

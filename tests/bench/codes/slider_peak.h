@@ -7,7 +7,8 @@
 
 namespace bench {
 
-/// Largest slider acceleration of the steady window from the inside of steps, given at their ends: the same measure for every code.
+/// Largest slider acceleration of the steady window from the inside of steps, given at their ends: the same
+/// measure for every code.
 class SliderPeak {
  public:
   explicit SliderPeak(double from) : from_(from) {}

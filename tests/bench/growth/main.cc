@@ -37,9 +37,10 @@ Cost measure(const RpsupParameters& parameters, double budget) {
   ContactState state(parameters);
   Cost cost{time_short([&state] { state.evaluate(); }), 0.0, 0.0};
   const double start = cpu_seconds();
-  const engine::RunResult run =
-      engine::simulate_rpsup(parameters, {.duration = kDuration}, [=](double) { return cpu_seconds() - start > budget; });
-  if (run.status != engine::RunStatus::kSucceeded && run.status != engine::RunStatus::kStopped) throw std::runtime_error(run.detail);
+  const engine::RunResult run = engine::simulate_rpsup(
+      parameters, {.duration = kDuration}, [=](double) { return cpu_seconds() - start > budget; });
+  if (run.status != engine::RunStatus::kSucceeded && run.status != engine::RunStatus::kStopped)
+    throw std::runtime_error(run.detail);
   cost.simulated = run.t_end;
   cost.per_simulated = (cpu_seconds() - start) / run.t_end;
   return cost;
@@ -47,14 +48,16 @@ Cost measure(const RpsupParameters& parameters, double budget) {
 
 /// A shared machine has slow moments, and no fast ones.
 Cost least(const Cost& a, const Cost& b) {
-  return {std::min(a.evaluation, b.evaluation), std::min(a.per_simulated, b.per_simulated), std::min(a.simulated, b.simulated)};
+  return {std::min(a.evaluation, b.evaluation), std::min(a.per_simulated, b.per_simulated),
+          std::min(a.simulated, b.simulated)};
 }
 
 /// Each count has its turn in each round; of its costs the least stands.
 void print_growth(const char* title, const char* name, const std::vector<int>& counts, double budget,
                   const std::function<RpsupParameters(int)>& with) {
   std::cout << '\n' << title << "\n\n";
-  Table table({name, "evaluation [us]", "to the first", "count to the first", "CPU of a simulated second [s]", "to the first", "simulated [s]"});
+  Table table({name, "evaluation [us]", "to the first", "count to the first", "CPU of a simulated second [s]",
+               "to the first", "simulated [s]"});
   std::vector<Cost> costs(counts.size());
   for (int round = 0; round < kRounds; ++round)
     for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -63,7 +66,8 @@ void print_growth(const char* title, const char* name, const std::vector<int>& c
     }
   for (std::size_t k = 0; k < counts.size(); ++k) {
     const Cost& cost = costs[k];
-    table.add({std::to_string(counts[k]), digits(1e6 * cost.evaluation, 3), digits(cost.evaluation / costs[0].evaluation, 3),
+    table.add({std::to_string(counts[k]), digits(1e6 * cost.evaluation, 3),
+               digits(cost.evaluation / costs[0].evaluation, 3),
                digits(static_cast<double>(counts[k]) / counts[0], 3), digits(cost.per_simulated, 3),
                digits(cost.per_simulated / costs[0].per_simulated, 3), digits(cost.simulated, 2)});
   }
@@ -71,13 +75,14 @@ void print_growth(const char* title, const char* name, const std::vector<int>& c
 }
 
 void print_all(double budget) {
-  print_growth("Flexible coupler, 0.25 mm, 5 rad/s, default integrator", "n_rfe", {4, 8, 16, 32, 64}, budget, [](int count) {
-    RpsupParameters parameters = linkage(Coupler::kFlexible, 0.25e-3, 5.0);
-    parameters.rigid_elements = count;
-    return parameters;
-  });
-  print_growth("Contact elements, rigid coupler, 0.25 mm, 10 rad/s, default integrator", "radial_elements", {36, 180, 360, 720, 1440}, budget,
+  print_growth("Flexible coupler, 0.25 mm, 5 rad/s, default integrator", "n_rfe", {4, 8, 16, 32, 64}, budget,
                [](int count) {
+                 RpsupParameters parameters = linkage(Coupler::kFlexible, 0.25e-3, 5.0);
+                 parameters.rigid_elements = count;
+                 return parameters;
+               });
+  print_growth("Contact elements, rigid coupler, 0.25 mm, 10 rad/s, default integrator", "radial_elements",
+               {36, 180, 360, 720, 1440}, budget, [](int count) {
                  RpsupParameters parameters = linkage(Coupler::kRigid, 0.25e-3, 10.0);
                  parameters.contact = engine::ContactForm::kElements;
                  parameters.radial_elements = count;

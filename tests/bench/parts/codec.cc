@@ -18,7 +18,8 @@ engine::Trajectory make_trajectory() {
   engine::RpsupParameters parameters = linkage(engine::Coupler::kRigid, 0.25e-3, 10.0);
   parameters.run_up = 0.5;
   engine::Trajectory trajectory = engine::simulate_rpsup(parameters, {.duration = 1.0}, {}).trajectory;
-  for (engine::QuantityInfo& channel : trajectory.channels) channel.single_precision = channel.key != "t_s";  // as jobs keep them
+  // as jobs keep them
+  for (engine::QuantityInfo& channel : trajectory.channels) channel.single_precision = channel.key != "t_s";
   return trajectory;
 }
 

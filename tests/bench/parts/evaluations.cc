@@ -51,7 +51,8 @@ void calc_contact(benchmark::State& run, const RpsupParameters& parameters, doub
   joint.follow(journal, 1e-9, bristles.data());
   engine::ContactLoad load;
   for (auto _ : run) {
-    if (!joint.calc(journal, bristles.data(), rates.data(), load)) run.SkipWithError("a bristle has no place");
+    if (!joint.calc(journal, bristles.data(), rates.data(), load))
+      run.SkipWithError("a bristle has no place");
     benchmark::DoNotOptimize(load);
   }
 }
@@ -64,10 +65,12 @@ void register_evaluations() {
       benchmark::RegisterBenchmark(("right_hand_side/" + name + "/" + std::string(set)).c_str(),
                                    [p = parameters, set](benchmark::State& run) { evaluate(run, p, set); });
   const RpsupParameters continuum = linkage(Coupler::kRigid, 0.25e-3, 10.0);
-  for (const auto& [name, parameters] : {std::pair{"continuum", continuum}, std::pair{"elements", with_elements(continuum)}})
+  for (const auto& [name, parameters] :
+       {std::pair{"continuum", continuum}, std::pair{"elements", with_elements(continuum)}})
     for (const auto& [where, push] : {std::pair{"touching", 0.255e-3}, std::pair{"apart", 0.2e-3}})
-      benchmark::RegisterBenchmark((std::string("contact_law/") + name + "/" + where).c_str(),
-                                   [p = parameters, x = push](benchmark::State& run) { calc_contact(run, p, x); });
+      benchmark::RegisterBenchmark(
+          (std::string("contact_law/") + name + "/" + where).c_str(),
+          [p = parameters, x = push](benchmark::State& run) { calc_contact(run, p, x); });
 }
 
 }  // namespace bench

@@ -43,7 +43,8 @@ void run_job(benchmark::State& run, const RpsupParameters& parameters, const Run
     if (result.status != engine::RunStatus::kSucceeded) run.SkipWithError(result.detail.c_str());
   }
   using benchmark::Counter;
-  run.counters["s_per_simulated_s"] = Counter(options.duration, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  run.counters["s_per_simulated_s"] =
+      Counter(options.duration, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
 /// A short run: the crank is at full speed after half of it.
@@ -59,21 +60,25 @@ void register_steps(Coupler coupler, const char* coupler_name) {
     RunOptions options{.duration = kDuration, .output_rate = 20.0};
     options.integrator = integrator.integrator;
     benchmark::RegisterBenchmark(("steps/" + integrator.name + "/" + coupler_name).c_str(),
-                                 [=](benchmark::State& run) { take_steps(run, parameters, options); })->Unit(benchmark::kMillisecond);
+                                 [=](benchmark::State& run) { take_steps(run, parameters, options); })
+        ->Unit(benchmark::kMillisecond);
   }
 }
 
 void register_job(Coupler coupler, const char* coupler_name, double c_r, const char* joint_name) {
   constexpr double kDuration = 0.5;
   const RpsupParameters parameters = hurried(linkage(coupler, c_r, 10.0), kDuration);
-  benchmark::RegisterBenchmark((std::string("job/") + coupler_name + "/" + joint_name).c_str(),
-                               [=](benchmark::State& run) { run_job(run, parameters, {.duration = kDuration}); })->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(
+      (std::string("job/") + coupler_name + "/" + joint_name).c_str(),
+      [=](benchmark::State& run) { run_job(run, parameters, {.duration = kDuration}); })
+      ->Unit(benchmark::kMillisecond);
 }
 
 }  // namespace
 
 void register_runs() {
-  for (const auto& [coupler, name] : {std::pair{Coupler::kRigid, "rigid"}, std::pair{Coupler::kFlexible, "flexible"}}) {
+  for (const auto& [coupler, name] :
+       {std::pair{Coupler::kRigid, "rigid"}, std::pair{Coupler::kFlexible, "flexible"}}) {
     register_steps(coupler, name);
     register_job(coupler, name, 0.25e-3, "clearance");
     register_job(coupler, name, 0.0, "ideal");

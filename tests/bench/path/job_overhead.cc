@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job costs beside its simulation: planning and queueing it, claiming it, reading its parameters, encoding and storing what
-// it left. One thread; CPU time of the whole process less that of the runner, so that other programs do not matter.
+// What a job costs beside its simulation: planning and queueing it, claiming it, reading its parameters,
+// encoding and storing what it left. One thread; CPU time of the whole process less that of the runner, so
+// that other programs do not matter.
 //
 // usage: bench_job_overhead [jobs without simulation] [jobs with a trajectory]
 
@@ -55,7 +56,8 @@ class Meter {
   bool started_ = false;
 };
 
-void measure(const std::string& what, std::size_t jobs, const nlohmann::json& parameters, const jobs::Runner& runner) {
+void measure(const std::string& what, std::size_t jobs, const nlohmann::json& parameters,
+             const jobs::Runner& runner) {
   const Folder folder;
   Meter meter;
   jobs::ServiceOptions options;
@@ -89,7 +91,8 @@ int main(int argc, char** argv) {
   const std::size_t short_jobs = count_argument(argc, argv, 1, 2000);
   const std::size_t long_jobs = count_argument(argc, argv, 2, 200);
 
-  const nlohmann::json tiny{{"coupler", "rigid"}, {"clearance_mm", 0}, {"duration_s", 0.01}, {"output_rate_hz", 100}};
+  const nlohmann::json tiny{
+      {"coupler", "rigid"}, {"clearance_mm", 0}, {"duration_s", 0.01}, {"output_rate_hz", 100}};
   measure("0.01 s job", short_jobs, tiny, [](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
     return engine::simulate_rpsup(spec.parameters, spec.options, stop);
   });
@@ -99,6 +102,7 @@ int main(int argc, char** argv) {
     const engine::RunResult result = simulate(kind.parameters);
     const auto& columns = result.trajectory.columns;
     const std::string size = std::to_string(columns.front().size()) + " x " + std::to_string(columns.size());
-    measure(kind.name + ", " + size, long_jobs, kind.parameters, [&](const jobs::JobSpec&, const engine::StopQuery&) { return result; });
+    measure(kind.name + ", " + size, long_jobs, kind.parameters,
+            [&](const jobs::JobSpec&, const engine::StopQuery&) { return result; });
   }
 }

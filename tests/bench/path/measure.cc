@@ -50,12 +50,14 @@ Folder::~Folder() {
 }
 
 void print_figure(const std::string& what, double figure, const std::string& unit, double at_most) {
-  std::printf("%-64s %10.3f %-6s at most %8.3f  %s\n", what.c_str(), figure, unit.c_str(), at_most, figure <= at_most ? "kept" : "MISSED");
+  std::printf("%-64s %10.3f %-6s at most %8.3f  %s\n", what.c_str(), figure, unit.c_str(), at_most,
+              figure <= at_most ? "kept" : "MISSED");
   std::fflush(stdout);
 }
 
 void print_ratio(const std::string& what, double figure, double at_least) {
-  std::printf("%-64s %10.3f %-6s at least %7.3f  %s\n", what.c_str(), figure, "times", at_least, figure >= at_least ? "kept" : "MISSED");
+  std::printf("%-64s %10.3f %-6s at least %7.3f  %s\n", what.c_str(), figure, "times", at_least,
+              figure >= at_least ? "kept" : "MISSED");
   std::fflush(stdout);
 }
 
@@ -66,9 +68,11 @@ void print_figure(const std::string& what, double figure, const std::string& uni
 
 std::vector<Kind> job_kinds() {
   return {{"rigid, ideal joint", {{"coupler", "rigid"}, {"clearance_mm", 0}}},
-          {"rigid, clearance 0.25 mm", {{"coupler", "rigid"}, {"clearance_mm", 0.25}, {"crank_velocity_rad_s", 10}}},
+          {"rigid, clearance 0.25 mm",
+           {{"coupler", "rigid"}, {"clearance_mm", 0.25}, {"crank_velocity_rad_s", 10}}},
           {"flexible, ideal joint", {{"coupler", "flexible"}, {"clearance_mm", 0}}},
-          {"flexible, clearance 0.25 mm", {{"coupler", "flexible"}, {"clearance_mm", 0.25}, {"crank_velocity_rad_s", 5}}}};
+          {"flexible, clearance 0.25 mm",
+           {{"coupler", "flexible"}, {"clearance_mm", 0.25}, {"crank_velocity_rad_s", 5}}}};
 }
 
 engine::RunResult simulate(const nlohmann::json& parameters) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of a sweep as CSV and as JSON with few fields, and a listing, over HTTP: what a GET takes and how much memory the server needs.
+// Results of a sweep as CSV and as JSON with few fields, and a listing, over HTTP: what a GET takes and how
+// much memory the server needs.
 //
 // usage: bench_results_csv [jobs]
 

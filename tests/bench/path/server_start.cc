@@ -36,7 +36,8 @@ Start start_once(const std::string& program, const std::string& store) {
   if (child == 0) {
     ::dup2(output[1], STDOUT_FILENO);
     ::close(output[0]);
-    ::execl(program.c_str(), program.c_str(), "serve", "--db", store.c_str(), "--port", "0", "--log-level", "error", nullptr);
+    ::execl(program.c_str(), program.c_str(), "serve", "--db", store.c_str(), "--port", "0", "--log-level",
+            "error", nullptr);
     ::_exit(127);
   }
   ::close(output[1]);
@@ -71,7 +72,8 @@ int main(int argc, char** argv) {
     memory = start.memory_mib;
   }
   std::ranges::sort(elapsed);
-  print_figure(what + ": size of the store", static_cast<double>(std::filesystem::file_size(store)) / 1048576.0, "MiB");
+  print_figure(what + ": size of the store",
+               static_cast<double>(std::filesystem::file_size(store)) / 1048576.0, "MiB");
   print_figure(what + ": memory of the server", memory, "MiB");
   print_figure(what + ": from exec to the line, median", elapsed[kTimes / 2], "s", kBound_s);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether memory stays flat: this process' memory after sweeps of more and more jobs without a simulation, and what a large sweep
-// takes while it is submitted and while its results are read.
+// Whether memory stays flat: this process' memory after sweeps of more and more jobs without a simulation,
+// and what a large sweep takes while it is submitted and while its results are read.
 //
 // usage: bench_sweep_memory [jobs of the small sweep] [jobs of the large sweep]
 
@@ -25,13 +25,15 @@ double memory_after(std::size_t jobs, std::size_t samples) {
   options.store = folder.file("study.db");
   options.runner = [&](const jobs::JobSpec& spec, const engine::StopQuery&) {
     engine::RunResult result;
-    for (std::size_t i = 0; i < engine::metric_table().size(); ++i) result.metrics.push_back(spec.parameters.crank_velocity);
+    for (std::size_t i = 0; i < engine::metric_table().size(); ++i)
+      result.metrics.push_back(spec.parameters.crank_velocity);
     result.trajectory.channels = {{.key = "t_s", .help = "time"}, {.key = "slider_position_m", .help = ""}};
     result.trajectory.columns.assign(2, std::vector<double>(samples, spec.parameters.crank_velocity));
     return result;
   };
   jobs::Service service(options);
-  service.wait_for_sweep(service.submit_sweep(sweep_of(jobs, nlohmann::json::object())).at("id"), std::chrono::hours(1));
+  service.wait_for_sweep(service.submit_sweep(sweep_of(jobs, nlohmann::json::object())).at("id"),
+                         std::chrono::hours(1));
   malloc_trim(0);  // what is free does not count
   return resident_mib();
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many times the jobs of one thread two threads do, by turns in some rounds, of which the median counts. The ratio of passing times is
-// only right on a quiet machine, so what it is made of is printed, too: how much dearer a job is beside another one, how long threads wait
-// for each other, and what the machine gives to two threads that do nothing but simulate, without queue or store.
+// How many times the jobs of one thread two threads do, by turns in some rounds, of which the median counts.
+// The ratio of passing times is only right on a quiet machine, so what it is made of is printed, too: how
+// much dearer a job is beside another one, how long threads wait for each other, and what the machine gives
+// to two threads that do nothing but simulate, without queue or store.
 //
 // usage: bench_thread_scaling [jobs] [parameters as JSON]
 
@@ -85,10 +86,12 @@ double median(const std::vector<Sweep>& sweeps, double Sweep::*part) {
 
 int main(int argc, char** argv) {
   const std::size_t jobs = 2 * ((count_argument(argc, argv, 1, 500) + 1) / 2);
-  const auto parameters = nlohmann::json::parse(argc > 2 ? argv[2] : R"({"coupler": "rigid", "clearance_mm": 0})");
+  const auto parameters =
+      nlohmann::json::parse(argc > 2 ? argv[2] : R"({"coupler": "rigid", "clearance_mm": 0})");
   measure(2, std::min<std::size_t>(jobs, 8), parameters);  // warms up
   std::vector<Sweep> one, two;
-  std::vector<double> ratios, bare_ratios;  // of a round, so that a machine that changes its pace matters to few
+  // of a round, so that a machine that changes its pace matters to few
+  std::vector<double> ratios, bare_ratios;
   for (int round = 0; round < kRounds; ++round) {
     one.push_back(measure(1, jobs, parameters));
     two.push_back(measure(2, jobs, parameters));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work and precision of whole jobs: every integrator over its tolerances or steps, against a tight run of each case.
+// Work and precision of whole jobs: every integrator over its tolerances or steps, against a tight run of
+// each case.
 //   bench_precision FOLDER [FROM [TO]]
 // Writes precision.csv and precision.svg to the folder. FROM, TO: only some of the cases, counted from 0.
 

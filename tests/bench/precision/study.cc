@@ -21,7 +21,8 @@ using engine::Coupler;
 constexpr double kDuration = 4.0;  // [s]
 
 PrecisionCase make_case(CaseKind kind, Coupler coupler, double clearance_mm, double omega) {
-  return {std::string(coupler == Coupler::kRigid ? "rigid" : "flexible") + " " + digits(clearance_mm, 3) + " mm " + digits(omega, 3) + " rad/s",
+  return {std::string(coupler == Coupler::kRigid ? "rigid" : "flexible") + " " + digits(clearance_mm, 3) +
+              " mm " + digits(omega, 3) + " rad/s",
           kind, linkage(coupler, 1e-3 * clearance_mm, omega)};
 }
 
@@ -47,10 +48,12 @@ engine::RunOptions with_step(engine::RunOptions options, double step) {
 std::vector<PrecisionCase> precision_cases() {
   std::vector<PrecisionCase> cases;
   for (const double clearance : {0.25, 0.5}) {
-    for (const double omega : {5.0, 10.0, 12.0, 15.0}) cases.push_back(make_case(CaseKind::kKnown, Coupler::kRigid, clearance, omega));
+    for (const double omega : {5.0, 10.0, 12.0, 15.0})
+      cases.push_back(make_case(CaseKind::kKnown, Coupler::kRigid, clearance, omega));
     cases.push_back(make_case(CaseKind::kKnown, Coupler::kFlexible, clearance, 5.0));
   }
-  for (const auto& [clearance, omega] : {std::pair{0.15, 9.0}, {0.2, 11.0}, {0.35, 7.0}, {0.35, 9.0}, {0.35, 11.0}, {0.35, 14.0}})
+  for (const auto& [clearance, omega] :
+       {std::pair{0.15, 9.0}, {0.2, 11.0}, {0.35, 7.0}, {0.35, 9.0}, {0.35, 11.0}, {0.35, 14.0}})
     cases.push_back(make_case(CaseKind::kFresh, Coupler::kRigid, clearance, omega));
   for (const auto& [clearance, omega] : {std::pair{0.15, 4.0}, {0.35, 4.5}})
     cases.push_back(make_case(CaseKind::kFresh, Coupler::kFlexible, clearance, omega));
@@ -62,7 +65,8 @@ std::vector<Setting> precision_settings() {
   for (const NamedIntegrator& integrator : all_integrators()) {
     const engine::RunOptions options = make_options(integrator.integrator);
     if (integrator.has_fixed_step())
-      for (const double step : {1e-5, 5e-6, 2.5e-6}) settings.push_back({integrator.name, step, with_step(options, step)});
+      for (const double step : {1e-5, 5e-6, 2.5e-6})
+        settings.push_back({integrator.name, step, with_step(options, step)});
     else
       for (const double tolerance : {3e-4, 1e-4, 3e-5, 7.5e-6, 1e-6, 1e-7})
         settings.push_back({integrator.name, tolerance, with_tolerance(options, tolerance)});
@@ -78,10 +82,13 @@ double find_reference_peak(const PrecisionCase& what) {
 Measurement measure(const PrecisionCase& what, const Setting& setting, double reference_peak) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   engine::RunResult run;
-  const double seconds = time_cpu([&] { run = engine::simulate_rpsup(what.parameters, setting.options, {}); });
+  const double seconds =
+      time_cpu([&] { run = engine::simulate_rpsup(what.parameters, setting.options, {}); });
   if (run.status != engine::RunStatus::kSucceeded) return {&what, &setting, seconds, kNone, kNone, kNone};
   const double peak = validation::metric(run, "peak_slider_acceleration_m_s2");
-  return {&what, &setting, seconds, validation::metric(run, "rhs_evaluations"), peak, std::abs(peak / reference_peak - 1.0)};
+  return {&what,   &setting,
+          seconds, validation::metric(run, "rhs_evaluations"),
+          peak,    std::abs(peak / reference_peak - 1.0)};
 }
 
 }  // namespace bench

@@ -37,7 +37,8 @@ std::vector<Group> group(const std::vector<Measurement>& measurements, Coupler c
   std::vector<Group> groups;
   for (const Measurement& m : measurements) {
     if (m.what->parameters.coupler != coupler) continue;
-    auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.setting == m.setting; });
+    auto found =
+        std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.setting == m.setting; });
     if (found == groups.end()) found = groups.insert(groups.end(), Group{.setting = m.setting});
     found->cpu_seconds += m.cpu_seconds;
     found->simulated += m.setting->options.duration;
@@ -57,11 +58,16 @@ const char* name_of(Coupler coupler) { return coupler == Coupler::kRigid ? "rigi
 
 charts::Chart draw_chart(const std::vector<Measurement>& measurements, Coupler coupler) {
   const std::array colours{validation::kOrange, validation::kBlue, validation::kGreen, validation::kPurple};
-  charts::Chart chart{.title = std::string(name_of(coupler)) + " coupler", .x_label = "CPU ms per simulated second",
-              .y_label = "worst relative error of the peak", .x_scale = validation::Scale::kLog, .y_scale = validation::Scale::kLog};
+  charts::Chart chart{.title = std::string(name_of(coupler)) + " coupler",
+                      .x_label = "CPU ms per simulated second",
+                      .y_label = "worst relative error of the peak",
+                      .x_scale = validation::Scale::kLog,
+                      .y_scale = validation::Scale::kLog};
   for (const Group& g : group(measurements, coupler)) {
     if (chart.series.empty() || chart.series.back().label != g.setting->integrator)
-      chart.series.push_back(charts::Series{.label = g.setting->integrator, .colour = colours.at(chart.series.size() % colours.size()), .markers = true});
+      chart.series.push_back(charts::Series{.label = g.setting->integrator,
+                                            .colour = colours.at(chart.series.size() % colours.size()),
+                                            .markers = true});
     chart.series.back().x.push_back(g.ms_per_second());
     chart.series.back().y.push_back(g.worst_of_all());
   }
@@ -69,7 +75,8 @@ charts::Chart draw_chart(const std::vector<Measurement>& measurements, Coupler c
 }
 
 bool has(const std::vector<Measurement>& measurements, Coupler coupler) {
-  return std::any_of(measurements.begin(), measurements.end(), [=](const Measurement& m) { return m.what->parameters.coupler == coupler; });
+  return std::any_of(measurements.begin(), measurements.end(),
+                     [=](const Measurement& m) { return m.what->parameters.coupler == coupler; });
 }
 
 }  // namespace
@@ -79,17 +86,20 @@ std::string write_csv(const std::vector<Measurement>& measurements) {
   csv.precision(10);
   csv << "case,kind,integrator,tolerance_or_step_s,cpu_s,rhs_evaluations,peak_m_s2,relative_error\n";
   for (const Measurement& m : measurements)
-    csv << m.what->name << ',' << (m.what->kind == CaseKind::kFresh ? "fresh" : "known") << ',' << m.setting->integrator << ',' << m.setting->value
-        << ',' << m.cpu_seconds << ',' << m.evaluations << ',' << m.peak << ',' << m.error << '\n';
+    csv << m.what->name << ',' << (m.what->kind == CaseKind::kFresh ? "fresh" : "known") << ','
+        << m.setting->integrator << ',' << m.setting->value << ',' << m.cpu_seconds << ',' << m.evaluations
+        << ',' << m.peak << ',' << m.error << '\n';
   return csv.str();
 }
 
 void print_summary(std::ostream& out, const std::vector<Measurement>& measurements) {
-  Table table({"coupler", "integrator", "tolerance or step [s]", "CPU [ms/s]", "evaluations per ms", "worst error, known [%]", "fresh [%]"});
+  Table table({"coupler", "integrator", "tolerance or step [s]", "CPU [ms/s]", "evaluations per ms",
+               "worst error, known [%]", "fresh [%]"});
   for (const Coupler coupler : {Coupler::kRigid, Coupler::kFlexible})
     for (const Group& g : group(measurements, coupler))
-      table.add({name_of(coupler), g.setting->integrator, digits(g.setting->value, 3), digits(g.ms_per_second(), 3),
-                 digits(1e-3 * g.evaluations / g.simulated, 3), error_text(g.worst[0]), error_text(g.worst[1])});
+      table.add({name_of(coupler), g.setting->integrator, digits(g.setting->value, 3),
+                 digits(g.ms_per_second(), 3), digits(1e-3 * g.evaluations / g.simulated, 3),
+                 error_text(g.worst[0]), error_text(g.worst[1])});
   table.print(out);
 }
 

@@ -21,7 +21,9 @@ struct Coordinates {
 /// @throws std::runtime_error if the loop does not close
 [[nodiscard]] Coordinates assemble(const engine::Mechanism& mechanism);
 
-/// The same with the coupler turned until every ring of the journal touches the bore and slides on it; with an ideal joint without the turn.
-[[nodiscard]] Coordinates assemble_in_contact(const engine::RpsupParameters& parameters, const engine::Rpsup& rpsup);
+/// The same with the coupler turned until every ring of the journal touches the bore and slides on it; with
+/// an ideal joint without the turn.
+[[nodiscard]] Coordinates assemble_in_contact(const engine::RpsupParameters& parameters,
+                                              const engine::Rpsup& rpsup);
 
 }  // namespace bench

@@ -9,12 +9,15 @@
 
 namespace bench {
 
-/// A linkage at t = 0 with every ring in contact (or its ideal joint closed), to be evaluated again and again.
+/// A linkage at t = 0 with every ring in contact (or its ideal joint closed), to be evaluated again and
+/// again.
 class ContactState {
  public:
   /// @param instruction_set  one of engine::instruction_sets(); empty: the best one
   explicit ContactState(const engine::RpsupParameters& parameters, std::string_view instruction_set = {})
-      : rpsup_(engine::build_rpsup(parameters)), system_(rpsup_.mechanism, instruction_set), at_(system_.make_evaluation()) {
+      : rpsup_(engine::build_rpsup(parameters)),
+        system_(rpsup_.mechanism, instruction_set),
+        at_(system_.make_evaluation()) {
     const Coordinates at = assemble_in_contact(parameters, rpsup_);
     y_ = system_.make_state(at.q, at.qd);
     dydt_ = Eigen::VectorXd::Zero(y_.size());

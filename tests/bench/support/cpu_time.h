@@ -20,7 +20,8 @@ template <typename Work>
   return cpu_seconds() - start;
 }
 
-/// Processor time of one call of something short, [s]: the least of some batches, each long enough to be measured.
+/// Processor time of one call of something short, [s]: the least of some batches, each long enough to be
+/// measured.
 template <typename Work>
 [[nodiscard]] double time_short(const Work& work, double batch_seconds = 0.02, int batches = 7) {
   long calls = 1;

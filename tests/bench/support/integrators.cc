@@ -11,7 +11,8 @@ std::vector<NamedIntegrator> all_integrators() {
   for (const std::string_view word : parameter.choices) {
     jobs::JobSpec spec;
     parameter.write(spec, std::string(word));
-    if (spec.options.integrator != engine::Integrator::kAuto) all.push_back({std::string(word), spec.options.integrator});
+    if (spec.options.integrator != engine::Integrator::kAuto)
+      all.push_back({std::string(word), spec.options.integrator});
   }
   return all;
 }

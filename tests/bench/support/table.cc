@@ -28,10 +28,12 @@ void Table::print(std::ostream& out) const {
   for (const auto& row : rows_)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
-    for (std::size_t i = 0; i < widths.size(); ++i) out << "| " << padded(i < rows_[r].size() ? rows_[r][i] : "", widths[i], i == 0) << ' ';
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      out << "| " << padded(i < rows_[r].size() ? rows_[r][i] : "", widths[i], i == 0) << ' ';
     out << "|\n";
     if (r > 0) continue;
-    for (std::size_t i = 0; i < widths.size(); ++i) out << '|' << std::string(widths[i] + 1, '-') << (i == 0 ? '-' : ':');
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      out << '|' << std::string(widths[i] + 1, '-') << (i == 0 ? '-' : ':');
     out << "|\n";
   }
   out << std::flush;

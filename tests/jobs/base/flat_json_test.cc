@@ -44,7 +44,8 @@ void expect_same(const std::optional<json>& read, const std::string& text) {
   EXPECT_EQ(read->dump(), json::parse(text).dump());
 }
 
-RC_GTEST_PROP(FlatJson, ReadsTheNumbersThatWereWritten, (const std::vector<std::int64_t>& bits, const std::vector<std::int64_t>& integers)) {
+RC_GTEST_PROP(FlatJson, ReadsTheNumbersThatWereWritten,
+              (const std::vector<std::int64_t>& bits, const std::vector<std::int64_t>& integers)) {
   json list = integers;
   for (const std::int64_t b : bits) {
     const double x = std::bit_cast<double>(b * 0x9e3779b97f4a7c15L);
@@ -57,19 +58,48 @@ RC_GTEST_PROP(FlatJson, ReadsTheNumbersThatWereWritten, (const std::vector<std::
 }
 
 TEST(FlatJson, ReadsEveryKindOfValue) {
-  for (const std::string text : {R"([])", R"([0])",
-                                 R"([-0.0,0.0,1e300,-1e-5,18446744073709551615,-9223372036854775808])", R"(["rigid",null,true,false,1.5])"}) {
+  for (const std::string text :
+       {R"([])", R"([0])", R"([-0.0,0.0,1e300,-1e-5,18446744073709551615,-9223372036854775808])",
+        R"(["rigid",null,true,false,1.5])"}) {
     expect_same(read_list(text), text);
   }
-  for (const std::string text : {R"({})", R"({"a":1,"b":null,"c":"x y","d":2.5e-7})"}) expect_same(read_object(text), text);
+  for (const std::string text : {R"({})", R"({"a":1,"b":null,"c":"x y","d":2.5e-7})"})
+    expect_same(read_object(text), text);
 }
 
 TEST(FlatJson, LeavesEverythingElseToOthers) {
-  for (const std::string text : {"", "[", "[1", "[1,", "[1,]", "[,1]", "[1 ]", "[ 1]", "[1]]", "[[1]]", "[{}]", "[01]", "[.5]", "[5.]", "[+1]", "[1e]", "[-]", "[--1]",
-                                 "[nan]", "[NaN]", "[inf]", "[1e999]", "[18446744073709551616]", "[\"a\\n\"]", "[\"\xc3\xa9\"]", "[\"a]", "[nul]", "{}"}) {
+  for (const std::string text : {"",
+                                 "[",
+                                 "[1",
+                                 "[1,",
+                                 "[1,]",
+                                 "[,1]",
+                                 "[1 ]",
+                                 "[ 1]",
+                                 "[1]]",
+                                 "[[1]]",
+                                 "[{}]",
+                                 "[01]",
+                                 "[.5]",
+                                 "[5.]",
+                                 "[+1]",
+                                 "[1e]",
+                                 "[-]",
+                                 "[--1]",
+                                 "[nan]",
+                                 "[NaN]",
+                                 "[inf]",
+                                 "[1e999]",
+                                 "[18446744073709551616]",
+                                 "[\"a\\n\"]",
+                                 "[\"\xc3\xa9\"]",
+                                 "[\"a]",
+                                 "[nul]",
+                                 "{}"}) {
     EXPECT_FALSE(read_list(text).has_value()) << text;
   }
-  for (const std::string text : {"", "{", "{\"a\"}", "{\"a\":}", "{\"a\":1,}", "{a:1}", "{\"a\":1}x", "{\"a\":{}}", "{\"a\":1 }", "[]"}) {
+  for (const std::string text : {"", "{", "{\"a\"}", "{\"a\":}", "{\"a\":1,}", "{a:1}", "{\"a\":1}x",
+                                 "{\"a\":{}}", "{\"a\":1 }", "[]"}) {
     EXPECT_FALSE(read_object(text).has_value()) << text;
   }
 }

@@ -11,7 +11,8 @@ namespace {
 
 TEST(IdMaker, MakesIdsThatSortByTimeWhateverTheClockDoes) {
   jobs::IdMaker ids;
-  const std::int64_t times[] = {1'700'000'000'000, 1'700'000'000'000, 1'700'000'000'001, 1'699'999'999'000, 1'700'000'000'002};
+  const std::int64_t times[] = {1'700'000'000'000, 1'700'000'000'000, 1'700'000'000'001, 1'699'999'999'000,
+                                1'700'000'000'002};
   std::string before;
   for (const std::int64_t time : times) {
     const std::string id = ids.make("job_", time);

@@ -31,7 +31,8 @@ class ClusterTest : public testing::Test {
   void start() { service_.emplace(options()); }
 
   std::string submit(int jobs) {
-    ordered_json request{{"parameters", {{"duration_s", 0.1}, {"run_up_s", 0.05}}}, {"sweep", {{"crank_velocity_rad_s", ordered_json::array()}}}};
+    ordered_json request{{"parameters", {{"duration_s", 0.1}, {"run_up_s", 0.05}}},
+                         {"sweep", {{"crank_velocity_rad_s", ordered_json::array()}}}};
     for (int i = 0; i < jobs; ++i) request["sweep"]["crank_velocity_rad_s"].push_back(5 + i);
     return service_->submit_sweep(request).at("id");
   }
@@ -49,7 +50,8 @@ class ClusterTest : public testing::Test {
     wait_until([&] {
       if (fake_.count("sbatch") <= generation) return false;
       for (const auto& entry : std::filesystem::recursive_directory_iterator(fake_.site().folder)) {
-        if (entry.path().filename() == "g" + std::to_string(generation) + ".list") found = entry.path().parent_path();
+        if (entry.path().filename() == "g" + std::to_string(generation) + ".list")
+          found = entry.path().parent_path();
       }
       return !found.empty();
     }, "generation " + std::to_string(generation));
@@ -57,11 +59,13 @@ class ClusterTest : public testing::Test {
   }
 
   /// What squeue says of all tasks of the first generations.
-  void report_all(const std::filesystem::path& batch, int generations, const std::string& word, const std::string& reason = "None") {
+  void report_all(const std::filesystem::path& batch, int generations, const std::string& word,
+                  const std::string& reason = "None") {
     std::string lines;
     for (int generation = 0; generation < generations; ++generation) {
       for (int index = 0; index < tasks_of(batch, generation); ++index) {
-        lines += "rpsup-" + batch.filename().string() + "-g" + std::to_string(generation) + "|7|" + std::to_string(index) + "|" + word + "|1|n1|";
+        lines += "rpsup-" + batch.filename().string() + "-g" + std::to_string(generation) + "|7|" +
+                 std::to_string(index) + "|" + word + "|1|n1|";
         lines += reason + "\n";
       }
     }
@@ -77,8 +81,13 @@ class ClusterTest : public testing::Test {
 
   void compute(const std::filesystem::path& batch, int generation) {
     for (int index = 0; index < tasks_of(batch, generation); ++index) {
-      EXPECT_TRUE(jobs::cluster::run_task({.folder = batch, .generation = generation, .index = index, .threads = 1, .runner = engine_.runner()},
-                                          [] { return false; }, [](const std::string& text) { ADD_FAILURE() << text; }));
+      EXPECT_TRUE(jobs::cluster::run_task(
+          {.folder = batch,
+           .generation = generation,
+           .index = index,
+           .threads = 1,
+           .runner = engine_.runner()},
+          [] { return false; }, [](const std::string& text) { ADD_FAILURE() << text; }));
     }
   }
 
@@ -102,19 +111,24 @@ TEST_F(ClusterTest, HasTheResultsThatTheLocalPoolHas) {
   ASSERT_TRUE(service_->wait_for_sweep(id, 20s));
   const auto rows = service_->find_results(id)->rows;
   report_all(batch, 1, "COMPLETED");
-  wait_until([&] { return !std::filesystem::exists(batch); }, "the folder of a batch that is done is removed");
+  wait_until([&] { return !std::filesystem::exists(batch); },
+             "the folder of a batch that is done is removed");
 
   TemporaryStore other;
   FakeEngine same;
   jobs::Service local(options_of(other, same, 1));
   service_.reset();
-  const auto sent = ordered_json::parse(R"({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "sweep": {"crank_velocity_rad_s": [5, 6, 7]}})");
+  const auto sent = ordered_json::parse(
+      R"({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "sweep": {"crank_velocity_rad_s": [5, 6,
+         7]}})");
   const std::string local_id = local.submit_sweep(sent).at("id");
   ASSERT_TRUE(local.wait_for_sweep(local_id, 20s));
   const auto expected = local.find_results(local_id)->rows;
   ASSERT_EQ(rows.size(), expected.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_TRUE(std::equal(rows[i].begin() + 1, rows[i].end(), expected[i].begin() + 1, expected[i].end())) << i;  // all but the job's id
+    // all but the job's id
+    EXPECT_TRUE(std::equal(rows[i].begin() + 1, rows[i].end(), expected[i].begin() + 1, expected[i].end()))
+        << i;
   }
 }
 
@@ -166,7 +180,9 @@ TEST_F(ClusterTest, ShowsWhatSbatchRefusesAndTriesAgainOnlyLater) {
   fake_.report("");
   start();
   const std::string id = submit(2);
-  wait_until([&] { return status().at("problems").dump().find("QOSMaxSubmitJobPerUserLimit") != std::string::npos; }, "the problem is shown");
+  wait_until(
+      [&] { return status().at("problems").dump().find("QOSMaxSubmitJobPerUserLimit") != std::string::npos; },
+      "the problem is shown");
   std::this_thread::sleep_for(400ms);
   EXPECT_EQ(fake_.count("sbatch"), 1);  // the first pause is 30 s
   EXPECT_EQ(counts(id).at("queued"), 2);
@@ -205,7 +221,8 @@ TEST_P(MuteSqueue, LeadsToNoConclusion) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, MuteSqueue,
-                         testing::Values(Mute{"Fails", "exit 1"}, Mute{"Hangs", "sleep 100"}, Mute{"TalksNonsense", "echo nonsense"}),
+                         testing::Values(Mute{"Fails", "exit 1"}, Mute{"Hangs", "sleep 100"},
+                                         Mute{"TalksNonsense", "echo nonsense"}),
                          [](const auto& each) { return each.param.name; });
 
 TEST_F(ClusterTest, TakesResultsThatCameWhileTheServiceWasAway) {
@@ -276,7 +293,8 @@ TEST_F(ClusterTest, FailsAJobThatNoTaskCanCompute) {
 
 TEST_F(ClusterTest, LeavesASweepThatAsksForTheLocalPoolToIt) {
   start();
-  const auto request = ordered_json::parse(R"({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "executor": "local"})");
+  const auto request =
+      ordered_json::parse(R"({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "executor": "local"})");
   EXPECT_TRUE(service_->wait_for_sweep(service_->submit_sweep(request).at("id"), 20s));
   EXPECT_EQ(fake_.count("sbatch"), 0);
 }
@@ -285,7 +303,8 @@ TEST(Executors, AreRefusedWhereTheyAreNotThere) {
   TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  for (const char* const text : {R"({"executor": "slurm"})", R"({"executor": "moon"})", R"({"executor": 1})"}) {
+  for (const char* const text :
+       {R"({"executor": "slurm"})", R"({"executor": "moon"})", R"({"executor": 1})"}) {
     try {
       service.submit_sweep(ordered_json::parse(text));
       ADD_FAILURE() << text << " was taken";
@@ -294,7 +313,8 @@ TEST(Executors, AreRefusedWhereTheyAreNotThere) {
     }
   }
   const std::string id = service.submit_sweep(ordered_json::object()).at("id");
-  for (const char* const text : {R"({})", R"([])", R"({"executor": "slurm"})", R"({"executor": "local", "when": 1})"}) {
+  for (const char* const text :
+       {R"({})", R"([])", R"({"executor": "slurm"})", R"({"executor": "local", "when": 1})"}) {
     EXPECT_THROW(service.move_sweep(id, nlohmann::json::parse(text)), jobs::InvalidRequest) << text;
   }
 }

@@ -11,12 +11,14 @@
 
 namespace jobs_tests {
 
-/// Commands in the batch_index of Slurm's, each a shell script that a test writes; what they are called with is noted.
+/// Commands in the batch_index of Slurm's, each a shell script that a test writes; what they are called with
+/// is noted.
 class FakeSlurm {
  public:
   FakeSlurm() {
     std::filesystem::create_directories(folder());
-    write("slurm", "echo \"$@\" >>'" + file("calls") + "'\ncommand=$1; shift\n. '" + folder().string() + "'/$command\n");
+    write("slurm", "echo \"$@\" >>'" + file("calls") + "'\ncommand=$1; shift\n. '" + folder().string() +
+                       "'/$command\n");
     answer("sbatch", "echo 1");
     answer("squeue", "cat '" + file("reports") + "'");
     answer("scancel", "true");

@@ -20,13 +20,17 @@ using jobs::cluster::TaskPlan;
 using testing::ElementsAre;
 
 TEST(TaskList, ReadsBackWhatWasWritten) {
-  const std::vector<TaskPlan> tasks{{.indices = {0, 1, 2, 7, 9, 10}, .tries = 2, .strikes = 1, .memory_factor = 2, .time_factor = 4}, {.indices = {3}}};
+  const std::vector<TaskPlan> tasks{
+      {.indices = {0, 1, 2, 7, 9, 10}, .tries = 2, .strikes = 1, .memory_factor = 2, .time_factor = 4},
+      {.indices = {3}}};
   EXPECT_EQ(jobs::cluster::read_task_list(jobs::cluster::write_task_list(tasks)), tasks);
-  EXPECT_EQ(jobs::cluster::write_task_list(tasks), "0-2,7,9-10 tries 2 strikes 1 memory 2 time 4\n3 tries 0 strikes 0 memory 1 time 1\n");
+  EXPECT_EQ(jobs::cluster::write_task_list(tasks),
+            "0-2,7,9-10 tries 2 strikes 1 memory 2 time 4\n3 tries 0 strikes 0 memory 1 time 1\n");
 }
 
 TEST(TaskList, RefusesWhatIsNone) {
-  for (const char* const text : {"0-2 tries\n", "x tries 0 strikes 0 memory 1 time 1\n", "1 tries 0 strikes 0 memory one time 1\n", "<html>\n"}) {
+  for (const char* const text : {"0-2 tries\n", "x tries 0 strikes 0 memory 1 time 1\n",
+                                 "1 tries 0 strikes 0 memory one time 1\n", "<html>\n"}) {
     EXPECT_THROW((void)jobs::cluster::read_task_list(text), FileError) << text;
   }
 }
@@ -36,7 +40,8 @@ TEST(BatchJobs, AreReadOneByOne) {
   const auto file = folder.file();
   const jobs::cluster::BatchJobs all{{0, "{\"a\":1}"}, {1, ""}, {4, std::string(100'000, 'x')}};
   const jobs::JobLimits limits{.wall_time_s = 3.0, .steps = 5, .memory_bytes = 7};
-  const jobs::cluster::BatchHeader written{.batch = "bat_1", .engine = "e1", .limits = limits, .deliver_every_s = 9.0};
+  const jobs::cluster::BatchHeader written{
+      .batch = "bat_1", .engine = "e1", .limits = limits, .deliver_every_s = 9.0};
   jobs::cluster::write_durably(file, jobs::cluster::encode_jobs(written, all));
   jobs::cluster::BatchHeader header;
   const auto some = jobs::cluster::read_jobs(file, {0, 4}, header);
@@ -51,8 +56,14 @@ TEST(BatchJobs, AreReadOneByOne) {
 
 jobs::cluster::ResultFile some_results() {
   jobs::cluster::ResultFile file{.batch = "bat_1",
-                                 .provenance = {.host = "n1", .cpu = "C", .libm = "glibc 2.36", .numerics = "native", .version = "1", .commit = "c",
-                                                .compiler = "g", .engine = "e"},
+                                 .provenance = {.host = "n1",
+                                                .cpu = "C",
+                                                .libm = "glibc 2.36",
+                                                .numerics = "native",
+                                                .version = "1",
+                                                .commit = "c",
+                                                .compiler = "g",
+                                                .engine = "e"},
                                  .results = {}};
   jobs::RunRecord good;
   good.metrics = {{"steps", 12}, {"peak", 0.1}, {"none", nullptr}};
@@ -112,7 +123,9 @@ TEST(PlanTasks, HasEveryJobOnceInOrder) {
     std::vector<double> costs(n);
     for (std::size_t i = 0; i < n; ++i) costs[i] = static_cast<double>(i * i % 17);
     std::vector<BatchIndex> all;
-    for (const TaskPlan& task : plan_tasks(indices(n), costs, {.threads = 2, .slots = 3, .most_tasks = 50, .task_s = 10.0, .least_task_s = 0.1})) {
+    for (const TaskPlan& task :
+         plan_tasks(indices(n), costs,
+                    {.threads = 2, .slots = 3, .most_tasks = 50, .task_s = 10.0, .least_task_s = 0.1})) {
       EXPECT_FALSE(task.indices.empty());
       all.insert(all.end(), task.indices.begin(), task.indices.end());
     }
@@ -123,7 +136,13 @@ TEST(PlanTasks, HasEveryJobOnceInOrder) {
 TEST(PlanTasks, MakesThreeTasksASlotUnlessTheyAreTooShortOrTooLong) {
   const std::vector<double> costs(6000, 1.0);
   const auto count = [&](double task_s, double least_task_s, int most) {
-    return plan_tasks(indices(6000), costs, {.threads = 1, .slots = 10, .most_tasks = most, .task_s = task_s, .least_task_s = least_task_s}).size();
+    return plan_tasks(indices(6000), costs,
+                      {.threads = 1,
+                       .slots = 10,
+                       .most_tasks = most,
+                       .task_s = task_s,
+                       .least_task_s = least_task_s})
+        .size();
   };
   EXPECT_EQ(count(600.0, 60.0, 1000), 30U);
   EXPECT_EQ(count(100.0, 60.0, 1000), 60U);    // none longer than 100 s
@@ -132,7 +151,9 @@ TEST(PlanTasks, MakesThreeTasksASlotUnlessTheyAreTooShortOrTooLong) {
 }
 
 TEST(PlanTasks, SharesOutCostsRatherThanJobs) {
-  const auto tasks = plan_tasks(indices(4), {9.0, 1.0, 1.0, 9.0}, {.threads = 1, .slots = 1, .most_tasks = 2, .task_s = 10.0, .least_task_s = 1.0});
+  const auto tasks =
+      plan_tasks(indices(4), {9.0, 1.0, 1.0, 9.0},
+                 {.threads = 1, .slots = 1, .most_tasks = 2, .task_s = 10.0, .least_task_s = 1.0});
   ASSERT_EQ(tasks.size(), 2U);
   EXPECT_THAT(tasks[0].indices, ElementsAre(0U, 1U));
 }

@@ -60,17 +60,20 @@ struct LossCase {
 class Interrupted : public testing::TestWithParam<LossCase> {};
 
 TEST_P(Interrupted, GivesTheSameJobsToANewTaskAndCountsOneTry) {
-  const Decision decision = after_grace(task_of({.indices = batch_indices(3), .tries = 1, .strikes = 1}), GetParam().reports);
+  const Decision decision =
+      after_grace(task_of({.indices = batch_indices(3), .tries = 1, .strikes = 1}), GetParam().reports);
   EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = batch_indices(3), .tries = 2, .strikes = 1}));
   EXPECT_THAT(decision.fail, IsEmpty());
   EXPECT_FALSE(decision.refused);
 }
 
-INSTANTIATE_TEST_SUITE_P(Losses, Interrupted,
-                         testing::Values(LossCase{"Absent", {}}, LossCase{"Cancelled", {{kFirst, ended(Phase::kCancelled, "CANCELLED")}}},
-                                         LossCase{"NodeFail", {{kFirst, ended(Phase::kNodeFail, "NODE_FAIL")}}},
-                                         LossCase{"Preempted", {{kFirst, ended(Phase::kPreempted, "PREEMPTED")}}}),
-                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Losses, Interrupted,
+    testing::Values(LossCase{"Absent", {}},
+                    LossCase{"Cancelled", {{kFirst, ended(Phase::kCancelled, "CANCELLED")}}},
+                    LossCase{"NodeFail", {{kFirst, ended(Phase::kNodeFail, "NODE_FAIL")}}},
+                    LossCase{"Preempted", {{kFirst, ended(Phase::kPreempted, "PREEMPTED")}}}),
+    [](const auto& each) { return each.param.name; });
 
 class Alive : public testing::TestWithParam<Phase> {};
 
@@ -79,14 +82,16 @@ TEST_P(Alive, IsLeftAloneHoweverLongItTakes) {
   const TaskStates tasks{{kFirst, task_of({.indices = batch_indices(2)})}};
   const auto start = Clock::now();
   for (const auto later : {0s, 60s, 100'000s}) {
-    const Decision decision = reconciler.decide(tasks, {{kFirst, ended(GetParam(), "A_WORD_OF_TOMORROW")}}, start + later);
+    const Decision decision =
+        reconciler.decide(tasks, {{kFirst, ended(GetParam(), "A_WORD_OF_TOMORROW")}}, start + later);
     EXPECT_THAT(decision.submit, IsEmpty());
     EXPECT_THAT(decision.cancel, IsEmpty());
     EXPECT_EQ(decision.running.size(), GetParam() == Phase::kRunning ? 2U : 0U);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Phases, Alive, testing::Values(Phase::kPending, Phase::kRunning, Phase::kUnknownWord),
+INSTANTIATE_TEST_SUITE_P(Phases, Alive,
+                         testing::Values(Phase::kPending, Phase::kRunning, Phase::kUnknownWord),
                          [](const auto& each) { return std::to_string(static_cast<int>(each.param)); });
 
 TEST(Reconciler, StartsTheTimeForLateFilesAgainWhenATaskIsSeenAlive) {
@@ -94,7 +99,8 @@ TEST(Reconciler, StartsTheTimeForLateFilesAgainWhenATaskIsSeenAlive) {
   const TaskStates tasks{{kFirst, task_of({.indices = batch_indices(1)})}};
   const auto start = Clock::now();
   (void)reconciler.decide(tasks, {}, start);
-  (void)reconciler.decide(tasks, {{kFirst, ended(Phase::kRunning, "RUNNING")}}, start + 50s);  // started again by Slurm
+  // started again by Slurm
+  (void)reconciler.decide(tasks, {{kFirst, ended(Phase::kRunning, "RUNNING")}}, start + 50s);
   EXPECT_THAT(reconciler.decide(tasks, {}, start + 70s).submit, IsEmpty());
   EXPECT_THAT(reconciler.decide(tasks, {}, start + 130s).submit, SizeIs(1));
 }
@@ -114,19 +120,25 @@ TEST(Reconciler, GivesOnlyWhatIsMissingToANewTask) {
   TaskState task = task_of({.indices = batch_indices(4), .tries = 4});
   task.wanted = {1, 3};
   const Decision decision = after_grace(task, {{kFirst, ended(Phase::kNodeFail, "NODE_FAIL")}});
-  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = {1, 3}, .tries = 1}));  // it got on: that is no loss in a row
+  // it got on: that is no loss in a row
+  EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = {1, 3}, .tries = 1}));
 }
 
 TEST(Reconciler, SplitsATaskThatFailsTwiceIntoSingleJobs) {
   const Reports failed{{kFirst, ended(Phase::kFailed, "FAILED")}};
-  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(3)}), failed).submit, ElementsAre(TaskPlan{.indices = batch_indices(3), .tries = 1, .strikes = 1}));
-  const auto parts = after_grace(task_of({.indices = batch_indices(3), .tries = 1, .strikes = 1}), failed).submit;
-  EXPECT_THAT(parts, ElementsAre(TaskPlan{.indices = {0}, .tries = 2, .strikes = 2}, TaskPlan{.indices = {1}, .tries = 2, .strikes = 2},
+  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(3)}), failed).submit,
+              ElementsAre(TaskPlan{.indices = batch_indices(3), .tries = 1, .strikes = 1}));
+  const auto parts =
+      after_grace(task_of({.indices = batch_indices(3), .tries = 1, .strikes = 1}), failed).submit;
+  EXPECT_THAT(parts, ElementsAre(TaskPlan{.indices = {0}, .tries = 2, .strikes = 2},
+                                 TaskPlan{.indices = {1}, .tries = 2, .strikes = 2},
                                  TaskPlan{.indices = {2}, .tries = 2, .strikes = 2}));
 }
 
 TEST(Reconciler, SplitsALargeTaskIntoNoMorePartsThanSlurmIsToBear) {
-  const auto parts = after_grace(task_of({.indices = batch_indices(1050), .strikes = 1}), {{kFirst, ended(Phase::kFailed, "FAILED")}}).submit;
+  const auto parts = after_grace(task_of({.indices = batch_indices(1050), .strikes = 1}),
+                                 {{kFirst, ended(Phase::kFailed, "FAILED")}})
+                         .submit;
   EXPECT_EQ(parts.size(), jobs::cluster::kMostParts);
   std::vector<BatchIndex> all;
   for (const TaskPlan& part : parts) all.insert(all.end(), part.indices.begin(), part.indices.end());
@@ -134,7 +146,8 @@ TEST(Reconciler, SplitsALargeTaskIntoNoMorePartsThanSlurmIsToBear) {
 }
 
 TEST(Reconciler, FailsAJobWhoseOwnTaskFailedTwice) {
-  const Decision decision = after_grace(task_of({.indices = {5}, .tries = 2, .strikes = 2}), {{kFirst, ended(Phase::kFailed, "FAILED")}});
+  const Decision decision = after_grace(task_of({.indices = {5}, .tries = 2, .strikes = 2}),
+                                        {{kFirst, ended(Phase::kFailed, "FAILED")}});
   EXPECT_THAT(decision.submit, IsEmpty());
   ASSERT_THAT(decision.fail, SizeIs(1));
   EXPECT_EQ(decision.fail[0].batch_index, 5U);
@@ -143,22 +156,29 @@ TEST(Reconciler, FailsAJobWhoseOwnTaskFailedTwice) {
 }
 
 TEST(Reconciler, TakesATaskThatCompletedWithoutAResultForOneThatFailed) {
-  EXPECT_EQ(after_grace(task_of({.indices = batch_indices(1)}), {{kFirst, ended(Phase::kCompleted, "COMPLETED")}}).submit.at(0).strikes, 1);
+  EXPECT_EQ(
+      after_grace(task_of({.indices = batch_indices(1)}), {{kFirst, ended(Phase::kCompleted, "COMPLETED")}})
+          .submit.at(0)
+          .strikes,
+      1);
 }
 
 TEST(Reconciler, HalvesWhatTakesTooLongAndGivesASingleJobMoreTime) {
   const Reports late{{kFirst, ended(Phase::kTimeout, "TIMEOUT")}};
-  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(5)}), late).submit,
-              ElementsAre(TaskPlan{.indices = {0, 1}, .tries = 1}, TaskPlan{.indices = {2, 3, 4}, .tries = 1}));
+  EXPECT_THAT(
+      after_grace(task_of({.indices = batch_indices(5)}), late).submit,
+      ElementsAre(TaskPlan{.indices = {0, 1}, .tries = 1}, TaskPlan{.indices = {2, 3, 4}, .tries = 1}));
   EXPECT_THAT(after_grace(task_of({.indices = {2}, .time_factor = 2}), late).submit,
               ElementsAre(TaskPlan{.indices = {2}, .tries = 1, .time_factor = 4}));
 }
 
 TEST(Reconciler, GivesMoreMemoryOnceAndThenTakesItForAFailure) {
   const Reports large{{kFirst, ended(Phase::kOutOfMemory, "OUT_OF_MEMORY")}};
-  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(2)}), large).submit, ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1, .memory_factor = 2}));
-  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(2), .memory_factor = 2}), large).submit,
-              ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1, .strikes = 1, .memory_factor = 2}));
+  EXPECT_THAT(after_grace(task_of({.indices = batch_indices(2)}), large).submit,
+              ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1, .memory_factor = 2}));
+  EXPECT_THAT(
+      after_grace(task_of({.indices = batch_indices(2), .memory_factor = 2}), large).submit,
+      ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1, .strikes = 1, .memory_factor = 2}));
 }
 
 TEST(Reconciler, GivesUpAfterFiveLossesInARow) {
@@ -180,7 +200,8 @@ TEST(Reconciler, ReplacesAtOnceWhatSlurmHoldsBecauseItCannotStartIt) {
   TaskReport held = ended(Phase::kPending, "PENDING");
   held.reason = "launch failed requeued held";
   Reconciler reconciler(kGrace);
-  const Decision decision = reconciler.decide({{kFirst, task_of({.indices = batch_indices(2)})}}, {{kFirst, held}}, Clock::now());
+  const Decision decision =
+      reconciler.decide({{kFirst, task_of({.indices = batch_indices(2)})}}, {{kFirst, held}}, Clock::now());
   EXPECT_THAT(decision.cancel, ElementsAre(kFirst));
   EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 1}));
 }
@@ -191,12 +212,15 @@ TEST(Reconciler, CancelsWhatNobodyWants) {
   const TaskStates tasks{{kFirst, task}};
   const auto start = Clock::now();
   Reconciler reconciler(kGrace);
-  EXPECT_THAT(reconciler.decide(tasks, {{kFirst, ended(Phase::kPending, "PENDING")}}, start).cancel, ElementsAre(kFirst));
+  EXPECT_THAT(reconciler.decide(tasks, {{kFirst, ended(Phase::kPending, "PENDING")}}, start).cancel,
+              ElementsAre(kFirst));
   // One that runs is about to end by itself.
   const Reports running{{kFirst, ended(Phase::kRunning, "RUNNING")}};
   EXPECT_THAT(reconciler.decide(tasks, running, start + 1s).cancel, IsEmpty());
   EXPECT_THAT(reconciler.decide(tasks, running, start + 2s + kGrace).cancel, ElementsAre(kFirst));
-  EXPECT_THAT(reconciler.decide(tasks, {{kFirst, ended(Phase::kCompleted, "COMPLETED")}}, start + 3s + kGrace).cancel, IsEmpty());
+  EXPECT_THAT(
+      reconciler.decide(tasks, {{kFirst, ended(Phase::kCompleted, "COMPLETED")}}, start + 3s + kGrace).cancel,
+      IsEmpty());
 }
 
 }  // namespace

@@ -25,23 +25,30 @@ class TaskTest : public testing::Test {
   void prepare(const std::string& engine = jobs::engine_version(), double deliver_every_s = 1e6) {
     std::vector<jobs::BatchJob> all;
     for (const std::uint32_t batch_index : {0U, 1U, 2U}) {
-      const nlohmann::json given{{"crank_velocity_rad_s", 5 + batch_index}, {"duration_s", 0.1}, {"run_up_s", 0.05}};
-      all.push_back({.batch_index = batch_index, .parameters = jobs::complete_parameters(given, "").dump(), .kind = {}, .duration_s = 0.1});
+      const nlohmann::json given{
+          {"crank_velocity_rad_s", 5 + batch_index}, {"duration_s", 0.1}, {"run_up_s", 0.05}};
+      all.push_back({.batch_index = batch_index,
+                     .parameters = jobs::complete_parameters(given, "").dump(),
+                     .kind = {},
+                     .duration_s = 0.1});
     }
-    batch_.prepare({.batch = "bat_1", .engine = engine, .limits = {}, .deliver_every_s = deliver_every_s}, all);
+    batch_.prepare({.batch = "bat_1", .engine = engine, .limits = {}, .deliver_every_s = deliver_every_s},
+                   all);
     batch_.add_generation({{.indices = {0, 1, 2}}}, "");
   }
 
   bool run(const jobs::Runner& runner, const std::function<bool()>& stop = [] { return false; }) {
-    return jobs::cluster::run_task({.folder = batch_.folder().path, .generation = 0, .index = 0, .threads = 1, .runner = runner}, stop,
-                                   [](const std::string&) {});
+    return jobs::cluster::run_task(
+        {.folder = batch_.folder().path, .generation = 0, .index = 0, .threads = 1, .runner = runner}, stop,
+        [](const std::string&) {});
   }
 
   /// The indices of all results that lie in the folder.
   std::vector<BatchIndex> delivered() {
     std::vector<BatchIndex> indices;
     for (const auto& file : batch_.find_new_results()) {
-      for (const auto& result : jobs::cluster::decode_results(jobs::cluster::read_whole(file)).results) indices.push_back(result.batch_index);
+      for (const auto& result : jobs::cluster::decode_results(jobs::cluster::read_whole(file)).results)
+        indices.push_back(result.batch_index);
     }
     std::ranges::sort(indices);
     return indices;
@@ -113,7 +120,8 @@ TEST_F(TaskTest, RefusesABatchForAnotherEngine) {
 
 TEST_F(TaskTest, RefusesATaskThatIsNotThere) {
   prepare();
-  const jobs::cluster::TaskOrder order{.folder = batch_.folder().path, .generation = 0, .index = 1, .threads = 1, .runner = engine_.runner()};
+  const jobs::cluster::TaskOrder order{
+      .folder = batch_.folder().path, .generation = 0, .index = 1, .threads = 1, .runner = engine_.runner()};
   EXPECT_THROW(jobs::cluster::run_task(order, [] { return false; }, [](const std::string&) {}), FileError);
 }
 

@@ -22,7 +22,12 @@ using testing::HasSubstr;
 using testing::Not;
 
 jobs::cluster::ArrayOrder some_order() {
-  return {.name = "rpsup-bat_1-g0", .tasks = 3, .time_s = 301.0, .memory_factor = 1, .folder = "/tmp", .script = "/tmp/g0.sh",
+  return {.name = "rpsup-bat_1-g0",
+          .tasks = 3,
+          .time_s = 301.0,
+          .memory_factor = 1,
+          .folder = "/tmp",
+          .script = "/tmp/g0.sh",
           .log = "/tmp/g0-%a.log"};
 }
 
@@ -50,15 +55,20 @@ TEST_P(BadSubmission, IsNoNumberButAProblem) {
   EXPECT_THAT(answer.problem, HasSubstr(GetParam().told));
 }
 
-INSTANTIATE_TEST_SUITE_P(Answers, BadSubmission,
-                         testing::Values(BadAnswer{"Error", "echo 'sbatch: error: invalid partition specified' >&2; exit 1", "invalid partition"},
-                                         BadAnswer{"ErrorAlthoughANumber", "echo 12; exit 1", "12"},
-                                         BadAnswer{"TimedOut",
-                                                   "echo 'sbatch: error: Batch job submission failed: Socket timed out' >&2; exit 1", "timed out"},
-                                         BadAnswer{"Silence", "exit 0", "no number"},
-                                         BadAnswer{"Garbage", "echo '<html>login</html>'", "<html>login"},
-                                         BadAnswer{"Hang", "sleep 100", "did not answer in time"}, BadAnswer{"Killed", "kill -9 $$", "137"}),
-                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Answers, BadSubmission,
+    testing::Values(BadAnswer{"Error", "echo 'sbatch: error: invalid partition specified' >&2; exit 1",
+                              "invalid partition"},
+                    BadAnswer{"ErrorAlthoughANumber", "echo 12; exit 1", "12"},
+                    BadAnswer{
+                        "TimedOut",
+                        "echo 'sbatch: error: Batch job submission failed: Socket timed out' >&2; exit 1",
+                        "timed out"},
+                    BadAnswer{"Silence", "exit 0", "no number"},
+                    BadAnswer{"Garbage", "echo '<html>login</html>'", "<html>login"},
+                    BadAnswer{"Hang", "sleep 100", "did not answer in time"},
+                    BadAnswer{"Killed", "kill -9 $$", "137"}),
+    [](const auto& each) { return each.param.name; });
 
 TEST(Slurm, IsNotBlamedForACommandThatWasEndedWithTheProgram) {
   FakeSlurm fake;
@@ -88,22 +98,29 @@ TEST_P(BadObservation, IsNoObservation) {
   EXPECT_THAT(problem, HasSubstr(GetParam().told));
 }
 
-INSTANTIATE_TEST_SUITE_P(Answers, BadObservation,
-                         testing::Values(BadAnswer{"Error",
-                                                   "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1", "to contact"},
-                                         BadAnswer{"Garbage", "echo 'motd: welcome'", "cannot be read: motd"},
-                                         BadAnswer{"Hang", "sleep 100", "in time"},
-                                         BadAnswer{"CutOff",
-                                                   "printf 'rpsup-bat_1-g0|1|0|RUNNING|1|n1|None\\nrpsup-bat_1-g0|1|1|RUN'", "cannot be read"}),
-                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Answers, BadObservation,
+    testing::Values(BadAnswer{"Error",
+                              "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1",
+                              "to contact"},
+                    BadAnswer{"Garbage", "echo 'motd: welcome'", "cannot be read: motd"},
+                    BadAnswer{"Hang", "sleep 100", "in time"},
+                    BadAnswer{"CutOff",
+                              "printf 'rpsup-bat_1-g0|1|0|RUNNING|1|n1|None\\nrpsup-bat_1-g0|1|1|RUN'",
+                              "cannot be read"}),
+    [](const auto& each) { return each.param.name; });
 
 TEST(Slurm, AsksForAllArraysAtOnceAndReadsTheirTasks) {
   FakeSlurm fake;
-  fake.report("a-g0|41|0|RUNNING|2|n1|None\na-g0|41|1|PENDING|2||Resources, or so|really\nb-g1|42|7|FAILED|1|n2|NonZeroExitCode\n");
+  fake.report(
+      "a-g0|41|0|RUNNING|2|n1|None\na-g0|41|1|PENDING|2||Resources, or "
+      "so|really\nb-g1|42|7|FAILED|1|n2|NonZeroExitCode\n");
   std::string problem;
   const auto reports = Slurm(fake.site()).observe({"a-g0", "b-g1"}, problem);
   ASSERT_TRUE(reports) << problem;
-  EXPECT_THAT(fake.calls(), HasSubstr("squeue --noheader --array --states=all --name=a-g0,b-g1 --format=%j|%F|%K|%T|%C|%N|%r\n"));
+  EXPECT_THAT(
+      fake.calls(),
+      HasSubstr("squeue --noheader --array --states=all --name=a-g0,b-g1 --format=%j|%F|%K|%T|%C|%N|%r\n"));
   EXPECT_EQ(reports->at("a-g0").at(0).phase, Phase::kRunning);
   EXPECT_EQ(reports->at("a-g0").at(0).node, "n1");
   EXPECT_EQ(reports->at("a-g0").at(1).reason, "Resources, or so|really");
@@ -128,7 +145,8 @@ TEST(Reports, TakeAWordThatIsNotKnownForALiveTask) {
 }
 
 TEST(Reports, CountTheLiveOneOfTwoLinesForATask) {
-  for (const char* const text : {"a|1|0|NODE_FAIL|1|n1|None\na|1|0|RUNNING|1|n2|None\n", "a|1|0|RUNNING|1|n2|None\na|1|0|NODE_FAIL|1|n1|None\n"}) {
+  for (const char* const text : {"a|1|0|NODE_FAIL|1|n1|None\na|1|0|RUNNING|1|n2|None\n",
+                                 "a|1|0|RUNNING|1|n2|None\na|1|0|NODE_FAIL|1|n1|None\n"}) {
     EXPECT_EQ(parse_reports(text)->at("a").at(0).node, "n2");
   }
 }
@@ -155,9 +173,10 @@ TEST(Slurm, PassesTheSitesOptionsToSbatch) {
   auto order = some_order();
   order.memory_factor = 2;
   const auto arguments = Slurm(site).submit_arguments(order);
-  EXPECT_THAT(arguments, testing::IsSupersetOf({"--partition=short", "--account=lab", "--qos=low", "--constraint=zen4", "--exclude=n7",
-                                                "--mem-per-cpu=1000",
-                                                "--cpus-per-task=4", "--array=0-2%2", "--time=6", "--job-name=rpsup-bat_1-g0", "--requeue"}));
+  EXPECT_THAT(arguments,
+              testing::IsSupersetOf({"--partition=short", "--account=lab", "--qos=low", "--constraint=zen4",
+                                     "--exclude=n7", "--mem-per-cpu=1000", "--cpus-per-task=4",
+                                     "--array=0-2%2", "--time=6", "--job-name=rpsup-bat_1-g0", "--requeue"}));
   EXPECT_EQ(arguments.back(), "/tmp/g0.sh");
   EXPECT_THAT(Slurm({}).submit_arguments(some_order()), Not(Contains(HasSubstr("partition"))));
 }
@@ -190,7 +209,8 @@ TEST(Process, HidesSlurmsAndOurVariables) {
   ::setenv("RPSUP_TOKEN", "secret", 1);
   ::setenv("SLURM_CONF", "/somewhere/slurm.conf", 1);
   const std::string seen = jobs::cluster::run_process({"env"}, 5000ms).out;
-  for (const char* const name : {"SQUEUE_FORMAT", "SLURM_JOB_ID", "RPSUP_TOKEN", "SLURM_CONF"}) ::unsetenv(name);
+  for (const char* const name : {"SQUEUE_FORMAT", "SLURM_JOB_ID", "RPSUP_TOKEN", "SLURM_CONF"})
+    ::unsetenv(name);
   EXPECT_THAT(seen, HasSubstr("SLURM_CONF=/somewhere/slurm.conf"));
   EXPECT_THAT(seen, Not(HasSubstr("SQUEUE_FORMAT")));
   EXPECT_THAT(seen, Not(HasSubstr("SLURM_JOB_ID")));
@@ -205,7 +225,8 @@ TEST(Process, DoesNotWaitForWhatAProgramLeavesBehind) {
 }
 
 TEST(Process, SplitsACommandLine) {
-  EXPECT_THAT(jobs::cluster::split_words(" ssh  -o 'A B' \"\" login --"), ElementsAre("ssh", "-o", "A B", "", "login", "--"));
+  EXPECT_THAT(jobs::cluster::split_words(" ssh  -o 'A B' \"\" login --"),
+              ElementsAre("ssh", "-o", "A B", "", "login", "--"));
 }
 
 }  // namespace

@@ -25,9 +25,11 @@ struct Row {
 };
 
 jobs::ResultTable table_of(const std::vector<Row>& rows) {
-  jobs::ResultTable table{.columns = {"job_id", "coupler", "crank_velocity_rad_s", kPeak, "friction_work_j", "impact_loss_j", "structural_loss_j"},
-      .rows = {}};
-  for (const Row& row : rows) table.rows.push_back({"job", row.coupler, row.speed, row.peak, 1.0, 2.0, row.structural_loss});
+  jobs::ResultTable table{.columns = {"job_id", "coupler", "crank_velocity_rad_s", kPeak, "friction_work_j",
+                                      "impact_loss_j", "structural_loss_j"},
+                          .rows = {}};
+  for (const Row& row : rows)
+    table.rows.push_back({"job", row.coupler, row.speed, row.peak, 1.0, 2.0, row.structural_loss});
   return table;
 }
 
@@ -40,11 +42,20 @@ json cell(const jobs::ResultTable& table, std::size_t row, const std::string& co
 }
 
 TEST(CompareCouplers, PairsRigidAndFlexibleJobsWithTheirSpread) {
-  const auto table = compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}, {"rigid", 5, 100, 0}, {"flexible", 5, 60, 1}, {"flexible", 5, 80, 3},
-                                                        {"rigid", 10, 100, 0}, {"rigid", 10, 110, 0}, {"flexible", 10, 90, 1},
-                                                        {"flexible", 10, 150, 1},
-                                                        {"rigid", 12, 100, 0}, {"rigid", 12, nullptr, 0}, {"flexible", 12, 130, 1},
-                                                        {"flexible", 12, 140, 1}}), kPeak);
+  const auto table = compare_couplers(kSweep,
+                                      table_of({{"rigid", 5, 100, 0},
+                                                {"rigid", 5, 100, 0},
+                                                {"flexible", 5, 60, 1},
+                                                {"flexible", 5, 80, 3},
+                                                {"rigid", 10, 100, 0},
+                                                {"rigid", 10, 110, 0},
+                                                {"flexible", 10, 90, 1},
+                                                {"flexible", 10, 150, 1},
+                                                {"rigid", 12, 100, 0},
+                                                {"rigid", 12, nullptr, 0},
+                                                {"flexible", 12, 130, 1},
+                                                {"flexible", 12, 140, 1}}),
+                                      kPeak);
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(cell(table, 0, "ratio"), 0.7);
   EXPECT_EQ(cell(table, 0, "ratio_least"), 0.6);
@@ -64,8 +75,16 @@ TEST(CompareCouplers, PairsRigidAndFlexibleJobsWithTheirSpread) {
 
 // Without clearance the ratio is 1 but for rounding: that is no difference, and none to reverse from.
 TEST(CompareCouplers, SaysNothingOfDifferencesThatAreSmallerThanErrors) {
-  const auto table = compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}, {"flexible", 5, 99.9999, 1}, {"rigid", 10, 100, 0}, {"flexible", 10, 130, 1},
-                                                        {"rigid", 11, 100, 0}, {"flexible", 11, 99.95, 1}, {"rigid", 12, 100, 0}, {"flexible", 12, 60, 1}}), kPeak);
+  const auto table = compare_couplers(kSweep,
+                                      table_of({{"rigid", 5, 100, 0},
+                                                {"flexible", 5, 99.9999, 1},
+                                                {"rigid", 10, 100, 0},
+                                                {"flexible", 10, 130, 1},
+                                                {"rigid", 11, 100, 0},
+                                                {"flexible", 11, 99.95, 1},
+                                                {"rigid", 12, 100, 0},
+                                                {"flexible", 12, 60, 1}}),
+                                      kPeak);
   ASSERT_EQ(table.rows.size(), 4U);
   EXPECT_EQ(cell(table, 0, "verdict"), "either");
   EXPECT_EQ(cell(table, 1, "verdict"), "harms");
@@ -77,12 +96,16 @@ TEST(CompareCouplers, SaysNothingOfDifferencesThatAreSmallerThanErrors) {
 }
 
 TEST(CompareCouplers, LeavesOutWhatHasNoPartner) {
-  const auto table = compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}, {"flexible", 5, nullptr, nullptr}}), kPeak);
+  const auto table =
+      compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}, {"flexible", 5, nullptr, nullptr}}), kPeak);
   EXPECT_TRUE(cell(table, 0, "ratio").is_null());
   EXPECT_TRUE(cell(table, 0, "verdict").is_null());
   EXPECT_TRUE(cell(table, 0, "coupler_loss_j").is_null());
-  EXPECT_THROW((void)compare_couplers({{"axes", {"crank_velocity_rad_s"}}}, table_of({{"rigid", 5, 100, 0}}), kPeak), jobs::WrongState);
-  EXPECT_THROW((void)compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}}), "coupler"), jobs::InvalidRequest);
+  EXPECT_THROW(
+      (void)compare_couplers({{"axes", {"crank_velocity_rad_s"}}}, table_of({{"rigid", 5, 100, 0}}), kPeak),
+      jobs::WrongState);
+  EXPECT_THROW((void)compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}}), "coupler"),
+               jobs::InvalidRequest);
 }
 
 }  // namespace

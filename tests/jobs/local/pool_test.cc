@@ -19,7 +19,10 @@ namespace {
 using namespace std::chrono_literals;
 
 jobs::ClaimedJob numbered_job(int k) {
-  return {.seq = k, .id = "job_" + std::to_string(k), .attempt = 1, .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
+  return {.seq = k,
+          .id = "job_" + std::to_string(k),
+          .attempt = 1,
+          .parameters = jobs::complete_parameters(nlohmann::json::object(), "").dump()};
 }
 
 void record_nothing(const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::OnClaim&) {}
@@ -30,22 +33,24 @@ TEST(LocalPool, KeepsAResultThatCannotBeStoredYetAndOffersItAgain) {
   std::atomic<int> offers = 0;
   std::atomic<int> logs = 0;
   std::atomic<bool> stored = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) {
-                          if (claims++ == 0) on_claim(numbered_job(1));
-                        },
-                        .record =
-                            [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record, const jobs::OnClaim&) {
-                              EXPECT_EQ(claimed.id, "job_1");
-                              EXPECT_EQ(record.end, jobs::RunRecord::End::kSucceeded);
-                              if (offers++ == 0) throw jobs::StorageError("disk full", 13, jobs::Disk::kFull);
-                              stored = true;
-                              stored.notify_all();
-                            },
-                        .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE() << "a finished job was given back"; }},
-                       engine.runner(), 1, [&](const std::string& text) {
-                         ++logs;
-                         EXPECT_NE(text.find("disk full"), std::string::npos);
-                       });
+  jobs::LocalPool pool(
+      {.claim =
+           [&](const jobs::OnClaim& on_claim) {
+             if (claims++ == 0) on_claim(numbered_job(1));
+           },
+       .record =
+           [&](const jobs::ClaimedJob& claimed, const jobs::RunRecord& record, const jobs::OnClaim&) {
+             EXPECT_EQ(claimed.id, "job_1");
+             EXPECT_EQ(record.end, jobs::RunRecord::End::kSucceeded);
+             if (offers++ == 0) throw jobs::StorageError("disk full", 13, jobs::Disk::kFull);
+             stored = true;
+             stored.notify_all();
+           },
+       .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE() << "a finished job was given back"; }},
+      engine.runner(), 1, [&](const std::string& text) {
+        ++logs;
+        EXPECT_NE(text.find("disk full"), std::string::npos);
+      });
   stored.wait(false);
   EXPECT_EQ(offers, 2);
   EXPECT_EQ(logs, 1);
@@ -89,23 +94,28 @@ TEST(LocalPool, ComputesTheJobThatARecordHandsOverAndCanStopIt) {
   std::atomic<int> claims = 0;
   std::atomic<int> records = 0;
   std::atomic<bool> handed_over = false;
-  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) { if (claims++ == 0) on_claim(numbered_job(1)); },
-                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord& record, const jobs::OnClaim& on_claim) {
-                          if (records == 0) {
-                            engine.hold();
-                            on_claim(numbered_job(2));
-                            handed_over = true;
-                            handed_over.notify_all();
-                          } else {
-                            EXPECT_EQ(job.id, "job_2");
-                            EXPECT_EQ(record.end, jobs::RunRecord::End::kStopped);
-                            EXPECT_EQ(claims, 1);
-                          }
-                          ++records;
-                          records.notify_all();
-                        },
-                        .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
-                       engine.runner(), 1, [](const std::string&) {});
+  jobs::LocalPool pool(
+      {.claim =
+           [&](const jobs::OnClaim& on_claim) {
+             if (claims++ == 0) on_claim(numbered_job(1));
+           },
+       .record =
+           [&](const jobs::ClaimedJob& job, const jobs::RunRecord& record, const jobs::OnClaim& on_claim) {
+             if (records == 0) {
+               engine.hold();
+               on_claim(numbered_job(2));
+               handed_over = true;
+               handed_over.notify_all();
+             } else {
+               EXPECT_EQ(job.id, "job_2");
+               EXPECT_EQ(record.end, jobs::RunRecord::End::kStopped);
+               EXPECT_EQ(claims, 1);
+             }
+             ++records;
+             records.notify_all();
+           },
+       .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
+      engine.runner(), 1, [](const std::string&) {});
   handed_over.wait(false);
   pool.stop_job("job_2");  // which may not have begun yet
   for (int seen = records; seen < 2; seen = records) records.wait(seen);
@@ -115,18 +125,23 @@ TEST(LocalPool, OffersAResultAloneThatCouldNotBeStoredWithTheNextJob) {
   FakeEngine engine;
   std::atomic<int> claims = 0;
   std::atomic<int> records = 0;
-  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) { if (claims++ == 0) on_claim(numbered_job(1)); },
-                        .record = [&](const jobs::ClaimedJob& job, const jobs::RunRecord&, const jobs::OnClaim& on_claim) {
-                          EXPECT_EQ(job.id, "job_1");
-                          if (records++ == 0) {
-                            on_claim(numbered_job(2));
-                            throw std::bad_alloc();  // so that nothing has been claimed
-                          }
-                          EXPECT_FALSE(on_claim);
-                          records.notify_all();
-                        },
-                        .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
-                       engine.runner(), 1, [](const std::string&) {});
+  jobs::LocalPool pool(
+      {.claim =
+           [&](const jobs::OnClaim& on_claim) {
+             if (claims++ == 0) on_claim(numbered_job(1));
+           },
+       .record =
+           [&](const jobs::ClaimedJob& job, const jobs::RunRecord&, const jobs::OnClaim& on_claim) {
+             EXPECT_EQ(job.id, "job_1");
+             if (records++ == 0) {
+               on_claim(numbered_job(2));
+               throw std::bad_alloc();  // so that nothing has been claimed
+             }
+             EXPECT_FALSE(on_claim);
+             records.notify_all();
+           },
+       .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
+      engine.runner(), 1, [](const std::string&) {});
   for (int seen = records; seen < 2; seen = records) records.wait(seen);
   EXPECT_EQ(engine.begun_speeds().size(), 1U);
 }
@@ -137,17 +152,22 @@ TEST(LocalPool, GivesBackAJobThatItIsHandedAsItStops) {
   std::atomic<bool> recording = false;
   std::atomic<bool> stopping = false;
   std::vector<std::string> given_back;
-  jobs::LocalPool pool({.claim = [&](const jobs::OnClaim& on_claim) { if (claims++ == 0) on_claim(numbered_job(1)); },
-                        .record = [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::OnClaim& on_claim) {
-                          engine.hold();
-                          recording = true;
-                          recording.notify_all();
-                          stopping.wait(false);
-                          std::this_thread::sleep_for(50ms);
-                          on_claim(numbered_job(2));
-                        },
-                        .requeue = [&](const jobs::ClaimedJob& job) { given_back.push_back(job.id); }},
-                       engine.runner(), 1, [](const std::string&) {});
+  jobs::LocalPool pool(
+      {.claim =
+           [&](const jobs::OnClaim& on_claim) {
+             if (claims++ == 0) on_claim(numbered_job(1));
+           },
+       .record =
+           [&](const jobs::ClaimedJob&, const jobs::RunRecord&, const jobs::OnClaim& on_claim) {
+             engine.hold();
+             recording = true;
+             recording.notify_all();
+             stopping.wait(false);
+             std::this_thread::sleep_for(50ms);
+             on_claim(numbered_job(2));
+           },
+       .requeue = [&](const jobs::ClaimedJob& job) { given_back.push_back(job.id); }},
+      engine.runner(), 1, [](const std::string&) {});
   recording.wait(false);
   stopping = true;
   stopping.notify_all();
@@ -196,15 +216,19 @@ TEST(LocalPool, StopsAtOnceWhileItWaitsForTheDisk) {
 }
 
 TEST(RunAndRecord, TurnsWhateverIsThrownIntoAFailure) {
-  const jobs::RunRecord record = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult {
-    throw std::runtime_error("broken \xff text");
-  }, [](double) { return false; });
+  const jobs::RunRecord record = jobs::run_and_record(
+      {},
+      [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult {
+        throw std::runtime_error("broken \xff text");
+      },
+      [](double) { return false; });
   EXPECT_EQ(record.end, jobs::RunRecord::End::kFailed);
   EXPECT_EQ(record.error_reason, "internal");
   EXPECT_NE(record.error_detail.find("broken"), std::string::npos);
   EXPECT_NO_THROW((void)nlohmann::json(record.error_detail).dump());
-  const jobs::RunRecord odd = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw 7; },
-                                                   [](double) { return false; });
+  const jobs::RunRecord odd = jobs::run_and_record(
+      {}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw 7; },
+      [](double) { return false; });
   EXPECT_EQ(odd.error_reason, "internal");
 }
 
@@ -233,7 +257,9 @@ TEST(RunAndRecord, WritesCountsAsIntegersAndWhatIsNoNumberAsNull) {
 
 TEST(RunAndRecord, KeepsEveryChannelButTheTimeWithSinglePrecision) {
   engine::Trajectory trajectory;
-  trajectory.channels = {{.key = "t_s", .help = ""}, {.key = "measured", .help = ""}, {.key = "drawn", .help = "", .single_precision = true}};
+  trajectory.channels = {{.key = "t_s", .help = ""},
+                         {.key = "measured", .help = ""},
+                         {.key = "drawn", .help = "", .single_precision = true}};
   trajectory.columns = {{0.1}, {0.1}, {0.1}};
   const std::string blob = jobs::encode_trajectory(record_of(1.0, trajectory).trajectory);
   const auto kept = jobs::decode_trajectory(std::as_bytes(std::span(blob)), {});
@@ -251,8 +277,9 @@ TEST(RunAndRecord, RefusesATrajectoryThatIsNoTable) {
 }
 
 TEST(RunAndRecord, RefusesAResultThatLacksMetrics) {
-  const jobs::RunRecord record = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) { return engine::RunResult{}; },
-                                                      [](double) { return false; });
+  const jobs::RunRecord record = jobs::run_and_record(
+      {}, [](const jobs::JobSpec&, const engine::StopQuery&) { return engine::RunResult{}; },
+      [](double) { return false; });
   EXPECT_EQ(record.end, jobs::RunRecord::End::kFailed);
   EXPECT_EQ(record.error_reason, "internal");
 }

@@ -45,15 +45,18 @@ TEST(CalcSpectrum, HasTheAmplitudesOfASumOfSines) {
 TEST(CalcSpectrum, HasTheVarianceUnderItsDensity) {
   for (const Window window : {Window::kHann, Window::kFlatTop, Window::kRectangular}) {
     const auto spectrum = jobs::calc_spectrum(two_sines(1000), 1000.0, window);
-    EXPECT_NEAR(std::accumulate(spectrum.density.begin(), spectrum.density.end(), 0.0) * 1.0, 2.0 * 2.0 / 2.0 + 0.5 * 0.5 / 2.0, 1e-9);
+    EXPECT_NEAR(std::accumulate(spectrum.density.begin(), spectrum.density.end(), 0.0) * 1.0,
+                2.0 * 2.0 / 2.0 + 0.5 * 0.5 / 2.0, 1e-9);
   }
 }
 
-// Between two lines a flat top keeps the amplitude within 0.01 dB (Heinzel, Ruediger and Schilling 2002); a rectangle would show 2/pi of it.
+// Between two lines a flat top keeps the amplitude within 0.01 dB (Heinzel, Ruediger and Schilling 2002); a
+// rectangle would show 2/pi of it.
 TEST(CalcSpectrum, MeasuresBetweenTheLinesWithAFlatTop) {
   std::vector<double> samples;
   for (int k = 0; k < 1000; ++k) samples.push_back(3.0 * std::sin(2.0 * pi * 50.5 * k / 1000.0));
-  EXPECT_NEAR(jobs::calc_spectrum(samples, 1000.0, Window::kFlatTop).amplitude[50], 3.0, 3.0 * (1.0 - std::pow(10.0, -0.01 / 20.0)));
+  EXPECT_NEAR(jobs::calc_spectrum(samples, 1000.0, Window::kFlatTop).amplitude[50], 3.0,
+              3.0 * (1.0 - std::pow(10.0, -0.01 / 20.0)));
   EXPECT_NEAR(jobs::calc_spectrum(samples, 1000.0, Window::kRectangular).amplitude[50], 3.0 * 2.0 / pi, 0.03);
 }
 
@@ -76,11 +79,15 @@ TEST(MakeSpectrum, LeavesOutASampleThatIsOffTheRate) {
   EXPECT_EQ(spectrum.channels[2].key, "a_m_squared_per_hz");
   EXPECT_EQ(spectrum.columns[0].size(), 51U);
   EXPECT_NEAR(spectrum.columns[0].back(), 500.0, 1e-9);
-  EXPECT_THROW((void)make_spectrum(run_of({"t_s", "a_m"}, {{0, 1}, {0, 1}}), Window::kHann), jobs::WrongState);
-  EXPECT_THROW((void)make_spectrum(run_of({"t_s", "a_m"}, {t, std::vector<double>(101, std::nan(""))}), Window::kHann), jobs::WrongState);
+  EXPECT_THROW((void)make_spectrum(run_of({"t_s", "a_m"}, {{0, 1}, {0, 1}}), Window::kHann),
+               jobs::WrongState);
+  EXPECT_THROW(
+      (void)make_spectrum(run_of({"t_s", "a_m"}, {t, std::vector<double>(101, std::nan(""))}), Window::kHann),
+      jobs::WrongState);
 }
 
-// The crank turns 3 rad/s and is past a whole number of turns and 1 rad at (1 + 2 pi k) / 3 s; x = 7 t is known there.
+// The crank turns 3 rad/s and is past a whole number of turns and 1 rad at (1 + 2 pi k) / 3 s; x = 7 t is
+// known there.
 TEST(TakeSection, HasTheInstantsAtWhichTheCrankPasses) {
   std::vector<double> t, angle, x;
   for (int k = 0; k <= 700; ++k) {
@@ -98,7 +105,10 @@ TEST(TakeSection, HasTheInstantsAtWhichTheCrankPasses) {
   }
   EXPECT_EQ(section.channels[2].key, "x_mm");
   for (double& a : angle) a = -a;
-  EXPECT_EQ(jobs::take_section(run_of({"t_s", "crank_angle_rad", "x_mm"}, {t, angle, x}), 1.0).columns[0].size(), 3U) << "backwards";
+  EXPECT_EQ(
+      jobs::take_section(run_of({"t_s", "crank_angle_rad", "x_mm"}, {t, angle, x}), 1.0).columns[0].size(),
+      3U)
+      << "backwards";
 }
 
 /// x' = 4 x (1 - x), whose exponent is ln 2 a step.
@@ -120,8 +130,8 @@ TEST(MeasureDivergence, FindsTheExponentOfTheLogisticMap) {
     EXPECT_LT(divergence->from, divergence->to);
     sum += divergence->exponent / kPairs;
   }
-  // The slope of one pair scatters by 0.16 (the map stretches by 4 |1 - 2x| here and there), the mean of 400 by 0.008; since the stretch ends where
-  // the distance first is a tenth of the motion, it is 3 % low.
+  // The slope of one pair scatters by 0.16 (the map stretches by 4 |1 - 2x| here and there), the mean of 400
+  // by 0.008; since the stretch ends where the distance first is a tenth of the motion, it is 3 % low.
   EXPECT_NEAR(sum, 2.0 * std::log(2.0), 0.06);
 }
 

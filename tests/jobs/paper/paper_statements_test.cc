@@ -69,8 +69,8 @@ json paper_cell(const jobs::ResultTable& table, std::size_t row, const std::stri
 
 TEST(PaperStatements, AllHoldWhereThePeaksAreThePapers) {
   const auto table = jobs::hold_against_paper(paper_table_of(holding_peaks()));
-  EXPECT_EQ(table.columns, (std::vector<std::string>{"statement", "number", "text", "paper", "found_least", "found_largest",
-                                                     "settings", "share", "holds"}));
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"statement", "number", "text", "paper", "found_least",
+                                                     "found_largest", "settings", "share", "holds"}));
   EXPECT_TRUE(table.ended);
   ASSERT_EQ(table.rows.size(), 9U) << "seven, and the two orders at 10 rad/s";
   // The ratios by hand from the peaks above.
@@ -121,8 +121,8 @@ TEST_P(PaperStatementEdge, IsWhereItCeasesToHold) {
   EXPECT_EQ(paper_cell(table, edge.number - 1, "share"), edge.holds ? 1.0 : 0.0);
 }
 
-// Statement 1 holds within 5 %, a growth within 20 % of the paper's, an order below 0.999. Ratios are a thousandth or less inside
-// and outside of these bounds.
+// Statement 1 holds within 5 %, a growth within 20 % of the paper's, an order below 0.999. Ratios are a
+// thousandth or less inside and outside of these bounds.
 const EdgeCase kEdges[] = {
     {"couplers_slightly_below", 1, {0, 10, "flexible"}, 40 * 0.951, true},
     {"couplers_too_far_below", 1, {0, 10, "flexible"}, 40 * 0.949, false},
@@ -208,8 +208,8 @@ TEST(PaperStatements, AreOpenWithoutAnyPeak) {
   for (std::size_t k = 0; k < 7; ++k) EXPECT_TRUE(paper_cell(found, k, "holds").is_null()) << k;
 }
 
-// Peaks at 10 rad/s divided by 1, 1.1, 1.5 and 2: the growths of the rigid coupler with 0.25 mm are 8.5, 9.35, 12.75
-// and 17.
+// Peaks at 10 rad/s divided by 1, 1.1, 1.5 and 2: the growths of the rigid coupler with 0.25 mm are 8.5,
+// 9.35, 12.75 and 17.
 TEST(PaperStatements, HoldInAShareOfTheSettings) {
   jobs::ResultTable table = heading_of({{"restitution", 0}});
   double restitution = 0.6;
@@ -224,7 +224,8 @@ TEST(PaperStatements, HoldInAShareOfTheSettings) {
   EXPECT_EQ(paper_cell(found, 1, "share"), 0.5);
   EXPECT_EQ(paper_cell(found, 1, "holds"), false);
   const double median = 0.5 * (9.35 + 12.75);
-  for (const char* column : {"found_least", "found_largest"}) EXPECT_NEAR(paper_cell(found, 1, column).get<double>(), median, 1e-12);
+  for (const char* column : {"found_least", "found_largest"})
+    EXPECT_NEAR(paper_cell(found, 1, column).get<double>(), median, 1e-12);
   EXPECT_EQ(paper_cell(found, 2, "share"), 1.0);
   EXPECT_EQ(paper_cell(found, 2, "holds"), true);
   EXPECT_EQ(paper_cell(found, 3, "settings"), 3);
@@ -232,8 +233,8 @@ TEST(PaperStatements, HoldInAShareOfTheSettings) {
   for (const std::string& column : found.columns) EXPECT_FALSE(column.starts_with("index.")) << column;
 }
 
-/// Settings over two parameters of 8 levels each. The logarithm of statement 2's growth is log(8.5) - 0.3 i + 0.1 j with
-/// their levels i and j.
+/// Settings over two parameters of 8 levels each. The logarithm of statement 2's growth is log(8.5) - 0.3 i +
+/// 0.1 j with their levels i and j.
 jobs::ResultTable table_of_settings(std::size_t count) {
   jobs::ResultTable table = heading_of({{"restitution", 0}, {"friction", 0}});
   for (std::size_t s = 0; s < count; ++s) {
@@ -246,15 +247,17 @@ jobs::ResultTable table_of_settings(std::size_t count) {
   return table;
 }
 
-// All combinations: the variances of both parts add up, 9 to 1. Of 64 points in 8 classes, chance puts 7/56 of the sum of
-// squares within the classes between them.
+// All combinations: the variances of both parts add up, 9 to 1. Of 64 points in 8 classes, chance puts 7/56
+// of the sum of squares within the classes between them.
 TEST(PaperStatements, HaveIndicesFromFiftySettingsOn) {
   const auto found = jobs::hold_against_paper(table_of_settings(64));
   EXPECT_NEAR(paper_cell(found, 1, "index.restitution").get<double>(), 0.9 - 0.1 * 7.0 / 56.0, 1e-12);
   EXPECT_EQ(paper_cell(found, 1, "index.friction"), 0.0) << "0.1 is less than 0.9 7/56";
   EXPECT_TRUE(paper_cell(found, 2, "index.restitution").is_null()) << "a ratio that is always the same";
-  for (std::size_t k = 7; k < 9; ++k) EXPECT_TRUE(paper_cell(found, k, "index.restitution").is_null()) << "no number";
-  for (const std::string& column : found.columns) EXPECT_EQ(column.find("index.clearance_mm"), std::string::npos);
+  for (std::size_t k = 7; k < 9; ++k)
+    EXPECT_TRUE(paper_cell(found, k, "index.restitution").is_null()) << "no number";
+  for (const std::string& column : found.columns)
+    EXPECT_EQ(column.find("index.clearance_mm"), std::string::npos);
 
   const auto fifty = jobs::hold_against_paper(table_of_settings(50));
   EXPECT_TRUE(paper_cell(fifty, 1, "index.restitution").is_number());

@@ -72,7 +72,8 @@ TEST(WearDepth, IsPartOfWhatAJobIsOnlyWhereItIsGiven) {
 
 // In rows a bore stands for its largest depth; it is no axis.
 TEST(WearDepth, IsSweptByCases) {
-  const nlohmann::ordered_json request{{"cases", {{{"wear_depth_um", bore_of(1)}}, {{"wear_depth_um", bore_of(2)}}}}};
+  const nlohmann::ordered_json request{
+      {"cases", {{{"wear_depth_um", bore_of(1)}}, {{"wear_depth_um", bore_of(2)}}}}};
   const auto plan = jobs::plan_sweep(request, 10);
   ASSERT_EQ(plan.jobs.size(), 2U);
   EXPECT_EQ(plan.jobs[1].swept, "[2.0]");

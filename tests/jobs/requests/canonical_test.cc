@@ -29,7 +29,8 @@ json any_value(const jobs::ParameterInfo& info) {
   if (info.kind == jobs::ParameterKind::kChoice) return *rc::gen::elementOf(info.choices);
   const double usual = jobs::default_value(info).get<double>();
   const double factor = 1.0 + *rc::gen::inRange(-1000, 1001) * 1e-4 + *rc::gen::inRange(0, 1'000'000) * 1e-15;
-  const double value = info.kind == jobs::ParameterKind::kInteger ? std::round(usual * factor) : usual * factor;
+  const double value =
+      info.kind == jobs::ParameterKind::kInteger ? std::round(usual * factor) : usual * factor;
   return info.range.contains(value) ? value : usual;
 }
 
@@ -48,12 +49,15 @@ std::string text_of(std::vector<std::pair<std::string, json>> values) {
   std::shuffle(values.begin(), values.end(), std::mt19937_64(*rc::gen::arbitrary<std::uint64_t>()));
   std::string text;
   for (const auto& [key, value] : values) {
-    text += (text.empty() ? "{\"" : " ,\n\"") + key + "\":" + (value.is_number() ? written(value.get<double>()) : value.dump());
+    text += (text.empty() ? "{\"" : " ,\n\"") + key +
+            "\":" + (value.is_number() ? written(value.get<double>()) : value.dump());
   }
   return text.empty() ? "{}" : text + "}";
 }
 
-std::string canonical(const std::string& text) { return jobs::canonical_text(jobs::fill_in_defaults(json_of(text))); }
+std::string canonical(const std::string& text) {
+  return jobs::canonical_text(jobs::fill_in_defaults(json_of(text)));
+}
 
 RC_GTEST_PROP(CanonicalText, IsTheSameForEveryOrderAndEveryWayToWriteNumbers, ()) {
   std::vector<std::pair<std::string, json>> values;

@@ -18,7 +18,9 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxExpandedJobs = 10'000;
 
-jobs::SweepPlan expanded_plan_of(const std::string& request) { return jobs::plan_sweep(request_of(request), kMaxExpandedJobs); }
+jobs::SweepPlan expanded_plan_of(const std::string& request) {
+  return jobs::plan_sweep(request_of(request), kMaxExpandedJobs);
+}
 
 std::vector<std::string> swept_values(const jobs::SweepPlan& plan) {
   std::vector<std::string> values;
@@ -37,33 +39,45 @@ TEST(PlanSweep, TakesNamesOfUpTo200Bytes) {
 }
 
 TEST(PlanSweep, MultipliesAxesInTheirOrderLastFastest) {
-  // crank_velocity_rad_s comes before clearance_mm in the alphabet of neither the request nor the sorted keys.
-  const auto plan = expanded_plan_of(R"({"name": "n", "sweep": {"crank_velocity_rad_s": [5, 10], "coupler": ["flexible", "rigid"], "clearance_mm": [0, 0.25, 0.5]}})");
+  // crank_velocity_rad_s comes before clearance_mm in the alphabet of neither the request nor the sorted
+  // keys.
+  const auto plan = expanded_plan_of(
+      R"({"name": "n", "sweep": {"crank_velocity_rad_s": [5, 10], "coupler": ["flexible", "rigid"],
+         "clearance_mm": [0, 0.25, 0.5]}})");
   EXPECT_EQ(plan.name, "n");
   EXPECT_EQ(plan.swept, (Strings{"crank_velocity_rad_s", "coupler", "clearance_mm"}));
-  EXPECT_EQ(swept_values(plan), (Strings{R"([5.0,"flexible",0.0])", R"([5.0,"flexible",0.25])", R"([5.0,"flexible",0.5])", R"([5.0,"rigid",0.0])",
-                                         R"([5.0,"rigid",0.25])", R"([5.0,"rigid",0.5])", R"([10.0,"flexible",0.0])", R"([10.0,"flexible",0.25])",
-                                         R"([10.0,"flexible",0.5])", R"([10.0,"rigid",0.0])", R"([10.0,"rigid",0.25])", R"([10.0,"rigid",0.5])"}));
+  EXPECT_EQ(swept_values(plan),
+            (Strings{R"([5.0,"flexible",0.0])", R"([5.0,"flexible",0.25])", R"([5.0,"flexible",0.5])",
+                     R"([5.0,"rigid",0.0])", R"([5.0,"rigid",0.25])", R"([5.0,"rigid",0.5])",
+                     R"([10.0,"flexible",0.0])", R"([10.0,"flexible",0.25])", R"([10.0,"flexible",0.5])",
+                     R"([10.0,"rigid",0.0])", R"([10.0,"rigid",0.25])", R"([10.0,"rigid",0.5])"}));
   EXPECT_EQ(plan.jobs[3].kind, "rigid, ideal");
 }
 
 TEST(PlanSweep, GivesEachJobItsWholeParameterSet) {
-  const auto plan = plan_of(R"({"parameters": {"duration_s": 4, "links": {"1,3": {"inertia_kg_m2": [4e-6, 0.026, 0.026]}}},
+  const auto plan =
+      plan_of(R"({"parameters": {"duration_s": 4, "links": {"1,3": {"inertia_kg_m2": [4e-6, 0.026, 0.026]}}},
                                 "sweep": {"links.1,3.mass_kg": [0.3, 0.31], "clearance_mm": [0.5]}})");
   ASSERT_EQ(plan.jobs.size(), 2U);
   const json expected = jobs::complete_parameters(
-      json_of(R"({"duration_s": 4, "clearance_mm": 0.5, "links": {"1,3": {"mass_kg": 0.31, "inertia_kg_m2": [4e-6, 0.026, 0.026]}}})"), "");
+      json_of(
+          R"({"duration_s": 4, "clearance_mm": 0.5, "links": {"1,3": {"mass_kg": 0.31, "inertia_kg_m2": [4e-6,
+             0.026, 0.026]}}})"),
+      "");
   EXPECT_EQ(json::parse(plan.jobs[1].parameters), expected);
   EXPECT_EQ(plan.jobs[1].content_id, jobs::content_id(expected.dump(), jobs::kEngineVersion));
   EXPECT_EQ(plan.jobs[1].swept, "[0.31,0.5]");
 }
 
 TEST(PlanSweep, RunsThroughCasesOutermost) {
-  const auto plan = plan_of(R"({"cases": [{"clearance_mm": 0, "coupler": "rigid"}, {"coupler": "flexible", "links": {"2,2": {"mass_kg": 0.2}}}],
+  const auto plan = plan_of(
+      R"({"cases": [{"clearance_mm": 0, "coupler": "rigid"}, {"coupler": "flexible",
+         "links": {"2,2": {"mass_kg": 0.2}}}],
                                 "sweep": {"crank_velocity_rad_s": [5, 10]}})");
   EXPECT_EQ(plan.swept, (Strings{"crank_velocity_rad_s", "clearance_mm", "coupler", "links.2,2.mass_kg"}));
   // A case that leaves a key out has its default there.
-  EXPECT_EQ(swept_values(plan), (Strings{R"([5.0,0.0,"rigid",0.107])", R"([10.0,0.0,"rigid",0.107])", R"([5.0,0.25,"flexible",0.2])", R"([10.0,0.25,"flexible",0.2])"}));
+  EXPECT_EQ(swept_values(plan), (Strings{R"([5.0,0.0,"rigid",0.107])", R"([10.0,0.0,"rigid",0.107])",
+                                         R"([5.0,0.25,"flexible",0.2])", R"([10.0,0.25,"flexible",0.2])"}));
 }
 
 TEST(PlanSweep, OfNothingIsOneJobOfDefaults) {
@@ -75,16 +89,30 @@ TEST(PlanSweep, OfNothingIsOneJobOfDefaults) {
 }
 
 TEST(PlanSweep, SpacesLinearAndLogarithmicAxes) {
-  EXPECT_EQ(swept_values(expanded_plan_of(R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 5}}})")), (Strings{"[0.1]", "[0.2]", "[0.3]", "[0.4]", "[0.5]"}));
-  EXPECT_EQ(swept_values(expanded_plan_of(R"({"sweep": {"crank_velocity_rad_s": {"from": 10, "to": -10, "count": 3, "scale": "linear"}}})")), (Strings{"[10.0]", "[0.0]", "[-10.0]"}));
-  EXPECT_EQ(swept_values(expanded_plan_of(R"({"sweep": {"rigid_elements": {"from": 2, "to": 8, "count": 4}}})")), (Strings{"[2]", "[4]", "[6]", "[8]"}));
-  EXPECT_EQ(swept_values(expanded_plan_of(R"({"sweep": {"clearance_mm": {"from": 0.3, "to": 0.3, "count": 1}}})")), (Strings{"[0.3]"}));
+  EXPECT_EQ(
+      swept_values(expanded_plan_of(R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 5}}})")),
+      (Strings{"[0.1]", "[0.2]", "[0.3]", "[0.4]", "[0.5]"}));
+  EXPECT_EQ(
+      swept_values(expanded_plan_of(
+          R"({"sweep": {"crank_velocity_rad_s": {"from": 10, "to": -10, "count": 3, "scale": "linear"}}})")),
+      (Strings{"[10.0]", "[0.0]", "[-10.0]"}));
+  EXPECT_EQ(
+      swept_values(expanded_plan_of(R"({"sweep": {"rigid_elements": {"from": 2, "to": 8, "count": 4}}})")),
+      (Strings{"[2]", "[4]", "[6]", "[8]"}));
+  EXPECT_EQ(
+      swept_values(expanded_plan_of(R"({"sweep": {"clearance_mm": {"from": 0.3, "to": 0.3, "count": 1}}})")),
+      (Strings{"[0.3]"}));
   // Three times 0.1 over three is 0.10000000000000002; the ends are what was written all the same.
-  EXPECT_EQ(swept_values(expanded_plan_of(R"({"sweep": {"clearance_mm": {"from": 0.4, "to": 0.1, "count": 4}}})")).back(), "[0.1]");
-  const auto plan = expanded_plan_of(R"({"sweep": {"relative_tolerance": {"from": 1e-9, "to": 1e-3, "count": 4, "scale": "log"}}})");
+  EXPECT_EQ(
+      swept_values(expanded_plan_of(R"({"sweep": {"clearance_mm": {"from": 0.4, "to": 0.1, "count": 4}}})"))
+          .back(),
+      "[0.1]");
+  const auto plan = expanded_plan_of(
+      R"({"sweep": {"relative_tolerance": {"from": 1e-9, "to": 1e-3, "count": 4, "scale": "log"}}})");
   const double expected[] = {1e-9, 1e-7, 1e-5, 1e-3};
   ASSERT_EQ(plan.jobs.size(), 4U);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(json::parse(plan.jobs[k].swept)[0].get<double>() / expected[k], 1.0, 1e-14) << k;
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(json::parse(plan.jobs[k].swept)[0].get<double>() / expected[k], 1.0, 1e-14) << k;
   EXPECT_EQ(plan.jobs[0].swept, "[1e-09]");
   EXPECT_EQ(plan.jobs[3].swept, "[0.001]");
 }
@@ -102,7 +130,9 @@ RC_GTEST_PROP(PlanSweep, HasTheProductOfTheAxesAsCountAndEveryCombinationOnce, (
   const auto speeds = subset(*rc::gen::inRange(1, 64));
   const auto levels = subset(*rc::gen::inRange(1, 64));
   const int replicates = *rc::gen::inRange(1, 4);
-  const nlohmann::ordered_json request{{"sweep", {{"radial_levels", levels}, {"crank_velocity_rad_s", speeds}}}, {"replicates", {{"count", replicates}}}};
+  const nlohmann::ordered_json request{
+      {"sweep", {{"radial_levels", levels}, {"crank_velocity_rad_s", speeds}}},
+      {"replicates", {{"count", replicates}}}};
   const auto plan = jobs::plan_sweep(request, kMaxExpandedJobs);
   RC_ASSERT(plan.jobs.size() == speeds.size() * levels.size() * static_cast<std::size_t>(replicates));
   std::size_t next = 0;
@@ -135,7 +165,8 @@ RC_GTEST_PROP(ReplicateFactor, StaysWithinThePerturbation, (std::uint64_t seed, 
 }
 
 TEST(PlanSweep, RunsReplicatesOfEachPointInnermost) {
-  const std::string request = R"({"parameters": {"contact_stiffness_scale": 2}, "sweep": {"clearance_mm": [0.25, 0.5]},
+  const std::string request =
+      R"({"parameters": {"contact_stiffness_scale": 2}, "sweep": {"clearance_mm": [0.25, 0.5]},
                                   "replicates": {"count": 3, "perturbation": 1e-4, "seed": 7}})";
   const auto plan = expanded_plan_of(request);
   ASSERT_EQ(plan.jobs.size(), 6U);
@@ -144,16 +175,23 @@ TEST(PlanSweep, RunsReplicatesOfEachPointInnermost) {
     const std::uint64_t k = i % 3;
     EXPECT_EQ(plan.jobs[i].replicate, k);
     EXPECT_EQ(plan.jobs[i].swept, i < 3 ? "[0.25]" : "[0.5]");
-    EXPECT_EQ(json::parse(plan.jobs[i].parameters).at("contact_stiffness_scale"), 2.0 * jobs::replicate_factor(7, k, 1e-4));
+    EXPECT_EQ(json::parse(plan.jobs[i].parameters).at("contact_stiffness_scale"),
+              2.0 * jobs::replicate_factor(7, k, 1e-4));
   }
   const auto again = expanded_plan_of(request);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(plan.jobs[i].content_id, again.jobs[i].content_id);
-  EXPECT_EQ(plan.jobs[0].content_id, expanded_plan_of(R"({"parameters": {"contact_stiffness_scale": 2, "clearance_mm": 0.25}})").jobs[0].content_id);
+  EXPECT_EQ(plan.jobs[0].content_id,
+            expanded_plan_of(R"({"parameters": {"contact_stiffness_scale": 2, "clearance_mm": 0.25}})")
+                .jobs[0]
+                .content_id);
 }
 
-// Rows are grouped by what is swept: the perturbation must not make a group of every row, not even where stiffness is swept.
+// Rows are grouped by what is swept: the perturbation must not make a group of every row, not even where
+// stiffness is swept.
 TEST(PlanSweep, GivesReplicatesTheSweptValuesOfTheirPoint) {
-  const auto plan = expanded_plan_of(R"({"sweep": {"contact_stiffness_scale": [0.5, 2.0]}, "replicates": {"count": 2, "perturbation": 0.1}})");
+  const auto plan = expanded_plan_of(
+      R"({"sweep": {"contact_stiffness_scale": [0.5, 2.0]}, "replicates": {"count": 2,
+         "perturbation": 0.1}})");
   ASSERT_EQ(plan.jobs.size(), 4U);
   EXPECT_EQ(plan.jobs[0].swept, "[0.5]");
   EXPECT_EQ(plan.jobs[1].swept, "[0.5]");
@@ -165,7 +203,8 @@ TEST(PlanJob, IsTheJobOfItsParameters) {
   const auto job = jobs::plan_job(json_of(R"({"coupler": "flexible"})"));
   EXPECT_EQ(job.content_id, expanded_plan_of(R"({"sweep": {"coupler": ["flexible"]}})").jobs[0].content_id);
   EXPECT_EQ(job.kind, "flexible, clearance");
-  EXPECT_EQ(expanded_plan_of(R"({"sweep": {"crank": ["flexible"], "rod": ["flexible"]}})").jobs.front().kind, "rigid + crank + rod, clearance");
+  EXPECT_EQ(expanded_plan_of(R"({"sweep": {"crank": ["flexible"], "rod": ["flexible"]}})").jobs.front().kind,
+            "rigid + crank + rod, clearance");
   EXPECT_FALSE(job.replicate.has_value());
 }
 

@@ -11,12 +11,17 @@ namespace {
 
 using nlohmann::json;
 
-json link_of(const char* given, const char* link) { return jobs::complete_parameters(json_of(given), "").at("links").at(link); }
+json link_of(const char* given, const char* link) {
+  return jobs::complete_parameters(json_of(given), "").at("links").at(link);
+}
 
-void expect_relative(double actual, double expected, double tolerance) { EXPECT_NEAR(actual / expected, 1.0, tolerance); }
+void expect_relative(double actual, double expected, double tolerance) {
+  EXPECT_NEAR(actual / expected, 1.0, tolerance);
+}
 
-// A solid steel rod: m = rho pi d^2 l / 4, I_x = m d^2 / 8, I_y = m l^2 / 3 + I_x / 2 about its end. The coupler's default is
-// this rod at l = 0.5 m, d = 10 mm, with its mass to three printed digits; the scaled one must be the longer rod to as many.
+// A solid steel rod: m = rho pi d^2 l / 4, I_x = m d^2 / 8, I_y = m l^2 / 3 + I_x / 2 about its end. The
+// coupler's default is this rod at l = 0.5 m, d = 10 mm, with its mass to three printed digits; the scaled
+// one must be the longer rod to as many.
 TEST(DefaultLinks, ScaleAsAUniformRod) {
   const double l = 0.7;
   const double d = 0.014;
@@ -28,11 +33,13 @@ TEST(DefaultLinks, ScaleAsAUniformRod) {
   EXPECT_EQ(link.at("inertia_kg_m2")[1], link.at("inertia_kg_m2")[2]);
 }
 
-// A steel tube: m = rho pi (d^2 - d_i^2) l / 4, I_x = m (d^2 + d_i^2) / 8. The crank's default is one of 28/20 mm.
+// A steel tube: m = rho pi (d^2 - d_i^2) l / 4, I_x = m (d^2 + d_i^2) / 8. The crank's default is one of
+// 28/20 mm.
 TEST(DefaultLinks, ScaleAsAUniformTube) {
   const double l = 0.25, d = 0.03, d_i = 0.018;
   const double m = 7800.0 * std::numbers::pi / 4.0 * (d * d - d_i * d_i) * l;
-  const json link = link_of(R"({"crank_length_m": 0.25, "crank_diameter_mm": 30, "crank_inner_diameter_mm": 18})", "1,1");
+  const json link =
+      link_of(R"({"crank_length_m": 0.25, "crank_diameter_mm": 30, "crank_inner_diameter_mm": 18})", "1,1");
   expect_relative(link.at("mass_kg"), m, 2e-3);
   expect_relative(link.at("inertia_kg_m2")[0], m * (d * d + d_i * d_i) / 8.0, 2e-3);
   expect_relative(link.at("inertia_kg_m2")[1], m * l * l / 3.0 + m * (d * d + d_i * d_i) / 16.0, 2e-3);
@@ -50,10 +57,13 @@ TEST(DefaultLinks, OfTheCrossLinkFollowItsLength) {
   EXPECT_EQ(link_of(R"({"cross_diameter_mm": 40})", "2,2"), link_of("{}", "2,2"));
 }
 
-// Very short rods are discs: I_y comes near I_x / 2, and no scaling of I_y with l^2 alone would be that of a body.
+// Very short rods are discs: I_y comes near I_x / 2, and no scaling of I_y with l^2 alone would be that of a
+// body.
 TEST(DefaultLinks, AreBodiesAtAnyLength) {
   for (const double length : {0.001, 0.01, 0.1, 1.0}) {
-    EXPECT_NO_THROW((void)jobs::complete_parameters({{"crank_length_m", length}, {"coupler_length_m", 0.5 + length}}, "")) << length;
+    EXPECT_NO_THROW(
+        (void)jobs::complete_parameters({{"crank_length_m", length}, {"coupler_length_m", 0.5 + length}}, ""))
+        << length;
   }
 }
 
@@ -64,7 +74,8 @@ TEST(DefaultLinks, OfCrankAndRodFollowTheirOwnLengthsOnly) {
   EXPECT_DOUBLE_EQ(crank.at("inertia_kg_m2")[0], 6.964e-5 / 2.0);
   EXPECT_DOUBLE_EQ(crank.at("inertia_kg_m2")[1], 0.471 / 2.0 * 0.1 * 0.1 / 3.0 + 6.964e-5 / 4.0);
   const json defaults = jobs::complete_parameters(json::object(), "").at("links");
-  for (const char* other : {"1,2", "1,3", "2,1", "2,2"}) EXPECT_EQ(link_of(given, other), defaults.at(other)) << other;
+  for (const char* other : {"1,2", "1,3", "2,1", "2,2"})
+    EXPECT_EQ(link_of(given, other), defaults.at(other)) << other;
   EXPECT_DOUBLE_EQ(link_of(R"({"rod_length_m": 0.24})", "1,2").at("mass_kg"), 0.490 * 1.2);
 }
 
@@ -79,9 +90,15 @@ TEST(DefaultLinks, MomentsFollowAGivenMass) {
 }
 
 TEST(GivenLinks, AreTakenAsTheyAre) {
-  const json link = link_of(R"({"coupler_length_m": 0.6, "links": {"1,3": {"mass_kg": 0.3, "inertia_kg_m2": [1e-5, 0.036, 0.036]}}})", "1,3");
+  const json link = link_of(
+      R"({"coupler_length_m": 0.6, "links": {"1,3": {"mass_kg": 0.3, "inertia_kg_m2": [1e-5, 0.036,
+         0.036]}}})",
+      "1,3");
   EXPECT_EQ(link, json_of(R"({"mass_kg": 0.3, "inertia_kg_m2": [1e-5, 0.036, 0.036]})"));
-  EXPECT_EQ(link_of(R"({"coupler_length_m": 0.6, "links": {"1,3": {"inertia_kg_m2": [1e-5, 0.036, 0.036]}}})", "1,3").at("mass_kg").get<double>(),
+  EXPECT_EQ(link_of(R"({"coupler_length_m": 0.6, "links": {"1,3": {"inertia_kg_m2": [1e-5, 0.036, 0.036]}}})",
+                    "1,3")
+                .at("mass_kg")
+                .get<double>(),
             0.306 * (0.6 / 0.5));
 }
 

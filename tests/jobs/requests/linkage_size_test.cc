@@ -16,16 +16,21 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxJobs = 10'000;
 
-/// Bodies one behind the other, the joints of one kind, and revolute joints between the ground and the first body.
+/// Bodies one behind the other, the joints of one kind, and revolute joints between the ground and the first
+/// body.
 json chain(int bodies, const char* kind, int closing = 0) {
   json linkage{{"bodies", json::object()}, {"joints", json::object()}};
   const auto name = [](const char* letter, int k) { return letter + std::to_string(k); };
   for (int k = 0; k < bodies; ++k) {
     linkage["bodies"][name("b", k)] = {{"mass_kg", 1}, {"inertia_kg_m2", {0.1, 0.1, 0.1}}};
-    linkage["joints"][name("j", k)] = {{"kind", kind}, {"from", k == 0 ? "ground" : name("b", k - 1)}, {"to", name("b", k)}, {"at_m", {1, 0, 0}}};
+    linkage["joints"][name("j", k)] = {{"kind", kind},
+                                       {"from", k == 0 ? "ground" : name("b", k - 1)},
+                                       {"to", name("b", k)},
+                                       {"at_m", {1, 0, 0}}};
   }
   for (int k = 0; k < closing; ++k)
-    linkage["joints"][name("c", k)] = {{"kind", "revolute"}, {"from", "ground"}, {"to", "b0"}, {"closes_loop", true}, {"at_m", {1, 0, 0}}};
+    linkage["joints"][name("c", k)] = {
+        {"kind", "revolute"}, {"from", "ground"}, {"to", "b0"}, {"closes_loop", true}, {"at_m", {1, 0, 0}}};
   return linkage;
 }
 
@@ -49,42 +54,52 @@ std::string refusal_of(const json& linkage) {
 }
 
 std::string refusal_of_sweep(const json& linkage, int points) {
-  const nlohmann::ordered_json request{{"parameters", {{"linkage", linkage}}},
-                                       {"sweep", {{"gravity_m_s2", {{"from", 1}, {"to", 10}, {"count", points}}}}}};
+  const nlohmann::ordered_json request{
+      {"parameters", {{"linkage", linkage}}},
+      {"sweep", {{"gravity_m_s2", {{"from", 1}, {"to", 10}, {"count", points}}}}}};
   const auto faults = faults_of([&] { (void)jobs::plan_sweep(request, kMaxJobs); });
   return faults.empty() ? "" : faults[0].detail;
 }
 
 TEST(LinkageSize, IsBoundedInCoordinates) {
   EXPECT_EQ(refusal_of(chain(100, "free")), "");
-  EXPECT_EQ(refusal_of(chain(101, "free")), "has 606 coordinates, of its joints and between the elements of its beams; at most 600 are allowed");
+  EXPECT_EQ(
+      refusal_of(chain(101, "free")),
+      "has 606 coordinates, of its joints and between the elements of its beams; at most 600 are allowed");
 }
 
 TEST(LinkageSize, CountsTheElementsOfBeams) {
   json linkage = chain(4, "revolute");
-  for (json& body : linkage["bodies"]) body = {{"mass_kg", 1}, {"beam", {{"length_m", 1}, {"diameter_mm", 9}, {"elements", 64}}}};
+  for (json& body : linkage["bodies"])
+    body = {{"mass_kg", 1}, {"beam", {{"length_m", 1}, {"diameter_mm", 9}, {"elements", 64}}}};
   EXPECT_EQ(refusal_of(linkage).find("has 760 coordinates"), 0U);
   for (json& body : linkage["bodies"]) body["beam"].erase("elements");
-  const auto faults = faults_of([&] { (void)jobs::complete_parameters({{"linkage", linkage}, {"rigid_elements", 64}}, ""); });
+  const auto faults = faults_of([&] {
+    (void)jobs::complete_parameters({{"linkage", linkage}, {"rigid_elements", 64}}, "");
+  });
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].detail.find("has 760 coordinates"), 0U);
 }
 
 TEST(LinkageSize, IsBoundedInConstraints) {
   EXPECT_EQ(refusal_of(chain(1, "revolute", 60)), "");
-  EXPECT_EQ(refusal_of(chain(1, "revolute", 61)), "has joints that close loops by 305 constraints; at most 300 are allowed");
+  EXPECT_EQ(refusal_of(chain(1, "revolute", 61)),
+            "has joints that close loops by 305 constraints; at most 300 are allowed");
 }
 
 TEST(SweepOfLinkages, MayHaveFewerJobsTheLargerTheLinkage) {
   EXPECT_EQ(refusal_of_sweep(chain(100, "free"), 2), "");
   const std::string refusal = refusal_of_sweep(chain(100, "free"), 1000);
-  EXPECT_EQ(refusal.find("the linkage is too large for a sweep of 1000 jobs, whose loops would all have to be closed: at most 247 are allowed"), 0U)
+  EXPECT_EQ(refusal.find("the linkage is too large for a sweep of 1000 jobs, whose loops would all have to "
+                         "be closed: at most 247 are allowed"),
+            0U)
       << refusal;
 }
 
 TEST(SweepOfLinkages, MayHaveFewerJobsTheLongerTheDescription) {
   EXPECT_EQ(refusal_of_sweep(table_driven(5000), 2), "");
-  EXPECT_NE(refusal_of_sweep(table_driven(5000), 5000).find("each of which keeps its description: at most "), std::string::npos);
+  EXPECT_NE(refusal_of_sweep(table_driven(5000), 5000).find("each of which keeps its description: at most "),
+            std::string::npos);
 }
 
 }  // namespace

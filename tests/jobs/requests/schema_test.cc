@@ -14,19 +14,83 @@ namespace {
 using nlohmann::json;
 
 // The keys of the interface's description, written down here by hand.
-const std::set<std::string> kKeys{
-    "coupler", "clearance_mm", "axial_clearance_mm", "crank_velocity_rad_s", "duration_s", "output_rate_hz", "run_up_s", "rod_stroke_mm",
-    "rod_stroke_time_s", "rod_pause_s", "drive", "baumgarte_alpha_1_s", "baumgarte_beta_1_s", "contact", "radial_levels", "radial_elements",
-    "axial_levels", "axial_elements", "bearing_radius_mm", "bearing_length_mm", "normal_law", "restitution", "contact_damping_n_s_m",
-    "stiffness_law", "contact_stiffness_scale", "axial_stiffness_n_m",
-    "minimum_impact_velocity_m_s", "friction", "friction_static", "friction_kinetic", "bristle_stiffness_1_m", "bristle_damping_s_m",
-    "bristle_viscous_s_m", "stribeck_velocity_m_s", "break_away_ratio", "friction_velocity_0_m_s", "friction_velocity_1_m_s", "rigid_elements", "youngs_modulus_pa", "shear_modulus_pa", "coupler_diameter_mm",
-    "coupler_damping_ratio", "integrator", "step_s", "relative_tolerance", "absolute_tolerance", "crank_length_m", "rod_length_m",
-    "coupler_length_m", "guide_offset_y_m", "guide_offset_z_m", "guide_angle_deg", "yoke_axis", "gravity_m_s2", "gravity_direction",
-    "crank_start_rad", "rod_start_m", "rod_law", "linkage", "links", "wear_depth_um",
-    "crank", "crank_diameter_mm", "crank_inner_diameter_mm", "crank_elements", "crank_damping_ratio", "rod", "rod_diameter_mm",
-    "rod_inner_diameter_mm", "rod_elements", "rod_damping_ratio", "cross", "cross_diameter_mm", "cross_inner_diameter_mm", "cross_elements",
-    "cross_damping_ratio", "cross_length_mm"};
+const std::set<std::string> kKeys{"coupler",
+                                  "clearance_mm",
+                                  "axial_clearance_mm",
+                                  "crank_velocity_rad_s",
+                                  "duration_s",
+                                  "output_rate_hz",
+                                  "run_up_s",
+                                  "rod_stroke_mm",
+                                  "rod_stroke_time_s",
+                                  "rod_pause_s",
+                                  "drive",
+                                  "baumgarte_alpha_1_s",
+                                  "baumgarte_beta_1_s",
+                                  "contact",
+                                  "radial_levels",
+                                  "radial_elements",
+                                  "axial_levels",
+                                  "axial_elements",
+                                  "bearing_radius_mm",
+                                  "bearing_length_mm",
+                                  "normal_law",
+                                  "restitution",
+                                  "contact_damping_n_s_m",
+                                  "stiffness_law",
+                                  "contact_stiffness_scale",
+                                  "axial_stiffness_n_m",
+                                  "minimum_impact_velocity_m_s",
+                                  "friction",
+                                  "friction_static",
+                                  "friction_kinetic",
+                                  "bristle_stiffness_1_m",
+                                  "bristle_damping_s_m",
+                                  "bristle_viscous_s_m",
+                                  "stribeck_velocity_m_s",
+                                  "break_away_ratio",
+                                  "friction_velocity_0_m_s",
+                                  "friction_velocity_1_m_s",
+                                  "rigid_elements",
+                                  "youngs_modulus_pa",
+                                  "shear_modulus_pa",
+                                  "coupler_diameter_mm",
+                                  "coupler_damping_ratio",
+                                  "integrator",
+                                  "step_s",
+                                  "relative_tolerance",
+                                  "absolute_tolerance",
+                                  "crank_length_m",
+                                  "rod_length_m",
+                                  "coupler_length_m",
+                                  "guide_offset_y_m",
+                                  "guide_offset_z_m",
+                                  "guide_angle_deg",
+                                  "yoke_axis",
+                                  "gravity_m_s2",
+                                  "gravity_direction",
+                                  "crank_start_rad",
+                                  "rod_start_m",
+                                  "rod_law",
+                                  "linkage",
+                                  "links",
+                                  "wear_depth_um",
+                                  "crank",
+                                  "crank_diameter_mm",
+                                  "crank_inner_diameter_mm",
+                                  "crank_elements",
+                                  "crank_damping_ratio",
+                                  "rod",
+                                  "rod_diameter_mm",
+                                  "rod_inner_diameter_mm",
+                                  "rod_elements",
+                                  "rod_damping_ratio",
+                                  "cross",
+                                  "cross_diameter_mm",
+                                  "cross_inner_diameter_mm",
+                                  "cross_elements",
+                                  "cross_damping_ratio",
+                                  "cross_length_mm"};
 
 TEST(ParameterSchema, ListsEveryKeyAndNoOther) {
   std::set<std::string> listed;
@@ -54,7 +118,8 @@ TEST(ParameterSchema, SaysTypeRangeUnitDefaultAndSource) {
   EXPECT_EQ(properties.at("yoke_axis").at("enum"), json::array({"guide", "across"}));
   EXPECT_EQ(properties.at("crank_inner_diameter_mm").at("default"), 20.0);
   EXPECT_EQ(properties.at("cross").at("enum"), properties.at("coupler").at("enum"));
-  EXPECT_EQ(properties.at("links").at("properties").at("1,3").at("properties").at("mass_kg").at("default"), 0.306);
+  EXPECT_EQ(properties.at("links").at("properties").at("1,3").at("properties").at("mass_kg").at("default"),
+            0.306);
   EXPECT_EQ(properties.at("links").at("properties").size(), 5U);
 }
 
@@ -65,10 +130,15 @@ TEST(ParameterSchema, AgreesWithTheChecks) {
     if (key == "links" || key == "wear_depth_um") continue;  // lists of numbers, and without a default
     EXPECT_NO_THROW((void)jobs::complete_parameters({{key, property.at("default")}}, "")) << key;
     if (property.contains("maximum")) {
-      EXPECT_THROW((void)jobs::complete_parameters({{key, property.at("maximum").get<double>() * 1.001 + 1.0}}, ""), jobs::InvalidRequest) << key;
+      EXPECT_THROW(
+          (void)jobs::complete_parameters({{key, property.at("maximum").get<double>() * 1.001 + 1.0}}, ""),
+          jobs::InvalidRequest)
+          << key;
     }
     if (property.contains("exclusiveMinimum")) {
-      EXPECT_THROW((void)jobs::complete_parameters({{key, property.at("exclusiveMinimum")}}, ""), jobs::InvalidRequest) << key;
+      EXPECT_THROW((void)jobs::complete_parameters({{key, property.at("exclusiveMinimum")}}, ""),
+                   jobs::InvalidRequest)
+          << key;
     }
     EXPECT_FALSE(property.at("description").get<std::string>().empty()) << key;
   }

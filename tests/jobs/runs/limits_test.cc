@@ -37,7 +37,8 @@ TEST(JobLimits, EndAJobThatTakesTooLong) {
 }
 
 TEST(JobLimits, AreNotWhatEndsACancelledJob) {
-  const RunRecord record = jobs::run_and_record({}, run_until_stopped, [](double t) { return t > 1e-3; }, 3600.0);
+  const RunRecord record = jobs::run_and_record(
+      {}, run_until_stopped, [](double t) { return t > 1e-3; }, 3600.0);
   EXPECT_EQ(record.end, RunRecord::End::kStopped);
 }
 
@@ -48,16 +49,20 @@ TEST(JobLimits, RefuseATrajectoryThatIsTooLarge) {
   const std::size_t needed = 10'001 * sizeof(double) * engine::channel_table(spec.parameters).size();
   EXPECT_NO_THROW((void)jobs::within_limits(spec, {.memory_bytes = needed}));
   EXPECT_NO_THROW((void)jobs::within_limits(spec, {}));
-  const RunRecord record = jobs::run_and_record(spec, [&](const jobs::JobSpec& asked, const engine::StopQuery&) -> engine::RunResult {
-    (void)jobs::within_limits(asked, {.memory_bytes = needed - 1});
-    throw std::logic_error("was not refused");
-  }, [](double) { return false; });
+  const RunRecord record = jobs::run_and_record(
+      spec,
+      [&](const jobs::JobSpec& asked, const engine::StopQuery&) -> engine::RunResult {
+        (void)jobs::within_limits(asked, {.memory_bytes = needed - 1});
+        throw std::logic_error("was not refused");
+      },
+      [](double) { return false; });
   EXPECT_EQ(record.error_reason, "memory_limit");
 }
 
 TEST(JobLimits, TellAMachineWithoutMemoryFromAFault) {
-  const RunRecord record = jobs::run_and_record({}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw std::bad_alloc(); },
-                                                [](double) { return false; });
+  const RunRecord record = jobs::run_and_record(
+      {}, [](const jobs::JobSpec&, const engine::StopQuery&) -> engine::RunResult { throw std::bad_alloc(); },
+      [](double) { return false; });
   EXPECT_EQ(record.end, RunRecord::End::kFailed);
   EXPECT_EQ(record.error_reason, "memory_limit");
 }
@@ -74,9 +79,12 @@ TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
   constexpr std::int64_t kLimit = 400'000;
   jobs::Store store(temporary.file(), {.most_bytes = kLimit});
   constexpr const char* kSmall = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
-  constexpr const char* kLarge = R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 5000}}})";
-  const std::string kept = store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued);
-  EXPECT_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued), jobs::StoreLimitReached);
+  constexpr const char* kLarge =
+      R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 5000}}})";
+  const std::string kept =
+      store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued);
+  EXPECT_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued),
+               jobs::StoreLimitReached);
   EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1u);
   // The result of a job, too; it can be read and cancelled, and deleting makes room.
   const jobs::ClaimedJob job = store.queue.claim().value();
@@ -88,12 +96,14 @@ TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
   EXPECT_EQ(store.reader.find_job(job.id).value().state, "running");
   EXPECT_EQ(store.queue.cancel_sweep(kept).outcome, jobs::CancelOutcome::kDone);
   EXPECT_EQ(store.queue.delete_sweep(kept), jobs::DeleteOutcome::kDone);
-  EXPECT_NO_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
+  EXPECT_NO_THROW(
+      (void)store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
 }
 
 TEST(StoreLimit, HoldsForWhatIsTriedAgain) {
   const TemporaryStore temporary;
-  constexpr const char* kRequest = R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 500}}})";
+  constexpr const char* kRequest =
+      R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 500}}})";
   std::string id;
   {
     jobs::Store store(temporary.file());
@@ -108,14 +118,18 @@ TEST(StoreLimit, HoldsForWhatIsTriedAgain) {
 TEST(StoreLimit, LeavesAReserveOfTheDiskToOthers) {
   const TemporaryStore temporary;
   constexpr const char* kRequest = R"({"sweep": {"crank_velocity_rad_s": [5]}})";
-  const std::int64_t all_of_it = static_cast<std::int64_t>(std::filesystem::space(temporary.file().parent_path()).capacity);
+  const std::int64_t all_of_it =
+      static_cast<std::int64_t>(std::filesystem::space(temporary.file().parent_path()).capacity);
   {
     jobs::Store store(temporary.file(), {.reserve_bytes = all_of_it + 1});
-    EXPECT_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued), jobs::StoreLimitReached);
+    EXPECT_THROW(
+        (void)store.queue.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued),
+        jobs::StoreLimitReached);
     EXPECT_TRUE(store.reader.list_sweeps("", "", 10).empty());
   }
   jobs::Store store(temporary.file(), {.reserve_bytes = 1});
-  EXPECT_NO_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued));
+  EXPECT_NO_THROW(
+      (void)store.queue.add_sweep(jobs::plan_sweep(request_of(kRequest), 10), kRequest, kMaxQueued));
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ struct Found {
 };
 
 /// Evaluates what the search asks for until it has ended.
-Found search(const SearchInterval& path, const LimitRule& rule, const std::function<std::vector<double>(double)>& metric) {
+Found search(const SearchInterval& path, const LimitRule& rule,
+             const std::function<std::vector<double>(double)>& metric) {
   std::vector<Evaluation> known;
   for (int round = 0; round < 1000; ++round) {
     const Limit limit = find_limit(path, rule, known);
@@ -37,7 +38,8 @@ Found search(const SearchInterval& path, const LimitRule& rule, const std::funct
 
 std::vector<double> itself(double x) { return {x}; }
 
-// Five values in steps of 2.5, of which one step is halved until it is no longer than 0.01: 2.5 / 2^8 = 0.0098.
+// Five values in steps of 2.5, of which one step is halved until it is no longer than 0.01: 2.5 / 2^8 =
+// 0.0098.
 TEST(FindLimit, FindsTheLimitOfAMonotoneMetricWithTheExpectedNumberOfEvaluations) {
   const SearchInterval path{.from = 0.0, .to = 10.0, .tolerance = 0.01, .first = 5};
   for (const double bound : {0.001, 1.234, 3.7, 6.18, 9.99}) {
@@ -54,12 +56,20 @@ TEST(FindLimit, FindsTheLimitOfAMonotoneMetricWithTheExpectedNumberOfEvaluations
 
 // Between 1e-310 and 1e300 no ratio is a double: nothing says where their middle is.
 TEST(FindLimit, EndsWhereNothingLiesBetween) {
-  EXPECT_EQ(jobs::most_evaluations({.from = 1e-310, .to = 1e300, .logarithmic = true, .tolerance = 1.0, .first = 2}), 2U);
-  EXPECT_EQ(jobs::most_evaluations({.from = 1.0, .to = std::nextafter(1.0, 2.0), .logarithmic = true, .tolerance = 1e-300, .first = 2}), 2U);
+  EXPECT_EQ(jobs::most_evaluations(
+                {.from = 1e-310, .to = 1e300, .logarithmic = true, .tolerance = 1.0, .first = 2}),
+            2U);
+  EXPECT_EQ(jobs::most_evaluations({.from = 1.0,
+                                    .to = std::nextafter(1.0, 2.0),
+                                    .logarithmic = true,
+                                    .tolerance = 1e-300,
+                                    .first = 2}),
+            2U);
 }
 
 TEST(FindLimit, GoesTheOtherWayIfThePathDoes) {
-  const Found found = search({.from = 8.0, .to = 2.0, .tolerance = 0.1, .first = 3}, {.bound = -4.2}, [](double x) { return std::vector{-x}; });
+  const Found found = search({.from = 8.0, .to = 2.0, .tolerance = 0.1, .first = 3}, {.bound = -4.2},
+                             [](double x) { return std::vector{-x}; });
   EXPECT_EQ(found.limit.verdict, Verdict::kFound);
   EXPECT_GE(found.limit.within.value(), 4.2);
   EXPECT_LT(found.limit.beyond.value(), 4.2);
@@ -71,12 +81,14 @@ TEST(FindLimit, HalvesRatiosOfALogarithmicPath) {
   const Found found = search(path, {.bound = 0.05}, itself);
   EXPECT_LE(found.limit.within.value(), 0.05);
   EXPECT_GT(found.limit.beyond.value(), 0.05);
-  // The bracket is halved in its logarithm: 1.5e4 of a ratio needs fewer steps down here than most_evaluations() allows for.
+  // The bracket is halved in its logarithm: 1.5e4 of a ratio needs fewer steps down here than
+  // most_evaluations() allows for.
   EXPECT_LE(found.evaluations, jobs::most_evaluations(path));
 }
 
 TEST(FindLimit, EndsBetweenNeighbouringIntegers) {
-  const Found found = search({.from = 1, .to = 64, .integer = true, .tolerance = 1e-9, .first = 2}, {.bound = 23.5}, itself);
+  const Found found =
+      search({.from = 1, .to = 64, .integer = true, .tolerance = 1e-9, .first = 2}, {.bound = 23.5}, itself);
   EXPECT_EQ(found.limit.within, 23.0);
   EXPECT_EQ(found.limit.beyond, 24.0);
 }
@@ -102,10 +114,12 @@ TEST(FindLimit, TakesTheFirstCrossingAndTellsWhereTheMetricFalls) {
   EXPECT_EQ(found.limit.falls[0].from, 3.0);
   EXPECT_EQ(found.limit.falls[0].to, 4.0);
   EXPECT_TRUE(found.limit.falls[0].within_again);
-  EXPECT_NEAR(found.limit.band_to.value(), 8.0, 1e-12) << "from there on nothing that was tried is within the bound";
+  EXPECT_NEAR(found.limit.band_to.value(), 8.0, 1e-12)
+      << "from there on nothing that was tried is within the bound";
 }
 
-// Ten replicates x + 0 .. x + 0.9: nine of them are within the bound 5 up to x = 4.2, all of them up to 4.1, none from above 5 on.
+// Ten replicates x + 0 .. x + 0.9: nine of them are within the bound 5 up to x = 4.2, all of them up to 4.1,
+// none from above 5 on.
 TEST(FindLimit, JudgesByAQuantileAndGivesTheBandOfTheReplicates) {
   const auto scattered = [](double x) {
     std::vector<double> values;
@@ -126,7 +140,8 @@ TEST(FindLimit, JudgesByAQuantileAndGivesTheBandOfTheReplicates) {
 TEST(FindLimit, WaitsForWhatIsPendingAndStopsAtWhatIsLost) {
   const SearchInterval path{.from = 0.0, .to = 2.0, .tolerance = 0.1, .first = 3};
   const LimitRule rule{.bound = 0.5};
-  const std::vector<Evaluation> pending{{.x = 0.0, .values = {0.0}}, {.x = 1.0, .pending = 1, .values = {}}, {.x = 2.0, .values = {2.0}}};
+  const std::vector<Evaluation> pending{
+      {.x = 0.0, .values = {0.0}}, {.x = 1.0, .pending = 1, .values = {}}, {.x = 2.0, .values = {2.0}}};
   EXPECT_TRUE(find_limit(path, rule, pending).next.empty());
   EXPECT_EQ(find_limit(path, rule, pending).verdict, Verdict::kOpen);
   std::vector<Evaluation> lost = pending;

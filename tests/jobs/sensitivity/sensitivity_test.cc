@@ -35,9 +35,13 @@ Ended run_sensitivity(const ordered_json& request) {
 
 ordered_json design_of(const std::string& type) {
   // The order is not that of the alphabet: restitution, which does nothing here, comes before the speed.
-  ordered_json design{{"type", type}, {"over", {{"restitution", {{"from", 0.6}, {"to", 0.9}}}, {"crank_velocity_rad_s", {{"from", 4}, {"to", 9}}}}}};
+  ordered_json design{
+      {"type", type},
+      {"over",
+       {{"restitution", {{"from", 0.6}, {"to", 0.9}}}, {"crank_velocity_rad_s", {{"from", 4}, {"to", 9}}}}}};
   design[type == "morris" ? "trajectories" : "count"] = type == "morris" ? 6 : 16;
-  return {{"design", design}, {"sweep", {{"coupler", {"rigid", "flexible"}}}}, {"replicates", {{"count", 2}}}};
+  return {
+      {"design", design}, {"sweep", {{"coupler", {"rigid", "flexible"}}}}, {"replicates", {{"count", 2}}}};
 }
 
 json effect_cell(const jobs::ResultTable& table, std::size_t row, const std::string& column) {
@@ -68,7 +72,8 @@ TEST(Sensitivity, FindsTheOneParameterThatMatters) {
   EXPECT_EQ(effect_cell(table, 2, "coupler"), "flexible");
 }
 
-// Along the grid of 4 levels the effect of the speed v is (sqrt(1000 (v + 2/3 5)) - sqrt(1000 v)) / (2/3) with v = 4 or 5.667.
+// Along the grid of 4 levels the effect of the speed v is (sqrt(1000 (v + 2/3 5)) - sqrt(1000 v)) / (2/3)
+// with v = 4 or 5.667.
 TEST(Sensitivity, HasTheElementaryEffectsOfTheWholeRange) {
   const Ended ended = run_sensitivity(design_of("morris"));
   const auto table = calc_sensitivity(ended.sweep, ended.results, peak());
@@ -120,12 +125,15 @@ TEST(Sensitivity, HasDesignsThatRefuseWhatTheyDoNotKnow) {
       (std::set<std::string>{"/design/trajectories", "/design/levels"}));
   EXPECT_EQ(sensitivity_faults_of({{"type", "saltelli"}, {"seed", -1}, {"levels", 4}, {"over", over}}),
       (std::set<std::string>{"/design/count", "/design/seed", "/design/levels"}));
-  EXPECT_EQ(sensitivity_faults_of({{"type", "saltelli"}, {"count", 5000}, {"over", over}}), (std::set<std::string>{"/design"})) << "15,000 jobs";
+  EXPECT_EQ(sensitivity_faults_of({{"type", "saltelli"}, {"count", 5000}, {"over", over}}),
+            (std::set<std::string>{"/design"}))
+      << "15,000 jobs";
 }
 
 // A described linkage names its metrics by its joints; what was swept, and what tells jobs apart, is none.
 TEST(Metrics, AreThoseOfTheStudysLinkages) {
-  const jobs::ResultTable described{.columns = {"job_id", "state", "replicate", "clearance_mm", "linkage.bodies.rod.mass_kg", "peak_pin_force_n", "steps"},
+  const jobs::ResultTable described{.columns = {"job_id", "state", "replicate", "clearance_mm",
+                                                "linkage.bodies.rod.mass_kg", "peak_pin_force_n", "steps"},
                                     .rows = {}};
   EXPECT_EQ(jobs::choose_metric(described, ""), "peak_pin_force_n");
   EXPECT_EQ(jobs::choose_metric(described, "steps"), "steps");
@@ -134,13 +142,16 @@ TEST(Metrics, AreThoseOfTheStudysLinkages) {
   EXPECT_EQ(jobs::choose_metric(rpsup, ""), peak());
   const jobs::ResultTable worn{.columns = {"job_id", "state", "wear_depth_um", "amplification"}, .rows = {}};
   EXPECT_EQ(jobs::choose_metric(worn, ""), "amplification");
-  for (const std::string& none : {std::string("state"), std::string("clearance_mm"), std::string("linkage.bodies.rod.mass_kg"), peak()}) {
+  for (const std::string& none : {std::string("state"), std::string("clearance_mm"),
+                                  std::string("linkage.bodies.rod.mass_kg"), peak()}) {
     try {
       (void)jobs::choose_metric(described, none);
       ADD_FAILURE() << none;
     } catch (const jobs::InvalidRequest& invalid) {
       EXPECT_EQ(invalid.faults().at(0).pointer, "/metric");
-      EXPECT_NE(invalid.faults().at(0).detail.find("is no metric of this sweep, which has peak_pin_force_n, steps"), std::string::npos);
+      EXPECT_NE(
+          invalid.faults().at(0).detail.find("is no metric of this sweep, which has peak_pin_force_n, steps"),
+          std::string::npos);
     }
   }
 }

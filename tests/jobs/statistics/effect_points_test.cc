@@ -35,11 +35,13 @@ TEST(SobolIndices, AreThoseOfIshigamisFunction) {
   const double alone = 0.5 * std::pow(1.0 + kB * pi4 / 5.0, 2);
   const double together = kB * kB * pi4 * pi4 * (1.0 / 18.0 - 1.0 / 50.0);
   const std::array<double, 3> first{alone / variance, kA * kA / 8.0 / variance, 0.0};
-  const std::array<double, 3> total{(alone + together) / variance, kA * kA / 8.0 / variance, together / variance};
+  const std::array<double, 3> total{(alone + together) / variance, kA * kA / 8.0 / variance,
+                                    together / variance};
   const auto indices = jobs::calc_sobol_indices(values_at(jobs::saltelli_points(4096, 3, 1), ishigami), 3);
   ASSERT_EQ(indices.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
-    // Monte Carlo would have errors of 0.01 to 0.03 from 4096 blocks (the widths of the intervals); Sobol's sequence has a fraction of that.
+    // Monte Carlo would have errors of 0.01 to 0.03 from 4096 blocks (the widths of the intervals); Sobol's
+    // sequence has a fraction of that.
     EXPECT_NEAR(indices[i].first_order.value, first[i], 0.01) << i;
     EXPECT_NEAR(indices[i].total.value, total[i], 0.01) << i;
     EXPECT_LE(indices[i].first_order.low, first[i]);
@@ -52,7 +54,8 @@ TEST(SobolIndices, AreThoseOfIshigamisFunction) {
 
 TEST(SobolIndices, HaveIntervalsThatNarrowAsTheRootOfTheBlocks) {
   const auto width = [](std::size_t blocks) {
-    const auto total = jobs::calc_sobol_indices(values_at(jobs::saltelli_points(blocks, 3, 1), ishigami), 3)[0].total;
+    const auto total =
+        jobs::calc_sobol_indices(values_at(jobs::saltelli_points(blocks, 3, 1), ishigami), 3)[0].total;
     return total.high - total.low;
   };
   EXPECT_NEAR(width(256) / width(4096), 4.0, 1.0);
@@ -65,10 +68,12 @@ TEST(SobolIndices, AreZeroOfWhatDoesNotVary) {
   }
 }
 
-// 2 x - 3 y everywhere: each effect is the slope. x y: its effect on x is y, so the sizes are those of the grid's levels.
+// 2 x - 3 y everywhere: each effect is the slope. x y: its effect on x is y, so the sizes are those of the
+// grid's levels.
 TEST(ElementaryEffects, AreTheSlopesOfAPlane) {
   const UnitPoints points = jobs::morris_points(10, 3, 4, 1);
-  const auto effects = jobs::calc_elementary_effects(points, values_at(points, [](const std::vector<double>& p) { return 2.0 * p[0] - 3.0 * p[1]; }));
+  const auto effects = jobs::calc_elementary_effects(
+      points, values_at(points, [](const std::vector<double>& p) { return 2.0 * p[0] - 3.0 * p[1]; }));
   ASSERT_EQ(effects.size(), 3U);
   for (const auto& [input, slope] : {std::pair{0, 2.0}, {1, -3.0}, {2, 0.0}}) {
     const auto& effect = effects[static_cast<std::size_t>(input)];
@@ -82,7 +87,8 @@ TEST(ElementaryEffects, AreTheSlopesOfAPlane) {
 // The effect of x on x y is y, uniform on four levels: mean 1/2, standard deviation sqrt(5)/6 = 0.373.
 TEST(ElementaryEffects, ScatterWhereInputsWorkTogether) {
   const UnitPoints points = jobs::morris_points(2000, 2, 4, 1);
-  for (const auto& effect : jobs::calc_elementary_effects(points, values_at(points, [](const std::vector<double>& p) { return p[0] * p[1]; }))) {
+  for (const auto& effect : jobs::calc_elementary_effects(
+           points, values_at(points, [](const std::vector<double>& p) { return p[0] * p[1]; }))) {
     const double error = std::sqrt(5.0) / 6.0 / std::sqrt(2000.0);
     EXPECT_NEAR(effect.mean, 0.5, 4.0 * error);
     EXPECT_NEAR(effect.deviation, std::sqrt(5.0) / 6.0, 4.0 * error);

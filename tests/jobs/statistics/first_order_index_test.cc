@@ -30,9 +30,9 @@ struct UniformSample {
   [[nodiscard]] double at(std::size_t column, std::size_t i) const { return x[column][i].get<double>(); }
 };
 
-// Variances of independent parts add up: of a x_1 + b x_2 they are a^2 / 12 and b^2 / 12. 16 stretches leave 1/256 of an
-// input's variance within them, and the share of a sample's variance has a standard deviation of about
-// 2 sqrt(S (1 - S) / n) < 0.016.
+// Variances of independent parts add up: of a x_1 + b x_2 they are a^2 / 12 and b^2 / 12. 16 stretches leave
+// 1/256 of an input's variance within them, and the share of a sample's variance has a standard deviation of
+// about 2 sqrt(S (1 - S) / n) < 0.016.
 TEST(FirstOrderIndex, IsThePartOfTheVarianceOfALinearFunction) {
   const UniformSample sample;
   const struct {
@@ -57,8 +57,8 @@ TEST(FirstOrderIndex, IsNothingOfAnInteraction) {
   EXPECT_LT(jobs::calc_first_order_index(sample.x[1], y).value(), 0.02);
 }
 
-// Neither linear nor monotonic: classes need no form of the function. x^2 has the variance 4/45 for x over [-1, 1), and
-// 0.5 x_2 has 0.25/12.
+// Neither linear nor monotonic: classes need no form of the function. x^2 has the variance 4/45 for x over
+// [-1, 1), and 0.5 x_2 has 0.25/12.
 TEST(FirstOrderIndex, SeesAnEvenFunction) {
   const UniformSample sample;
   std::vector<double> y;
@@ -70,7 +70,8 @@ TEST(FirstOrderIndex, SeesAnEvenFunction) {
   EXPECT_NEAR(jobs::calc_first_order_index(sample.x[0], y).value(), of_x / (of_x + beside), 0.04);
 }
 
-// 20 words are 20 classes, though numbers have 16 stretches at most. y is 0 or 10 by the word, plus or minus 1 by the sign.
+// 20 words are 20 classes, though numbers have 16 stretches at most. y is 0 or 10 by the word, plus or minus
+// 1 by the sign.
 TEST(FirstOrderIndex, TakesWordsAsClasses) {
   std::vector<json> words, signs;
   std::vector<double> y;
@@ -103,7 +104,8 @@ TEST(FirstOrderIndex, IsNoneWhereNothingVariesOrThereIsTooLittle) {
   EXPECT_FALSE(jobs::calc_first_order_index(x, std::vector<double>{3, 3, 3, 3}));
   std::vector<json> many;
   for (int i = 0; i < 60; ++i) many.emplace_back(i % 5);
-  EXPECT_FALSE(jobs::calc_first_order_index(many, std::vector<double>(60, std::log(3.5)))) << "whose mean is rounded";
+  EXPECT_FALSE(jobs::calc_first_order_index(many, std::vector<double>(60, std::log(3.5))))
+      << "whose mean is rounded";
   EXPECT_TRUE(jobs::calc_first_order_index(x, std::vector<double>{3, 4, 3, 4}));
   const std::vector<json> three_classes{1, 2, 3, 1}, one_class{1, 1, 1, 1};
   const std::vector<double> y{3, 4, 5, 6};

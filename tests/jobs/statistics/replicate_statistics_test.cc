@@ -21,7 +21,9 @@ namespace {
 using jobs::ReplicateStatistics;
 using nlohmann::json;
 
-ReplicateStatistics statistics_of(std::vector<double> values) { return jobs::calc_replicate_statistics(values); }
+ReplicateStatistics statistics_of(std::vector<double> values) {
+  return jobs::calc_replicate_statistics(values);
+}
 
 /// By hand: the squared differences from the mean, 5, are 9 + 1 + 1 + 1 + 0 + 0 + 4 + 16 = 32.
 TEST(ReplicateStatistics, AreThoseComputedByHand) {
@@ -45,8 +47,8 @@ TEST(ReplicateStatistics, HaveNoSpreadBelowTwoValues) {
   EXPECT_FALSE(none.mean || none.spread || none.min || none.max);
 }
 
-// Differences of -6, -3, 3, 6 from the mean: variance 90 / 3. The mean of squares less the square of the mean, 1e18 each,
-// would be off by hundreds.
+// Differences of -6, -3, 3, 6 from the mean: variance 90 / 3. The mean of squares less the square of the
+// mean, 1e18 each, would be off by hundreds.
 TEST(ReplicateStatistics, KeepASmallSpreadOfLargeValues) {
   const auto statistics = statistics_of({1e9 + 4, 1e9 + 7, 1e9 + 13, 1e9 + 16});
   EXPECT_EQ(statistics.mean, 1e9 + 10);
@@ -62,15 +64,19 @@ TEST(ReplicateStatistics, OfEqualValuesAreExact) {
 
 RC_GTEST_PROP(ReplicateStatistics, LieWithinTheirBounds, ()) {
   std::vector<double> values;
-  for (const int n : *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(-1'000'000, 1'000'000)))) values.push_back(n / 7.0);
+  for (const int n :
+       *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(-1'000'000, 1'000'000))))
+    values.push_back(n / 7.0);
   const auto statistics = statistics_of(values);
   RC_ASSERT(*statistics.min <= *statistics.mean && *statistics.mean <= *statistics.max);
   if (values.size() < 2) return;
   // Every value lies within the range, so the sum of squares is at most n range^2; 1e-12 for rounding.
   const double n = static_cast<double>(values.size());
-  RC_ASSERT(*statistics.spread <= (*statistics.max - *statistics.min) * std::sqrt(n / (n - 1.0)) * (1.0 + 1e-12));
+  RC_ASSERT(*statistics.spread <=
+            (*statistics.max - *statistics.min) * std::sqrt(n / (n - 1.0)) * (1.0 + 1e-12));
   // The two ends alone lie this far apart.
-  RC_ASSERT(*statistics.spread * std::sqrt(2.0 * (n - 1.0)) * (1.0 + 1e-12) >= *statistics.max - *statistics.min);
+  RC_ASSERT(*statistics.spread * std::sqrt(2.0 * (n - 1.0)) * (1.0 + 1e-12) >=
+            *statistics.max - *statistics.min);
 }
 
 TEST(StatisticsByRow, BeginASetAtEachUnperturbedRun) {
@@ -91,8 +97,8 @@ TEST(StatisticsByRow, BeginASetAtEachUnperturbedRun) {
 
 constexpr double kNoPeak = std::numeric_limits<double>::quiet_NaN();
 
-/// Stands for the engine: its runs have the peaks of a list, in the order in which they begin; an empty one fails. Those
-/// beyond the list go on until they are stopped.
+/// Stands for the engine: its runs have the peaks of a list, in the order in which they begin; an empty one
+/// fails. Those beyond the list go on until they are stopped.
 class ScriptedEngine {
  public:
   explicit ScriptedEngine(std::vector<std::optional<double>> peaks) : peaks_(std::move(peaks)) {}
@@ -101,12 +107,16 @@ class ScriptedEngine {
     jobs::ServiceOptions options;
     options.store = store.file();
     options.threads = 1;  // one after the other
-    options.runner = [this](const jobs::JobSpec&, const engine::StopQuery& stop_requested) { return run(stop_requested); };
+    options.runner = [this](const jobs::JobSpec&, const engine::StopQuery& stop_requested) {
+      return run(stop_requested);
+    };
     return options;
   }
 
   /// Returns when a run beyond the list has begun.
-  void await_endless_run() { ASSERT_EQ(endless_.get_future().wait_for(std::chrono::seconds(20)), std::future_status::ready); }
+  void await_endless_run() {
+    ASSERT_EQ(endless_.get_future().wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  }
 
  private:
   engine::RunResult run(const engine::StopQuery& stop_requested) {
@@ -130,7 +140,8 @@ class ScriptedEngine {
   std::promise<void> endless_;
 };
 
-void expect_set(const ReplicateStatistics& set, std::size_t count, double mean, double spread, double min, double max) {
+void expect_set(const ReplicateStatistics& set, std::size_t count, double mean, double spread, double min,
+                double max) {
   EXPECT_EQ(set.count, count);
   EXPECT_EQ(set.mean, mean);
   EXPECT_DOUBLE_EQ(set.spread.value_or(-1.0), spread);
@@ -150,16 +161,22 @@ TEST(Service, SumsUpTheReplicatesThatHaveSucceededSoFar) {
   const TemporaryStore store;
   ScriptedEngine engine({10.0, 20.0, std::nullopt, 100.0, 104.0});
   jobs::Service service(engine.options(store));
-  const std::string id = service.submit_sweep(request_of(R"({"cases": [{"clearance_mm": 0.1}, {"clearance_mm": 0.2}], "replicates": {"count": 3}})")).at("id");
+  const std::string id =
+      service
+          .submit_sweep(request_of(
+              R"({"cases": [{"clearance_mm": 0.1}, {"clearance_mm": 0.2}], "replicates": {"count": 3}})"))
+          .at("id");
   engine.await_endless_run();
   for (const char* last : {"running", "cancelled"}) {
     const jobs::ResultTable table = service.find_results(id).value();
     std::vector<std::string> states;
     for (const auto& row : table.rows) states.push_back(row.at(1));
-    EXPECT_EQ(states, (std::vector<std::string>{"succeeded", "succeeded", "failed", "succeeded", "succeeded", last}));
+    EXPECT_EQ(states,
+              (std::vector<std::string>{"succeeded", "succeeded", "failed", "succeeded", "succeeded", last}));
     ASSERT_EQ(table.replicates.size(), 6U);
     for (std::size_t i = 0; i < 3; ++i) expect_set(table.replicates[i], 2, 15.0, std::sqrt(50.0), 10.0, 20.0);
-    for (std::size_t i = 3; i < 6; ++i) expect_set(table.replicates[i], 2, 102.0, std::sqrt(8.0), 100.0, 104.0);
+    for (std::size_t i = 3; i < 6; ++i)
+      expect_set(table.replicates[i], 2, 102.0, std::sqrt(8.0), 100.0, 104.0);
     (void)service.cancel_sweep(id);
   }
 }
@@ -179,7 +196,10 @@ TEST(Service, KeepsEqualSetsApart) {
   const TemporaryStore store;
   ScriptedEngine engine({1.0, 3.0, 2.0, 6.0});
   jobs::Service service(engine.options(store));
-  const auto table = results_of(service, R"({"cases": [{"clearance_mm": 0.25}, {"contact_stiffness_scale": 1}], "replicates": {"count": 2}, "reuse": false})");
+  const auto table = results_of(
+      service,
+      R"({"cases": [{"clearance_mm": 0.25}, {"contact_stiffness_scale": 1}], "replicates": {"count": 2},
+         "reuse": false})");
   ASSERT_EQ(table.replicates.size(), 4U);
   EXPECT_EQ(table.rows[0].at(3), table.rows[2].at(3));
   for (const auto& set : table.replicates) EXPECT_EQ(set.count, 2U);
@@ -201,7 +221,8 @@ TEST(Service, HasNothingToSumUpWithoutReplicates) {
   ScriptedEngine engine({1.0, 2.0});
   jobs::Service service(engine.options(store));
   EXPECT_TRUE(results_of(service, "{}").replicates.empty());
-  EXPECT_TRUE(results_of(service, R"({"sweep": {"clearance_mm": [0.1]}, "replicates": {"count": 1}})").replicates.empty());
+  EXPECT_TRUE(results_of(service, R"({"sweep": {"clearance_mm": [0.1]}, "replicates": {"count": 1}})")
+                  .replicates.empty());
 }
 
 }  // namespace

@@ -27,8 +27,9 @@ RC_GTEST_PROP(LatinHypercube, HasOnePointInEachIntervalOfEachDimension, (std::ui
   }
 }
 
-// Points on a diagonal are a Latin hypercube, too, and a useless one: of independent permutations the coordinates are uncorrelated.
-// The correlation of n independent pairs has a standard deviation of 1/sqrt(n - 1) = 0.032.
+// Points on a diagonal are a Latin hypercube, too, and a useless one: of independent permutations the
+// coordinates are uncorrelated. The correlation of n independent pairs has a standard deviation of 1/sqrt(n -
+// 1) = 0.032.
 TEST(LatinHypercube, PermutesDimensionsIndependently) {
   const auto points = jobs::latin_hypercube(1000, 4, 1);
   for (std::size_t a = 0; a < 4; ++a) {
@@ -47,8 +48,16 @@ TEST(LatinHypercube, IsThatOfItsSeed) {
 
 // The points 0 to 9 that the authors of the direction numbers print for three dimensions.
 TEST(SobolPoints, AreThosePublishedByJoeAndKuo) {
-  const jobs::UnitPoints published{{0, 0, 0},           {0.5, 0.5, 0.5},       {0.75, 0.25, 0.25},    {0.25, 0.75, 0.75},       {0.375, 0.375, 0.625},
-                                   {0.875, 0.875, 0.125}, {0.625, 0.125, 0.875}, {0.125, 0.625, 0.375}, {0.1875, 0.3125, 0.9375}, {0.6875, 0.8125, 0.4375}};
+  const jobs::UnitPoints published{{0, 0, 0},
+                                   {0.5, 0.5, 0.5},
+                                   {0.75, 0.25, 0.25},
+                                   {0.25, 0.75, 0.75},
+                                   {0.375, 0.375, 0.625},
+                                   {0.875, 0.875, 0.125},
+                                   {0.625, 0.125, 0.875},
+                                   {0.125, 0.625, 0.375},
+                                   {0.1875, 0.3125, 0.9375},
+                                   {0.6875, 0.8125, 0.4375}};
   EXPECT_EQ(jobs::sobol_points(10, 3, {}), published);
 }
 
@@ -64,7 +73,8 @@ TEST(SobolPoints, FillTheElementaryIntervalsOfTheFirstTwoDimensions) {
   for (const auto& points : {jobs::sobol_points(64, 2, {}), jobs::sobol_points(64, 2, 3)}) {
     for (int m = 0; m <= 6; ++m) {
       std::set<std::pair<double, double>> filled;
-      for (const auto& point : points) filled.emplace(std::floor(std::ldexp(point[0], m)), std::floor(std::ldexp(point[1], 6 - m)));
+      for (const auto& point : points)
+        filled.emplace(std::floor(std::ldexp(point[0], m)), std::floor(std::ldexp(point[1], 6 - m)));
       EXPECT_EQ(filled.size(), 64U) << m;
     }
   }

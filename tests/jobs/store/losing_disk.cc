@@ -24,7 +24,9 @@ struct WatchedFile {
   std::string* path;  ///< null: of no interest (temporary)
 
   static WatchedFile& of(sqlite3_file* file) { return *reinterpret_cast<WatchedFile*>(file); }
-  static sqlite3_file* real(sqlite3_file* file) { return reinterpret_cast<sqlite3_file*>(reinterpret_cast<WatchedFile*>(file) + 1); }
+  static sqlite3_file* real(sqlite3_file* file) {
+    return reinterpret_cast<sqlite3_file*>(reinterpret_cast<WatchedFile*>(file) + 1);
+  }
 };
 
 /// Calls a method of the real file with the same arguments.
@@ -43,7 +45,8 @@ int write_file(sqlite3_file* file, const void* bytes, int size, sqlite3_int64 of
   const int code = pass_on<&sqlite3_io_methods::xWrite>(file, bytes, size, offset);
   const std::string* const path = WatchedFile::of(file).path;
   if (code == SQLITE_OK && path != nullptr) {
-    current->written(*path, static_cast<std::size_t>(offset), std::string(static_cast<const char*>(bytes), static_cast<std::size_t>(size)));
+    current->written(*path, static_cast<std::size_t>(offset),
+                     std::string(static_cast<const char*>(bytes), static_cast<std::size_t>(size)));
   }
   return code;
 }
@@ -79,7 +82,9 @@ sqlite3_io_methods make_methods() {
   methods.xDeviceCharacteristics = pass_on<&sqlite3_io_methods::xDeviceCharacteristics>;
   methods.xShmMap = pass_on<&sqlite3_io_methods::xShmMap>;
   methods.xShmLock = pass_on<&sqlite3_io_methods::xShmLock>;
-  methods.xShmBarrier = [](sqlite3_file* file) { WatchedFile::real(file)->pMethods->xShmBarrier(WatchedFile::real(file)); };
+  methods.xShmBarrier = [](sqlite3_file* file) {
+    WatchedFile::real(file)->pMethods->xShmBarrier(WatchedFile::real(file));
+  };
   methods.xShmUnmap = pass_on<&sqlite3_io_methods::xShmUnmap>;
   return methods;
 }
@@ -125,7 +130,8 @@ std::string content_of(const std::string& path) {
 
 LosingDisk::LosingDisk(std::function<void()> on_sync) : on_sync_(std::move(on_sync)) {
   current = this;
-  if (sqlite3_vfs_register(&shim(), 1) != SQLITE_OK) throw std::runtime_error("SQLite takes no other file system");
+  if (sqlite3_vfs_register(&shim(), 1) != SQLITE_OK)
+    throw std::runtime_error("SQLite takes no other file system");
 }
 
 LosingDisk::~LosingDisk() {
@@ -134,7 +140,9 @@ LosingDisk::~LosingDisk() {
   current = nullptr;
 }
 
-void LosingDisk::opened(const std::string& path) { files_.try_emplace(path, File{.safe = content_of(path), .changes = {}}); }
+void LosingDisk::opened(const std::string& path) {
+  files_.try_emplace(path, File{.safe = content_of(path), .changes = {}});
+}
 
 void LosingDisk::written(const std::string& path, std::size_t offset, std::string bytes) {
   // The disk writes sectors, each of them whole or not at all.
@@ -145,7 +153,9 @@ void LosingDisk::written(const std::string& path, std::size_t offset, std::strin
   }
 }
 
-void LosingDisk::cut(const std::string& path, std::size_t size) { files_.at(path).changes.push_back({.offset = size, .bytes = {}, .cuts = true}); }
+void LosingDisk::cut(const std::string& path, std::size_t size) {
+  files_.at(path).changes.push_back({.offset = size, .bytes = {}, .cuts = true});
+}
 
 void LosingDisk::synced(const std::string& path) {
   on_sync_();
@@ -173,7 +183,8 @@ std::string LosingDisk::remains_of(const std::string& path, std::mt19937_64& dic
   return content;
 }
 
-void LosingDisk::leave(const std::filesystem::path& store, const std::filesystem::path& to, std::mt19937_64& dice) const {
+void LosingDisk::leave(const std::filesystem::path& store, const std::filesystem::path& to,
+                       std::mt19937_64& dice) const {
   for (const char* suffix : {"", "-wal"}) {
     std::ofstream(to.string() + suffix, std::ios::binary) << remains_of(store.string() + suffix, dice);
   }

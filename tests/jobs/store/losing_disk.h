@@ -13,8 +13,9 @@
 
 namespace jobs_tests {
 
-/// Stands between SQLite and the disk, and knows what a loss of power would leave: what was synced is there, and of what was written
-/// since then any part, in any order, torn between sectors. While it exists it is SQLite's default; one at a time.
+/// Stands between SQLite and the disk, and knows what a loss of power would leave: what was synced is there,
+/// and of what was written since then any part, in any order, torn between sectors. While it exists it is
+/// SQLite's default; one at a time.
 class LosingDisk {
  public:
   /// @param on_sync  called before each sync takes effect
@@ -24,7 +25,8 @@ class LosingDisk {
   LosingDisk& operator=(const LosingDisk&) = delete;
 
   /// Writes what would be left of a store to another place, without its index, which is made anew.
-  void leave(const std::filesystem::path& store, const std::filesystem::path& to, std::mt19937_64& dice) const;
+  void leave(const std::filesystem::path& store, const std::filesystem::path& to,
+             std::mt19937_64& dice) const;
 
   // What SQLite does to files.
   void opened(const std::string& path);

@@ -29,8 +29,10 @@ class PowerLoss : public testing::TestWithParam<unsigned> {
  protected:
   void lose_power_sometimes() {
     if (disk_ == nullptr || dice_() % 4 != 0) return;
-    losses_.push_back({.store = temporary_.file().string() + "." + std::to_string(losses_.size()), .acknowledged = now_.acknowledged,
-                       .cancelled = now_.cancelled, .deleted = now_.deleted});
+    losses_.push_back({.store = temporary_.file().string() + "." + std::to_string(losses_.size()),
+                       .acknowledged = now_.acknowledged,
+                       .cancelled = now_.cancelled,
+                       .deleted = now_.deleted});
     disk_->leave(temporary_.file(), losses_.back().store, dice_);
   }
 
@@ -48,9 +50,14 @@ class PowerLoss : public testing::TestWithParam<unsigned> {
   }
 
   void do_something(jobs::Store& store, int number) {
-    const std::string request = R"({"reuse": false, "sweep": {"crank_velocity_rad_s": [1, 2, )" + std::to_string(number + 3) + "]}}";
-    const jobs::IdempotencyRecord<jobs::SweepRow> kept{.key = std::to_string(number), .fingerprint = request, .make_response = [](const auto& row) { return row.id; }};
-    now_.acknowledged.push_back(store.queue.add_sweep(jobs::plan_sweep(request_of(request.c_str()), 10), request, 10'000, kept));
+    const std::string request =
+        R"({"reuse": false, "sweep": {"crank_velocity_rad_s": [1, 2, )" + std::to_string(number + 3) + "]}}";
+    const jobs::IdempotencyRecord<jobs::SweepRow> kept{
+        .key = std::to_string(number), .fingerprint = request, .make_response = [](const auto& row) {
+          return row.id;
+        }};
+    now_.acknowledged.push_back(
+        store.queue.add_sweep(jobs::plan_sweep(request_of(request.c_str()), 10), request, 10'000, kept));
     if (number % 3 == 0) compute_a_job(store);
     if (number % 5 == 4) {
       const std::string id = now_.acknowledged[now_.acknowledged.size() - 2];
@@ -89,7 +96,8 @@ TEST_P(PowerLoss, LeavesWhatWasAcknowledged) {
   for (const Loss& loss : losses_) {
     {
       const jobs::Store store(loss.store);
-      for (const std::string& id : loss.acknowledged) EXPECT_TRUE(store.reader.find_sweep(id).has_value()) << id << " in " << loss.store;
+      for (const std::string& id : loss.acknowledged)
+        EXPECT_TRUE(store.reader.find_sweep(id).has_value()) << id << " in " << loss.store;
       for (const std::string& id : loss.cancelled) {
         const auto sweep = store.reader.find_sweep(id);
         EXPECT_TRUE(sweep && jobs::sweep_state(sweep->counts) == "cancelled") << id;
@@ -97,15 +105,20 @@ TEST_P(PowerLoss, LeavesWhatWasAcknowledged) {
       for (const std::string& id : loss.deleted) EXPECT_FALSE(store.reader.find_sweep(id).has_value()) << id;
     }
     for (const std::string& id : loss.acknowledged) {
-      EXPECT_EQ(query_sql(loss.store, "SELECT count(*) FROM answers WHERE answer = '" + id + "'"), "1") << "the answer that a repeated request gets";
+      EXPECT_EQ(query_sql(loss.store, "SELECT count(*) FROM answers WHERE answer = '" + id + "'"), "1")
+          << "the answer that a repeated request gets";
     }
     EXPECT_EQ(query_sql(loss.store, "PRAGMA integrity_check"), "ok");
     EXPECT_EQ(query_sql(loss.store, "SELECT count(*) FROM pragma_foreign_key_check()"), "0");
-    EXPECT_EQ(query_sql(loss.store, "SELECT count(*) FROM jobs WHERE state IN ('succeeded', 'failed') AND result IS NULL"), "0");
+    EXPECT_EQ(
+        query_sql(loss.store,
+                  "SELECT count(*) FROM jobs WHERE state IN ('succeeded', 'failed') AND result IS NULL"),
+        "0");
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, PowerLoss, testing::Range(1U, 4U), [](const auto& tested) { return std::to_string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Seeds, PowerLoss, testing::Range(1U, 4U),
+                         [](const auto& tested) { return std::to_string(tested.param); });
 
 }  // namespace
 }  // namespace jobs_tests

@@ -144,7 +144,8 @@ TEST(Store, LeavesTheLogOfAStoreAloneWhoseDamageIsOnlySeenAsItIsWritten) {
     jobs::Store store(temporary.file());
     add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 1000}}})");
   }
-  // Putting these back into the queue takes pages from the list of free ones, which leads nowhere. No table has it, so none seems damaged.
+  // Putting these back into the queue takes pages from the list of free ones, which leads nowhere. No table
+  // has it, so none seems damaged.
   execute_sql(temporary.file(), "UPDATE jobs SET state = 'running', started_ms = created_ms");
   constexpr std::streamoff kFreePages = 32;
   {

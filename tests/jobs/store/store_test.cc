@@ -68,7 +68,8 @@ TEST(Store, RecordsAJobAndClaimsTheNextOrDoesNeither) {
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kRunning), 1);
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kQueued), 2);
   std::string told;
-  const auto second = store.queue.record_and_claim(first, success(1.0), {}, [&](const jobs::ClaimedJob& job) { told = job.id; });
+  const auto second = store.queue.record_and_claim(first, success(1.0), {},
+                                                   [&](const jobs::ClaimedJob& job) { told = job.id; });
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(told, second->id);
   EXPECT_EQ(count_of(store, sweep, jobs::JobState::kSucceeded), 1);
@@ -138,7 +139,9 @@ TEST(Store, ServesTheSweepThatWasServedLeastRecently) {
   jobs::Store store(temporary.file());
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4]}})");
   std::vector<std::string> speeds;
-  const auto claim = [&] { speeds.push_back(json_of(store.queue.claim().value().parameters).at("crank_velocity_rad_s").dump()); };
+  const auto claim = [&] {
+    speeds.push_back(json_of(store.queue.claim().value().parameters).at("crank_velocity_rad_s").dump());
+  };
   claim();
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [11, 12]}})");
   (void)store.queue.add_job(jobs::plan_job({{"crank_velocity_rad_s", 21}}), kMaxQueuedInStore);
@@ -186,8 +189,11 @@ TEST(Store, DeletesASweepButNotWhatAnotherShares) {
     EXPECT_EQ(store.reader.find_results(second).value().rows[0].metrics, R"({"peak":5.0})");
     EXPECT_TRUE(store.reader.find_trajectory(shared[0].job_id).has_value());
   }
-  EXPECT_EQ(query_sql(temporary.file(), "SELECT (SELECT count(*) FROM results) || ' ' || (SELECT count(*) FROM contents) || ' ' || "
-                                        "(SELECT count(*) FROM trajectories) || ' ' || (SELECT count(*) FROM jobs)"), "1 1 1 1");
+  EXPECT_EQ(
+      query_sql(temporary.file(),
+                "SELECT (SELECT count(*) FROM results) || ' ' || (SELECT count(*) FROM contents) || ' ' || "
+                "(SELECT count(*) FROM trajectories) || ' ' || (SELECT count(*) FROM jobs)"),
+      "1 1 1 1");
   EXPECT_EQ(query_sql(temporary.file(), "PRAGMA integrity_check"), "ok");
   EXPECT_EQ(query_sql(temporary.file(), "SELECT count(*) FROM pragma_foreign_key_check"), "0");
 }
@@ -197,7 +203,8 @@ TEST(Store, GivesTheRoomOfADeletedSweepBack) {
   std::uintmax_t full = 0;
   {
     jobs::Store store(temporary.file());
-    const std::string sweep = add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 500}}})");
+    const std::string sweep =
+        add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 500}}})");
     ASSERT_EQ(store.queue.cancel_sweep(sweep).outcome, jobs::CancelOutcome::kDone);
   }
   full = std::filesystem::file_size(temporary.file());
@@ -221,7 +228,9 @@ TEST(Store, RenamesWhatAnOlderEngineWasToCompute) {
   const std::string name = query_sql(temporary.file(), "SELECT content_id FROM contents");
   execute_sql(temporary.file(), "UPDATE contents SET content_id = 'old', engine_version = '0.0.1'");
   { const jobs::Store store(temporary.file()); }
-  EXPECT_EQ(query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"), name);
+  EXPECT_EQ(
+      query_sql(temporary.file(), "SELECT c.content_id FROM jobs j JOIN contents c ON c.seq = j.content"),
+      name);
 }
 
 TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
@@ -229,7 +238,8 @@ TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
   jobs::Store store(temporary.file());
   add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
   EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(1.0)));
-  const std::string sweep = add_sweep(store, R"({"sweep": {"coupler": ["rigid", "flexible"], "crank_velocity_rad_s": [5, 10, 12]}})");
+  const std::string sweep = add_sweep(
+      store, R"({"sweep": {"coupler": ["rigid", "flexible"], "crank_velocity_rad_s": [5, 10, 12]}})");
   auto costs = store.reader.find_sweep(sweep).value().costs;
   EXPECT_EQ(costs.at("rigid, clearance").computed, 0);
   EXPECT_EQ(costs.at("rigid, clearance").queued, 2);

@@ -15,7 +15,8 @@ namespace {
 Eigen::MatrixXd points(std::size_t count) {
   Eigen::MatrixXd inputs(static_cast<Eigen::Index>(count), 2);
   Eigen::Index row = 0;
-  for (const auto& unit : jobs::sobol_points(count, 2, 1)) inputs.row(row++) << 2.0 * unit[0] - 1.0, 2.0 * unit[1] - 1.0;
+  for (const auto& unit : jobs::sobol_points(count, 2, 1))
+    inputs.row(row++) << 2.0 * unit[0] - 1.0, 2.0 * unit[1] - 1.0;
   return inputs;
 }
 
@@ -42,7 +43,8 @@ TEST(PolynomialChaos, TakesResponsesWhoseSquaresNoDoubleHolds) {
   const auto response = values(inputs, [](double x, double y) { return std::sin(3.0 * x) + y; });
   const jobs::PolynomialChaos small(inputs, response), large(inputs, std::ldexp(1.0, 800) * response);
   ASSERT_EQ(large.degree(), small.degree());
-  EXPECT_EQ(large.left_out_predictions(), std::ldexp(1.0, 800) * small.left_out_predictions()) << "to the bit, by a power of two";
+  EXPECT_EQ(large.left_out_predictions(), std::ldexp(1.0, 800) * small.left_out_predictions())
+      << "to the bit, by a power of two";
   EXPECT_EQ(large.predicted_part(), small.predicted_part());
 }
 

@@ -23,8 +23,10 @@ std::vector<std::uint64_t> bits_of(const std::vector<double>& column) {
 
 engine::Trajectory sampled_run() {
   engine::Trajectory run;
-  run.channels = {{.key = "t_s", .help = "Time"}, {.key = "slider_acceleration_m_s2", .help = "Of link (2,1)"},
-                  {.key = "count", .help = "", .integer = true}, {.key = "pose_x_m", .help = "Drawn", .single_precision = true}};
+  run.channels = {{.key = "t_s", .help = "Time"},
+                  {.key = "slider_acceleration_m_s2", .help = "Of link (2,1)"},
+                  {.key = "count", .help = "", .integer = true},
+                  {.key = "pose_x_m", .help = "Drawn", .single_precision = true}};
   run.columns.resize(4);
   for (int k = 0; k < 1000; ++k) {
     run.columns[0].push_back(k / 1000.0);
@@ -61,11 +63,13 @@ RC_GTEST_PROP(TrajectoryCodec, GivesBackAnyBits, (const std::vector<std::vector<
   for (std::size_t i = 0; i < random.size(); ++i) {
     run.channels.push_back({.key = i == 0 ? "t_s" : "c" + std::to_string(i), .help = ""});
     run.columns.emplace_back();
-    for (std::size_t k = 0; k < samples; ++k) run.columns.back().push_back(std::bit_cast<double>(k < random[i].size() ? random[i][k] : 0));
+    for (std::size_t k = 0; k < samples; ++k)
+      run.columns.back().push_back(std::bit_cast<double>(k < random[i].size() ? random[i][k] : 0));
   }
   const engine::Trajectory back = jobs::decode_trajectory(bytes_of(jobs::encode_trajectory(run)), {});
   RC_ASSERT(back.columns.size() == run.columns.size());
-  for (std::size_t i = 0; i < run.columns.size(); ++i) RC_ASSERT(bits_of(back.columns[i]) == bits_of(run.columns[i]));
+  for (std::size_t i = 0; i < run.columns.size(); ++i)
+    RC_ASSERT(bits_of(back.columns[i]) == bits_of(run.columns[i]));
 }
 
 /// A channel of single precision. @param samples  as bits of floats
@@ -73,7 +77,8 @@ void expect_singles_back(const std::vector<std::uint32_t>& samples) {
   engine::Trajectory run;
   run.channels = {{.key = "t_s", .help = "", .single_precision = true}};
   run.columns.resize(1);
-  for (const std::uint32_t bits : samples) run.columns[0].push_back(static_cast<double>(std::bit_cast<float>(bits)));
+  for (const std::uint32_t bits : samples)
+    run.columns[0].push_back(static_cast<double>(std::bit_cast<float>(bits)));
   const engine::Trajectory back = jobs::decode_trajectory(bytes_of(jobs::encode_trajectory(run)), {});
   RC_ASSERT(bits_of(back.columns.at(0)) == bits_of(jobs::rounded_to_stored(run).columns[0]));
 }
@@ -82,7 +87,8 @@ RC_GTEST_PROP(TrajectoryCodec, GivesBackAnySingles, (const std::vector<std::uint
   expect_singles_back(samples);
   // Blocks of every width, and every number of samples in the last one.
   std::vector<std::uint32_t> narrow;
-  for (std::size_t k = 0; k < samples.size(); ++k) narrow.push_back(0x3f800000U + (samples[k] * 0x9e3779b9U >> (k / 16 % 33 < 32 ? k / 16 % 33 : 0)));
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    narrow.push_back(0x3f800000U + (samples[k] * 0x9e3779b9U >> (k / 16 % 33 < 32 ? k / 16 % 33 : 0)));
   expect_singles_back(narrow);
 }
 
@@ -97,19 +103,23 @@ TEST(TrajectoryCodec, GivesBackSmoothSinglesOfEveryOrder) {
         run.columns[1].push_back(std::pow(1e-2 * k - 2.0, power));  // through zero, with a change of sign
       }
       const engine::Trajectory back = jobs::decode_trajectory(bytes_of(jobs::encode_trajectory(run)), {});
-      EXPECT_EQ(bits_of(back.columns[1]), bits_of(jobs::rounded_to_stored(run).columns[1])) << power << ' ' << samples;
+      EXPECT_EQ(bits_of(back.columns[1]), bits_of(jobs::rounded_to_stored(run).columns[1]))
+          << power << ' ' << samples;
     }
   }
 }
 
 TEST(TrajectoryCodec, GivesBackSinglesThatNeverChange) {
-  for (const double value : {0.0, -0.0, 1.0 / 3.0, -2e-300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double value : {0.0, -0.0, 1.0 / 3.0, -2e-300, std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::quiet_NaN()}) {
     for (const std::size_t samples : {1U, 2U, 16U, 17U, 5001U}) {
       engine::Trajectory run;
       run.channels = {{.key = "x", .help = "", .single_precision = true}};
       run.columns = {std::vector<double>(samples, value)};
       const std::string blob = jobs::encode_trajectory(run);
-      EXPECT_EQ(bits_of(jobs::decode_trajectory(bytes_of(blob), {}).columns[0]), bits_of(jobs::rounded_to_stored(run).columns[0])) << value << ' ' << samples;
+      EXPECT_EQ(bits_of(jobs::decode_trajectory(bytes_of(blob), {}).columns[0]),
+                bits_of(jobs::rounded_to_stored(run).columns[0]))
+          << value << ' ' << samples;
       EXPECT_LT(blob.size(), 200U) << value << ' ' << samples;
     }
   }
@@ -162,9 +172,11 @@ TEST(TrajectoryCodec, StoresWhatIsTheSameWhenRoundedOnlyOnce) {
   for (int k = 0; k < 1000; ++k) {
     const double x = static_cast<double>(static_cast<float>(std::sin(0.37 * k * k)));
     run.columns[0].push_back(x);
-    for (std::size_t i = 1; i < 3; ++i) run.columns[i].push_back(x * (1.0 + 1e-12));  // the third is a copy of a copy
+    // the third is a copy of a copy
+    for (std::size_t i = 1; i < 3; ++i) run.columns[i].push_back(x * (1.0 + 1e-12));
   }
-  for (const char* key : {"a", "b", "c"}) run.channels.push_back({.key = key, .help = "", .single_precision = true});
+  for (const char* key : {"a", "b", "c"})
+    run.channels.push_back({.key = key, .help = "", .single_precision = true});
   const std::string blob = jobs::encode_trajectory(run);
   EXPECT_EQ(jobs::decode_trajectory(bytes_of(blob), {}).columns, jobs::rounded_to_stored(run).columns);
   run.channels.resize(1);
@@ -175,11 +187,15 @@ TEST(TrajectoryCodec, StoresWhatIsTheSameWhenRoundedOnlyOnce) {
 // What a store of the first version of the program holds.
 TEST(TrajectoryCodec, ReadsBlobsOfVersionOne) {
   const std::string hex =
-      "014f00000028b52ffd244d15020022c40d1590471d8076896ca55a1f657777a7e4f908b2cdca143f50ca4bd6d1464c7557b008db69dd3f683f5f84c3e857ef0c223f88909b"
-      "ff6c0202004253c00160014c3f505128b52ffd24108100000000000000408f40fca9f1d24d62603fad47fa3f28b52ffd24186d0000380000f008003f40010033c002e8e3fb"
-      "2f28b52ffd2418850000509a555599b9d5e53f3f3f0100ca8e0846a64d2728b52ffd240c610000cdababccaaaaccaa2a3d3e3f9f4a290c";
+      "014f00000028b52ffd244d15020022c40d1590471d8076896ca55a1f657777a7e4f908b2cdca143f50ca4bd6d1464c7557b008"
+      "db69dd3f683f5f84c3e857ef0c223f88909b"
+      "ff6c0202004253c00160014c3f505128b52ffd24108100000000000000408f40fca9f1d24d62603fad47fa3f28b52ffd24186d"
+      "0000380000f008003f40010033c002e8e3fb"
+      "2f28b52ffd2418850000509a555599b9d5e53f3f3f0100ca8e0846a64d2728b52ffd240c610000cdababccaaaaccaa2a3d3e3f"
+      "9f4a290c";
   std::string blob;
-  for (std::size_t i = 0; i < hex.size(); i += 2) blob += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  for (std::size_t i = 0; i < hex.size(); i += 2)
+    blob += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
   const engine::Trajectory back = jobs::decode_trajectory(bytes_of(blob), {});
   ASSERT_EQ(back.channels.size(), 4U);
   EXPECT_EQ(back.channels[3].key, "b");
@@ -224,11 +240,13 @@ TEST(TrajectoryCodec, RefusesColumnsOfDifferentLength) {
   EXPECT_THROW((void)jobs::rounded_to_stored(run), std::invalid_argument);
 }
 
-// Whatever is cut off or flipped: an error or, in the two length fields outside of the checksums, at worst the same data.
+// Whatever is cut off or flipped: an error or, in the two length fields outside of the checksums, at worst
+// the same data.
 TEST(TrajectoryCodec, RefusesEveryCutBlob) {
   const std::string blob = jobs::encode_trajectory(sampled_run());
   for (std::size_t size = 0; size < blob.size(); size += size < 400 ? 1 : 97) {
-    EXPECT_THROW((void)jobs::decode_trajectory(bytes_of(blob.substr(0, size)), {}), jobs::DamagedTrajectory) << size;
+    EXPECT_THROW((void)jobs::decode_trajectory(bytes_of(blob.substr(0, size)), {}), jobs::DamagedTrajectory)
+        << size;
   }
   EXPECT_THROW((void)jobs::decode_trajectory(bytes_of(blob + "x"), {}), jobs::DamagedTrajectory);
 }
@@ -245,7 +263,8 @@ TEST(TrajectoryCodec, NeverTakesADamagedBlobForAnotherRun) {
       ++tried;
       try {
         const engine::Trajectory back = jobs::decode_trajectory(bytes_of(damaged), {});
-        for (std::size_t c = 0; c < back.columns.size(); ++c) EXPECT_EQ(bits_of(back.columns[c]), bits_of(jobs::rounded_to_stored(run).columns[c])) << i;
+        for (std::size_t c = 0; c < back.columns.size(); ++c)
+          EXPECT_EQ(bits_of(back.columns[c]), bits_of(jobs::rounded_to_stored(run).columns[c])) << i;
       } catch (const jobs::DamagedTrajectory&) {
         ++refused;
       }

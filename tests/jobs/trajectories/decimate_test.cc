@@ -17,7 +17,8 @@ engine::Trajectory noise(std::size_t samples, std::size_t channels) {
   for (std::size_t c = 0; c <= channels; ++c) {
     trajectory.channels.push_back({.key = c == 0 ? "t_s" : "c" + std::to_string(c), .help = ""});
     std::vector<double> column;
-    for (std::size_t k = 0; k < samples; ++k) column.push_back(c == 0 ? static_cast<double>(k) / 1000.0 : value(generator));
+    for (std::size_t k = 0; k < samples; ++k)
+      column.push_back(c == 0 ? static_cast<double>(k) / 1000.0 : value(generator));
     trajectory.columns.push_back(std::move(column));
   }
   return trajectory;
@@ -34,7 +35,8 @@ TEST(Decimate, KeepsTheExtremesOfEveryStretch) {
     ASSERT_GT(t.size(), kMostPoints / 2);
     EXPECT_EQ(t.front(), all.columns.front().front());
     EXPECT_EQ(t.back(), all.columns.front().back());
-    // Each tenth of the time has whole stretches in it, and so the extremes of what it had, next to its borders excepted.
+    // Each tenth of the time has whole stretches in it, and so the extremes of what it had, next to its
+    // borders excepted.
     for (std::size_t c = 1; c <= channels; ++c) {
       EXPECT_EQ(std::ranges::max(some.columns[c]), std::ranges::max(all.columns[c]));
       EXPECT_EQ(std::ranges::min(some.columns[c]), std::ranges::min(all.columns[c]));
@@ -54,7 +56,8 @@ TEST(Decimate, MakesNoSampleUp) {
   auto some = all;
   jobs::decimate(50, some);
   for (std::size_t k = 0; k < some.columns[0].size(); ++k) {
-    const auto place = static_cast<std::size_t>(std::ranges::find(all.columns[0], some.columns[0][k]) - all.columns[0].begin());
+    const auto place = static_cast<std::size_t>(std::ranges::find(all.columns[0], some.columns[0][k]) -
+                                                all.columns[0].begin());
     ASSERT_LT(place, all.columns[0].size());
     for (std::size_t c = 1; c <= 2; ++c) EXPECT_EQ(some.columns[c][k], all.columns[c][place]);
   }

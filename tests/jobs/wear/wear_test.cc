@@ -20,13 +20,16 @@ using std::numbers::pi;
 constexpr double kWearPower = 40.0;  // 100 N at 0.4 m/s
 constexpr double kWearCoefficient = 2e-14;
 
-const json kParameters{{"clearance_mm", 0.25}, {"bearing_radius_mm", 5.0}, {"bearing_length_mm", 20.0}, {"radial_levels", 2}};
+const json kParameters{
+    {"clearance_mm", 0.25}, {"bearing_radius_mm", 5.0}, {"bearing_length_mm", 20.0}, {"radial_levels", 2}};
 
-/// 10 s of a journal whose first ring slides steadily; its contact goes round the bore so often, from an angle of 1 rad on.
+/// 10 s of a journal whose first ring slides steadily; its contact goes round the bore so often, from an
+/// angle of 1 rad on.
 engine::Trajectory sliding(double turns) {
   engine::Trajectory run;
-  for (const std::string key : {"t_s", "ring_1_sliding_work_j", "ring_1_sliding_work_x_j", "ring_1_sliding_work_y_j", "ring_2_sliding_work_j",
-                                "ring_2_sliding_work_x_j", "ring_2_sliding_work_y_j"}) {
+  for (const std::string key :
+       {"t_s", "ring_1_sliding_work_j", "ring_1_sliding_work_x_j", "ring_1_sliding_work_y_j",
+        "ring_2_sliding_work_j", "ring_2_sliding_work_x_j", "ring_2_sliding_work_y_j"}) {
     run.channels.push_back({.key = key, .help = ""});
   }
   run.columns.resize(7);
@@ -43,26 +46,35 @@ engine::Trajectory sliding(double turns) {
   return run;
 }
 
-double wear_cell(const jobs::ResultTable& table, std::size_t row, std::size_t column) { return table.rows.at(row).at(column); }
+double wear_cell(const jobs::ResultTable& table, std::size_t row, std::size_t column) {
+  return table.rows.at(row).at(column);
+}
 
-// Archard: depth = k F v t / A, with the area of the whole strip of a ring, 2 pi r_b L / 2, where the contact goes round evenly.
+// Archard: depth = k F v t / A, with the area of the whole strip of a ring, 2 pi r_b L / 2, where the contact
+// goes round evenly.
 TEST(WearMap, HasTheDepthOfASteadilySlidingJournal) {
-  const auto table = jobs::make_wear_map(kParameters, sliding(25.0), {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = {}});
+  const auto table =
+      jobs::make_wear_map(kParameters, sliding(25.0),
+                          {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = {}});
   ASSERT_EQ(table.rows.size(), 40U);
   const double depth_um = 1e6 * kWearCoefficient * kWearPower * 10.0 / (2.0 * pi * 5e-3 * 10e-3);
-  // 400 samples a turn, 20 a sector: those at a sector's edges go to one side or the other, by the same number each turn.
+  // 400 samples a turn, 20 a sector: those at a sector's edges go to one side or the other, by the same
+  // number each turn.
   for (std::size_t s = 0; s < 20; ++s) EXPECT_NEAR(wear_cell(table, s, 4), depth_um, 0.06 * depth_um) << s;
   double sum = 0.0;
   for (std::size_t s = 0; s < 20; ++s) sum += wear_cell(table, s, 4) / 20.0;
   EXPECT_NEAR(sum, depth_um, 1e-9 * depth_um);
-  for (std::size_t s = 20; s < 40; ++s) EXPECT_EQ(wear_cell(table, s, 4), 0.0) << "the second ring does not touch";
+  for (std::size_t s = 20; s < 40; ++s)
+    EXPECT_EQ(wear_cell(table, s, 4), 0.0) << "the second ring does not touch";
   EXPECT_EQ(wear_cell(table, 0, 1), -10.0);
   EXPECT_EQ(wear_cell(table, 20, 1), 10.0);
 }
 
 // The same where it stays: all of it in the sector that holds 1 rad, number 3 of 20.
 TEST(WearMap, GathersWhatStaysInItsSectorAndTellsItsLife) {
-  const auto table = jobs::make_wear_map(kParameters, sliding(0.0), {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = 0.35});
+  const auto table =
+      jobs::make_wear_map(kParameters, sliding(0.0),
+                          {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = 0.35});
   const double depth_um = 1e6 * kWearCoefficient * kWearPower * 10.0 / (2.0 * pi / 20.0 * 5e-3 * 10e-3);
   EXPECT_NEAR(wear_cell(table, 3, 4), depth_um, 1e-9 * depth_um);
   EXPECT_NEAR(wear_cell(table, 3, 2), 3.5 * 2.0 * pi / 20.0, 1e-12);
@@ -72,7 +84,8 @@ TEST(WearMap, GathersWhatStaysInItsSectorAndTellsItsLife) {
   EXPECT_EQ(wear_cell(table, 4, 4), 0.0);
 }
 
-// In a worn bore the wear is spread over the arc that is pressed, and what is worn already counts for the life.
+// In a worn bore the wear is spread over the arc that is pressed, and what is worn already counts for the
+// life.
 TEST(WearMap, OfAWornBoreIsSpreadOverTheArcThatIsPressed) {
   json parameters = kParameters;
   parameters["wear_depth_um"] = json(std::vector<std::vector<double>>(2, std::vector<double>(20, 30.0)));
@@ -83,7 +96,8 @@ TEST(WearMap, OfAWornBoreIsSpreadOverTheArcThatIsPressed) {
     for (double& work : run.columns.back()) work *= 2e-6;
   }
   EXPECT_EQ(jobs::wear_channels(parameters).size(), 8U);
-  const auto table = jobs::make_wear_map(parameters, run, {.wear_coefficient = kWearCoefficient, .sectors = 120, .worn_clearance = 0.35});
+  const auto table = jobs::make_wear_map(
+      parameters, run, {.wear_coefficient = kWearCoefficient, .sectors = 120, .worn_clearance = 0.35});
   const double half = std::acos(0.28 / 0.282);  // in rad; sectors of 3 degrees
   double sum = 0.0;
   int worn = 0;
@@ -93,7 +107,8 @@ TEST(WearMap, OfAWornBoreIsSpreadOverTheArcThatIsPressed) {
   }
   EXPECT_NEAR(sum, kWearPower * 10.0, 1e-9 * sum);
   EXPECT_NEAR(worn, 2.0 * half / (2.0 * pi / 120.0), 1.6);
-  EXPECT_NEAR(wear_cell(table, 19, 6) * wear_cell(table, 19, 5), 70.0, 1e-6) << "0.1 mm less what is worn already";
+  EXPECT_NEAR(wear_cell(table, 19, 6) * wear_cell(table, 19, 5), 70.0, 1e-6)
+      << "0.1 mm less what is worn already";
   run.channels.pop_back();
   EXPECT_THROW((void)jobs::make_wear_map(parameters, run, {}), jobs::WrongState);
 }

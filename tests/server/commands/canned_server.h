@@ -16,13 +16,16 @@ namespace server_tests {
 /// Answers each connection with the next of some texts, whatever is asked, and keeps what was asked.
 class CannedServer {
  public:
-  explicit CannedServer(std::vector<std::string> answers) : answers_(std::move(answers)), socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  explicit CannedServer(std::vector<std::string> answers)
+      : answers_(std::move(answers)), socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
     auto* const plain = reinterpret_cast<sockaddr*>(&address);
-    if (::bind(socket_, plain, size) != 0 || ::listen(socket_, 8) != 0 || ::getsockname(socket_, plain, &size) != 0) throw std::runtime_error("no port");
+    if (::bind(socket_, plain, size) != 0 || ::listen(socket_, 8) != 0 ||
+        ::getsockname(socket_, plain, &size) != 0)
+      throw std::runtime_error("no port");
     port_ = ntohs(address.sin_port);
     thread_ = std::jthread([this] { serve(); });
   }
@@ -63,9 +66,10 @@ class CannedServer {
 };
 
 /// An HTTP answer.
-inline std::string canned(const std::string& status, const std::string& content_type, const std::string& body) {
-  return "HTTP/1.1 " + status + "\r\nContent-Type: " + content_type + "\r\nContent-Length: " + std::to_string(body.size()) +
-         "\r\nConnection: close\r\n\r\n" + body;
+inline std::string canned(const std::string& status, const std::string& content_type,
+                          const std::string& body) {
+  return "HTTP/1.1 " + status + "\r\nContent-Type: " + content_type +
+         "\r\nContent-Length: " + std::to_string(body.size()) + "\r\nConnection: close\r\n\r\n" + body;
 }
 
 }  // namespace server_tests

@@ -32,7 +32,8 @@ std::string words_of(const Error& error, int expected_code) {
 TEST(RunGuarded, PassesTheCodeOn) { EXPECT_EQ(run_guarded([] { return 1; }), 1); }
 
 TEST(RunGuarded, PrintsEachFaultOnALine) {
-  EXPECT_EQ(words_of(jobs::InvalidRequest(std::vector<jobs::Fault>{{"/a", "unknown"}, {"/b/0", "too small"}}), kBadInput),
+  EXPECT_EQ(words_of(jobs::InvalidRequest(std::vector<jobs::Fault>{{"/a", "unknown"}, {"/b/0", "too small"}}),
+                     kBadInput),
             "/a: unknown\n/b/0: too small\n");
 }
 
@@ -42,7 +43,8 @@ TEST(RunGuarded, TellsBadInputFromAFailingMachine) {
   EXPECT_EQ(words_of(CannotWrite("full"), kMachineFailed), "rpsup: full\n");
   EXPECT_EQ(words_of(std::bad_alloc(), kMachineFailed).find("rpsup: there is no memory left"), 0U);
   const std::system_error no_thread(std::make_error_code(std::errc::resource_unavailable_try_again));
-  EXPECT_EQ(words_of(no_thread, kMachineFailed), "rpsup: the system allows no more threads; ulimit -v and ulimit -u limit them\n");
+  EXPECT_EQ(words_of(no_thread, kMachineFailed),
+            "rpsup: the system allows no more threads; ulimit -v and ulimit -u limit them\n");
 }
 
 TEST(ReadJson, NamesTheFileAndThePlace) {
@@ -96,8 +98,10 @@ TEST(CheckOutputFile, RefusesBeforeTheWorkWhatCannotBeWritten) {
   std::ofstream(open / "kept.csv") << "kept";
   fs::permissions(folder / "", fs::perms::all);
   fs::permissions(open, fs::perms::all);
-  fs::permissions(open / "kept.csv", fs::perms::all & ~(fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write));
-  fs::permissions(closed, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  fs::permissions(open / "kept.csv", fs::perms::all & ~(fs::perms::owner_write | fs::perms::group_write |
+                                                        fs::perms::others_write));
+  fs::permissions(closed, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                              fs::perms::others_exec);
   const Nobody nobody;
   EXPECT_NO_THROW(check_output_file("--results", open / "new.csv"));
   EXPECT_THROW(check_output_file("--results", open), BadInput);

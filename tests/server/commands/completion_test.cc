@@ -22,7 +22,10 @@ std::vector<CommandEntry> commands() {
   std::vector<std::string> list;
   bool flag = false;
   command->add_option("file", text, "What: [x]")->required()->type_name("FILE");
-  command->add_option("--number", number, "How many")->check(CLI::Range(1, 9))->capture_default_str()->envname("NUMBER");
+  command->add_option("--number", number, "How many")
+      ->check(CLI::Range(1, 9))
+      ->capture_default_str()
+      ->envname("NUMBER");
   command->add_option("--word", text, "Which")->check(CLI::IsMember({"a", "b"}));
   command->add_option("--maybe", text, "Perhaps")->expected(0, 1);
   command->add_flag("--flag", flag, "Whether");
@@ -57,7 +60,8 @@ TEST(OptionTable, SaysWhatWasDeclared) {
 }
 
 TEST(ManPage, KeepsTheSignsOfRoffOutOfTheText) {
-  const std::string page = make_man_page({{.name = "p", .help = "a\\b", .footer = ".line\n'other\nplain-text", .options = {}}}, "1.0");
+  const std::string page = make_man_page(
+      {{.name = "p", .help = "a\\b", .footer = ".line\n'other\nplain-text", .options = {}}}, "1.0");
   EXPECT_NE(page.find("a\\eb"), std::string::npos);
   EXPECT_NE(page.find("\n\\&.line\n"), std::string::npos) << page;
   EXPECT_NE(page.find("\n\\&'other\n"), std::string::npos) << page;
@@ -67,7 +71,16 @@ TEST(ManPage, KeepsTheSignsOfRoffOutOfTheText) {
 TEST(Completion, QuotesWhatShellsWouldRead) {
   EXPECT_NE(make_fish_completion(commands()).find(R"(-a go -d 'It'\''s gone')"), std::string::npos);
   EXPECT_NE(make_zsh_completion(commands()).find(R"('--word[Which]:TEXT:(a b)')"), std::string::npos);
-  CommandEntry odd{.name = "odd", .help = "", .footer = "", .options = {{.name = "--x", .value = "", .allowed = "", .choices = {}, .help = "a[b]:c", .default_text = "", .environment = ""}}};
+  CommandEntry odd{.name = "odd",
+                   .help = "",
+                   .footer = "",
+                   .options = {{.name = "--x",
+                                .value = "",
+                                .allowed = "",
+                                .choices = {},
+                                .help = "a[b]:c",
+                                .default_text = "",
+                                .environment = ""}}};
   EXPECT_NE(make_zsh_completion({commands()[0], odd}).find(R"('--x[a\[b\]\:c]')"), std::string::npos);
 }
 

@@ -9,7 +9,9 @@ namespace {
 
 using server::commands::escape_for_log;
 
-TEST(Log, LeavesPlainTextAsItIs) { EXPECT_EQ(escape_for_log("GET /v1/sweeps 200 0.1 ms \\ \"~"), "GET /v1/sweeps 200 0.1 ms \\ \"~"); }
+TEST(Log, LeavesPlainTextAsItIs) {
+  EXPECT_EQ(escape_for_log("GET /v1/sweeps 200 0.1 ms \\ \"~"), "GET /v1/sweeps 200 0.1 ms \\ \"~");
+}
 
 TEST(Log, KeepsTextOfUsersOnItsLine) {
   EXPECT_EQ(escape_for_log("a\r\n2026-01-01 info all is well"), "a\\x0d\\x0a2026-01-01 info all is well");

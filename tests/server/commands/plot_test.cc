@@ -49,8 +49,10 @@ TEST(AccelerationBand, HasNoMoreColumnsThanSamples) {
 
 TEST(TerminalPlot, ShowsTheSpikeInItsPlace) {
   const TerminalSize size{.columns = 60, .rows = 20};
-  // The spike of 70 in the middle of an axis that ends at 80 is a column from there down to zero, the lowest line.
-  const auto lines = lines_of(draw_for_terminal(calc_acceleration_band(spike(1000, 500, 70.0), plot_columns(size)), size, Characters::kAscii));
+  // The spike of 70 in the middle of an axis that ends at 80 is a column from there down to zero, the lowest
+  // line.
+  const auto lines = lines_of(draw_for_terminal(
+      calc_acceleration_band(spike(1000, 500, 70.0), plot_columns(size)), size, Characters::kAscii));
   ASSERT_EQ(lines.size(), 17U);
   EXPECT_EQ(lines[0], "slider acceleration, m/s^2");
   EXPECT_TRUE(lines[1].starts_with("      80 |")) << lines[1];
@@ -65,10 +67,12 @@ TEST(TerminalPlot, ShowsTheSpikeInItsPlace) {
 
 TEST(TerminalPlot, DrawsBrailleOfUnicode) {
   const TerminalSize size{.columns = 60, .rows = 20};
-  const std::string text = draw_for_terminal(calc_acceleration_band(spike(2000, 0, 0.0), plot_columns(size)), size, Characters::kBraille);
+  const std::string text = draw_for_terminal(calc_acceleration_band(spike(2000, 0, 0.0), plot_columns(size)),
+                                             size, Characters::kBraille);
   // A line that lies at zero, between -1 and 1: two dots of each of 49 characters, all in the same height.
   std::size_t count = 0;
-  for (std::size_t at = text.find("\u2809"); at != std::string::npos; at = text.find("\u2809", at + 1)) ++count;
+  for (std::size_t at = text.find("\u2809"); at != std::string::npos; at = text.find("\u2809", at + 1))
+    ++count;
   for (const char* const two : {"\u2812", "\u2824", "\u28c0"}) {
     for (std::size_t at = text.find(two); at != std::string::npos; at = text.find(two, at + 1)) ++count;
   }

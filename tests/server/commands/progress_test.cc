@@ -12,8 +12,13 @@ using nlohmann::json;
 using server::commands::ProgressView;
 
 json sweep(int queued, int succeeded, int failed, double progress, json eta) {
-  return {{"counts", {{"queued", queued}, {"running", 0}, {"succeeded", succeeded}, {"failed", failed}, {"cancelled", 0},
-                      {"total", queued + succeeded + failed}}},
+  return {{"counts",
+           {{"queued", queued},
+            {"running", 0},
+            {"succeeded", succeeded},
+            {"failed", failed},
+            {"cancelled", 0},
+            {"total", queued + succeeded + failed}}},
           {"progress", progress},
           {"eta_s", std::move(eta)}};
 }

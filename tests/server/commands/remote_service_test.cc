@@ -33,22 +33,24 @@ TEST(ServiceUrl, IsTakenApart) {
 }
 
 TEST(ServiceUrl, IsRefusedIfItIsAnotherThing) {
-  for (const char* const url : {"", "127.0.0.1:8080", "ftp://a", "http://", "http://:80", "http://a b", "http://user:pw@host", "http://a?b=c", "http://a/b#c",
-                                "http://a/\r\nX: y"}) {
+  for (const char* const url : {"", "127.0.0.1:8080", "ftp://a", "http://", "http://:80", "http://a b",
+                                "http://user:pw@host", "http://a?b=c", "http://a/b#c", "http://a/\r\nX: y"}) {
     EXPECT_FALSE(parse_service_url(url)) << url;
   }
 }
 
 TEST(RemoteService, SendsTheTokenAndThePrefix) {
   const std::string sweep = R"({"id": "swp_1", "state": "queued"})";
-  CannedServer server({canned("201 Created", "application/json", sweep), canned("200 OK", "application/json", sweep)});
+  CannedServer server(
+      {canned("201 Created", "application/json", sweep), canned("200 OK", "application/json", sweep)});
   RemoteService with({.url = server.url() + "/lab", .token = "s3cret"});
   EXPECT_EQ(with.submit(RemoteService::Kind::kSweep, {{"name", "a"}}).at("id"), "swp_1");
   RemoteService without({.url = server.url(), .token = ""});
   EXPECT_EQ(without.find("swp_1").json.at("state"), "queued");
   ASSERT_EQ(server.heads().size(), 2U);
   EXPECT_TRUE(server.heads()[0].starts_with("POST /lab/v1/sweeps HTTP/1.1\r\n")) << server.heads()[0];
-  EXPECT_NE(server.heads()[0].find("\r\nAuthorization: Bearer s3cret\r\n"), std::string::npos) << server.heads()[0];
+  EXPECT_NE(server.heads()[0].find("\r\nAuthorization: Bearer s3cret\r\n"), std::string::npos)
+      << server.heads()[0];
   EXPECT_EQ(server.heads()[1].find("Authorization"), std::string::npos) << server.heads()[1];
 }
 
@@ -58,8 +60,9 @@ TEST(RemoteService, RefusesATokenThatWouldBreakTheHead) {
 }
 
 TEST(RemoteService, PassesEveryFaultOn) {
-  CannedServer server({canned("422 Unprocessable Content", kProblem,
-                              R"({"status": 422, "detail": "two", "errors": [{"pointer": "/a", "detail": "x"}, {"pointer": "/b", "detail": "y"}]})")});
+  CannedServer server({canned(
+      "422 Unprocessable Content", kProblem,
+      R"({"status": 422, "detail": "two", "errors": [{"pointer": "/a", "detail": "x"}, {"pointer": "/b", "detail": "y"}]})")});
   RemoteService service({.url = server.url(), .token = ""});
   try {
     static_cast<void>(service.submit(RemoteService::Kind::kJob, {}));
@@ -97,12 +100,14 @@ TEST(RemoteService, TellsTheUsersFaultsFromTheServices) {
   const Told full = tell(canned("507 Insufficient Storage", kProblem, R"({"detail": "the disk is full"})"));
   EXPECT_EQ(full.code, server::commands::kMachineFailed);
   EXPECT_NE(full.words.find("the disk is full"), std::string::npos) << full.words;
-  EXPECT_EQ(tell(canned("429 Too Many Requests", kProblem, R"({"detail": "later"})")).code, server::commands::kMachineFailed);
+  EXPECT_EQ(tell(canned("429 Too Many Requests", kProblem, R"({"detail": "later"})")).code,
+            server::commands::kMachineFailed);
 }
 
 TEST(RemoteService, NoticesThatSomethingElseAnswers) {
-  for (const std::string& answer : {canned("200 OK", "text/html", "<html>"), canned("200 OK", "application/json", "[]"),
-                                    canned("404 Not Found", "text/html", "<html>"), canned("404 Not Found", kProblem, "{}")}) {
+  for (const std::string& answer :
+       {canned("200 OK", "text/html", "<html>"), canned("200 OK", "application/json", "[]"),
+        canned("404 Not Found", "text/html", "<html>"), canned("404 Not Found", kProblem, "{}")}) {
     const Told told = tell(answer);
     EXPECT_EQ(told.code, server::commands::kMachineFailed);
     EXPECT_NE(told.words.find("not as this service does"), std::string::npos) << told.words;

@@ -18,7 +18,9 @@ using server::Metrics;
 using server_tests::Bench;
 
 /// Whether a line of the text is this.
-bool has_line(const std::string& text, const std::string& line) { return ("\n" + text).find("\n" + line + "\n") != std::string::npos; }
+bool has_line(const std::string& text, const std::string& line) {
+  return ("\n" + text).find("\n" + line + "\n") != std::string::npos;
+}
 
 TEST(Metrics, CountRunsByKind) {
   Metrics metrics;
@@ -36,7 +38,9 @@ TEST(Metrics, CountRunsByKind) {
   described.linkage.emplace().bodies.emplace_back();
   jobs::JobSpec described_beam;
   described_beam.linkage.emplace().bodies.emplace_back().beam.emplace();
-  for (const jobs::JobSpec& spec : {flexible, bent, described, described_beam, described_beam, jobs::JobSpec{}}) metrics.add_run(spec, {});
+  for (const jobs::JobSpec& spec :
+       {flexible, bent, described, described_beam, described_beam, jobs::JobSpec{}})
+    metrics.add_run(spec, {});
   metrics.add_run({}, failed);
   metrics.add_run({}, stopped);
   const std::string text = metrics.text({});
@@ -64,7 +68,8 @@ TEST_P(Failures, AreCountedByTheReasonThatTheJobHas) {
   options.job_limits = GetParam().limits;
   options.ran = [&](const jobs::JobSpec& spec, const jobs::RunRecord& run) { metrics.add_run(spec, run); };
   jobs::Service service(options);
-  const std::string id = service.submit_sweep(nlohmann::ordered_json::parse(R"({"sweep": {"clearance_mm": [0.1]}})")).at("id");
+  const std::string id =
+      service.submit_sweep(nlohmann::ordered_json::parse(R"({"sweep": {"clearance_mm": [0.1]}})")).at("id");
   ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(20)));
   EXPECT_EQ(service.list_jobs({}).at("items").at(0).at("error").at("reason"), GetParam().reason);
   const std::string text = metrics.text({});
@@ -104,7 +109,8 @@ TEST(MetricsRoute, CountsRequestsByRouteAndNotByPath) {
   EXPECT_EQ(response.status, 200);
   EXPECT_EQ(response.content_type, "text/plain; version=0.0.4; charset=utf-8");
   const auto count = [&](const std::string& labels, int n) {
-    return has_line(response.body, "rpsup_http_request_duration_seconds_count{" + labels + "} " + std::to_string(n));
+    return has_line(response.body,
+                    "rpsup_http_request_duration_seconds_count{" + labels + "} " + std::to_string(n));
   };
   EXPECT_TRUE(count(R"(method="GET",route="/v1/sweeps/{id}",status="200")", 3)) << response.body;
   EXPECT_TRUE(count(R"(method="GET",route="/v1/sweeps/{id}",status="404")", 1)) << response.body;

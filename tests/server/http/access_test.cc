@@ -27,7 +27,8 @@ TEST_P(Authorization, IsJudged) {
     EXPECT_EQ(check.is_allowed(path, GetParam().authorization), GetParam().good) << path;
   }
   // Whether it is up is told to everybody.
-  for (const char* const path : {"/healthz", "/readyz"}) EXPECT_TRUE(check.is_allowed(path, GetParam().authorization)) << path;
+  for (const char* const path : {"/healthz", "/readyz"})
+    EXPECT_TRUE(check.is_allowed(path, GetParam().authorization)) << path;
 }
 
 // The base64 texts are those of `printf %s lab:correct-horse-battery | base64` and the like.
@@ -52,8 +53,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Token, HasToBeLongAndPlain) {
   EXPECT_EQ(server::describe_token_fault(kToken), "");
   EXPECT_EQ(server::describe_token_fault(std::string(16, 'a')), "");
-  for (const std::string& token : {std::string(), std::string(15, 'a'), std::string(513, 'a'), std::string("correct horse battery"),
-                                   std::string("correct-horse-\nbattery"), std::string("correct-horse-\xc3\xa4-battery")}) {
+  for (const std::string& token :
+       {std::string(), std::string(15, 'a'), std::string(513, 'a'), std::string("correct horse battery"),
+        std::string("correct-horse-\nbattery"), std::string("correct-horse-\xc3\xa4-battery")}) {
     EXPECT_NE(server::describe_token_fault(token), "") << token;
   }
 }

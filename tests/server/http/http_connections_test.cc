@@ -53,12 +53,14 @@ TEST(HttpCrowd, ServesOthersSoonAlthoughHundredsHoldTheirConnections) {
   std::jthread listener([&] { http.listen(); });
   std::list<RawClient> slow;
   for (int i = 0; i < 100; ++i) slow.emplace_back(port).send("GET / HTTP/1.1\r\n");
-  for (int i = 0; i < 100; ++i) slow.emplace_back(port).send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n{");
+  for (int i = 0; i < 100; ++i)
+    slow.emplace_back(port).send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n{");
   const auto start = Clock::now();
   RawClient client(port);
   client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(status_of(client.read_all()), 200);
-  // Slow heads take no thread; the bodies: four turns of 32 threads at some 0.3 s. With the whole time for each it would be a minute.
+  // Slow heads take no thread; the bodies: four turns of 32 threads at some 0.3 s. With the whole time for
+  // each it would be a minute.
   EXPECT_LT(Clock::now() - start, 9s);
   http.stop();
 }
@@ -87,7 +89,8 @@ TEST(HttpCrowd, ServesOthersAtOnceBesideHundredsThatSayNothingOrLittle) {
 
 TEST(HttpCrowd, GivesThePlaceOfTheOldestThatWaitsToANewOne) {
 #ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "with no file to be had the undefined-behaviour sanitizer, which opens a pipe to look at an object, takes any for none";
+  GTEST_SKIP() << "with no file to be had the undefined-behaviour sanitizer, which opens a pipe to look at "
+                  "an object, takes any for none";
 #endif
   Bench bench;
   rlimit files{};
@@ -95,12 +98,14 @@ TEST(HttpCrowd, GivesThePlaceOfTheOldestThatWaitsToANewOne) {
   HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, HttpLimits{});
   const int port = http.bind();
   ASSERT_NE(port, 0);
-  // Few files are left to this process, which has both ends: the last clients have theirs before the server takes the first.
+  // Few files are left to this process, which has both ends: the last clients have theirs before the server
+  // takes the first.
   std::list<RawClient> clients;
   for (int i = 0; i < 40; ++i) clients.emplace_back(port);
   clients.back().send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
   static_cast<void>(bench.call("GET", "/v1/sweeps"));  // its files are open
-  const auto open = static_cast<rlim_t>(std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));
+  const auto open =
+      static_cast<rlim_t>(std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));
   const rlimit few{.rlim_cur = open + 10, .rlim_max = files.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
   std::jthread listener([&] { http.listen(); });

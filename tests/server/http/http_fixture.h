@@ -53,9 +53,10 @@ class Http : public testing::Test {
     return ask("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n");
   }
 
-  [[nodiscard]] std::string post(const std::string& path, const std::string& body, const std::string& headers = "") const {
-    return ask("POST " + path + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(body.size()) + "\r\n" +
-               headers + "\r\n" + body);
+  [[nodiscard]] std::string post(const std::string& path, const std::string& body,
+                                 const std::string& headers = "") const {
+    return ask("POST " + path + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " +
+               std::to_string(body.size()) + "\r\n" + headers + "\r\n" + body);
   }
 
   [[nodiscard]] std::size_t sweep_count() {

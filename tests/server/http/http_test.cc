@@ -22,7 +22,9 @@ using namespace std::chrono_literals;
 using server::HttpServer;
 
 /// A request that is good and larger than 8 KiB, the library's bound for forms.
-std::string padded_request() { return R"({"name": "padded", "sweep": {"clearance_mm": [0.1]})" + std::string(20'000, ' ') + "}"; }
+std::string padded_request() {
+  return R"({"name": "padded", "sweep": {"clearance_mm": [0.1]})" + std::string(20'000, ' ') + "}";
+}
 
 std::string chunked(const std::string& body, std::size_t chunk_bytes) {
   std::string text;
@@ -52,8 +54,10 @@ TEST_F(Http, SendsTheHeadersThatBrowsersObey) {
 }
 
 TEST_F(Http, AnswersInProblemJsonWhateverIsWrong) {
-  for (const std::string& answer : {get("/nothing"), ask("GET / HTTP/1.1\r\n\r\n"), ask("FETCH / HTTP/1.1\r\nHost: localhost\r\n\r\n"),
-                                    ask("GET / HTTP/3.0\r\nHost: localhost\r\n\r\n"), ask("PUT /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")}) {
+  for (const std::string& answer :
+       {get("/nothing"), ask("GET / HTTP/1.1\r\n\r\n"), ask("FETCH / HTTP/1.1\r\nHost: localhost\r\n\r\n"),
+        ask("GET / HTTP/3.0\r\nHost: localhost\r\n\r\n"),
+        ask("PUT /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")}) {
     EXPECT_NE(answer.find("Content-Type: application/problem+json\r\n"), std::string::npos) << answer;
     EXPECT_NE(answer.find("\r\nX-Request-Id: "), std::string::npos) << answer;
     EXPECT_EQ(nlohmann::json::parse(body_of(answer)).at("status"), status_of(answer));
@@ -69,7 +73,8 @@ TEST_F(Http, RefusesAHeadThatIsTooLarge) {
 }
 
 TEST_F(Http, RefusesHeadWithoutABody) {
-  for (const std::string& head : {std::string("Idempotency-Key:\r\n\r\n"), "X: " + std::string(20'000, 'a')}) {
+  for (const std::string& head :
+       {std::string("Idempotency-Key:\r\n\r\n"), "X: " + std::string(20'000, 'a')}) {
     const std::string answer = ask("HEAD /healthz HTTP/1.1\r\nHost: localhost\r\n" + head);
     EXPECT_EQ(answer.substr(0, 10), "HTTP/1.1 4");
     EXPECT_EQ(body_of(answer), "");
@@ -77,11 +82,13 @@ TEST_F(Http, RefusesHeadWithoutABody) {
 }
 
 TEST_F(Http, RefusesABodyByItsLengthBeforeItComes) {
-  EXPECT_EQ(status_of(ask("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100001\r\n\r\n")), 413);
+  EXPECT_EQ(status_of(ask("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100001\r\n\r\n")),
+            413);
 }
 
 TEST_F(Http, RefusesAChunkedBodyThatGrowsTooLarge) {
-  const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  const std::string head =
+      "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
   EXPECT_EQ(status_of(ask(head + chunked(std::string(kBodyBytes + 1, ' '), 4000))), 413);
   // No end in sight.
   RawClient client(port_);
@@ -102,7 +109,8 @@ TEST_F(Http, TakesABodyOfExactlyTheLimit) {
 TEST_F(Http, BoundsWhatAChunkedBodyIsWrappedIn) {
   // Chunks of one byte: a good request that takes six bytes off the wire for each of its own.
   const std::string body = R"({"sweep": {"clearance_mm": [0.1]})" + std::string(60'000, ' ') + "}";
-  const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  const std::string head =
+      "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
   EXPECT_EQ(status_of(ask(head + chunked(body, 1))), 400);
   EXPECT_EQ(sweep_count(), 0U);
   EXPECT_EQ(status_of(ask(head + chunked(body, 100))), 201);
@@ -131,7 +139,8 @@ TEST_F(Http, ReadsAHeadThatComesInPieces) {
 TEST_F(Http, GivesABodyItsOwnTime) {
   const std::string body = R"({"sweep": {"clearance_mm": [0.1]}})";
   RawClient client(port_);
-  client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n");
+  client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: " +
+              std::to_string(body.size()) + "\r\n\r\n");
   std::this_thread::sleep_for(500ms);  // more than a head may take
   client.send(body);
   EXPECT_EQ(status_of(client.read_all()), 201);
@@ -149,14 +158,18 @@ TEST_F(Http, DropsABodyThatComesTooSlowly) {
 
 TEST_F(Http, TakesWhatCurlSendsByDefault) {
   // `curl -d @file` calls every body a form.
-  EXPECT_EQ(status_of(post("/v1/sweeps", padded_request(), "Content-Type: application/x-www-form-urlencoded\r\n")), 201);
-  const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  EXPECT_EQ(
+      status_of(post("/v1/sweeps", padded_request(), "Content-Type: application/x-www-form-urlencoded\r\n")),
+      201);
+  const std::string head =
+      "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
   EXPECT_EQ(status_of(ask(head + chunked(padded_request(), 777))), 201);
 }
 
 TEST_F(Http, SaysContinueToAClientThatAsks) {
   RawClient client(port_);
-  client.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
+  client.send(
+      "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
   ASSERT_TRUE(client.answered_within(10s));
   client.send("[]");
   EXPECT_EQ(client.read_all().find("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 422"), 0U);
@@ -192,7 +205,8 @@ TEST_F(Http, IgnoresRangesAndCompression) {
   EXPECT_EQ(body_of(answer), body_of(plain));
   EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos);
   EXPECT_EQ(body_of(get("/", ranges + "\r\n")), body_of(get("/")));
-  EXPECT_EQ(body_of(get("/", ranges + "\r\nAccept-Encoding: gzip\r\n")), body_of(get("/", "Accept-Encoding: gzip\r\n")));
+  EXPECT_EQ(body_of(get("/", ranges + "\r\nAccept-Encoding: gzip\r\n")),
+            body_of(get("/", "Accept-Encoding: gzip\r\n")));
 }
 
 // The pages are compressed when the program is built; nothing is while it serves.
@@ -204,20 +218,26 @@ TEST_F(Http, SendsThePageCompressedToWhoeverWantsThat) {
     const std::string packed = get("/index.html", std::string("Accept-Encoding: ") + wish + "\r\n");
     EXPECT_EQ(status_of(packed), 200) << wish;
     EXPECT_NE(packed.find("\r\nContent-Encoding: gzip\r\n"), std::string::npos) << wish;
-    EXPECT_NE(packed.find("\r\nContent-Length: " + std::to_string(body_of(packed).size()) + "\r\n"), std::string::npos) << wish;
+    EXPECT_NE(packed.find("\r\nContent-Length: " + std::to_string(body_of(packed).size()) + "\r\n"),
+              std::string::npos)
+        << wish;
     EXPECT_EQ(server::gunzip(body_of(packed), body_of(plain).size()), body_of(plain)) << wish;
   }
   for (const char* const wish : {"br", "gzip;q=0", "identity", "%67zip"}) {
-    EXPECT_EQ(body_of(get("/index.html", std::string("Accept-Encoding: ") + wish + "\r\n")), body_of(plain)) << wish;
+    EXPECT_EQ(body_of(get("/index.html", std::string("Accept-Encoding: ") + wish + "\r\n")), body_of(plain))
+        << wish;
   }
 }
 
 TEST_F(Http, IgnoresRangesThatAreNone) {
-  for (const char* const range : {"bytes=a-b", "bytes=9-1", "lines=1-2", ""}) EXPECT_EQ(status_of(get("/", std::string("range: ") + range + "\r\n")), 200) << range;
+  for (const char* const range : {"bytes=a-b", "bytes=9-1", "lines=1-2", ""})
+    EXPECT_EQ(status_of(get("/", std::string("range: ") + range + "\r\n")), 200) << range;
 }
 
 TEST_F(Http, ReadsTheBodyOfAGetAsNothingElse) {
-  const std::string answer = ask("GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 44\r\n\r\nDELETE /v1/sweeps HTTP/1.1\r\nHost: evil\r\n\r\n");
+  const std::string answer =
+      ask("GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 44\r\n\r\nDELETE /v1/sweeps "
+          "HTTP/1.1\r\nHost: evil\r\n\r\n");
   EXPECT_EQ(status_of(answer), 200);
   EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << "one answer a connection";
 }

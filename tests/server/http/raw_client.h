@@ -16,7 +16,8 @@
 
 namespace server_tests {
 
-/// A connection that sends exactly the bytes it is given: no HTTP library would send what the guard is there for.
+/// A connection that sends exactly the bytes it is given: no HTTP library would send what the guard is there
+/// for.
 class RawClient {
  public:
   explicit RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {

@@ -39,13 +39,15 @@ INSTANTIATE_TEST_SUITE_P(
         HeadCase{"NoHost", "GET / HTTP/1.1\r\nAccept: a", 400},
         HeadCase{"TwoHosts", "GET / HTTP/1.1\r\nHost: a\r\nhost: b", 400},
         HeadCase{"TwoLengths", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\nContent-length: 5", 400},
-        HeadCase{"LengthAndChunked", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\nTransfer-Encoding: chunked", 400},
+        HeadCase{"LengthAndChunked",
+                 "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\nTransfer-Encoding: chunked", 400},
         HeadCase{"OtherEncoding", "POST / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: gzip, chunked", 501},
         HeadCase{"SignedLength", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: -5", 400},
         HeadCase{"ListOfLengths", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 5, 5", 400},
         HeadCase{"EmptyLength", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length:", 400},
         HeadCase{"LargeLength", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 1001", 413},
-        HeadCase{"LengthBeyond64Bit", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999999999999999999", 413},
+        HeadCase{"LengthBeyond64Bit", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999999999999999999",
+                 413},
         HeadCase{"BlankBeforeColon", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length : 5", 400},
         HeadCase{"FoldedLine", "GET / HTTP/1.1\r\nHost: a\r\nX: 1\r\n Y: 2", 400},
         HeadCase{"BareLineFeed", "GET / HTTP/1.1\r\nHost: a\r\nX: 1\nContent-Length: 5", 400},
@@ -53,7 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
         HeadCase{"Nul", "GET / HTTP/1.1\r\nHost: a\r\nX: 1" + std::string(1, '\0'), 400},
         HeadCase{"EmptyKey", "POST / HTTP/1.1\r\nHost: a\r\nidempotency-key: ", 400},
         HeadCase{"Key", "POST / HTTP/1.1\r\nHost: a\r\nIdempotency-Key: a", 0},
-        HeadCase{"NulInValue", "GET / HTTP/1.1\r\nHost: localhost" + std::string(1, '\0') + ".evil.example", 400},
+        HeadCase{"NulInValue", "GET / HTTP/1.1\r\nHost: localhost" + std::string(1, '\0') + ".evil.example",
+                 400},
         HeadCase{"DeleteInValue", "GET / HTTP/1.1\r\nHost: a\r\nX: \x7f", 400},
         HeadCase{"EscapeInValue", "GET / HTTP/1.1\r\nHost: a\r\nX: \x1b[2J", 400},
         HeadCase{"EncodedControlCharacters", "GET / HTTP/1.1\r\nHost: a\r\nX: %00%0d%0a%7f", 0},
@@ -117,7 +120,8 @@ TEST(Origin, MayBeAnotherSiteThatIsAllowed) {
   EXPECT_FALSE(check.find_fault({"POST", "localhost:80", "https://lab.example.org", "cross-site", "cors"}));
   EXPECT_FALSE(check.find_fault({"GET", "localhost:80", "HTTPS://LAB.example.org", "cross-site", "cors"}));
   // Neither does a name that begins or ends like it, nor a page that hides where it is from.
-  for (const char* const origin : {"https://lab.example.org.evil.com", "http://lab.example.org", "https://lab.example.org:444", "null", ""}) {
+  for (const char* const origin : {"https://lab.example.org.evil.com", "http://lab.example.org",
+                                   "https://lab.example.org:444", "null", ""}) {
     EXPECT_TRUE(check.find_fault({"POST", "localhost:80", origin, "cross-site", "cors"})) << origin;
   }
   // And it does not make another name of this server good.
@@ -127,12 +131,14 @@ TEST(Origin, MayBeAnotherSiteThatIsAllowed) {
 TEST(Origin, MayComeThroughAProxyUnderAnotherName) {
   const OriginCheck check("127.0.0.1", {}, {"rpsup.example.org", "10.0.0.7"});
   EXPECT_FALSE(check.find_fault({"GET", "rpsup.example.org", "", "", ""}));
-  EXPECT_FALSE(check.find_fault({"DELETE", "RPSUP.example.org:8443", "https://rpsup.example.org:8443", "same-origin", "cors"}));
+  EXPECT_FALSE(check.find_fault(
+      {"DELETE", "RPSUP.example.org:8443", "https://rpsup.example.org:8443", "same-origin", "cors"}));
   EXPECT_FALSE(check.find_fault({"POST", "10.0.0.7:8080", "http://10.0.0.7:8080", "same-origin", "cors"}));
   // Its neighbours, its other ports, and a page that the browser says is from elsewhere.
   EXPECT_TRUE(check.find_fault({"POST", "rpsup.example.org", "https://example.org", "", ""}));
   EXPECT_TRUE(check.find_fault({"POST", "rpsup.example.org", "https://rpsup.example.org:444", "", ""}));
-  EXPECT_TRUE(check.find_fault({"POST", "rpsup.example.org", "https://rpsup.example.org", "cross-site", "cors"}));
+  EXPECT_TRUE(
+      check.find_fault({"POST", "rpsup.example.org", "https://rpsup.example.org", "cross-site", "cors"}));
   EXPECT_TRUE(check.find_fault({"GET", "a.rpsup.example.org", "", "", ""}));
   // No proxy stands before the addresses of the loopback.
   EXPECT_TRUE(check.find_fault({"POST", "localhost:80", "https://localhost:80", "", ""}));
@@ -140,8 +146,11 @@ TEST(Origin, MayComeThroughAProxyUnderAnotherName) {
 
 TEST(ReadHead, TakesHeadersLiterally) {
   const server::RequestHead head = server::read_head(
-      "GET / HTTP/1.1\r\nHOST: localhost%00.evil.example\r\nIdempotency-Key:\t k%41%u0041+%2541 \r\nX-Empty:\r\nAccept: a/b; c=\"d:e\"\r\naccept: f/g\r\n\r\n");
-  const std::map<std::string, std::string> expected{{"host", "localhost%00.evil.example"}, {"idempotency-key", "k%41%u0041+%2541"}, {"x-empty", ""},
+      "GET / HTTP/1.1\r\nHOST: localhost%00.evil.example\r\nIdempotency-Key:\t k%41%u0041+%2541 "
+      "\r\nX-Empty:\r\nAccept: a/b; c=\"d:e\"\r\naccept: f/g\r\n\r\n");
+  const std::map<std::string, std::string> expected{{"host", "localhost%00.evil.example"},
+                                                    {"idempotency-key", "k%41%u0041+%2541"},
+                                                    {"x-empty", ""},
                                                     {"accept", "a/b; c=\"d:e\", f/g"}};
   EXPECT_EQ(head.headers, expected);
 }
@@ -157,7 +166,8 @@ void PrintTo(const TargetCase& c, std::ostream* out) { *out << c.name; }
 class Target : public testing::TestWithParam<TargetCase> {};
 
 TEST_P(Target, IsDecodedOnce) {
-  const server::RequestHead head = server::read_head("GET " + GetParam().target + " HTTP/1.1\r\nHost: a\r\n\r\n");
+  const server::RequestHead head =
+      server::read_head("GET " + GetParam().target + " HTTP/1.1\r\nHost: a\r\n\r\n");
   EXPECT_EQ(head.request_line, "GET / HTTP/1.1");
   EXPECT_EQ(head.path, GetParam().path);
   EXPECT_EQ(head.query, GetParam().query);
@@ -183,8 +193,10 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& case_info) { return case_info.param.name; });
 
 TEST(Loopback, IsWhatOnlyThisMachineReaches) {
-  for (const char* const host : {"127.0.0.1", "127.1.2.3", "::1", "localhost"}) EXPECT_TRUE(server::is_loopback(host)) << host;
-  for (const char* const host : {"0.0.0.0", "::", "128.0.0.1", "10.0.0.1", "127.0.0.1.evil.com", "", "example.org"}) {
+  for (const char* const host : {"127.0.0.1", "127.1.2.3", "::1", "localhost"})
+    EXPECT_TRUE(server::is_loopback(host)) << host;
+  for (const char* const host :
+       {"0.0.0.0", "::", "128.0.0.1", "10.0.0.1", "127.0.0.1.evil.com", "", "example.org"}) {
     EXPECT_FALSE(server::is_loopback(host)) << host;
   }
 }

@@ -16,7 +16,9 @@ void PrintTo(const CodingCase& c, std::ostream* out) { *out << c.name; }
 
 class AcceptEncoding : public testing::TestWithParam<CodingCase> {};
 
-TEST_P(AcceptEncoding, ChoosesGzipOrNoCoding) { EXPECT_EQ(server::wants_gzip(GetParam().accept_encoding), GetParam().gzip); }
+TEST_P(AcceptEncoding, ChoosesGzipOrNoCoding) {
+  EXPECT_EQ(server::wants_gzip(GetParam().accept_encoding), GetParam().gzip);
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, AcceptEncoding,

@@ -46,34 +46,40 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         ErrorCase{"Http", std::make_exception_ptr(server::HttpError(404, "secret")), 404, true},
         ErrorCase{"BadJson", std::make_exception_ptr(server::BadJson("secret")), 400, true},
-        ErrorCase{"Invalid", std::make_exception_ptr(jobs::InvalidRequest(std::vector<jobs::Fault>{{"/a", "secret"}})), 422, true},
+        ErrorCase{"Invalid",
+                  std::make_exception_ptr(jobs::InvalidRequest(std::vector<jobs::Fault>{{"/a", "secret"}})),
+                  422, true},
         ErrorCase{"QueueFull", std::make_exception_ptr(jobs::QueueFull("secret")), 429, true},
         ErrorCase{"WrongState", std::make_exception_ptr(jobs::WrongState("secret")), 409, true},
         ErrorCase{"Stopped", std::make_exception_ptr(jobs::Stopped("secret")), 503, true},
         ErrorCase{"NoMemory", std::make_exception_ptr(std::bad_alloc()), 503, false},
         ErrorCase{"StoreLimit", std::make_exception_ptr(jobs::StoreLimitReached("secret")), 507, true},
-        ErrorCase{"DiskFull", std::make_exception_ptr(jobs::StorageError("secret", 13, jobs::Disk::kFull)), 507, false},
+        ErrorCase{"DiskFull", std::make_exception_ptr(jobs::StorageError("secret", 13, jobs::Disk::kFull)),
+                  507, false},
         ErrorCase{"DiskBroken", std::make_exception_ptr(jobs::StorageError("secret", 10)), 503, false},
         ErrorCase{"Other", std::make_exception_ptr(std::logic_error("secret")), 500, false},
         ErrorCase{"NoException", std::make_exception_ptr(42), 500, false}),
     [](const auto& case_info) { return case_info.param.name; });
 
 TEST(InvalidRequestAnswer, HoldsEveryFault) {
-  const auto response =
-      make_error_answer(std::make_exception_ptr(jobs::InvalidRequest({{"/a/0", "too small"}, {"/b", "unknown"}})), "r");
+  const auto response = make_error_answer(
+      std::make_exception_ptr(jobs::InvalidRequest({{"/a/0", "too small"}, {"/b", "unknown"}})), "r");
   EXPECT_EQ(nlohmann::json::parse(response.body).at("errors"),
-            nlohmann::json::parse(R"([{"pointer": "/a/0", "detail": "too small"}, {"pointer": "/b", "detail": "unknown"}])"));
+            nlohmann::json::parse(
+                R"([{"pointer": "/a/0", "detail": "too small"}, {"pointer": "/b", "detail": "unknown"}])"));
 }
 
 TEST(InvalidRequestAnswer, SaysHowManyFaultsItLeavesOut) {
   const auto problem_of = [](std::size_t count) {
     const std::vector<jobs::Fault> faults(count, {"/a", "unknown"});
-    return nlohmann::json::parse(make_error_answer(std::make_exception_ptr(jobs::InvalidRequest(faults)), "r").body);
+    return nlohmann::json::parse(
+        make_error_answer(std::make_exception_ptr(jobs::InvalidRequest(faults)), "r").body);
   };
   EXPECT_EQ(problem_of(100).at("errors").size(), 100U);
   EXPECT_EQ(problem_of(100).at("detail").get<std::string>().find("left out"), std::string::npos);
   EXPECT_EQ(problem_of(1234).at("errors").size(), 100U);
-  EXPECT_NE(problem_of(1234).at("detail").get<std::string>().find("; 1134 more are left out here"), std::string::npos);
+  EXPECT_NE(problem_of(1234).at("detail").get<std::string>().find("; 1134 more are left out here"),
+            std::string::npos);
 }
 
 TEST(RetryLater, SaysWhen) {

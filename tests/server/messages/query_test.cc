@@ -31,7 +31,8 @@ std::string faults_of(const Query& query) {
 }
 
 TEST(Query, ReadsWhatIsThere) {
-  const Request request = request_with({{"channels", "a,b"}, {"from", "-1.5e-1"}, {"limit", "7"}, {"format", "csv"}});
+  const Request request =
+      request_with({{"channels", "a,b"}, {"from", "-1.5e-1"}, {"limit", "7"}, {"format", "csv"}});
   Query query(request, {"channels", "from", "to", "limit", "format"});
   EXPECT_EQ(query.list("channels"), (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(query.number("from"), -0.15);
@@ -42,8 +43,8 @@ TEST(Query, ReadsWhatIsThere) {
 }
 
 TEST(Query, CollectsEveryFault) {
-  const Request request =
-      request_with({{"fromm", "1"}, {"from", "1x"}, {"to", "nan"}, {"limit", "-1"}, {"format", "xml"}, {"fields", ""}});
+  const Request request = request_with(
+      {{"fromm", "1"}, {"from", "1x"}, {"to", "nan"}, {"limit", "-1"}, {"format", "xml"}, {"fields", ""}});
   Query query(request, {"fields", "from", "to", "limit", "format"});
   EXPECT_EQ(query.number("from"), std::nullopt);
   EXPECT_EQ(query.number("to"), std::nullopt);
@@ -57,7 +58,9 @@ TEST(Query, AddsTheFaultsThatTheServiceFinds) {
   const Request request = request_with({{"limit", "x"}});
   Query query(request, {"limit"});
   EXPECT_EQ(query.count("limit"), std::nullopt);
-  const auto refuse = []() -> int { throw jobs::InvalidRequest({{"/state", "must be another"}, {"/cursor", "must be another"}}); };
+  const auto refuse = []() -> int {
+    throw jobs::InvalidRequest({{"/state", "must be another"}, {"/cursor", "must be another"}});
+  };
   EXPECT_THROW((void)query.check_and(refuse), jobs::InvalidRequest);
   EXPECT_EQ(faults_of(query), "/limit /state /cursor");
 }

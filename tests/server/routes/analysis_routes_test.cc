@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is worked out of results: metric i of the known run is 100 i + clearance in mm, its crank turns 10 + k rad in sample k of four.
+// What is worked out of results: metric i of the known run is 100 i + clearance in mm, its crank turns 10 + k
+// rad in sample k of four.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,18 +20,21 @@ using nlohmann::json;
 using server_tests::Bench;
 using server_tests::header;
 
-/// A known run that is long enough for what looks at it closely: 64 samples, the crank passing its place at rest every 2 pi / 0.5 of them.
+/// A known run that is long enough for what looks at it closely: 64 samples, the crank passing its place at
+/// rest every 2 pi / 0.5 of them.
 engine::RunResult long_run(const jobs::JobSpec& spec, const engine::StopQuery& stop) {
   engine::RunResult result = server_tests::known_run(spec, stop);
   for (std::size_t c = 0; c < result.trajectory.columns.size(); ++c) {
     auto& column = result.trajectory.columns[c];
     column.clear();
-    for (int k = 0; k < 64; ++k) column.push_back(c == 0 ? k / 1000.0 : c == 1 ? 0.5 * k : static_cast<double>(c) + (k % 4));
+    for (int k = 0; k < 64; ++k)
+      column.push_back(c == 0 ? k / 1000.0 : c == 1 ? 0.5 * k : static_cast<double>(c) + (k % 4));
   }
   return result;
 }
 
-json rows_of(Bench& bench, const std::string& path, std::vector<std::pair<std::string, std::string>> query = {}) {
+json rows_of(Bench& bench, const std::string& path,
+             std::vector<std::pair<std::string, std::string>> query = {}) {
   const auto response = bench.call("GET", path, "", std::move(query));
   EXPECT_EQ(response.status, 200) << response.body;
   EXPECT_FALSE(header(response, "ETag").empty());
@@ -40,7 +44,8 @@ json rows_of(Bench& bench, const std::string& path, std::vector<std::pair<std::s
 TEST(Analyses, TellWhatAMetricDependsOn) {
   Bench bench;
   const std::string path = "/v1/sweeps/" + bench.run(R"({"design": {"type": "saltelli", "count": 32, "over":
-    {"restitution": {"from": 0.6, "to": 0.9}, "clearance_mm": {"from": 0.1, "to": 0.5}}}, "sweep": {"coupler": ["rigid", "flexible"]}})");
+    {"restitution": {"from": 0.6, "to": 0.9}, "clearance_mm": {"from": 0.1, "to": 0.5}}},
+                                                        "sweep": {"coupler": ["rigid", "flexible"]}})");
   const json rows = rows_of(bench, path + "/sensitivity", {{"metric", "impact_count"}});
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows.at(0).at("parameter"), "restitution");
@@ -52,17 +57,22 @@ TEST(Analyses, TellWhatAMetricDependsOn) {
   EXPECT_EQ(surface.at("where").at("coupler"), "flexible");
   EXPECT_EQ(surrogate.at("y"), "restitution");
   EXPECT_LT(surface.at("cross_validation_error").get<double>(), 1e-9) << "a plane";
-  EXPECT_NEAR(surface.at("values").at(0).at(0).get<double>(), surface.at("x_values").at(0).get<double>(), 1e-9);
+  EXPECT_NEAR(surface.at("values").at(0).at(0).get<double>(), surface.at("x_values").at(0).get<double>(),
+              1e-9);
   EXPECT_EQ(surface.at("at").size(), surface.at("points").get<std::size_t>());
   EXPECT_EQ(bench.call("GET", path + "/sensitivity", "", {{"metric", "state"}}).status, 422);
   EXPECT_EQ(bench.call("GET", path + "/surrogate", "", {{"y", "coupler"}}).status, 422);
-  EXPECT_EQ(bench.call("GET", path + "/surrogate", "", {{"x", "clearance_mm"}, {"y", "clearance_mm"}}).status, 422);
-  EXPECT_NE(bench.call("GET", path + "/sensitivity", "", {{"format", "csv"}}).body.find("first_order_low"), std::string::npos);
+  EXPECT_EQ(bench.call("GET", path + "/surrogate", "", {{"x", "clearance_mm"}, {"y", "clearance_mm"}}).status,
+            422);
+  EXPECT_NE(bench.call("GET", path + "/sensitivity", "", {{"format", "csv"}}).body.find("first_order_low"),
+            std::string::npos);
 }
 
 TEST(Analyses, PairRigidAndFlexibleJobs) {
   Bench bench;
-  const std::string path = "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.2], "coupler": ["rigid", "flexible"]}})");
+  const std::string path =
+      "/v1/sweeps/" +
+      bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.2], "coupler": ["rigid", "flexible"]}})");
   const json rows = rows_of(bench, path + "/flexibility");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows.at(0).at("ratio"), 1.0);
@@ -76,13 +86,21 @@ TEST(Analyses, PairRigidAndFlexibleJobs) {
 
 TEST(Analyses, LookAtMotionsOnceATurn) {
   Bench bench(long_run);
-  const std::string path = "/v1/sweeps/" +
-      bench.run(R"({"parameters": {"run_up_s": 0}, "sweep": {"clearance_mm": [0.1, 0.2]}, "replicates": {"count": 2}})");
+  const std::string path =
+      "/v1/sweeps/" +
+      bench.run(
+          R"({"parameters": {"run_up_s": 0}, "sweep": {"clearance_mm": [0.1, 0.2]},
+             "replicates": {"count": 2}})");
   const json rows = rows_of(bench, path + "/bifurcation");
   ASSERT_EQ(rows.size(), 4U * 5) << "31.5 rad are five turns";
   EXPECT_NEAR(rows.at(0).at("t_s").get<double>(), 4.0 * 3.14159265e-3, 1e-6);
-  EXPECT_EQ(rows_of(bench, path + "/bifurcation", {{"from", "0.03"}, {"channel", "contact_force_n"}}).size(), 4U * 3);
-  EXPECT_EQ(json::parse(bench.call("GET", path + "/bifurcation", "", {{"channel", "x"}}).body).at("errors").at(0).at("pointer"), "/channel");
+  EXPECT_EQ(rows_of(bench, path + "/bifurcation", {{"from", "0.03"}, {"channel", "contact_force_n"}}).size(),
+            4U * 3);
+  EXPECT_EQ(json::parse(bench.call("GET", path + "/bifurcation", "", {{"channel", "x"}}).body)
+                .at("errors")
+                .at(0)
+                .at("pointer"),
+            "/channel");
   EXPECT_EQ(bench.call("GET", path + "/bifurcation", "", {{"channel", "t_s"}}).status, 422);
   const json exponents = rows_of(bench, path + "/lyapunov");
   ASSERT_EQ(exponents.size(), 2U);
@@ -90,12 +108,19 @@ TEST(Analyses, LookAtMotionsOnceATurn) {
   EXPECT_EQ(exponents.at(0).at("pairs_diverged"), 0) << "both runs are the same";
   EXPECT_TRUE(exponents.at(0).at("exponent_1_s").is_null());
 
-  const std::string job = "/v1/jobs/" + json::parse(bench.call("GET", path + "/results").body).at(0).at("job_id").get<std::string>();
+  const std::string job =
+      "/v1/jobs/" +
+      json::parse(bench.call("GET", path + "/results").body).at(0).at("job_id").get<std::string>();
   const json section = rows_of(bench, job + "/poincare");
   EXPECT_EQ(section.at("channels"), json({"t_s", "turn", "journal_x_mm", "journal_y_mm"}));
   EXPECT_EQ(section.at("columns").at("turn").size(), 5U);
-  EXPECT_EQ(json::parse(bench.call("GET", job + "/poincare", "", {{"channels", "x"}}).body).at("errors").at(0).at("pointer"), "/channels/0");
-  const json spectrum = rows_of(bench, job + "/spectrum", {{"channel", "journal_x_mm"}, {"window", "rectangular"}});
+  EXPECT_EQ(json::parse(bench.call("GET", job + "/poincare", "", {{"channels", "x"}}).body)
+                .at("errors")
+                .at(0)
+                .at("pointer"),
+            "/channels/0");
+  const json spectrum =
+      rows_of(bench, job + "/spectrum", {{"channel", "journal_x_mm"}, {"window", "rectangular"}});
   EXPECT_EQ(spectrum.at("columns").at("frequency_hz").size(), 33U);
   // 0, 1, 2, 3 and so on: sqrt(2) at a quarter of the sampling rate.
   EXPECT_NEAR(spectrum.at("columns").at("journal_x_mm").at(16).get<double>(), 1.41421356, 1e-6);
@@ -105,13 +130,15 @@ TEST(Analyses, LookAtMotionsOnceATurn) {
   EXPECT_EQ(json::parse(refused.body).at("errors").size(), 2U);
 }
 
-// Every channel of the long run rises from its number by 3 in three samples and falls back: the ring's work by 48, the first ring's at 45 degrees.
+// Every channel of the long run rises from its number by 3 in three samples and falls back: the ring's work
+// by 48, the first ring's at 45 degrees.
 TEST(Analyses, MapWearOnTheBearing) {
   Bench bench(long_run);
   const std::string path = "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0, 0.2]}})");
   const json jobs = json::parse(bench.call("GET", path + "/results").body);
   const std::string wear = "/v1/jobs/" + jobs.at(1).at("job_id").get<std::string>() + "/wear";
-  const json rows = rows_of(bench, wear, {{"sectors", "8"}, {"wear_coefficient_m2_n", "1e-14"}, {"worn_clearance_mm", "0.3"}});
+  const json rows = rows_of(
+      bench, wear, {{"sectors", "8"}, {"wear_coefficient_m2_n", "1e-14"}, {"worn_clearance_mm", "0.3"}});
   ASSERT_EQ(rows.size(), 3U * 8);
   const double area = 5e-3 * 2.0 * 3.14159265358979 / 8.0 * 16e-3 / 3.0;
   const json& worn = rows.at(1);  // from 45 to 90 degrees
@@ -119,22 +146,28 @@ TEST(Analyses, MapWearOnTheBearing) {
   EXPECT_NEAR(worn.at("depth_um").get<double>(), 1e6 * 1e-14 * 48.0 / area, 1e-9);
   EXPECT_NEAR(worn.at("life_h").get<double>() * worn.at("rate_um_h").get<double>(), 100.0, 1e-9);
   EXPECT_TRUE(rows.at(2).at("life_h").is_null());
-  EXPECT_NE(bench.call("GET", wear, "", {{"format", "csv"}}).body.find("ring,position_mm,angle_rad"), std::string::npos);
-  for (const auto& [key, value] : {std::pair{"sectors", "3"}, {"sectors", "8.5"}, {"wear_coefficient_m2_n", "0"}, {"wear_coefficient_m2_n", "1e-5"},
+  EXPECT_NE(bench.call("GET", wear, "", {{"format", "csv"}}).body.find("ring,position_mm,angle_rad"),
+            std::string::npos);
+  for (const auto& [key, value] : {std::pair{"sectors", "3"},
+                                   {"sectors", "8.5"},
+                                   {"wear_coefficient_m2_n", "0"},
+                                   {"wear_coefficient_m2_n", "1e-5"},
                                    {"worn_clearance_mm", "0.2"}}) {
     const auto refused = bench.call("GET", wear, "", {{key, value}});
     EXPECT_EQ(refused.status, 422) << key;
     EXPECT_EQ(json::parse(refused.body).at("errors").at(0).at("pointer"), std::string("/") + key);
   }
-  EXPECT_EQ(bench.call("GET", "/v1/jobs/" + jobs.at(0).at("job_id").get<std::string>() + "/wear").status, 409) << "an ideal joint";
+  EXPECT_EQ(bench.call("GET", "/v1/jobs/" + jobs.at(0).at("job_id").get<std::string>() + "/wear").status, 409)
+      << "an ideal joint";
 }
 
-/// A run whose peak (metric 0) grows from 10 to 15 rad/s by 8.5, 4, 3.5 and 1.25 times, as the paper prints. With a
-/// restitution of 0.79 or less the first growth is 4.
+/// A run whose peak (metric 0) grows from 10 to 15 rad/s by 8.5, 4, 3.5 and 1.25 times, as the paper prints.
+/// With a restitution of 0.79 or less the first growth is 4.
 engine::RunResult run_of_the_paper(const jobs::JobSpec& spec, const engine::StopQuery& stop) {
   const engine::RpsupParameters& p = spec.parameters;
   const bool fast = p.crank_velocity > 12.0, flexible = p.coupler == engine::Coupler::kFlexible;
-  const double narrow = flexible ? (fast ? 320.0 : 80.0) : (fast ? (p.restitution < 0.795 ? 400.0 : 850.0) : 100.0);
+  const double narrow =
+      flexible ? (fast ? 320.0 : 80.0) : (fast ? (p.restitution < 0.795 ? 400.0 : 850.0) : 100.0);
   const double wide = flexible ? (fast ? 250.0 : 200.0) : (fast ? 700.0 : 200.0);
   engine::RunResult result = server_tests::known_run(spec, stop);
   result.metrics[0] = p.c_r == 0.0 ? (fast ? 90.0 : 40.0) : p.c_r < 0.4e-3 ? narrow : wide;
@@ -165,7 +198,8 @@ TEST(Analyses, HoldAStudyAgainstThePaper) {
             "statement,number,text,paper,found_least,found_largest,settings,share,holds");
   EXPECT_NE(csv.body.find("growth_rigid_0.25_mm,2,"), std::string::npos);
   EXPECT_EQ(std::ranges::count(csv.body, '\n'), 10);
-  EXPECT_EQ(bench.call("GET", path, "", {{"metric", "impact_count"}}).status, 422) << "an unknown key of the query";
+  EXPECT_EQ(bench.call("GET", path, "", {{"metric", "impact_count"}}).status, 422)
+      << "an unknown key of the query";
 
   const std::string settings = bench.run(R"({"sweep": {"restitution": [0.7, 0.8, 0.9], )" + grid + "}}");
   const json shares = rows_of(bench, "/v1/sweeps/" + settings + "/paper");
@@ -177,7 +211,8 @@ TEST(Analyses, HoldAStudyAgainstThePaper) {
 
 TEST(Analyses, TellWhatDecidesThePapersStatements) {
   Bench bench(run_of_the_paper);
-  const std::string id = bench.run(R"({"sweep": {"clearance_mm": [0.25], "crank_velocity_rad_s": [10, 15], "coupler": ["rigid"],
+  const std::string id =
+      bench.run(R"({"sweep": {"clearance_mm": [0.25], "crank_velocity_rad_s": [10, 15], "coupler": ["rigid"],
     "restitution": {"from": 0.71, "to": 0.9, "count": 20}, "friction_static": [0.1, 0.2, 0.3]}})");
   const json rows = rows_of(bench, "/v1/sweeps/" + id + "/paper");
   EXPECT_EQ(rows.at(1).at("settings"), 60);
@@ -195,7 +230,8 @@ TEST(Analyses, NeedTheAxesOfThePaper) {
   for (const auto& [missing, values] : axes.items()) {
     json sweep = axes;
     sweep.erase(missing);
-    const auto refused = bench.call("GET", "/v1/sweeps/" + bench.run(json{{"sweep", sweep}}.dump()) + "/paper");
+    const auto refused =
+        bench.call("GET", "/v1/sweeps/" + bench.run(json{{"sweep", sweep}}.dump()) + "/paper");
     EXPECT_EQ(refused.status, 409) << missing;
     EXPECT_NE(refused.body.find("does not vary " + missing), std::string::npos) << refused.body;
   }
@@ -204,15 +240,16 @@ TEST(Analyses, NeedTheAxesOfThePaper) {
 TEST(Report, StandsByItself) {
   Bench bench;
   const std::string id = bench.run(R"({"name": "it's <b>bold</b>",
-    "sweep": {"restitution": [0.8], "clearance_mm": [0.1, 0.2], "coupler": ["rigid", "flexible"]}, "replicates": {"count": 2}})");
+    "sweep": {"restitution": [0.8], "clearance_mm": [0.1, 0.2], "coupler": ["rigid", "flexible"]},
+                                      "replicates": {"count": 2}})");
   const auto response = bench.call("GET", "/v1/sweeps/" + id + "/report");
   ASSERT_EQ(response.status, 200) << response.body;
   EXPECT_EQ(response.content_type, "text/html; charset=utf-8");
   const std::string& page = response.body;
-  for (const char* const forbidden : {"<script", "style=", "<b>", "src=", "href=", "url("}) EXPECT_EQ(page.find(forbidden), std::string::npos)
-      << forbidden;
-  for (const char* const wanted : {"<svg", "Effect of flexibility", "Provenance", "it's &lt;b&gt;bold"}) EXPECT_NE(page.find(wanted),
-      std::string::npos) << wanted;
+  for (const char* const forbidden : {"<script", "style=", "<b>", "src=", "href=", "url("})
+    EXPECT_EQ(page.find(forbidden), std::string::npos) << forbidden;
+  for (const char* const wanted : {"<svg", "Effect of flexibility", "Provenance", "it's &lt;b&gt;bold"})
+    EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
   // The policy names the style by its hash, which stands in the page, too, for when it has been saved.
   const std::string policy = header(response, "Content-Security-Policy");
   const std::string hash = policy.substr(policy.find("'sha256-"), 8 + 44 + 1);
@@ -221,8 +258,10 @@ TEST(Report, StandsByItself) {
 
 TEST(Report, ShowsTheMetricsOfADescribedLinkage) {
   Bench bench;
-  const std::string id = bench.run(R"({"parameters": {"linkage": {"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}},
-    "joints": {"pivot": {"kind": "revolute", "axis": "y", "from": "ground", "to": "bob", "damping_n_m_s_rad": 0.1}}}, "duration_s": 0.1},
+  const std::string id = bench.run(
+      R"({"parameters": {"linkage": {"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}},
+    "joints": {"pivot": {"kind": "revolute", "axis": "y", "from": "ground", "to": "bob",
+         "damping_n_m_s_rad": 0.1}}}, "duration_s": 0.1},
     "sweep": {"linkage.joints.pivot.damping_n_m_s_rad": [0.1, 0.2]}})");
   const auto response = bench.call("GET", "/v1/sweeps/" + id + "/report");
   ASSERT_EQ(response.status, 200) << response.body;
@@ -233,15 +272,18 @@ TEST(Report, ShowsTheMetricsOfADescribedLinkage) {
 TEST(Report, KeepsTheOrderOfAxesAndQuotesForTheShell) {
   const json sweep = json::parse(R"({"axes": ["restitution", "clearance_mm"],
     "request": {"name": "it's", "sweep": {"clearance_mm": [1], "restitution": [2]}}})");
-  EXPECT_EQ(server::report::make_command(server::report::request_in_order(sweep)),
-            R"(curl -s -d '{"name":"it'\''s","sweep":{"restitution":[2],"clearance_mm":[1]}}' "${RPSUP_URL:-http://127.0.0.1:8080}/v1/sweeps")");
+  EXPECT_EQ(
+      server::report::make_command(server::report::request_in_order(sweep)),
+      R"(curl -s -d '{"name":"it'\''s","sweep":{"restitution":[2],"clearance_mm":[1]}}' "${RPSUP_URL:-http://127.0.0.1:8080}/v1/sweeps")");
 }
 
 // A job of another linkage has no value of a parameter that belongs to this one.
 TEST(Analyses, LeaveJobsOfAnotherLinkageApart) {
   Bench bench;
-  const std::string path = "/v1/sweeps/" + bench.run(R"({"cases": [{"rod_length_m": 0.19}, {"rod_length_m": 0.2},
-    {"linkage": {"bodies": {"bob": {"mass_kg": 1}}, "joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob", "at_m": [0.1, 0, 0],
+  const std::string path =
+      "/v1/sweeps/" + bench.run(R"({"cases": [{"rod_length_m": 0.19}, {"rod_length_m": 0.2},
+    {"linkage": {"bodies": {"bob": {"mass_kg": 1}}, "joints": {"pivot": {"kind": "revolute", "from": "ground",
+                                   "to": "bob", "at_m": [0.1, 0, 0],
      "drive": {"law": "run_up", "velocity_rad_s": 1}}}}}]})");
   const json surrogate = rows_of(bench, path + "/surrogate", {{"metric", "impact_count"}});
   ASSERT_EQ(surrogate.at("inputs").size(), 1U);
@@ -249,29 +291,41 @@ TEST(Analyses, LeaveJobsOfAnotherLinkageApart) {
   ASSERT_EQ(surrogate.at("surfaces").size(), 2U);
   EXPECT_EQ(surrogate.at("surfaces").at(0).at("points"), 2);
   EXPECT_EQ(surrogate.at("surfaces").at(1).at("points"), 0);
-  for (const char* const analysis : {"/report", "/results"}) EXPECT_EQ(bench.call("GET", path + analysis).status, 200) << analysis;
+  for (const char* const analysis : {"/report", "/results"})
+    EXPECT_EQ(bench.call("GET", path + analysis).status, 200) << analysis;
 }
 
 TEST(Analyses, SayWhichOnlyRpsupHas) {
   Bench bench(jobs::engine_runner());
-  const std::string sweep = "/v1/sweeps/" + bench.run(R"({"parameters": {"duration_s": 0.05, "run_up_s": 0.01, "linkage":
-    {"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}}, "joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob"}}}},
+  const std::string sweep =
+      "/v1/sweeps/" + bench.run(R"({"parameters": {"duration_s": 0.05, "run_up_s": 0.01, "linkage":
+    {"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}},
+                                   "joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob"}}}},
     "sweep": {"linkage.bodies.bob.mass_kg": [1, 2]}, "replicates": {"count": 2}})");
-  const std::string job = "/v1/jobs/" + json::parse(bench.call("GET", sweep + "/results").body).at(0).at("job_id").get<std::string>();
-  for (const std::string& path : {sweep + "/bifurcation", sweep + "/lyapunov", job + "/poincare", job + "/wear"}) {
+  const std::string job =
+      "/v1/jobs/" +
+      json::parse(bench.call("GET", sweep + "/results").body).at(0).at("job_id").get<std::string>();
+  for (const std::string& path :
+       {sweep + "/bifurcation", sweep + "/lyapunov", job + "/poincare", job + "/wear"}) {
     const auto response = bench.call("GET", path);
     EXPECT_EQ(response.status, 409) << path;
     EXPECT_NE(response.body.find("only jobs of the RPSUP linkage have"), std::string::npos) << response.body;
   }
-  EXPECT_EQ(json::parse(bench.call("GET", job + "/spectrum", "", {{"channel", "x"}}).body).at("errors").at(0).at("pointer"), "/channel");
+  EXPECT_EQ(json::parse(bench.call("GET", job + "/spectrum", "", {{"channel", "x"}}).body)
+                .at("errors")
+                .at(0)
+                .at("pointer"),
+            "/channel");
 }
 
 TEST(Analyses, AreOfWhatIsThere) {
   Bench bench;
-  for (const std::string analysis : {"sensitivity", "surrogate", "flexibility", "paper", "bifurcation", "lyapunov", "report"}) {
+  for (const std::string analysis :
+       {"sensitivity", "surrogate", "flexibility", "paper", "bifurcation", "lyapunov", "report"}) {
     EXPECT_EQ(bench.call("GET", "/v1/sweeps/swp_none/" + analysis).status, 404);
   }
-  for (const std::string analysis : {"spectrum", "poincare", "wear"}) EXPECT_EQ(bench.call("GET", "/v1/jobs/job_none/" + analysis).status, 404);
+  for (const std::string analysis : {"spectrum", "poincare", "wear"})
+    EXPECT_EQ(bench.call("GET", "/v1/jobs/job_none/" + analysis).status, 404);
 }
 
 }  // namespace

@@ -39,7 +39,9 @@ TEST(OpenApi, DescribesEveryRouteOnce) {
     for (const auto& [method, operation] : item.items()) {
       ++operations;
       ids.insert(operation.at("operationId").get<std::string>());
-      EXPECT_EQ(operation.contains("requestBody"), method == "post" && !path.ends_with("/cancel") && !path.ends_with("/retry")) << method << path;
+      EXPECT_EQ(operation.contains("requestBody"),
+                method == "post" && !path.ends_with("/cancel") && !path.ends_with("/retry"))
+          << method << path;
     }
   }
   EXPECT_EQ(operations, server::route_table().size());
@@ -52,7 +54,8 @@ TEST(OpenApi, PointsAtNothingThatIsNotThere) {
   std::set<std::string> refs;
   gather_refs(document, refs);
   EXPECT_GT(refs.size(), 50U);
-  for (const std::string& ref : refs) EXPECT_TRUE(document.contains(json::json_pointer(ref.substr(1)))) << ref;
+  for (const std::string& ref : refs)
+    EXPECT_TRUE(document.contains(json::json_pointer(ref.substr(1)))) << ref;
 }
 
 // One table: what GET /v1/parameters says is what the document says, word by word.
@@ -62,7 +65,15 @@ TEST(OpenApi, HasTheParametersOfTheService) {
   json parameters = json::parse(bench.call("GET", "/v1/parameters").body);
   parameters.erase("$schema");
   EXPECT_EQ(document.at("components").at("schemas").at("Parameters"), parameters);
-  EXPECT_EQ(document.at("components").at("schemas").at("Ranges").at("properties").at("links.2,1.mass_kg").at("anyOf").at(0).at("items").at("$ref"),
+  EXPECT_EQ(document.at("components")
+                .at("schemas")
+                .at("Ranges")
+                .at("properties")
+                .at("links.2,1.mass_kg")
+                .at("anyOf")
+                .at(0)
+                .at("items")
+                .at("$ref"),
             "#/components/schemas/Parameters/properties/links/properties/2,1/properties/mass_kg");
 }
 
@@ -70,12 +81,15 @@ TEST(OpenApi, KnowsEveryKeyOfASweepRequestAndOfADesign) {
   Bench bench;
   const json schemas = json::parse(bench.call("GET", "/v1/openapi.json").body).at("components").at("schemas");
   EXPECT_EQ(schemas.at("SweepRequest").at("properties").size(), jobs::kSweepRequestKeys.size());
-  for (const auto key : jobs::kSweepRequestKeys) EXPECT_TRUE(schemas.at("SweepRequest").at("properties").contains(key)) << key;
+  for (const auto key : jobs::kSweepRequestKeys)
+    EXPECT_TRUE(schemas.at("SweepRequest").at("properties").contains(key)) << key;
   EXPECT_EQ(schemas.at("Design").at("oneOf").size(), jobs::design_kinds().size());
-  for (const json& design : schemas.at("Design").at("oneOf")) EXPECT_EQ(design.at("additionalProperties"), false);
+  for (const json& design : schemas.at("Design").at("oneOf"))
+    EXPECT_EQ(design.at("additionalProperties"), false);
 }
 
-// What the page asks for is part of the program, and its policy allows no more. The program may have been built without it.
+// What the page asks for is part of the program, and its policy allows no more. The program may have been
+// built without it.
 TEST(Docs, ServeThePageWithAllItsParts) {
   Bench bench;
   const auto page = bench.call("GET", "/docs");
@@ -87,14 +101,16 @@ TEST(Docs, ServeThePageWithAllItsParts) {
   ASSERT_EQ(page.status, 200);
   const std::regex part(R"re((src|href)="(/docs/[^"]+)")re");
   std::size_t parts = 0;
-  for (std::sregex_iterator found(page.body.begin(), page.body.end(), part), end; found != end; ++found, ++parts) {
+  for (std::sregex_iterator found(page.body.begin(), page.body.end(), part), end; found != end;
+       ++found, ++parts) {
     const auto response = bench.call("GET", (*found)[2]);
     EXPECT_EQ(response.status, 200) << (*found)[2];
     EXPECT_GT(response.body.size(), 100U) << (*found)[2];
   }
   EXPECT_EQ(parts, 3U);
   EXPECT_EQ(page.body.find("//"), std::string::npos) << "of another site";
-  for (const char* const forbidden : {"style=", "onclick", "<script>"}) EXPECT_EQ(page.body.find(forbidden), std::string::npos);
+  for (const char* const forbidden : {"style=", "onclick", "<script>"})
+    EXPECT_EQ(page.body.find(forbidden), std::string::npos);
 }
 
 }  // namespace

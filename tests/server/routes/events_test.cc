@@ -42,7 +42,8 @@ std::vector<std::string> event_lines_of(const std::string& text, const std::stri
 }
 
 server::Response follow_path(Bench& bench, const std::string& path, const std::string& last_event_id) {
-  server::Request request{.method = "GET", .path = path + "/events", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  server::Request request{
+      .method = "GET", .path = path + "/events", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.last_event_id = last_event_id;
   return bench.call(request);
 }
@@ -57,7 +58,8 @@ TEST(SweepEvents, TellOfEveryJobThenOfTheEnd) {
   const auto response = follow(bench, id);
   EXPECT_EQ(response.content_type, "text/event-stream");
   const std::string text = response.events->next();
-  EXPECT_EQ(event_lines_of(text, "event"), (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
+  EXPECT_EQ(event_lines_of(text, "event"),
+            (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
   EXPECT_TRUE(response.events->has_ended());
   for (const std::string& data : event_lines_of(text, "data")) EXPECT_TRUE(json::accept(data));
   EXPECT_EQ(json::parse(event_lines_of(text, "data").back()).at("state"), "succeeded");
@@ -71,24 +73,28 @@ TEST(SweepEvents, GoOnAfterTheLastOneThatTheClientHas) {
   ASSERT_EQ(ids.size(), 4U);
   const std::string rest = follow(bench, id, ids[0]).events->next();
   EXPECT_EQ(event_lines_of(rest, "event"), (std::vector<std::string>{"job", "job", "progress", "done"}));
-  EXPECT_EQ(event_lines_of(follow(bench, id, ids[2]).events->next(), "event"), (std::vector<std::string>{"progress", "done"}));
+  EXPECT_EQ(event_lines_of(follow(bench, id, ids[2]).events->next(), "event"),
+            (std::vector<std::string>{"progress", "done"}));
   EXPECT_EQ(follow(bench, id, ids[3]).status, 204);
   bench.call("POST", "/v1/sweeps/" + id + "/extend", R"({"sweep": {"clearance_mm": [0.4]}})");
   ASSERT_TRUE(bench.service().wait_for_sweep(id, 20s));
-  EXPECT_EQ(event_lines_of(follow(bench, id, ids[3]).events->next(), "event"), (std::vector<std::string>{"job", "progress", "done"}));
+  EXPECT_EQ(event_lines_of(follow(bench, id, ids[3]).events->next(), "event"),
+            (std::vector<std::string>{"job", "progress", "done"}));
 }
 
 TEST(SweepEvents, AreSilentWhileNothingHappens) {
   Bench bench(endless_run);
   const std::string id = bench.submit(kSweep);
-  while (json::parse(bench.call("GET", "/v1/sweeps/" + id).body).at("counts").at("running") == 0) std::this_thread::sleep_for(5ms);
+  while (json::parse(bench.call("GET", "/v1/sweeps/" + id).body).at("counts").at("running") == 0)
+    std::this_thread::sleep_for(5ms);
   const auto response = follow(bench, id);
   EXPECT_EQ(event_lines_of(response.events->next(), "event"), (std::vector<std::string>{"progress"}));
   EXPECT_EQ(response.events->next(), "");
   bench.call("POST", "/v1/sweeps/" + id + "/cancel");
   const std::string text = response.events->next();
   // Jobs that ended together have one id, at the last of them.
-  EXPECT_EQ(event_lines_of(text, "event"), (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
+  EXPECT_EQ(event_lines_of(text, "event"),
+            (std::vector<std::string>{"job", "job", "job", "progress", "done"}));
   EXPECT_EQ(event_lines_of(text, "id").size(), 2U);
   EXPECT_LT(text.find("event: job"), text.find("id: "));
 }
@@ -96,7 +102,8 @@ TEST(SweepEvents, AreSilentWhileNothingHappens) {
 TEST(SweepEvents, RefuseWhatTheyDoNotKnow) {
   Bench bench;
   const std::string id = bench.run(kSweep);
-  for (const char* place : {"x", "-1", "1x", "-done", "99999999999999999999"}) EXPECT_EQ(follow(bench, id, place).status, 400) << place;
+  for (const char* place : {"x", "-1", "1x", "-done", "99999999999999999999"})
+    EXPECT_EQ(follow(bench, id, place).status, 400) << place;
   EXPECT_EQ(follow(bench, "swp_none").status, 404);
 }
 
@@ -109,7 +116,12 @@ class StudyEvents : public testing::TestWithParam<StudyCase> {
  protected:
   /// Submits the study, and gives its path.
   static std::string submit(Bench& bench, const std::string& prefer = "") {
-    server::Request request{.method = "POST", .path = GetParam().path, .query = {}, .accept = {}, .body = GetParam().request, .id = "test-1"};
+    server::Request request{.method = "POST",
+                            .path = GetParam().path,
+                            .query = {},
+                            .accept = {},
+                            .body = GetParam().request,
+                            .id = "test-1"};
     request.prefer = prefer;
     const auto created = bench.call(request);
     EXPECT_EQ(created.status, 201) << created.body;
@@ -133,7 +145,11 @@ TEST_P(StudyEvents, TellOfEveryJobThenOfTheEndAndAreResumed) {
   EXPECT_EQ(events[jobs], "progress");
   EXPECT_EQ(events.back(), "done");
   const json last = json::parse(event_lines_of(all, "data").back());
-  EXPECT_EQ(last, (json{{"id", study.at("id")}, {"sweep_id", study.at("sweep_id")}, {"state", "succeeded"}, {"counts", study.at("counts")}, {"progress", 1.0}}));
+  EXPECT_EQ(last, (json{{"id", study.at("id")},
+                        {"sweep_id", study.at("sweep_id")},
+                        {"state", "succeeded"},
+                        {"counts", study.at("counts")},
+                        {"progress", 1.0}}));
   const auto ids = event_lines_of(all, "id");
   EXPECT_LT(event_lines_of(follow_path(bench, path, ids[0]).events->next(), "event").size(), events.size());
   EXPECT_EQ(follow_path(bench, path, ids.back()).status, 204);
@@ -159,23 +175,31 @@ TEST_P(StudyEvents, EndOnlyWithTheStudy) {
   EXPECT_EQ(json::parse(event_lines_of(rest, "data").back()).at("state"), "cancelled");
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, StudyEvents,
-    testing::Values(StudyCase{"/v1/searches", R"({"over": {"clearance_mm": {"from": 0.1, "to": 0.9, "tolerance": 0.02}},
-                                                  "metric": "peak_slider_acceleration_m_s2", "bound": 0.53})"},
-                    StudyCase{"/v1/wear-studies", R"({"parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})"}),
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, StudyEvents,
+    testing::Values(
+        StudyCase{"/v1/searches", R"({"over": {"clearance_mm": {"from": 0.1, "to": 0.9, "tolerance": 0.02}},
+                                                  "metric": "peak_slider_acceleration_m_s2",
+                                     "bound": 0.53})"},
+        StudyCase{"/v1/wear-studies",
+                  R"({"parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})"}),
     [](const auto& study) { return std::string(study.index == 0 ? "Search" : "WearStudy"); });
 
 class EventsOverHttp : public testing::Test {
  protected:
   static constexpr std::chrono::milliseconds kResponseTime{500};
 
-  EventsOverHttp() : http_(bench_.routes(), {.address = "127.0.0.1", .port = 0}, {.response_time = kResponseTime}), port_(http_.bind()) {
+  EventsOverHttp()
+      : http_(bench_.routes(), {.address = "127.0.0.1", .port = 0}, {.response_time = kResponseTime}),
+        port_(http_.bind()) {
     listener_ = std::jthread([this] { http_.listen(); });
     id_ = bench_.submit(kSweep);
   }
   ~EventsOverHttp() override { http_.stop(); }
 
-  void send_request(RawClient& client) const { client.send("GET /v1/sweeps/" + id_ + "/events HTTP/1.1\r\nHost: localhost\r\n\r\n"); }
+  void send_request(RawClient& client) const {
+    client.send("GET /v1/sweeps/" + id_ + "/events HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
 
   Bench bench_{endless_run};
   server::HttpServer http_;

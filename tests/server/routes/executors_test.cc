@@ -39,11 +39,17 @@ TEST(Executors, TakeASweepThatIsMovedToThem) {
 }
 
 TEST(Executors, StandInTheMetrics) {
-  const json cluster{{"name", "slurm"}, {"slots", 64}, {"tasks", {{"pending", 3}, {"running", 2}}}, {"nodes", {"n1", "n2"}}, {"problems", {"held"}}};
+  const json cluster{{"name", "slurm"},
+                     {"slots", 64},
+                     {"tasks", {{"pending", 3}, {"running", 2}}},
+                     {"nodes", {"n1", "n2"}},
+                     {"problems", {"held"}}};
   const std::string text = server::Metrics().text({}, {{"items", {cluster}}});
-  for (const char* const line : {"rpsup_executor_slots{executor=\"slurm\"} 64", "rpsup_executor_tasks{executor=\"slurm\",state=\"pending\"} 3",
-                                 "rpsup_executor_tasks{executor=\"slurm\",state=\"running\"} 2", "rpsup_executor_nodes{executor=\"slurm\"} 2",
-                                 "rpsup_executor_problems{executor=\"slurm\"} 1"}) {
+  for (const char* const line :
+       {"rpsup_executor_slots{executor=\"slurm\"} 64",
+        "rpsup_executor_tasks{executor=\"slurm\",state=\"pending\"} 3",
+        "rpsup_executor_tasks{executor=\"slurm\",state=\"running\"} 2",
+        "rpsup_executor_nodes{executor=\"slurm\"} 2", "rpsup_executor_problems{executor=\"slurm\"} 1"}) {
     EXPECT_NE(text.find(std::string("\n") + line + "\n"), std::string::npos) << line << "\n" << text;
   }
 }

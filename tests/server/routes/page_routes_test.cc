@@ -16,12 +16,15 @@ namespace {
 using server_tests::Bench;
 
 std::string header_of(const server::Response& response, const std::string& name) {
-  const auto found = std::ranges::find(response.headers, name, [](const auto& header) { return header.first; });
+  const auto found =
+      std::ranges::find(response.headers, name, [](const auto& header) { return header.first; });
   return found == response.headers.end() ? "" : found->second;
 }
 
-server::Response get_page(Bench& bench, const std::string& path, const std::string& accept_encoding = "", const std::string& if_none_match = "") {
-  server::Request request{.method = "GET", .path = path, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+server::Response get_page(Bench& bench, const std::string& path, const std::string& accept_encoding = "",
+                          const std::string& if_none_match = "") {
+  server::Request request{
+      .method = "GET", .path = path, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.accept_encoding = accept_encoding;
   request.if_none_match = if_none_match;
   return bench.call(request);
@@ -61,7 +64,8 @@ TEST(Page, HasATagForEachRepresentation) {
   const std::string packed = header_of(get_page(bench, "/app.js", "gzip"), "ETag");
   EXPECT_NE(plain, packed);
   EXPECT_NE(plain, header_of(get_page(bench, "/index.html"), "ETag"));
-  for (const std::string& tag : {plain, packed}) EXPECT_TRUE(std::regex_match(tag, std::regex("\"[0-9a-f]{32}\""))) << tag;
+  for (const std::string& tag : {plain, packed})
+    EXPECT_TRUE(std::regex_match(tag, std::regex("\"[0-9a-f]{32}\""))) << tag;
   for (const auto& [coding, tag] : {std::pair("", plain), std::pair("gzip", packed)}) {
     const auto known = get_page(bench, "/app.js", coding, "\"another\", " + tag);
     EXPECT_EQ(known.status, 304) << coding;
@@ -107,13 +111,16 @@ TEST_P(Package, IsKeptForEverUnderTheHashOfItsContent) {
   EXPECT_EQ(get_page(bench, of_another_build).status, 404);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, Package,
-    testing::Values(PackageCase{"/lib/echarts.js", "/core/charts.js"}, PackageCase{"/lib/uplot.js", "/core/uplot.js"},
-                    PackageCase{"/lib/uplot.css", "/core/uplot.js"}, PackageCase{"/lib/three.module.js", "/scene/three.js"},
-                    PackageCase{"/lib/three.module.js", "/lib/orbit_controls.js"}, PackageCase{"/lib/orbit_controls.js", "/scene/three.js"},
-                    PackageCase{"/lib/three.core.js", "/lib/three.module.js"}, PackageCase{"/docs/swagger-ui-bundle.js", "/docs"},
-                    PackageCase{"/docs/swagger-ui.css", "/docs"}));
+INSTANTIATE_TEST_SUITE_P(All, Package,
+                         testing::Values(PackageCase{"/lib/echarts.js", "/core/charts.js"},
+                                         PackageCase{"/lib/uplot.js", "/core/uplot.js"},
+                                         PackageCase{"/lib/uplot.css", "/core/uplot.js"},
+                                         PackageCase{"/lib/three.module.js", "/scene/three.js"},
+                                         PackageCase{"/lib/three.module.js", "/lib/orbit_controls.js"},
+                                         PackageCase{"/lib/orbit_controls.js", "/scene/three.js"},
+                                         PackageCase{"/lib/three.core.js", "/lib/three.module.js"},
+                                         PackageCase{"/docs/swagger-ui-bundle.js", "/docs"},
+                                         PackageCase{"/docs/swagger-ui.css", "/docs"}));
 
 TEST(Gunzip, RefusesWhatIsNotThatText) {
   Bench bench;
@@ -121,7 +128,8 @@ TEST(Gunzip, RefusesWhatIsNotThatText) {
   std::string packed = get_page(bench, "/app.js", "gzip").body;
   EXPECT_THROW(static_cast<void>(server::gunzip(packed, size - 1)), std::runtime_error);
   EXPECT_THROW(static_cast<void>(server::gunzip(packed, size + 1)), std::runtime_error);
-  EXPECT_THROW(static_cast<void>(server::gunzip(packed.substr(0, packed.size() - 1), size)), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(server::gunzip(packed.substr(0, packed.size() - 1), size)),
+               std::runtime_error);
   EXPECT_THROW(static_cast<void>(server::gunzip(packed + "a", size)), std::runtime_error);
   packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 1);
   EXPECT_THROW(static_cast<void>(server::gunzip(packed, size)), std::runtime_error);

@@ -20,8 +20,9 @@ using server_tests::header;
 
 TEST(Routes, AnswerUnknownPathsWith404) {
   Bench bench;
-  for (const char* const path : {"/nothing", "/v1", "/v1/sweeps/", "/v1/sweeps/a/b", "/v1/sweeps//results", "/v1/sweeps/a b",
-                                 "/index.html/", "//", "/../server/main.cc", "/v1/sweeps/results/cancel/"}) {
+  for (const char* const path :
+       {"/nothing", "/v1", "/v1/sweeps/", "/v1/sweeps/a/b", "/v1/sweeps//results", "/v1/sweeps/a b",
+        "/index.html/", "//", "/../server/main.cc", "/v1/sweeps/results/cancel/"}) {
     const auto response = bench.call("GET", path);
     EXPECT_EQ(response.status, 404) << path;
     EXPECT_EQ(response.content_type, "application/problem+json") << path;
@@ -43,8 +44,9 @@ TEST(Routes, AnswerOtherMethodsWith405AndAllow) {
     const char* path;
     const char* allow;
   };
-  for (const Case& c : {Case{"PUT", "/v1/sweeps", "POST, GET, HEAD"}, Case{"POST", "/v1/sweeps/a", "GET, HEAD, DELETE"},
-                        Case{"GET", "/v1/sweeps/a/cancel", "POST"}, Case{"OPTIONS", "/", "GET, HEAD"}}) {
+  for (const Case& c :
+       {Case{"PUT", "/v1/sweeps", "POST, GET, HEAD"}, Case{"POST", "/v1/sweeps/a", "GET, HEAD, DELETE"},
+        Case{"GET", "/v1/sweeps/a/cancel", "POST"}, Case{"OPTIONS", "/", "GET, HEAD"}}) {
     const auto response = bench.call(c.method, c.path);
     EXPECT_EQ(response.status, 405) << c.path;
     EXPECT_EQ(header(response, "Allow"), c.allow) << c.path;
@@ -65,7 +67,8 @@ TEST(Routes, ServeThePage) {
   // Whatever the page asks for is there, and nothing in it needs more than the policy of the server allows.
   const std::regex reference(R"re((?:src|href)="(/[^"#]*)")re");
   std::vector<std::string> parts;
-  for (std::sregex_iterator each(page.body.begin(), page.body.end(), reference), end; each != end; ++each) parts.push_back((*each)[1]);
+  for (std::sregex_iterator each(page.body.begin(), page.body.end(), reference), end; each != end; ++each)
+    parts.push_back((*each)[1]);
   EXPECT_NE(std::find(parts.begin(), parts.end(), "/app.js"), parts.end());
   for (const std::string& part : parts) EXPECT_EQ(bench.call("GET", part).status, 200) << part;
   EXPECT_EQ(page.body.find("style="), std::string::npos);
@@ -101,7 +104,8 @@ TEST(Routes, TakeNothingNewWhileDraining) {
 TEST(Routes, TakeNothingNewOnceTheServiceIsStopped) {
   Bench bench;
   bench.service().stop();
-  for (const auto& response : {bench.call("POST", "/v1/sweeps", "{}"), bench.call("POST", "/v1/jobs", "{}")}) {
+  for (const auto& response :
+       {bench.call("POST", "/v1/sweeps", "{}"), bench.call("POST", "/v1/jobs", "{}")}) {
     EXPECT_EQ(response.status, 503);
     EXPECT_FALSE(header(response, "Retry-After").empty());
   }

@@ -17,13 +17,16 @@ using server_tests::Bench;
 using server_tests::endless_run;
 using server_tests::header;
 
-const char* const kSearch = R"({"name": "how far", "over": {"clearance_mm": {"from": 0.1, "to": 0.9, "tolerance": 0.02}},
-  "metric": "peak_slider_acceleration_m_s2", "bound": 0.53, "sweep": {"coupler": ["rigid", "flexible"]}, "replicates": {"count": 2}})";
+const char* const kSearch =
+    R"({"name": "how far", "over": {"clearance_mm": {"from": 0.1, "to": 0.9, "tolerance": 0.02}},
+  "metric": "peak_slider_acceleration_m_s2", "bound": 0.53, "sweep": {"coupler": ["rigid", "flexible"]},
+       "replicates": {"count": 2}})";
 
 std::string submit(Bench& bench) {
   const auto created = bench.call("POST", "/v1/searches", kSearch);
   EXPECT_EQ(created.status, 201) << created.body;
-  EXPECT_EQ(header(created, "Location"), "/v1/searches/" + json::parse(created.body).at("id").get<std::string>());
+  EXPECT_EQ(header(created, "Location"),
+            "/v1/searches/" + json::parse(created.body).at("id").get<std::string>());
   return header(created, "Location");
 }
 
@@ -50,16 +53,29 @@ TEST(Searches, FindLimitsAndHandThemOutAsRows) {
   EXPECT_EQ(rows.at(1).at("limit"), search.at("limits").at(1).at("limit"));
   const auto csv = bench.call("GET", path + "/results", "", {{"format", "csv"}});
   EXPECT_EQ(csv.body.substr(0, csv.body.find('\r')),
-      "coupler,parameter,metric,bound,quantile,verdict,limit,limit_beyond,band_from,band_to,evaluations,monotonic,lost_reason");
-  EXPECT_EQ(bench.call("GET", path + "/results", "", {{"format", "ndjson"}}).content_type, "application/x-ndjson");
+            "coupler,parameter,metric,bound,quantile,verdict,limit,limit_beyond,band_from,band_to,"
+            "evaluations,monotonic,lost_reason");
+  EXPECT_EQ(bench.call("GET", path + "/results", "", {{"format", "ndjson"}}).content_type,
+            "application/x-ndjson");
   EXPECT_EQ(bench.call("GET", path + "/results", "", {{"format", "npz"}}).status, 422);
-  const auto chosen = bench.call("GET", path + "/results", "", {{"fields", "coupler,limit"}, {"order_by", "-coupler"}, {"verdict", "found"}, {"limit_gt", "0"}});
-  const json expected = json::array({{{"coupler", "rigid"}, {"limit", rows.at(0).at("limit")}}, {{"coupler", "flexible"}, {"limit", rows.at(1).at("limit")}}});
+  const auto chosen = bench.call(
+      "GET", path + "/results", "",
+      {{"fields", "coupler,limit"}, {"order_by", "-coupler"}, {"verdict", "found"}, {"limit_gt", "0"}});
+  const json expected = json::array({{{"coupler", "rigid"}, {"limit", rows.at(0).at("limit")}},
+                                     {{"coupler", "flexible"}, {"limit", rows.at(1).at("limit")}}});
   EXPECT_EQ(json::parse(chosen.body), expected);
-  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "false"}}).body), json::array());
-  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "true"}, {"limit", "1"}}).body).size(), 1U);
-  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"lost_reason", "no_value"}}).body), json::array());
-  EXPECT_EQ(bench.call("GET", path + "/results", "", {{"limits", "1"}, {"fields", "state"}, {"monotonic_gt", "1"}}).status, 422);
+  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "false"}}).body),
+            json::array());
+  EXPECT_EQ(
+      json::parse(bench.call("GET", path + "/results", "", {{"monotonic", "true"}, {"limit", "1"}}).body)
+          .size(),
+      1U);
+  EXPECT_EQ(json::parse(bench.call("GET", path + "/results", "", {{"lost_reason", "no_value"}}).body),
+            json::array());
+  EXPECT_EQ(
+      bench.call("GET", path + "/results", "", {{"limits", "1"}, {"fields", "state"}, {"monotonic_gt", "1"}})
+          .status,
+      422);
   EXPECT_FALSE(header(bench.call("GET", path), "ETag").empty());
   EXPECT_EQ(json::parse(bench.call("GET", "/v1/searches").body).at("items").at(0).at("id"), search.at("id"));
   // The evaluations are a sweep, which goes with the search.
@@ -67,7 +83,8 @@ TEST(Searches, FindLimitsAndHandThemOutAsRows) {
   EXPECT_EQ(json::parse(bench.call("GET", sweep).body).at("counts"), search.at("counts"));
   EXPECT_EQ(bench.call("POST", path + "/cancel").status, 409);
   EXPECT_EQ(bench.call("DELETE", path).status, 204);
-  for (const std::string& gone : {path, path + "/results", sweep}) EXPECT_EQ(bench.call("GET", gone).status, 404);
+  for (const std::string& gone : {path, path + "/results", sweep})
+    EXPECT_EQ(bench.call("GET", gone).status, 404);
 }
 
 TEST(Searches, AreCancelledAndRetried) {
@@ -82,12 +99,15 @@ TEST(Searches, AreCancelledAndRetried) {
 
 TEST(Searches, RefuseWhatTheyDoNotKnow) {
   Bench bench;
-  const auto refused = bench.call("POST", "/v1/searches", R"({"over": {"coupler": {}}, "metric": 1, "bound": "low"})");
+  const auto refused =
+      bench.call("POST", "/v1/searches", R"({"over": {"coupler": {}}, "metric": 1, "bound": "low"})");
   EXPECT_EQ(refused.status, 422);
   EXPECT_EQ(json::parse(refused.body).at("errors").size(), 3U);
   EXPECT_EQ(bench.call("POST", "/v1/searches", "[").status, 400);
-  for (const std::string action : {"", "/results"}) EXPECT_EQ(bench.call("GET", "/v1/searches/sch_none" + action).status, 404);
-  for (const std::string action : {"/cancel", "/retry"}) EXPECT_EQ(bench.call("POST", "/v1/searches/sch_none" + action).status, 404);
+  for (const std::string action : {"", "/results"})
+    EXPECT_EQ(bench.call("GET", "/v1/searches/sch_none" + action).status, 404);
+  for (const std::string action : {"/cancel", "/retry"})
+    EXPECT_EQ(bench.call("POST", "/v1/searches/sch_none" + action).status, 404);
   EXPECT_EQ(bench.call("DELETE", "/v1/searches/sch_none").status, 404);
   EXPECT_EQ(bench.call("GET", "/v1/searches", "", {{"state", "queued"}}).status, 422);
 }

@@ -25,7 +25,8 @@ using server_tests::header;
 const char* const kContractSweep = R"({"sweep": {"clearance_mm": [0.1, 0.2, 0.3]}})";
 
 server::Request with_key(const std::string& path, const std::string& body, const std::string& key) {
-  server::Request request{.method = "POST", .path = path, .query = {}, .accept = {}, .body = body, .id = "test-1"};
+  server::Request request{
+      .method = "POST", .path = path, .query = {}, .accept = {}, .body = body, .id = "test-1"};
   request.idempotency_key = key;
   return request;
 }
@@ -46,13 +47,15 @@ TEST(IdempotencyKey, GivesTheSameBytesAgain) {
 
 TEST(IdempotencyKey, HasToBeAKey) {
   Bench bench;
-  for (const std::string& key : {std::string(), std::string("a b"), std::string("\x01"), std::string(256, 'k')}) {
+  for (const std::string& key :
+       {std::string(), std::string("a b"), std::string("\x01"), std::string(256, 'k')}) {
     EXPECT_EQ(bench.call(with_key("/v1/sweeps", kContractSweep, key)).status, 400) << key;
   }
 }
 
 server::Response get_if_none_match(Bench& bench, const std::string& path, const std::string& tags) {
-  server::Request request{.method = "GET", .path = path, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  server::Request request{
+      .method = "GET", .path = path, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.if_none_match = tags;
   return bench.call(request);
 }
@@ -60,9 +63,11 @@ server::Response get_if_none_match(Bench& bench, const std::string& path, const 
 TEST(ETag, SparesWhatTheClientHas) {
   Bench bench;
   const std::string id = bench.run(kContractSweep);
-  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
-  for (const std::string& path : {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results", "/v1/jobs/" + job, "/v1/jobs/" + job + "/trajectory", std::string("/"),
-                                  std::string("/app.js")}) {
+  const std::string job =
+      json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
+  for (const std::string& path :
+       {"/v1/sweeps/" + id, "/v1/sweeps/" + id + "/results", "/v1/jobs/" + job,
+        "/v1/jobs/" + job + "/trajectory", std::string("/"), std::string("/app.js")}) {
     const std::string tag = header(bench.call("GET", path), "ETag");
     ASSERT_FALSE(tag.empty()) << path;
     const auto spared = get_if_none_match(bench, path, "\"other\", W/" + tag);
@@ -73,7 +78,8 @@ TEST(ETag, SparesWhatTheClientHas) {
     EXPECT_EQ(get_if_none_match(bench, path, "*").status, 304);
   }
   const std::string results = "/v1/sweeps/" + id + "/results";
-  EXPECT_NE(header(bench.call("GET", results), "ETag"), header(bench.call("GET", results, "", {{"format", "csv"}}), "ETag"));
+  EXPECT_NE(header(bench.call("GET", results), "ETag"),
+            header(bench.call("GET", results, "", {{"format", "csv"}}), "ETag"));
 }
 
 TEST(ETag, IsNotOfWhatStillChanges) {
@@ -92,12 +98,18 @@ TEST(Prefer, IsReadFromItsList) {
   EXPECT_EQ(server::find_wait("wait = 5"), 5s);
   EXPECT_EQ(server::find_wait("Wait=5"), 5s);
   EXPECT_EQ(server::find_wait("wait=100000"), 60s);
-  for (const char* none : {"", "wait", "wait=", "wait=-1", "wait=1.5", "waiting=3", "handling=lenient"}) EXPECT_FALSE(server::find_wait(none).has_value()) << none;
+  for (const char* none : {"", "wait", "wait=", "wait=-1", "wait=1.5", "waiting=3", "handling=lenient"})
+    EXPECT_FALSE(server::find_wait(none).has_value()) << none;
 }
 
 TEST(Prefer, WaitsForTheEndOfASweep) {
   Bench bench;
-  server::Request request{.method = "POST", .path = "/v1/sweeps", .query = {}, .accept = {}, .body = kContractSweep, .id = "test-1"};
+  server::Request request{.method = "POST",
+                          .path = "/v1/sweeps",
+                          .query = {},
+                          .accept = {},
+                          .body = kContractSweep,
+                          .id = "test-1"};
   request.prefer = "wait=20";
   const auto created = bench.call(request);
   EXPECT_EQ(created.status, 201);
@@ -107,7 +119,8 @@ TEST(Prefer, WaitsForTheEndOfASweep) {
 
 TEST(Prefer, WaitsForTheEndOfAJob) {
   Bench bench;
-  server::Request request{.method = "POST", .path = "/v1/jobs", .query = {}, .accept = {}, .body = "{}", .id = "test-1"};
+  server::Request request{
+      .method = "POST", .path = "/v1/jobs", .query = {}, .accept = {}, .body = "{}", .id = "test-1"};
   request.prefer = "wait=20";
   const auto created = bench.call(request);
   EXPECT_EQ(created.status, 201);
@@ -116,7 +129,8 @@ TEST(Prefer, WaitsForTheEndOfAJob) {
   request.body = R"({"clearance_mm": 0.3})";
   request.prefer = "";
   const std::string place = header(bench.call(request), "Location");
-  server::Request again{.method = "GET", .path = place, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  server::Request again{
+      .method = "GET", .path = place, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   again.prefer = "wait=20";
   const auto found = bench.call(again);
   EXPECT_EQ(json::parse(found.body).at("state"), "succeeded");
@@ -126,12 +140,14 @@ TEST(Prefer, WaitsForTheEndOfAJob) {
 TEST(Prefer, WaitsNoLongerThanItIsTold) {
   Bench bench(endless_run);
   const std::string id = bench.submit(kContractSweep);
-  server::Request request{.method = "GET", .path = "/v1/sweeps/" + id, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  server::Request request{
+      .method = "GET", .path = "/v1/sweeps/" + id, .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   request.prefer = "wait=1";
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(json::parse(bench.call(request).body).at("state"), "running");
   EXPECT_GE(std::chrono::steady_clock::now() - start, 1s);
-  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
+  const std::string job =
+      json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
   request.path = "/v1/jobs/" + job;
   EXPECT_EQ(json::parse(bench.call(request).body).at("state"), "running");
   EXPECT_GE(std::chrono::steady_clock::now() - start, 2s);
@@ -145,7 +161,8 @@ TEST(Prefer, LeavesThreadsToOthers) {
   request.prefer = "wait=60";
   const auto wait = [&] {
     server::Response response{};
-    return room.wait(request, response, [&](std::chrono::seconds time) { bench.service().wait_for_sweep(id, time); });
+    return room.wait(request, response,
+                     [&](std::chrono::seconds time) { bench.service().wait_for_sweep(id, time); });
   };
   std::vector<std::jthread> waiting;
   for (int k = 0; k < 8; ++k) waiting.emplace_back([&] { EXPECT_TRUE(wait()); });
@@ -163,7 +180,10 @@ TEST(Prefer, FreesThePlaceOfAWaitThatFailed) {
   server::Response response{};
   constexpr int kMoreThanThereArePlaces = 9;
   for (int k = 0; k < kMoreThanThereArePlaces; ++k) {
-    EXPECT_THROW(room.wait(request, response, [](std::chrono::seconds) { throw std::runtime_error("the store cannot be read"); }), std::runtime_error);
+    EXPECT_THROW(
+        room.wait(request, response,
+                  [](std::chrono::seconds) { throw std::runtime_error("the store cannot be read"); }),
+        std::runtime_error);
   }
   EXPECT_TRUE(room.wait(request, response, [](std::chrono::seconds) {}));
 }
@@ -171,9 +191,13 @@ TEST(Prefer, FreesThePlaceOfAWaitThatFailed) {
 TEST(GetResults, TakesFieldsFiltersAndOrder) {
   Bench bench;
   const std::string path = "/v1/sweeps/" + bench.run(kContractSweep) + "/results";
-  const auto rows = bench.call("GET", path, "", {{"fields", "clearance_mm"}, {"order_by", "-clearance_mm"}, {"clearance_mm_lt", "0.3"}});
+  const auto rows =
+      bench.call("GET", path, "",
+                 {{"fields", "clearance_mm"}, {"order_by", "-clearance_mm"}, {"clearance_mm_lt", "0.3"}});
   EXPECT_EQ(json::parse(rows.body), json::parse(R"([{"clearance_mm": 0.2}, {"clearance_mm": 0.1}])"));
-  EXPECT_EQ(bench.call("GET", path, "", {{"fields", "clearance_mm"}, {"limit", "1"}, {"format", "ndjson"}}).body, "{\"clearance_mm\":0.1}\n");
+  EXPECT_EQ(
+      bench.call("GET", path, "", {{"fields", "clearance_mm"}, {"limit", "1"}, {"format", "ndjson"}}).body,
+      "{\"clearance_mm\":0.1}\n");
   EXPECT_EQ(bench.call("GET", path, "", {{"clearance_mm_gt", "1"}, {"format", "ndjson"}}).body, "");
   const auto faulty = bench.call("GET", path, "", {{"fields", ""}, {"limit", "-1"}});
   EXPECT_EQ(json::parse(faulty.body).at("errors").size(), 2U);
@@ -184,7 +208,8 @@ TEST(GetResults, TakesFieldsFiltersAndOrder) {
 std::string pointers_of(const server::Response& answer) {
   std::string pointers;
   const json problem = json::parse(answer.body);  // must outlive the loop
-  for (const json& error : problem.at("errors")) pointers += (pointers.empty() ? "" : " ") + error.at("pointer").get<std::string>();
+  for (const json& error : problem.at("errors"))
+    pointers += (pointers.empty() ? "" : " ") + error.at("pointer").get<std::string>();
   return pointers;
 }
 
@@ -192,18 +217,25 @@ TEST(Query, IsRefusedWithFaultsOfFormAndOfMeaningAtOnce) {
   Bench bench;
   const std::string results = "/v1/sweeps/" + bench.run(kContractSweep) + "/results";
   const std::string job = json::parse(bench.call("GET", results).body)[0].at("job_id");
-  EXPECT_EQ(pointers_of(bench.call("GET", results, "", {{"limit", "x"}, {"fields", "nope"}, {"clearance_mm_gt", "much"}})), "/limit /clearance_mm_gt /fields/0");
-  EXPECT_EQ(pointers_of(bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"format", "xml"}, {"channels", "t_s,,nope"}, {"from", "1"}, {"to", "0"}})),
-            "/format /channels/1 /channels/2 /to");
+  EXPECT_EQ(pointers_of(bench.call("GET", results, "",
+                                   {{"limit", "x"}, {"fields", "nope"}, {"clearance_mm_gt", "much"}})),
+            "/limit /clearance_mm_gt /fields/0");
+  EXPECT_EQ(
+      pointers_of(bench.call("GET", "/v1/jobs/" + job + "/trajectory", "",
+                             {{"format", "xml"}, {"channels", "t_s,,nope"}, {"from", "1"}, {"to", "0"}})),
+      "/format /channels/1 /channels/2 /to");
   for (const char* const list : {"/v1/sweeps", "/v1/jobs"}) {
-    EXPECT_EQ(pointers_of(bench.call("GET", list, "", {{"limit", "x"}, {"state", "lost"}, {"cursor", "c"}, {"fields", "nope"}})), "/limit /cursor /state /fields/0");
+    EXPECT_EQ(pointers_of(bench.call(
+                  "GET", list, "", {{"limit", "x"}, {"state", "lost"}, {"cursor", "c"}, {"fields", "nope"}})),
+              "/limit /cursor /state /fields/0");
   }
 }
 
 TEST(GetResults, TakesTheFormThatIsAcceptedFirst) {
   Bench bench;
   const std::string path = "/v1/sweeps/" + bench.run(kContractSweep) + "/results";
-  EXPECT_EQ(bench.call("GET", path, "", {}, "application/x-ndjson, */*").content_type, "application/x-ndjson");
+  EXPECT_EQ(bench.call("GET", path, "", {}, "application/x-ndjson, */*").content_type,
+            "application/x-ndjson");
   EXPECT_EQ(bench.call("GET", path, "", {}, "application/json, text/csv").content_type, "application/json");
   EXPECT_EQ(bench.call("GET", path, "", {{"format", "npz"}}).status, 422);
 }
@@ -211,12 +243,18 @@ TEST(GetResults, TakesTheFormThatIsAcceptedFirst) {
 TEST(GetTrajectory, IsAFileOfNumPy) {
   Bench bench;
   const std::string id = bench.run(R"({"sweep": {"clearance_mm": [0.1]}})");
-  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
+  const std::string job =
+      json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body)[0].at("job_id");
   const auto npz = bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"format", "npz"}});
   EXPECT_EQ(npz.body.substr(0, 2), "PK");
   EXPECT_NE(header(npz, "Content-Disposition").find(".npz\""), std::string::npos);
-  EXPECT_EQ(bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"points", "3"}, {"channels", "slider_position_m"}}).status, 422);
-  const auto few = bench.call("GET", "/v1/jobs/" + job + "/trajectory", "", {{"points", "4"}, {"channels", "slider_position_m"}});
+  EXPECT_EQ(bench
+                .call("GET", "/v1/jobs/" + job + "/trajectory", "",
+                      {{"points", "3"}, {"channels", "slider_position_m"}})
+                .status,
+            422);
+  const auto few = bench.call("GET", "/v1/jobs/" + job + "/trajectory", "",
+                              {{"points", "4"}, {"channels", "slider_position_m"}});
   EXPECT_EQ(json::parse(few.body).at("columns").at("t_s").size(), 4U);
 }
 

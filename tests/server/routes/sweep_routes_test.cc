@@ -20,7 +20,8 @@ using server_tests::Bench;
 using server_tests::endless_run;
 using server_tests::header;
 
-const char* const kSmallSweep = R"({"name": "small", "sweep": {"clearance_mm": [0.1, 0.25], "coupler": ["rigid", "flexible"]}})";
+const char* const kSmallSweep =
+    R"({"name": "small", "sweep": {"clearance_mm": [0.1, 0.25], "coupler": ["rigid", "flexible"]}})";
 
 TEST(PostSweep, AnswersWithTheResourceAndItsPlace) {
   Bench bench;
@@ -36,25 +37,29 @@ TEST(PostSweep, AnswersWithTheResourceAndItsPlace) {
 
 TEST(PostSweep, NamesEveryFault) {
   Bench bench;
-  const auto response =
-      bench.call("POST", "/v1/sweeps", R"({"parameters": {"nonsense": 1}, "sweep": {"clearance_mm": [0.1, -1, "a"]}})");
+  const auto response = bench.call(
+      "POST", "/v1/sweeps", R"({"parameters": {"nonsense": 1}, "sweep": {"clearance_mm": [0.1, -1, "a"]}})");
   ASSERT_EQ(response.status, 422);
   std::set<std::string> pointers;
   const json problem = json::parse(response.body);
   for (const auto& error : problem.at("errors")) pointers.insert(error.at("pointer").get<std::string>());
-  EXPECT_EQ(pointers, (std::set<std::string>{"/parameters/nonsense", "/sweep/clearance_mm/1", "/sweep/clearance_mm/2"}));
+  EXPECT_EQ(pointers, (std::set<std::string>{"/parameters/nonsense", "/sweep/clearance_mm/1",
+                                             "/sweep/clearance_mm/2"}));
   EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
 }
 
 TEST(PostSweep, SweepsTheLinksThatBend) {
   Bench bench;
-  const char* const request = R"({"parameters": {"cross_length_mm": 50}, "sweep": {"crank": ["rigid", "flexible"], "cross": ["rigid", "flexible"]}})";
+  const char* const request =
+      R"({"parameters": {"cross_length_mm": 50}, "sweep": {"crank": ["rigid", "flexible"], "cross": ["rigid",
+         "flexible"]}})";
   const std::string path = "/v1/sweeps/" + bench.run(request);
   const json rows = json::parse(bench.call("GET", path + "/results").body);
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[2].at("crank"), "flexible");
   EXPECT_EQ(rows[2].at("cross"), "rigid");
-  const auto refused = bench.call("POST", "/v1/sweeps", R"({"sweep": {"cross": ["rigid", "flexible"], "rod_elements": [1]}})");
+  const auto refused =
+      bench.call("POST", "/v1/sweeps", R"({"sweep": {"cross": ["rigid", "flexible"], "rod_elements": [1]}})");
   EXPECT_EQ(refused.status, 422);
   EXPECT_EQ(json::parse(refused.body).at("errors").at(0).at("pointer"), "/sweep/rod_elements/0");
   const auto without_length = bench.call("POST", "/v1/jobs", R"({"cross": "flexible"})");
@@ -65,13 +70,17 @@ TEST(PostSweep, SweepsTheLinksThatBend) {
 // JSON has no such number, but the json module of Python writes it.
 TEST(PostSweep, NamesThePlaceOfANotANumber) {
   Bench bench;
-  const auto response = bench.call("POST", "/v1/sweeps", R"({"parameters": {"clearance_mm": NaN}, "sweep": {"restitution": [0.9, Infinity]}})");
+  const auto response =
+      bench.call("POST", "/v1/sweeps",
+                 R"({"parameters": {"clearance_mm": NaN}, "sweep": {"restitution": [0.9, Infinity]}})");
   ASSERT_EQ(response.status, 422);
   std::map<std::string, std::string> details;
   const json problem = json::parse(response.body);
-  for (const auto& error : problem.at("errors")) details[error.at("pointer").get<std::string>()] = error.at("detail").get<std::string>();
-  EXPECT_EQ(details, (std::map<std::string, std::string>{{"/parameters/clearance_mm", "must be a number in [0, 1000) mm"},
-                                                         {"/sweep/restitution/1", "must be a number in (0, 1]"}}));
+  for (const auto& error : problem.at("errors"))
+    details[error.at("pointer").get<std::string>()] = error.at("detail").get<std::string>();
+  EXPECT_EQ(details, (std::map<std::string, std::string>{
+                         {"/parameters/clearance_mm", "must be a number in [0, 1000) mm"},
+                         {"/sweep/restitution/1", "must be a number in (0, 1]"}}));
   EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
 }
 
@@ -93,7 +102,8 @@ TEST(GetSweeps, PagesFromTheNewest) {
   EXPECT_EQ(page.at("items")[0].at("id"), second);
   const std::string cursor = page.at("next_cursor");
   ASSERT_FALSE(cursor.empty());
-  const json rest = json::parse(bench.call("GET", "/v1/sweeps", "", {{"limit", "1"}, {"cursor", cursor}}).body);
+  const json rest =
+      json::parse(bench.call("GET", "/v1/sweeps", "", {{"limit", "1"}, {"cursor", cursor}}).body);
   EXPECT_EQ(rest.at("items").at(0).at("id"), first);
   const json failed = json::parse(bench.call("GET", "/v1/sweeps", "", {{"state", "failed"}}).body);
   EXPECT_TRUE(failed.at("items").empty());
@@ -101,7 +111,8 @@ TEST(GetSweeps, PagesFromTheNewest) {
 
 TEST(GetSweeps, RefusesAFaultyQuery) {
   Bench bench;
-  for (const auto& [key, value] : {std::pair{"limit", "0"}, {"limit", "10001"}, {"limit", "ten"}, {"state", "done"}, {"page", "2"}}) {
+  for (const auto& [key, value] :
+       {std::pair{"limit", "0"}, {"limit", "10001"}, {"limit", "ten"}, {"state", "done"}, {"page", "2"}}) {
     const auto response = bench.call("GET", "/v1/sweeps", "", {{key, value}});
     EXPECT_EQ(response.status, 422) << key << "=" << value;
     EXPECT_EQ(json::parse(response.body).at("errors").at(0).at("pointer"), std::string("/") + key);
@@ -143,13 +154,18 @@ engine::RunResult stiffness_run(const jobs::JobSpec& spec, const engine::StopQue
 /// What a row says of its set.
 json statistics_of(const json& row) {
   json statistics;
-  for (const char* const key : {"count", "mean", "spread", "min", "max"}) statistics[key] = row.at(std::string("replicates_") + key);
+  for (const char* const key : {"count", "mean", "spread", "min", "max"})
+    statistics[key] = row.at(std::string("replicates_") + key);
   return statistics;
 }
 
 TEST(GetResults, CarryTheStatisticsOfReplicates) {
   Bench bench(stiffness_run);
-  const std::string path = "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.25]}, "replicates": {"count": 3, "perturbation": 0.1}})") + "/results";
+  const std::string path =
+      "/v1/sweeps/" +
+      bench.run(
+          R"({"sweep": {"clearance_mm": [0.1, 0.25]}, "replicates": {"count": 3, "perturbation": 0.1}})") +
+      "/results";
   const json rows = json::parse(bench.call("GET", path).body);
   ASSERT_EQ(rows.size(), 6U);
   std::vector<double> peaks;
@@ -168,13 +184,19 @@ TEST(GetResults, CarryTheStatisticsOfReplicates) {
   EXPECT_NEAR(first.at("spread").get<double>(), std::sqrt((ab * ab + bc * bc + ca * ca) / 6.0), 1e-9);
   EXPECT_EQ(statistics_of(rows[2]), first);
   EXPECT_EQ(rows[4].at("state"), "failed");
-  EXPECT_EQ(statistics_of(rows[4]), json::parse(R"({"count": 1, "mean": 1000, "spread": null, "min": 1000, "max": 1000})"));
+  EXPECT_EQ(statistics_of(rows[4]),
+            json::parse(R"({"count": 1, "mean": 1000, "spread": null, "min": 1000, "max": 1000})"));
 
   const std::string csv = bench.call("GET", path, "", {{"format", "csv"}}).body;
   const std::string head = csv.substr(0, csv.find("\r\n"));
-  EXPECT_TRUE(head.ends_with("," + engine::metric_table().back().key + ",replicates_count,replicates_mean,replicates_spread,replicates_min,replicates_max")) << head;
+  EXPECT_TRUE(
+      head.ends_with("," + engine::metric_table().back().key +
+                     ",replicates_count,replicates_mean,replicates_spread,replicates_min,replicates_max"))
+      << head;
   EXPECT_TRUE(csv.ends_with(",1,1000,,1000,1000\r\n")) << csv;
-  EXPECT_NE(csv.find(",3," + first.at("mean").dump() + "," + first.at("spread").dump() + ","), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",3," + first.at("mean").dump() + "," + first.at("spread").dump() + ","),
+            std::string::npos)
+      << csv;
 }
 
 TEST(GetResults, CarryNoStatisticsWithoutReplicates) {

@@ -37,7 +37,9 @@ TEST(FindFormat, WeighsWhatTheHeaderWants) {
   EXPECT_EQ(format_of("application/json; charset=utf-8 ; Q=0.2,text/csv;q=0.3", ""), TableFormat::kCsv);
   EXPECT_EQ(format_of("text/*", ""), TableFormat::kCsv);
   EXPECT_EQ(format_of("TEXT/CSV", ""), TableFormat::kCsv);
-  EXPECT_EQ(format_of("text/html, application/xhtml+xml, application/xml;q=0.9, */*;q=0.8", ""), TableFormat::kJson);  // a browser's
+  // a browser's
+  EXPECT_EQ(format_of("text/html, application/xhtml+xml, application/xml;q=0.9, */*;q=0.8", ""),
+            TableFormat::kJson);
   // The narrowest range counts.
   EXPECT_EQ(format_of("*/*, application/json;q=0.1", ""), TableFormat::kCsv);
   EXPECT_EQ(format_of("application/json;q=0, */*;q=0.1", ""), TableFormat::kCsv);

@@ -18,12 +18,14 @@ using server_tests::Bench;
 using server_tests::endless_run;
 using server_tests::header;
 
-const char* const kStudy = R"({"name": "worn", "parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})";
+const char* const kStudy =
+    R"({"name": "worn", "parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})";
 
 std::string submit_wear(Bench& bench) {
   const auto created = bench.call("POST", "/v1/wear-studies", kStudy);
   EXPECT_EQ(created.status, 201) << created.body;
-  EXPECT_EQ(header(created, "Location"), "/v1/wear-studies/" + json::parse(created.body).at("id").get<std::string>());
+  EXPECT_EQ(header(created, "Location"),
+            "/v1/wear-studies/" + json::parse(created.body).at("id").get<std::string>());
   return header(created, "Location");
 }
 
@@ -46,22 +48,31 @@ TEST(WearStudies, WearTheBoreAndHandOutItsCyclesAsRows) {
   ASSERT_EQ(rows.size(), study.at("cycles").size());
   ASSERT_GE(rows.size(), 4U);  // 3 um in steps of one
   EXPECT_NEAR(rows.back().at("clearance_mm").get<double>(), 0.253, 1e-9);
-  EXPECT_EQ(rows.back().at("peak_slider_acceleration_m_s2"), 0.25) << "metric number 0 is the clearance of the round bore";
+  EXPECT_EQ(rows.back().at("peak_slider_acceleration_m_s2"), 0.25)
+      << "metric number 0 is the clearance of the round bore";
   const auto csv = bench.call("GET", path + "/results", "", {{"format", "csv"}});
-  const std::string columns = "cycle,job_id,hours,step_hours,deepest_um,deepest_position_mm,deepest_angle_rad,clearance_mm,rate_um_h,rate_change,"
-                              "worn_volume_mm3,peak_slider_acceleration_m_s2,";
+  const std::string columns =
+      "cycle,job_id,hours,step_hours,deepest_um,deepest_position_mm,deepest_angle_rad,clearance_mm,rate_um_h,"
+      "rate_change,"
+      "worn_volume_mm3,peak_slider_acceleration_m_s2,";
   EXPECT_EQ(csv.body.substr(0, columns.size()), columns);
-  const json deep = json::parse(bench.call("GET", path + "/results", "", {{"fields", "cycle,deepest_um"}, {"deepest_um_ge", "2"}, {"order_by", "-cycle"}}).body);
+  const json deep =
+      json::parse(bench
+                      .call("GET", path + "/results", "",
+                            {{"fields", "cycle,deepest_um"}, {"deepest_um_ge", "2"}, {"order_by", "-cycle"}})
+                      .body);
   ASSERT_EQ(deep.size(), rows.size() - 2);
   EXPECT_EQ(deep.at(0), (json{{"cycle", rows.size()}, {"deepest_um", rows.back().at("deepest_um")}}));
   EXPECT_FALSE(header(bench.call("GET", path), "ETag").empty());
-  EXPECT_EQ(json::parse(bench.call("GET", "/v1/wear-studies").body).at("items").at(0).at("id"), study.at("id"));
+  EXPECT_EQ(json::parse(bench.call("GET", "/v1/wear-studies").body).at("items").at(0).at("id"),
+            study.at("id"));
   // Its jobs are those of a sweep, which shows each bore by its largest depth, and goes with the study.
   const std::string sweep = study.at("links").at("sweep");
   const json jobs = json::parse(bench.call("GET", sweep + "/results").body);
   EXPECT_EQ(jobs.at(0).at("wear_depth_um"), 0.0);
   EXPECT_EQ(jobs.back().at("wear_depth_um"), study.at("cycles").back().at("deepest_um"));
-  const json job = json::parse(bench.call("GET", "/v1/jobs/" + jobs.back().at("job_id").get<std::string>()).body);
+  const json job =
+      json::parse(bench.call("GET", "/v1/jobs/" + jobs.back().at("job_id").get<std::string>()).body);
   EXPECT_EQ(job.at("parameters").at("wear_depth_um"), study.at("cycles").back().at("wear_depth_um"));
   EXPECT_EQ(bench.call("GET", job.at("links").at("self").get<std::string>() + "/wear").status, 200);
   EXPECT_EQ(bench.call("POST", path + "/cancel").status, 409);
@@ -84,8 +95,10 @@ TEST(WearStudies, RefuseWhatTheyDoNotKnow) {
   EXPECT_EQ(refused.status, 422);
   EXPECT_EQ(json::parse(refused.body).at("errors").size(), 3U) << refused.body;
   EXPECT_EQ(bench.call("POST", "/v1/wear-studies", "[").status, 400);
-  for (const std::string action : {"", "/results"}) EXPECT_EQ(bench.call("GET", "/v1/wear-studies/wst_none" + action).status, 404);
-  for (const std::string action : {"/cancel", "/retry"}) EXPECT_EQ(bench.call("POST", "/v1/wear-studies/wst_none" + action).status, 404);
+  for (const std::string action : {"", "/results"})
+    EXPECT_EQ(bench.call("GET", "/v1/wear-studies/wst_none" + action).status, 404);
+  for (const std::string action : {"/cancel", "/retry"})
+    EXPECT_EQ(bench.call("POST", "/v1/wear-studies/wst_none" + action).status, 404);
   EXPECT_EQ(bench.call("DELETE", "/v1/wear-studies/wst_none").status, 404);
   EXPECT_EQ(bench.call("GET", "/v1/wear-studies", "", {{"state", "queued"}}).status, 422);
 }

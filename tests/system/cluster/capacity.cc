@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A service with a fake cluster of 10,000 slots, and a number of jobs of a millisecond: what they cost the service, and whether it grows.
+// A service with a fake cluster of 10,000 slots, and a number of jobs of a millisecond: what they cost the
+// service, and whether it grows.
 //   capacity JOBS [SAMPLES]  the trial; of each trajectory, 3 if left out
 //   capacity --slurm FOLDER sbatch|squeue|scancel|scontrol ...   the cluster's commands
 //   capacity --nodes FOLDER SAMPLES   its nodes: computes what was submitted until FOLDER/stop is there
@@ -76,7 +77,8 @@ int submit(const fs::path& folder, const std::vector<std::string>& words) {
   const int last = std::stoi(array.substr(array.find('-') + 1));
   const fs::path script = words.back();
   const std::string generation = script.stem().string().substr(1);
-  const std::string line = value_of(words, "--job-name") + " " + std::to_string(last + 1) + " " + script.parent_path().string() + " " + generation;
+  const std::string line = value_of(words, "--job-name") + " " + std::to_string(last + 1) + " " +
+                           script.parent_path().string() + " " + generation;
   append_line(folder / "arrays", line);
   std::cout << "1\n";
   return 0;
@@ -88,7 +90,8 @@ int show_queue(const fs::path& folder, const std::vector<std::string>& words) {
   for (const Array& array : read_arrays(folder)) {
     if (names.find("," + array.name + ",") == std::string::npos) continue;
     for (int i = 0; i < array.tasks; ++i) {
-      std::cout << array.name << "|1|" << i << (done.contains(array.name) ? "|COMPLETED|1|n1|None\n" : "|RUNNING|1|n1|None\n");
+      std::cout << array.name << "|1|" << i
+                << (done.contains(array.name) ? "|COMPLETED|1|n1|None\n" : "|RUNNING|1|n1|None\n");
     }
   }
   return 0;
@@ -97,7 +100,8 @@ int show_queue(const fs::path& folder, const std::vector<std::string>& words) {
 int run_command(const fs::path& folder, const std::vector<std::string>& words) {
   if (words.front() == "sbatch") return submit(folder, words);
   if (words.front() == "squeue") return show_queue(folder, words);
-  if (words.front() == "scontrol") std::cout << "MaxArraySize = " << kSlots + 1 << "\nSLURM_VERSION = 22.05\n";
+  if (words.front() == "scontrol")
+    std::cout << "MaxArraySize = " << kSlots + 1 << "\nSLURM_VERSION = 22.05\n";
   return 0;
 }
 
@@ -112,21 +116,29 @@ engine::RunResult millisecond_run(const jobs::JobSpec& spec, int samples) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
   engine::RunResult result;
   result.metrics.assign(engine::metric_table().size(), spec.parameters.crank_velocity);
-  result.trajectory.channels = {{.key = "t_s", .help = "Time"}, {.key = "slider_position_m", .help = "Position"}};
+  result.trajectory.channels = {{.key = "t_s", .help = "Time"},
+                                {.key = "slider_position_m", .help = "Position"}};
   result.trajectory.columns = {{}, rough_column(0.05 * spec.parameters.crank_velocity, samples)};
   for (int k = 0; k < samples; ++k) result.trajectory.columns[0].push_back(k / 1000.0);
   return result;
 }
 
 int run_nodes(const fs::path& folder, int samples) {
-  const jobs::Runner runner = [samples](const jobs::JobSpec& spec, const engine::StopQuery&) { return millisecond_run(spec, samples); };
+  const jobs::Runner runner = [samples](const jobs::JobSpec& spec, const engine::StopQuery&) {
+    return millisecond_run(spec, samples);
+  };
   std::set<std::string> done;
   while (!fs::exists(folder / "stop")) {
     for (const Array& array : read_arrays(folder)) {
       if (!done.insert(array.name).second) continue;
       for (int i = 0; i < array.tasks; ++i) {
-        (void)jobs::cluster::run_task({.folder = array.batch, .generation = array.generation, .index = i, .threads = kNodeThreads, .runner = runner},
-                                      [] { return false; }, [](const std::string& text) { std::cerr << text << '\n'; });
+        (void)jobs::cluster::run_task(
+            {.folder = array.batch,
+             .generation = array.generation,
+             .index = i,
+             .threads = kNodeThreads,
+             .runner = runner},
+            [] { return false; }, [](const std::string& text) { std::cerr << text << '\n'; });
       }
       append_line(folder / "done", array.name);
     }
@@ -138,7 +150,9 @@ int run_nodes(const fs::path& folder, int samples) {
 double own_cpu_s() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -186,7 +200,8 @@ void check(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error("failed: " + what);
 }
 
-/// Prints what a job costs; how long it takes is not judged, as sanitizers and busy machines have times of their own.
+/// Prints what a job costs; how long it takes is not judged, as sanitizers and busy machines have times of
+/// their own.
 int try_out(int count, const fs::path& folder) {
   jobs::Service service(make_options(folder));
   const int sweeps = count / kJobsOfASweep;
@@ -198,7 +213,9 @@ int try_out(int count, const fs::path& folder) {
     ids.push_back(service.submit_sweep(make_sweep(i)).at("id"));
     planning_cpu_s += own_cpu_s() - before_s;
     // A few are under way at a time, as the queue's limit would have it.
-    if (i >= 3) check(service.wait_for_sweep(ids[static_cast<std::size_t>(i) - 3], std::chrono::minutes(10)), "a sweep has not ended");
+    if (i >= 3)
+      check(service.wait_for_sweep(ids[static_cast<std::size_t>(i) - 3], std::chrono::minutes(10)),
+            "a sweep has not ended");
     const double now_mb = resident_mb();
     if (i < std::max(5, sweeps / 5)) early_mb = std::max(early_mb, now_mb);
     largest_mb = std::max(largest_mb, now_mb);
@@ -210,9 +227,12 @@ int try_out(int count, const fs::path& folder) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   const double jobs = static_cast<double>(sweeps) * kJobsOfASweep;
   const double cpu_ms = 1e3 * own_cpu_s() / jobs;
-  std::printf("%.0f jobs in %.0f s: %.3f ms of the service's time a job (%.3f of it while sweeps are submitted), %.0f bytes of store a job,\n"
-              "%.0f MB of memory in the first fifth, %.0f MB at most\n",
-              jobs, took.count(), cpu_ms, 1e3 * planning_cpu_s / jobs, bytes_of(folder / "store.db") / jobs, early_mb, largest_mb);
+  std::printf(
+      "%.0f jobs in %.0f s: %.3f ms of the service's time a job (%.3f of it while sweeps are submitted), "
+      "%.0f bytes of store a job,\n"
+      "%.0f MB of memory in the first fifth, %.0f MB at most\n",
+      jobs, took.count(), cpu_ms, 1e3 * planning_cpu_s / jobs, bytes_of(folder / "store.db") / jobs, early_mb,
+      largest_mb);
   check(largest_mb < 1.25 * early_mb, "the service grows");
   return 0;
 }
@@ -249,7 +269,8 @@ int run_trial(int count, int samples) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() >= 3 && words[0] == "--slurm") return run_command(words[1], {words.begin() + 2, words.end()});
+  if (words.size() >= 3 && words[0] == "--slurm")
+    return run_command(words[1], {words.begin() + 2, words.end()});
   if (words.size() == 3 && words[0] == "--nodes") return run_nodes(words[1], std::stoi(words[2]));
   return run_trial(std::stoi(words.at(0)), words.size() > 1 ? std::stoi(words[1]) : kFewSamples);
 }
