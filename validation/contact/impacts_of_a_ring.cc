@@ -64,8 +64,8 @@ Impact simulate_ring_impact(int n_ce, double pitches, double speed = kRingSpeed,
     joint.K /= std::sqrt(joint.r_b / joint.r_j());  // as stiff as the continuum in a shallow arc
   }
   return simulate_impact(
-      make_sliding_mass(joint, kRingMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6, speed,
-      time);
+      make_sliding_mass(joint, kRingMass, n_ce > 0 ? pitches * 2.0 * std::numbers::pi / n_ce : 0.0), 20e-6,
+      speed, time);
 }
 
 /// Rebound ratio of 1440 elements in the limit of a shallow arc: from two speeds, as the depth goes to zero.

@@ -43,9 +43,9 @@ std::vector<Form> forms() {
   ClearanceParameters linear = hertz;
   linear.form = RadialForm::kElements;
   linear.n_ce = kFewElements;
-  return {
-      {"exponent 1.5 (continuum)", hertz, calc_hertz_time(hertz.K, kReboundMass, kReboundSpeed)},
-      {"exponent 1 (one element)", linear, std::numbers::pi * std::sqrt(kReboundMass / element_stiffness(linear))}};
+  return {{"exponent 1.5 (continuum)", hertz, calc_hertz_time(hertz.K, kReboundMass, kReboundSpeed)},
+          {"exponent 1 (one element)", linear,
+           std::numbers::pi * std::sqrt(kReboundMass / element_stiffness(linear))}};
 }
 
 /// Rebound ratios known to four digits, against a slip in the equation that the others are solved from.
@@ -67,9 +67,10 @@ Check compare_floor() {
   joint.chi = 0.75 * (1.0 - 0.25);
   joint.minimum_onset_rate = 1e-3;
   const double v0 = 0.4e-3;
-  const double e =
-      simulate_impact(make_sliding_mass(joint, kReboundMass), 1e-6, v0, calc_hertz_time(joint.K, kReboundMass, v0)).speed /
-      v0;
+  const double e = simulate_impact(make_sliding_mass(joint, kReboundMass), 1e-6, v0,
+                                   calc_hertz_time(joint.K, kReboundMass, v0))
+                       .speed /
+                   v0;
   return compare("rebound ratio at 0.4 mm/s, below the floor of 1 mm/s of the latched rate, k_r = 0.5",
                  "c (1 + e) = ln((1 + c) / (1 - c e)) with c = 0.4 * 3/4 (1 - k_r^2)", e,
                  rebound_ratio(0.4 * 0.75 * 0.75), 1e-8, "1",
@@ -129,7 +130,8 @@ double largest_error(double k_r, const RunOptions& steps) {
   const double time = calc_hertz_time(joint.K, kReboundMass, kReboundSpeed);
   Largest largest;
   for (int k = 0; k < 20; ++k) {
-    const double e = simulate_impact(mass, 30e-6 + 1.37e-6 * k, kReboundSpeed, time, steps).speed / kReboundSpeed;
+    const double e =
+        simulate_impact(mass, 30e-6 + 1.37e-6 * k, kReboundSpeed, time, steps).speed / kReboundSpeed;
     largest.take(e - rebound_ratio(joint.chi));
   }
   return largest.value();
@@ -166,8 +168,8 @@ Findings compute_rebounds() {
     Largest from_known;
     for (Form& form : forms()) {
       form.joint.chi = calc_damping_factor(NormalForceLaw::kLankaraniNikravesh, known.k_r);
-      const Impact impact =
-          simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap, kReboundSpeed, form.contact_time);
+      const Impact impact = simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap,
+                                            kReboundSpeed, form.contact_time);
       const double found = impact.speed / kReboundSpeed;
       const std::string at = ", k_r = " + number(known.k_r) + ", " + form.name;
       findings.checks.push_back(compare(
@@ -224,29 +226,30 @@ Findings compute_elastic_impacts() {
     joint.chi = 0.0;
     const std::string at = ", elastic, Hertz, c_r = " + number(1e3 * c_r) + " mm";
     const double time = calc_hertz_time(joint.K, kReboundMass, kReboundSpeed);
-    const Impact impact = simulate_impact(make_sliding_mass(joint, kReboundMass), kReboundGap, kReboundSpeed, time);
+    const Impact impact =
+        simulate_impact(make_sliding_mass(joint, kReboundMass), kReboundGap, kReboundSpeed, time);
     add("largest penetration" + at, "(5 m v0^2 / (4 K))^(2/5)", 1e6 * impact.depth,
         1e6 * std::pow(1.25 * kReboundMass * kReboundSpeed * kReboundSpeed / joint.K, 0.4), 1e-6, "um",
         "the turn lies between two steps, where the velocity is read as linear");
     add("contact time" + at, "2.94328 delta_max / v0, 2.94328 = 0.8 Gamma(2/5) Gamma(1/2) / Gamma(9/10)",
         1e6 * impact.contact_time, 1e6 * time, 1e-6, "us", at_onset);
     add("speed after parting" + at, "v0", impact.speed, kReboundSpeed, 1e-8, "m/s", of_dopri);
-    add("onset of contact" + at, "gap / v0", 1e6 * impact.onset_time, 1e6 * kReboundGap / kReboundSpeed, 1e-9, "us",
-        of_dopri);
+    add("onset of contact" + at, "gap / v0", 1e6 * impact.onset_time, 1e6 * kReboundGap / kReboundSpeed, 1e-9,
+        "us", of_dopri);
   }
   Form form = forms().back();
   form.joint.chi = 0.0;
   const double s = element_stiffness(form.joint);
-  const Impact impact =
-      simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap, kReboundSpeed, form.contact_time);
+  const Impact impact = simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap,
+                                        kReboundSpeed, form.contact_time);
   add("largest penetration, elastic, one element", "v0 sqrt(m / s)", 1e6 * impact.depth,
       1e6 * kReboundSpeed * std::sqrt(kReboundMass / s), 1e-6, "um",
       "the turn lies between two steps, where the velocity is read as linear");
   add("contact time, elastic, one element", "half a period, pi sqrt(m / s)", 1e6 * impact.contact_time,
       1e6 * form.contact_time, 1e-6, "us", at_onset);
   add("speed after parting, elastic, one element", "v0", impact.speed, kReboundSpeed, 1e-8, "m/s", of_dopri);
-  add("onset of contact, one element", "gap / v0", 1e6 * impact.onset_time, 1e6 * kReboundGap / kReboundSpeed, 1e-9, "us",
-      of_dopri);
+  add("onset of contact, one element", "gap / v0", 1e6 * impact.onset_time, 1e6 * kReboundGap / kReboundSpeed,
+      1e-9, "us", of_dopri);
   return findings;
 }
 

@@ -8,12 +8,15 @@
 
 namespace validation {
 
-/// The joint of the study at a clearance of 0.25 mm as one frictionless ring of stiffness K, its faces out of reach.
+/// The joint of the study at a clearance of 0.25 mm as one frictionless ring of stiffness K, its faces out of
+/// reach.
 [[nodiscard]] ClearanceParameters one_ring(double c_r = 0.25e-3);
 
-/// A mass on a slide along x, without gravity. It carries the journal; the bearing is on the ground, its axis through the slide's zero.
+/// A mass on a slide along x, without gravity. It carries the journal; the bearing is on the ground, its axis
+/// through the slide's zero.
 /// @param mass    [kg]
-/// @param turned  angle of the journal's x axis, where the first element of a ring is, from the direction of motion, [rad]
+/// @param turned  angle of the journal's x axis, where the first element of a ring is, from the direction of
+/// motion, [rad]
 [[nodiscard]] Mechanism make_sliding_mass(const ClearanceParameters& joint, double mass, double turned = 0.0);
 
 /// One contact of a sliding mass with the bore, from the first touch to the parting.
@@ -27,7 +30,8 @@ struct Impact {
 };
 
 /// Error-controlled steps whose error is not to be seen.
-inline constexpr RunOptions kTightSteps{.integrator = Integrator::kDopri5, .relative_tolerance = 1e-13, .absolute_tolerance = 1e-16};
+inline constexpr RunOptions kTightSteps{
+    .integrator = Integrator::kDopri5, .relative_tolerance = 1e-13, .absolute_tolerance = 1e-16};
 
 /// Lets the mass run at the bore from a gap and follows it until it has parted.
 /// @param gap        at the start, [m]
@@ -35,18 +39,23 @@ inline constexpr RunOptions kTightSteps{.integrator = Integrator::kDopri5, .rela
 /// @param contact    about how long the contact lasts, [s]
 /// @param steps      how to integrate; the duration is decided here
 /// @throws std::runtime_error if it does not part within three times that
-[[nodiscard]] Impact simulate_impact(const Mechanism& sliding_mass, double gap, double v0, double contact, RunOptions steps = kTightSteps);
+[[nodiscard]] Impact simulate_impact(const Mechanism& sliding_mass, double gap, double v0, double contact,
+                                     RunOptions steps = kTightSteps);
 
-/// Time of an elastic contact with f = K delta^1.5: 2.94328 delta_max / v0 with delta_max = (5 m v0^2 / (4 K))^(2/5). [s]
+/// Time of an elastic contact with f = K delta^1.5: 2.94328 delta_max / v0 with delta_max = (5 m v0^2 / (4
+/// K))^(2/5). [s]
 [[nodiscard]] double calc_hertz_time(double K, double mass, double v0);
 
-/// The number 2.94328 in it: 2 * integral of dx / sqrt(1 - x^2.5) from 0 to 1 = 0.8 Gamma(2/5) Gamma(1/2) / Gamma(9/10).
+/// The number 2.94328 in it: 2 * integral of dx / sqrt(1 - x^2.5) from 0 to 1 = 0.8 Gamma(2/5) Gamma(1/2) /
+/// Gamma(9/10).
 [[nodiscard]] double hertz_time_factor();
 
-/// Stiffness of Hertz's contact of two spheres, K = 4/3 E* sqrt(R), 1/E* = 2 (1 - nu^2) / E, 1/R = 1/r_j - 1/r_b. [N/m^1.5]
+/// Stiffness of Hertz's contact of two spheres, K = 4/3 E* sqrt(R), 1/E* = 2 (1 - nu^2) / E, 1/R = 1/r_j -
+/// 1/r_b. [N/m^1.5]
 [[nodiscard]] double hertz_stiffness(double r_b, double c_r, double youngs_modulus, double nu);
 
-/// Restitution of f = f_e (1 + c rate / v0): the root of c (1 + e) = ln((1 + c) / (1 - c e)), whatever f_e and the mass.
+/// Restitution of f = f_e (1 + c rate / v0): the root of c (1 + e) = ln((1 + c) / (1 - c e)), whatever f_e
+/// and the mass.
 [[nodiscard]] double rebound_ratio(double c);
 
 }  // namespace validation

@@ -53,8 +53,10 @@ Findings compute_causes_of_loss() {
   };
   const std::vector<Cause> causes{
       {"k_r = 1", "impact_loss_j", "impact loss", [](RpsupParameters& p) { p.restitution = 1.0; }},
-      {"no friction", "friction_work_j", "friction loss", [](RpsupParameters& p) { p.friction = FrictionLaw::kNone; }},
-      {"damping ratio 0", "structural_loss_j", "structural loss", [](RpsupParameters& p) { p.coupler_damping_ratio = 0.0; }},
+      {"no friction", "friction_work_j", "friction loss",
+       [](RpsupParameters& p) { p.friction = FrictionLaw::kNone; }},
+      {"damping ratio 0", "structural_loss_j", "structural loss",
+       [](RpsupParameters& p) { p.coupler_damping_ratio = 0.0; }},
   };
   const std::string what = "flexible, 0.25 mm, 10 rad/s, 0.06 s, ";
   const char* tolerance = "ten times the tolerance, 1e-8: it holds for each of some 10,000 steps";
@@ -63,23 +65,29 @@ Findings compute_causes_of_loss() {
     RpsupParameters parameters = flexible();
     cause.turn_off(parameters);
     const RunResult run = run_rpsup(parameters, kOptions);
-    findings.checks.push_back(compare(what + cause.off + ": " + cause.name, "its cause is off", metric(run, cause.key), 0.0, 0.0, "J",
-                                      "no term is left"));
-    findings.checks.push_back(limit(what + cause.off + ": energy less work plus the other two losses, change over the work turned over", "none",
-                                    metric(run, "energy_residual"), 1e-7, "1", tolerance));
+    findings.checks.push_back(compare(what + cause.off + ": " + cause.name, "its cause is off",
+                                      metric(run, cause.key), 0.0, 0.0, "J", "no term is left"));
+    findings.checks.push_back(limit(
+        what + cause.off + ": energy less work plus the other two losses, change over the work turned over",
+        "none", metric(run, "energy_residual"), 1e-7, "1", tolerance));
   }
   const RunResult driven = run_rpsup(lossless(), kOptions);
-  findings.checks.push_back(limit(what + "all three off: energy less work, change over the work turned over", "conserved",
-                                  metric(driven, "energy_residual"), 1e-7, "1", tolerance));
+  findings.checks.push_back(limit(what + "all three off: energy less work, change over the work turned over",
+                                  "conserved", metric(driven, "energy_residual"), 1e-7, "1", tolerance));
   RpsupParameters still = lossless();
   still.coupler = Coupler::kRigid;
   still.crank_velocity = 0.0;
   still.rod_stroke = 0.0;
-  const RunResult bouncing = run_rpsup(still, {.duration = 0.1, .output_rate = 1000.0, .integrator = Integrator::kDopri5,
-                                               .relative_tolerance = 1e-10, .absolute_tolerance = 1e-13});
-  findings.checks.push_back(limit("rigid, 0.25 mm, drives at rest, no losses, 0.1 s of bouncing: change of energy over the largest kinetic energy",
-                                  "conserved",
-                                  find_drift(bouncing), 1e-8, "1", "a hundred times the tolerance, 1e-10: it holds for each of 26,000 steps"));
+  const RunResult bouncing = run_rpsup(still, {.duration = 0.1,
+                                               .output_rate = 1000.0,
+                                               .integrator = Integrator::kDopri5,
+                                               .relative_tolerance = 1e-10,
+                                               .absolute_tolerance = 1e-13});
+  findings.checks.push_back(
+      limit("rigid, 0.25 mm, drives at rest, no losses, 0.1 s of bouncing: change of energy over the largest "
+            "kinetic energy",
+            "conserved", find_drift(bouncing), 1e-8, "1",
+            "a hundred times the tolerance, 1e-10: it holds for each of 26,000 steps"));
   return findings;
 }
 

@@ -27,7 +27,8 @@ class LastAccount : public QuietObserver {
   bool gone_ = false;
 };
 
-/// The rebound e of the law f = f_e (1 + c rate / onset rate): c (1 + e) = ln((1 + c) / (1 - c e)), whatever f_e.
+/// The rebound e of the law f = f_e (1 + c rate / onset rate): c (1 + e) = ln((1 + c) / (1 - c e)), whatever
+/// f_e.
 double calc_rebound(double c) {
   double low = 0.0;
   double high = 1.0;
@@ -41,7 +42,8 @@ double calc_rebound(double c) {
 Check compare_impact(double k_r) {
   constexpr double kImpactMass = 1.0, kImpactSpeed = 0.3, kImpactGap = 0.25e-3;
   const double chi = 0.75 * (1.0 - k_r * k_r);
-  const Mechanism mass = make_free_mass(kImpactMass, {.c_r = kImpactGap, .K = 4.7e10, .chi = chi, .friction = {}, .worn = {}});
+  const Mechanism mass =
+      make_free_mass(kImpactMass, {.c_r = kImpactGap, .K = 4.7e10, .chi = chi, .friction = {}, .worn = {}});
   LastAccount last(kImpactGap);
   run_from(mass, {.duration = 2e-3, .output_rate = 1.0, .integrator = Integrator::kDopri5,
                   .relative_tolerance = 1e-9, .absolute_tolerance = 1e-10}, Eigen::VectorXd::Zero(1),
@@ -49,7 +51,8 @@ Check compare_impact(double k_r) {
   const double e = calc_rebound(chi);
   const double expected = 0.5 * kImpactMass * kImpactSpeed * kImpactSpeed * (1.0 - e * e);
   return compare("impact loss of 1 kg that meets the bore at 0.3 m/s, k_r = " + number(k_r),
-                 "closed form: m v^2 (1 - e^2) / 2, chi (1 + e) = ln((1 + chi) / (1 - chi e))", last.energy.impact_loss, expected, 5e-9, "J",
+                 "closed form: m v^2 (1 - e^2) / 2, chi (1 + e) = ln((1 + chi) / (1 - chi e))",
+                 last.energy.impact_loss, expected, 5e-9, "J",
                  "tolerance of the integration, 1e-9 of 0.045 J, over some hundred steps");
 }
 
@@ -68,10 +71,13 @@ Check compare_friction(double v) {
                     .relative_tolerance = 1e-10, .absolute_tolerance = 1e-13},
            Eigen::Vector2d(0.0, resting_height(slider)), Eigen::Vector2d(v, 0.0), last);
   const double passed = 1.0 - std::exp(-3.0);
-  const double expected = v * (g * (duration - tau * passed) + law.sigma_1 * v * tau * passed + law.sigma_2 * v * duration);
-  return compare("friction loss of a journal pulled along its axis at " + number(v) + " m/s under 1 N, for three of the bristle's time constants",
-                 "closed form: integral of F v, F = g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g)", last.energy.friction_loss,
-                 expected, 1e-9 * expected, "J", "tolerance of the integration, 1e-10");
+  const double expected =
+      v * (g * (duration - tau * passed) + law.sigma_1 * v * tau * passed + law.sigma_2 * v * duration);
+  return compare(
+      "friction loss of a journal pulled along its axis at " + number(v) +
+          " m/s under 1 N, for three of the bristle's time constants",
+      "closed form: integral of F v, F = g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g)",
+      last.energy.friction_loss, expected, 1e-9 * expected, "J", "tolerance of the integration, 1e-10");
 }
 
 }  // namespace

@@ -58,10 +58,12 @@ class ContactLosses : public QuietObserver {
   double c_r_, r_j_, K_;
 };
 
-/// Heat of the coupler's dampers: D = 2 zeta / omega_1 (E I, E I, G J) / dl on each of its joints' three rates.
+/// Heat of the coupler's dampers: D = 2 zeta / omega_1 (E I, E I, G J) / dl on each of its joints' three
+/// rates.
 class DamperLosses : public QuietObserver {
  public:
-  DamperLosses(const RpsupParameters& p, FrameIndex coupler) : first_(coupler + 1), joints_(p.rigid_elements - 1) {
+  DamperLosses(const RpsupParameters& p, FrameIndex coupler)
+      : first_(coupler + 1), joints_(p.rigid_elements - 1) {
     const double d4 = std::pow(p.coupler_diameter, 4);
     const double bending = p.youngs_modulus * std::numbers::pi * d4 / 64.0;
     const double torsion = p.shear_modulus * std::numbers::pi * d4 / 32.0;
@@ -95,7 +97,9 @@ class DamperLosses : public QuietObserver {
 
 Findings compute_sampled_losses() {
   Findings findings;
-  const char* why = "trapezoids of 1 us that contain an onset, where the power sets in as t^1.5: (1 us / time in contact, 100 us or more)^2.5";
+  const char* why =
+      "trapezoids of 1 us that contain an onset, where the power sets in as t^1.5: (1 us / time in contact, "
+      "100 us or more)^2.5";
   {
     RpsupParameters parameters;
     parameters.radial_levels = 1;
@@ -104,29 +108,44 @@ Findings compute_sampled_losses() {
     const double r_j = parameters.bearing_radius - parameters.c_r;
     // Project paper: K = 4 / (3 pi 2 h) sqrt(r_b r_j / c_r), h = (1 - nu^2) / (pi E), nu = E / (2 G) - 1
     const double nu = 0.5 * parameters.youngs_modulus / parameters.shear_modulus - 1.0;
-    const double K = 2.0 * parameters.youngs_modulus / (3.0 * (1.0 - nu * nu)) * std::sqrt(parameters.bearing_radius * r_j / parameters.c_r);
+    const double K = 2.0 * parameters.youngs_modulus / (3.0 * (1.0 - nu * nu)) *
+                     std::sqrt(parameters.bearing_radius * r_j / parameters.c_r);
     ContactLosses losses(parameters.c_r, r_j, K);
-    (void)simulate(rpsup.mechanism, {.duration = 0.2, .output_rate = kSampling, .integrator = Integrator::kDopri5,
-                                     .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, losses);
+    (void)simulate(rpsup.mechanism,
+                   {.duration = 0.2,
+                    .output_rate = kSampling,
+                    .integrator = Integrator::kDopri5,
+                    .relative_tolerance = 1e-8,
+                    .absolute_tolerance = 1e-9},
+                   losses);
     const std::string what = "rigid, 0.25 mm, 10 rad/s, one ring, 0.2 s: ";
-    findings.checks.push_back(compare(what + "impact loss",
-                                      "integral of (f_n - K delta^1.5) times the penetration rate, from samples of force and motion",
-                                      losses.energy.impact_loss, losses.impact.sum(), 1e-5 * losses.impact.sum(), "J", why));
-    findings.checks.push_back(compare(what + "friction loss",
-                                      "integral of the force along the bore times the sliding velocity, from the same samples",
-                                      losses.energy.friction_loss, losses.friction.sum(), 1e-5 * losses.friction.sum(), "J", why));
+    findings.checks.push_back(compare(
+        what + "impact loss",
+        "integral of (f_n - K delta^1.5) times the penetration rate, from samples of force and motion",
+        losses.energy.impact_loss, losses.impact.sum(), 1e-5 * losses.impact.sum(), "J", why));
+    findings.checks.push_back(
+        compare(what + "friction loss",
+                "integral of the force along the bore times the sliding velocity, from the same samples",
+                losses.energy.friction_loss, losses.friction.sum(), 1e-5 * losses.friction.sum(), "J", why));
   }
   {
     RpsupParameters parameters;
     parameters.coupler = Coupler::kFlexible;
     const Rpsup rpsup = build_rpsup(parameters);
     DamperLosses losses(parameters, rpsup.layout.coupler);
-    (void)simulate(rpsup.mechanism, {.duration = 0.1, .output_rate = kSampling, .integrator = Integrator::kDopri5,
-                                     .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, losses);
-    findings.checks.push_back(compare("flexible, 0.25 mm, 10 rad/s, 0.1 s: structural loss",
-                                      "integral of rate^T D rate, D from E, G and the rod's size, from samples of the coupler's angles",
-                                      losses.energy.structural_loss, losses.structural.sum(), 1e-7 * losses.structural.sum(), "J",
-                                      "ten times the tolerance, 1e-8; trapezoids of a smooth power err only by its slope at the end, h^2 w / (12 T): 8e-9 at w = 1e4 rad/s"));
+    (void)simulate(rpsup.mechanism,
+                   {.duration = 0.1,
+                    .output_rate = kSampling,
+                    .integrator = Integrator::kDopri5,
+                    .relative_tolerance = 1e-8,
+                    .absolute_tolerance = 1e-9},
+                   losses);
+    findings.checks.push_back(compare(
+        "flexible, 0.25 mm, 10 rad/s, 0.1 s: structural loss",
+        "integral of rate^T D rate, D from E, G and the rod's size, from samples of the coupler's angles",
+        losses.energy.structural_loss, losses.structural.sum(), 1e-7 * losses.structural.sum(), "J",
+        "ten times the tolerance, 1e-8; trapezoids of a smooth power err only by its slope at the end, h^2 w "
+        "/ (12 T): 8e-9 at w = 1e4 rad/s"));
   }
   return findings;
 }

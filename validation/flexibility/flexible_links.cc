@@ -118,8 +118,8 @@ Findings compute_link_sags() {
   of_rod.rod_start = of_rod.rod_length;
   of_rod.rod.model = LinkModel::kFlexible;
   of_rod.rod.elements = kSegments + 1;
-  const double rod_sag =
-      1e3 * calc_sag(0.490 * kLinkGravity, 0.5 * 0.306 * kLinkGravity, 0.0, 0.2, calc_EI(of_rod.rod), kSegments);
+  const double rod_sag = 1e3 * calc_sag(0.490 * kLinkGravity, 0.5 * 0.306 * kLinkGravity, 0.0, 0.2,
+                                        calc_EI(of_rod.rod), kSegments);
   findings.checks.push_back(compare(
       "sag of the rod's end in the linkage at rest, under its weight and half the coupler's, 16 segments",
       "moments over springs: F l^3 / (3 E I) and the like as n grows", find_sag(of_rod, "rod"), rod_sag,

@@ -80,7 +80,8 @@ Findings compute_frequencies_of_three_segments() {
     const double other_of_study = bars_frequency(kStudyRod, 3, mode);
     const std::string route = "bars with the displacements of their ends as unknowns";
     findings.checks.push_back(compare("frequency, rod of 7801 kg/m^3" + at, kGiven, found,
-                                      kFrequencyKnown[k].three_segments, kFrequencyKnown[k].three_digit, "Hz", "its digits"));
+                                      kFrequencyKnown[k].three_segments, kFrequencyKnown[k].three_digit, "Hz",
+                                      "its digits"));
     findings.checks.push_back(compare("frequency, rod of 7801 kg/m^3" + at, route, found, other,
                                       1e-11 * other, "Hz", "rounding in two eigenproblems"));
     findings.checks.push_back(compare("frequency, the study's coupler" + at, route, of_study, other_of_study,
@@ -88,8 +89,8 @@ Findings compute_frequencies_of_three_segments() {
     findings.checks.push_back(compare(
         "frequency in the x-z plane, the study's coupler" + at, "its frequency in the x-y plane",
         engine_frequency(kStudyRod, 3, mode, Plane::kXZ), of_study, 1e-11 * of_study, "Hz", "rounding"));
-    table.rows.push_back({mode.name, number(kFrequencyKnown[k].three_segments, 6), number(found, 7), number(other, 7),
-                          number(of_study, 7), number(other_of_study, 7)});
+    table.rows.push_back({mode.name, number(kFrequencyKnown[k].three_segments, 6), number(found, 7),
+                          number(other, 7), number(of_study, 7), number(other_of_study, 7)});
   }
   findings.tables.push_back(std::move(table));
   return findings;
@@ -116,9 +117,10 @@ Findings compute_frequency_limits() {
   for (std::size_t k = 0; k < std::size(kBendingModes); ++k) {
     const BendingMode& mode = kBendingModes[k];
     const std::string at = std::string(", ") + mode.name;
-    findings.checks.push_back(compare(
-        "limit of the frequency, rod of 7801 kg/m^3 without rotary inertia" + at, kGiven,
-        extrapolated_frequency(thin, mode), kFrequencyKnown[k].limit, kFrequencyKnown[k].limit_digit, "Hz", "its digits"));
+    findings.checks.push_back(
+        compare("limit of the frequency, rod of 7801 kg/m^3 without rotary inertia" + at, kGiven,
+                extrapolated_frequency(thin, mode), kFrequencyKnown[k].limit, kFrequencyKnown[k].limit_digit,
+                "Hz", "its digits"));
     const double euler = euler_bernoulli_frequency(kStudyRod, mode);
     const double rayleigh = rayleigh_frequency(kStudyRod, mode);
     const double limit_without = extrapolated_frequency(slender(kStudyRod), mode);

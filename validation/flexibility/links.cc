@@ -11,7 +11,8 @@ RpsupParameters with_cross(double length) {
   RpsupParameters p;
   const LinkInertia tube = beam_inertia(1.07 * length, length, 8.377e-5 * length);
   p.cross_length = length;
-  p.links[static_cast<std::size_t>(Link::k22)] = {tube.mass, {tube.inertia.y(), tube.inertia.z(), tube.inertia.x()}};
+  p.links[static_cast<std::size_t>(Link::k22)] = {tube.mass,
+                                                  {tube.inertia.y(), tube.inertia.z(), tube.inertia.x()}};
   return p;
 }
 

@@ -16,9 +16,10 @@ struct FlexibleLink {
   RoundLink RpsupParameters::*form;
   double RpsupParameters::*length;
 };
-inline constexpr std::array<FlexibleLink, 3> kFlexibleLinks{{{"crank", Link::k11, &RpsupParameters::crank, &RpsupParameters::crank_length},
-                                                             {"rod", Link::k12, &RpsupParameters::rod, &RpsupParameters::rod_length},
-                                                             {"cross", Link::k22, &RpsupParameters::cross, &RpsupParameters::cross_length}}};
+inline constexpr std::array<FlexibleLink, 3> kFlexibleLinks{
+    {{"crank", Link::k11, &RpsupParameters::crank, &RpsupParameters::crank_length},
+     {"rod", Link::k12, &RpsupParameters::rod, &RpsupParameters::rod_length},
+     {"cross", Link::k22, &RpsupParameters::cross, &RpsupParameters::cross_length}}};
 
 /// With a cross link of this length: the study's tube, 20/15 mm, cut to it.
 [[nodiscard]] RpsupParameters with_cross(double length);

@@ -15,7 +15,8 @@ namespace validation {
 struct Extremum {
   double t, value;
 };
-[[nodiscard]] inline std::vector<Extremum> find_extrema(const std::vector<double>& t, const std::vector<double>& x, double from) {
+[[nodiscard]] inline std::vector<Extremum> find_extrema(const std::vector<double>& t,
+                                                        const std::vector<double>& x, double from) {
   std::vector<Extremum> extrema;
   for (std::size_t k = 1; k + 1 < x.size(); ++k) {
     if (t[k] < from || (x[k] - x[k - 1]) * (x[k + 1] - x[k]) > 0.0) continue;
@@ -32,13 +33,16 @@ struct Oscillation {
   double damping_ratio;  ///< [1]
 };
 [[nodiscard]] inline Oscillation measure(const std::vector<Extremum>& extrema) {
-  if (extrema.size() < 40) throw std::runtime_error("a run of the validation failed: there is no swing to measure");
+  if (extrema.size() < 40)
+    throw std::runtime_error("a run of the validation failed: there is no swing to measure");
   const std::size_t last = extrema.size() - 1;
   const auto half_periods = static_cast<double>(last - 1);
   const double first_swing = std::abs(extrema[1].value - extrema[0].value);
   const double last_swing = std::abs(extrema[last].value - extrema[last - 1].value);
-  const double decrement = std::log(first_swing / last_swing) / half_periods;  // of half a period: pi zeta / sqrt(1 - zeta^2)
-  return {0.5 * static_cast<double>(last) / (extrema[last].t - extrema[0].t), decrement / std::hypot(decrement, std::numbers::pi)};
+  // of half a period: pi zeta / sqrt(1 - zeta^2)
+  const double decrement = std::log(first_swing / last_swing) / half_periods;
+  return {0.5 * static_cast<double>(last) / (extrema[last].t - extrema[0].t),
+          decrement / std::hypot(decrement, std::numbers::pi)};
 }
 
 }  // namespace validation

@@ -25,38 +25,65 @@ struct Method {
   const char* name;
   Integrator integrator;
 };
-constexpr std::array<Method, 3> kMethods{{{"dopri5", Integrator::kDopri5}, {"radau5", Integrator::kRadau5}, {"rodas5", Integrator::kRodas5}}};
+constexpr std::array<Method, 3> kMethods{
+    {{"dopri5", Integrator::kDopri5}, {"radau5", Integrator::kRadau5}, {"rodas5", Integrator::kRodas5}}};
 
 RunResult run_spring(const Linkage& linkage, Integrator integrator, double duration, double output_rate) {
-  const RunOptions options{.duration = duration, .output_rate = output_rate, .integrator = integrator, .relative_tolerance = 1e-10,
+  const RunOptions options{.duration = duration,
+                           .output_rate = output_rate,
+                           .integrator = integrator,
+                           .relative_tolerance = 1e-10,
                            .absolute_tolerance = 1e-10};
   RunResult result = simulate_linkage(linkage, options, 0.0, {});
-  if (result.status != RunStatus::kSucceeded) throw std::runtime_error("a run of the validation failed: " + result.detail);
+  if (result.status != RunStatus::kSucceeded)
+    throw std::runtime_error("a run of the validation failed: " + result.detail);
   return result;
 }
 
-/// Of 2 kg on a slide along x, 0.4 m from the point of the ground that it is tied to: m x'' = -k (x - L_0) - d x'.
+/// Of 2 kg on a slide along x, 0.4 m from the point of the ground that it is tied to: m x'' = -k (x - L_0) -
+/// d x'.
 constexpr double kSpringMass = 2.0, kStiffness = 8e4, kDamping = 4.0, kFree = 0.3, kStart = 0.4;
 Linkage make_block() {
   Linkage linkage;
   linkage.bodies = {{.name = "block", .mass = kSpringMass}};
-  linkage.joints = {{.name = "block", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "block", .placement = {},
-                     .axes = {Axis::kX, Axis::kY}, .freedoms = {{.name = "block", .start = kStart}}}};
-  linkage.springs = {{.name = "tie", .from = kGroundName, .to = "block", .stiffness = kStiffness, .damping = kDamping, .free_length = kFree}};
+  linkage.joints = {{.name = "block",
+                     .kind = JointKind::kPrismatic,
+                     .from = kGroundName,
+                     .to = "block",
+                     .placement = {},
+                     .axes = {Axis::kX, Axis::kY},
+                     .freedoms = {{.name = "block", .start = kStart}}}};
+  linkage.springs = {{.name = "tie",
+                      .from = kGroundName,
+                      .to = "block",
+                      .stiffness = kStiffness,
+                      .damping = kDamping,
+                      .free_length = kFree}};
   return linkage;
 }
 
 /// A bar on a pivot, its tip tied to a point beside it.
-constexpr double kTip = 0.4, kBarMass = 1.5, kCentre = 0.25, kInertia = 0.02 + kBarMass * kCentre * kCentre, kTie = 60.0, kTieDamping = 0.8;
+constexpr double kTip = 0.4, kBarMass = 1.5, kCentre = 0.25, kInertia = 0.02 + kBarMass * kCentre * kCentre,
+                 kTie = 60.0, kTieDamping = 0.8;
 constexpr double kTieFree = 0.25, kAnchorX = 0.3, kAnchorY = 0.5, kSpringGravity = 9.81, kStartAngle = -0.2;
 Linkage make_tied_pendulum() {
   Linkage linkage;
   linkage.gravity_W = {0.0, -kSpringGravity, 0.0};
   linkage.bodies = {{.name = "bar", .mass = kBarMass, .com = {kCentre, 0.0, 0.0},
                      .inertia = Eigen::Vector3d(0.0, kInertia, kInertia).asDiagonal().toDenseMatrix()}};
-  linkage.joints = {{.name = "bar", .from = kGroundName, .to = "bar", .placement = {}, .freedoms = {{.name = "bar", .start = kStartAngle}}}};
-  linkage.springs = {{.name = "tie", .from = kGroundName, .to = "bar", .at = {kAnchorX, kAnchorY, 0.0}, .to_at = {kTip, 0.0, 0.0},
-                      .stiffness = kTie, .damping = kTieDamping, .free_length = kTieFree}};
+  linkage.joints = {{.name = "bar",
+                     .from = kGroundName,
+                     .to = "bar",
+                     .placement = {},
+                     .freedoms = {{.name = "bar", .start = kStartAngle}}}};
+  linkage.springs = {{.name = "tie",
+                      .from = kGroundName,
+                      .to = "bar",
+                      .at = {kAnchorX, kAnchorY, 0.0},
+                      .to_at = {kTip, 0.0, 0.0},
+                      .stiffness = kTie,
+                      .damping = kTieDamping,
+                      .free_length = kTieFree}};
   return linkage;
 }
 
@@ -65,10 +92,13 @@ double calc_bar_acceleration(double a, double rate) {
   const double x = kAnchorX - kTip * std::cos(a), y = kAnchorY - kTip * std::sin(a);
   const double length = std::hypot(x, y);
   const double by_angle = kTip * (x * std::sin(a) - y * std::cos(a)) / length;
-  return (-kBarMass * kSpringGravity * kCentre * std::cos(a) - (kTie * (length - kTieFree) + kTieDamping * by_angle * rate) * by_angle) / kInertia;
+  return (-kBarMass * kSpringGravity * kCentre * std::cos(a) -
+          (kTie * (length - kTieFree) + kTieDamping * by_angle * rate) * by_angle) /
+         kInertia;
 }
 
-/// That equation by Runge and Kutta's method, in steps that leave an error below 1e-12. @returns the angle, [rad]
+/// That equation by Runge and Kutta's method, in steps that leave an error below 1e-12. @returns the angle,
+/// [rad]
 double find_bar_angle(double t) {
   constexpr int kSteps = 20'000;
   const double h = t / kSteps;
@@ -96,19 +126,23 @@ Findings compute_block_on_a_spring() {
     const std::vector<double>& x = column(result, "block_m");
     double largest = 0.0;
     for (std::size_t k = 0; k < t.size(); ++k) {
-      const double expected = kFree + (kStart - kFree) * std::exp(-b * t[k]) * (std::cos(w * t[k]) + b / w * std::sin(w * t[k]));
+      const double expected =
+          kFree + (kStart - kFree) * std::exp(-b * t[k]) * (std::cos(w * t[k]) + b / w * std::sin(w * t[k]));
       largest = std::max(largest, std::abs(x[k] - expected));
     }
     const std::string by = std::string(", ") + method.name;
-    findings.checks.push_back(limit("block of 2 kg on a spring of 8e4 N/m and a damper of 4 N s/m, over 1 s" + by,
-                                    "x = L_0 + a exp(-b t) (cos(w t) + b / w sin(w t))", 1e6 * largest, 1e-3, "um",
-                                    "the steps' tolerance of 1e-10, over 32 periods"));
+    findings.checks.push_back(
+        limit("block of 2 kg on a spring of 8e4 N/m and a damper of 4 N s/m, over 1 s" + by,
+              "x = L_0 + a exp(-b t) (cos(w t) + b / w sin(w t))", 1e6 * largest, 1e-3, "um",
+              "the steps' tolerance of 1e-10, over 32 periods"));
     const Oscillation swing = measure(find_extrema(t, x, 0.0));
     const double frequency = 0.5 * w / std::numbers::pi, ratio = b / std::sqrt(kStiffness / kSpringMass);
-    findings.checks.push_back(compare("frequency of the block on the spring" + by, "sqrt(k / m - (d / (2 m))^2) / (2 pi)", swing.frequency, frequency,
+    findings.checks.push_back(compare("frequency of the block on the spring" + by,
+                                      "sqrt(k / m - (d / (2 m))^2) / (2 pi)", swing.frequency, frequency,
                                       1e-8 * frequency, "Hz", why));
-    findings.checks.push_back(compare("damping ratio of the block on the spring from the logarithmic decrement" + by, "d / (2 sqrt(k m))",
-                                      swing.damping_ratio, ratio, 1e-6 * ratio, "1", why));
+    findings.checks.push_back(
+        compare("damping ratio of the block on the spring from the logarithmic decrement" + by,
+                "d / (2 sqrt(k m))", swing.damping_ratio, ratio, 1e-6 * ratio, "1", why));
   }
   return findings;
 }
@@ -118,10 +152,11 @@ Findings compute_tied_pendulum() {
   Findings findings;
   const double expected = find_bar_angle(kEnd);
   for (const Method& method : kMethods)
-    findings.checks.push_back(compare(std::string("angle of a pendulum tied by a spring and damper beside it, after 2 s, ") + method.name,
-                                      "the equation of its angle, by Runge and Kutta's method",
-                                      column(run_spring(make_tied_pendulum(), method.integrator, kEnd, 100.0), "bar_rad").back(), expected, 1e-9, "rad",
-                                      "the steps' tolerance of 1e-10"));
+    findings.checks.push_back(compare(
+        std::string("angle of a pendulum tied by a spring and damper beside it, after 2 s, ") + method.name,
+        "the equation of its angle, by Runge and Kutta's method",
+        column(run_spring(make_tied_pendulum(), method.integrator, kEnd, 100.0), "bar_rad").back(), expected,
+        1e-9, "rad", "the steps' tolerance of 1e-10"));
   return findings;
 }
 

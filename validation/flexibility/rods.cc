@@ -36,7 +36,8 @@ std::vector<Eigen::Index> coordinates_in(const Mechanism& mechanism, Plane plane
   std::vector<Eigen::Index> chosen;
   for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i) {
     const Coordinate& c = mechanism.coordinates[i];
-    if (c.axis == (c.motion == Motion::kRotation ? normal : across)) chosen.push_back(static_cast<Eigen::Index>(i));
+    if (c.axis == (c.motion == Motion::kRotation ? normal : across))
+      chosen.push_back(static_cast<Eigen::Index>(i));
   }
   return chosen;
 }
@@ -58,7 +59,8 @@ double find_root_above(double from, double step, const Function& f) {
 /// Rotary inertia of the sections over the mass, [m^2].
 double radius_squared(const Rod& rod) { return 0.5 * rod.I_x / rod.mass; }
 
-/// Rayleigh's rod: w'''' + b^4 r^2 w'' - b^4 w = 0 with b^4 = m omega^2 / (EI l), its solutions cosh, sinh(alpha x), cos, sin(beta x).
+/// Rayleigh's rod: w'''' + b^4 r^2 w'' - b^4 w = 0 with b^4 = m omega^2 / (EI l), its solutions cosh,
+/// sinh(alpha x), cos, sin(beta x).
 struct WaveNumbers {
   double alpha, beta, k;  ///< k = b^4 r^2
 };
@@ -75,7 +77,8 @@ double clamped_free_determinant(double b, double r2) {
   // w = A (cosh - cos) + B (sinh / alpha - sin / beta)
   const double moment_A = alpha * alpha * std::cosh(alpha * x) + beta * beta * std::cos(beta * x);
   const double moment_B = alpha * std::sinh(alpha * x) + beta * std::sin(beta * x);
-  const double shear_A = alpha * (alpha * alpha + k) * std::sinh(alpha * x) - beta * (beta * beta - k) * std::sin(beta * x);
+  const double shear_A =
+      alpha * (alpha * alpha + k) * std::sinh(alpha * x) - beta * (beta * beta - k) * std::sin(beta * x);
   const double shear_B = (alpha * alpha + k) * std::cosh(alpha * x) + (beta * beta - k) * std::cos(beta * x);
   return (moment_A * shear_B - moment_B * shear_A) / (std::cosh(alpha * x) * std::cosh(alpha * x));
 }
@@ -91,7 +94,9 @@ double free_free_determinant(double b, double r2) {
   return (moment_A * shear_B - moment_B * shear_A) / std::cosh(alpha * x);
 }
 
-double frequency_of(double b, const Rod& rod) { return b * b * std::sqrt(Rod::EI() * Rod::kLength / rod.mass) / (2.0 * kPi); }
+double frequency_of(double b, const Rod& rod) {
+  return b * b * std::sqrt(Rod::EI() * Rod::kLength / rod.mass) / (2.0 * kPi);
+}
 
 double calc_rod_frequency(const Rod& rod, double r2, const BendingMode& mode) {
   if (mode.ends == Ends::kPinnedPinned) {
@@ -100,8 +105,10 @@ double calc_rod_frequency(const Rod& rod, double r2, const BendingMode& mode) {
   }
   double b = 0.0;
   for (int k = 0; k < mode.number; ++k)
-    b = find_root_above(
-        b + 0.1, 0.1, [&](double at) { return mode.ends == Ends::kClampedFree ? clamped_free_determinant(at, r2) : free_free_determinant(at, r2); });
+    b = find_root_above(b + 0.1, 0.1, [&](double at) {
+      return mode.ends == Ends::kClampedFree ? clamped_free_determinant(at, r2)
+                                             : free_free_determinant(at, r2);
+    });
   return frequency_of(b, rod);
 }
 
@@ -148,7 +155,8 @@ Mechanism cut_coupler(const Rod& rod, int segments, NearEnd near_end) {
 }
 
 Eigen::MatrixXd calc_mass_matrix(const Mechanism& mechanism) {
-  return calc_mass_matrix(mechanism, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size())));
+  return calc_mass_matrix(mechanism,
+                          Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size())));
 }
 
 Eigen::MatrixXd stiffness_matrix(const Mechanism& mechanism) {
@@ -170,15 +178,19 @@ Eigen::MatrixXd calc_tip_jacobian(const Mechanism& mechanism) {
   return J;
 }
 
-Eigen::VectorXd calc_frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& constraint) {
+Eigen::VectorXd calc_frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
+                                 const Eigen::MatrixXd& constraint) {
   Eigen::MatrixXd allowed = Eigen::MatrixXd::Identity(M.rows(), M.cols());
   if (constraint.rows() > 0) allowed = constraint.fullPivLu().kernel();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(allowed.transpose() * K * allowed, allowed.transpose() * M * allowed);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(allowed.transpose() * K * allowed,
+                                                                         allowed.transpose() * M * allowed);
   return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * kPi);
 }
 
 double engine_frequency(const Rod& rod, int segments, const BendingMode& mode, Plane plane) {
-  const NearEnd near_end = mode.ends == Ends::kClampedFree ? NearEnd::kClamped : mode.ends == Ends::kFreeFree ? NearEnd::kFree : NearEnd::kSpherical;
+  const NearEnd near_end = mode.ends == Ends::kClampedFree ? NearEnd::kClamped
+                           : mode.ends == Ends::kFreeFree  ? NearEnd::kFree
+                                                           : NearEnd::kSpherical;
   const Mechanism mechanism = cut_coupler(rod, segments, near_end);
   const std::vector<Eigen::Index> chosen = coordinates_in(mechanism, plane);
   const Eigen::MatrixXd M = calc_mass_matrix(mechanism)(chosen, chosen);
@@ -186,7 +198,9 @@ double engine_frequency(const Rod& rod, int segments, const BendingMode& mode, P
   const Eigen::Index across = plane == Plane::kXY ? 1 : 2;
   const Eigen::MatrixXd tip = calc_tip_jacobian(mechanism).row(across)(Eigen::all, chosen);
   const Eigen::Index rigid_modes = mode.ends == Ends::kFreeFree ? 2 : 0;
-  return calc_frequencies(M, K, mode.ends == Ends::kPinnedPinned ? tip : Eigen::MatrixXd(0, M.cols()))[rigid_modes + mode.number - 1];
+  return calc_frequencies(
+      M, K,
+      mode.ends == Ends::kPinnedPinned ? tip : Eigen::MatrixXd(0, M.cols()))[rigid_modes + mode.number - 1];
 }
 
 double bars_frequency(const Rod& rod, int segments, const BendingMode& mode) {
@@ -216,10 +230,15 @@ double bars_frequency(const Rod& rod, int segments, const BendingMode& mode) {
   }
   const int n = last - first + 1;
   const int rigid_modes = mode.ends == Ends::kFreeFree ? 2 : 0;
-  return calc_frequencies(M.block(first, first, n, n), K.block(first, first, n, n), Eigen::MatrixXd(0, n))[rigid_modes + mode.number - 1];
+  return calc_frequencies(M.block(first, first, n, n), K.block(first, first, n, n),
+                          Eigen::MatrixXd(0, n))[rigid_modes + mode.number - 1];
 }
 
-double rayleigh_frequency(const Rod& rod, const BendingMode& mode) { return calc_rod_frequency(rod, radius_squared(rod), mode); }
-double euler_bernoulli_frequency(const Rod& rod, const BendingMode& mode) { return calc_rod_frequency(rod, 0.0, mode); }
+double rayleigh_frequency(const Rod& rod, const BendingMode& mode) {
+  return calc_rod_frequency(rod, radius_squared(rod), mode);
+}
+double euler_bernoulli_frequency(const Rod& rod, const BendingMode& mode) {
+  return calc_rod_frequency(rod, 0.0, mode);
+}
 
 }  // namespace validation

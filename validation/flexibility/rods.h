@@ -31,7 +31,8 @@ enum class NearEnd {
   kFree,       ///< three translations before the spherical joint
 };
 
-/// The flexible coupler cut out of the linkage as the engine builds it, without gravity, its near end at the global origin.
+/// The flexible coupler cut out of the linkage as the engine builds it, without gravity, its near end at the
+/// global origin.
 [[nodiscard]] Mechanism cut_coupler(const Rod& rod, int segments, NearEnd near_end);
 
 /// Mass matrix by the engine, at q = 0 and rest.
@@ -43,7 +44,8 @@ enum class NearEnd {
 
 /// Natural frequencies of K x = omega^2 M x, rising, [Hz]; rigid motion gives 0.
 /// @param constraint  rows that J x = 0 has to hold; may have none
-[[nodiscard]] Eigen::VectorXd calc_frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& constraint);
+[[nodiscard]] Eigen::VectorXd calc_frequencies(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
+                                               const Eigen::MatrixXd& constraint);
 
 /// A bending mode by its ends and number.
 enum class Ends { kPinnedPinned, kClampedFree, kFreeFree };
@@ -59,12 +61,15 @@ inline constexpr BendingMode kBendingModes[] = {{"pinned-pinned, mode 1", Ends::
 
 /// Frequency of the engine's divided coupler, bending in the x-y or the x-z plane, [Hz].
 enum class Plane { kXY, kXZ };
-[[nodiscard]] double engine_frequency(const Rod& rod, int segments, const BendingMode& mode, Plane plane = Plane::kXY);
+[[nodiscard]] double engine_frequency(const Rod& rod, int segments, const BendingMode& mode,
+                                      Plane plane = Plane::kXY);
 
-/// The same division by another route: lateral displacements of the elements' ends as unknowns, matrices assembled bar by bar.
+/// The same division by another route: lateral displacements of the elements' ends as unknowns, matrices
+/// assembled bar by bar.
 [[nodiscard]] double bars_frequency(const Rod& rod, int segments, const BendingMode& mode);
 
-/// The undivided rod, sections turning with it (Rayleigh), or without rotary inertia (Euler and Bernoulli). [Hz]
+/// The undivided rod, sections turning with it (Rayleigh), or without rotary inertia (Euler and Bernoulli).
+/// [Hz]
 [[nodiscard]] double rayleigh_frequency(const Rod& rod, const BendingMode& mode);
 [[nodiscard]] double euler_bernoulli_frequency(const Rod& rod, const BendingMode& mode);
 

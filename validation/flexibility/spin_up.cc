@@ -114,12 +114,12 @@ Findings compute_spin_up() {
   const double limit = (16.0 * from_fine - from_coarse) / 15.0;
   const double order = std::log2((five.largest - ten.largest) / (ten.largest - twenty.largest));
   const std::string beam = "largest lag of the tip of a beam spun up from rest to 6 rad/s in 15 s, ";
-  findings.checks.push_back(
-      compare(beam + "10 segments", kSpinUpGiven, ten.largest, -0.5692, 5.1e-5, "m", "half of its last digit"));
-  findings.checks.push_back(
-      compare(beam + "20 segments", kSpinUpGiven, twenty.largest, -0.5726, 5.1e-5, "m", "half of its last digit"));
-  findings.checks.push_back(compare(beam + "in the limit, from 5, 10 and 20 segments", kSpinUpGiven, limit, -0.5738,
-                                    5.1e-5, "m", "half of its last digit"));
+  findings.checks.push_back(compare(beam + "10 segments", kSpinUpGiven, ten.largest, -0.5692, 5.1e-5, "m",
+                                    "half of its last digit"));
+  findings.checks.push_back(compare(beam + "20 segments", kSpinUpGiven, twenty.largest, -0.5726, 5.1e-5, "m",
+                                    "half of its last digit"));
+  findings.checks.push_back(compare(beam + "in the limit, from 5, 10 and 20 segments", kSpinUpGiven, limit,
+                                    -0.5738, 5.1e-5, "m", "half of its last digit"));
   findings.checks.push_back(
       compare("order of the error of the largest lag of a beam spun up in the number of segments, 5, 10, 20",
               "2", order, 2.0, 0.06, "1", "terms of n^-4"));

@@ -27,7 +27,8 @@ std::vector<CouplerCase> coupler_cases() {
     turned.guide_angle = 0.3;
     turned.gravity_direction = Direction::kMinusY;
     const std::string guide = ", guide turned by 0.3 rad, gravity along -y";
-    const std::string coupler = turned.coupler == Coupler::kRigid ? "rigid coupler" : "flexible coupler, n_rfe = 4";
+    const std::string coupler =
+        turned.coupler == Coupler::kRigid ? "rigid coupler" : "flexible coupler, n_rfe = 4";
     cases.push_back({coupler + guide, turned});
     turned.yoke_axis = YokeAxis::kAcross;
     cases.push_back({coupler + ", yoke across the guide" + guide, turned});
@@ -42,7 +43,9 @@ ChainState draw_state(const Mechanism& mechanism, Random& random) {
     const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
     const bool slides = c.motion == Motion::kTranslation;
     const bool second_of_three = c.axis == Axis::kY && i + 1 < n;
-    state.q[i] = random.symmetric(slides ? 0.3 : second_of_three ? std::numbers::pi * 70.0 / 180.0 : std::numbers::pi);
+    state.q[i] = random.symmetric(slides            ? 0.3
+                                  : second_of_three ? std::numbers::pi * 70.0 / 180.0
+                                                    : std::numbers::pi);
     state.qd[i] = random.symmetric(slides ? 2.0 : 10.0);
   }
   return state;
@@ -55,7 +58,8 @@ Mechanism open_chains(Mechanism mechanism) {
 }
 
 double relative_difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
-  if (!found.allFinite() || !expected.allFinite()) return std::numeric_limits<double>::quiet_NaN();  // a maximum of coefficients may lose it
+  // a maximum of coefficients may lose it
+  if (!found.allFinite() || !expected.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
 }
 

@@ -13,16 +13,18 @@
 
 namespace validation {
 
-/// A linkage whose equations of motion are looked at: the paper's, but with no two of its lengths alike and its guide off both axes.
+/// A linkage whose equations of motion are looked at: the paper's, but with no two of its lengths alike and
+/// its guide off both axes.
 struct CouplerCase {
   std::string name;
   RpsupParameters parameters;
 };
-/// Rigid, and flexible with 2, 4 and 10 rigid elements; rigid and with 4 also with a turned guide, the yoke about it and across it.
+/// Rigid, and flexible with 2, 4 and 10 rigid elements; rigid and with 4 also with a turned guide, the yoke
+/// about it and across it.
 [[nodiscard]] std::vector<CouplerCase> coupler_cases();
 
-/// Angles over the whole turn but for each joint's second one (it stays 20 degrees off a right angle, where a joint of three angles is
-/// singular), slides of 0.3 m, rates of 10 rad/s and 2 m/s.
+/// Angles over the whole turn but for each joint's second one (it stays 20 degrees off a right angle, where a
+/// joint of three angles is singular), slides of 0.3 m, rates of 10 rad/s and 2 m/s.
 struct ChainState {
   Eigen::VectorXd q, qd;
 };
@@ -38,7 +40,8 @@ struct ChainState {
 [[nodiscard]] Findings compute_trace_form();
 /// Slopes of the engine's own energies give the same terms, as Lagrange's equations demand.
 [[nodiscard]] Findings compute_energy_differences();
-/// Contact forces, and the multipliers of an ideal joint, enter the equations of motion by the work of their points.
+/// Contact forces, and the multipliers of an ideal joint, enter the equations of motion by the work of their
+/// points.
 [[nodiscard]] Findings compute_virtual_work();
 
 }  // namespace validation

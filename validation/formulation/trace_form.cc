@@ -31,15 +31,31 @@ struct Quantity {
   const char* why;
 };
 enum Index : std::size_t {
-  kMass, kCoriolis, kGravity, kBias, kKinetic, kPotential, kMotion, kPrescribed, kMultipliers, kDriveLaws, kSprings, kDampers, kDissipation, kQuantities
+  kMass,
+  kCoriolis,
+  kGravity,
+  kBias,
+  kKinetic,
+  kPotential,
+  kMotion,
+  kPrescribed,
+  kMultipliers,
+  kDriveLaws,
+  kSprings,
+  kDampers,
+  kDissipation,
+  kQuantities
 };
 constexpr const char* kRounding = "both forms round, in sums over up to 34 coordinates and 14 bodies";
 constexpr const char* kBackward =
-    "both forms round, relative to the largest row of |M| |qdd|: thin elements turn at up to 3e11 rad/s^2, and such terms cancel";
+    "both forms round, relative to the largest row of |M| |qdd|: thin elements turn at up to 3e11 rad/s^2, "
+    "and such terms cancel";
 constexpr const char* kEnforced =
-    "rounding, and a system of two multipliers that undo what bodies and springs would do to crank and rod; relative to the larger of the two";
+    "rounding, and a system of two multipliers that undo what bodies and springs would do to crank and rod; "
+    "relative to the larger of the two";
 constexpr const char* kHeavy =
-    "rounding; a body of 1 kg and 1 kg m^2 in place of every link and element keeps the accelerations small, so that they show the last "
+    "rounding; a body of 1 kg and 1 kg m^2 in place of every link and element keeps the accelerations small, "
+    "so that they show the last "
     "digits of s_f";
 constexpr std::array<Quantity, kQuantities> kCompared{{
     {"mass matrix M", "M", "Eq. (5)", kRounding},
@@ -48,11 +64,12 @@ constexpr std::array<Quantity, kQuantities> kCompared{{
     {"h + g in one sweep", "h + g", "Eqs. (5), (7)", kRounding},
     {"kinetic energy", "T", "Eq. (4)", kRounding},
     {"potential energy of gravity and springs", "V", "Eqs. (6), (8.1)", kRounding},
-    {"accelerations of the free chains, M qdd + h + g + s_f = 0", "M qdd + h + g + s_f", "Eqs. (5), (7), (9), (13.2)", kBackward},
-    {"accelerations and drive forces, prescribed drives, M qdd + h + g + s_f = drives", "M qdd + h + g + s_f - drives, prescribed",
+    {"accelerations of the free chains, M qdd + h + g + s_f = 0", "M qdd + h + g + s_f",
      "Eqs. (5), (7), (9), (13.2)", kBackward},
-    {"accelerations and drive forces, drives by multipliers, M qdd + h + g + s_f = drives", "M qdd + h + g + s_f - drives, multipliers",
-     "Eqs. (5), (7), (9), (13.2)", kBackward},
+    {"accelerations and drive forces, prescribed drives, M qdd + h + g + s_f = drives",
+     "M qdd + h + g + s_f - drives, prescribed", "Eqs. (5), (7), (9), (13.2)", kBackward},
+    {"accelerations and drive forces, drives by multipliers, M qdd + h + g + s_f = drives",
+     "M qdd + h + g + s_f - drives, multipliers", "Eqs. (5), (7), (9), (13.2)", kBackward},
     {"accelerations of crank and rod, drives by multipliers", "qdd of the drives, multipliers",
      "the drive laws with Baumgarte's terms", kEnforced},
     {"spring part of s_f", "s_f, springs", "Eqs. (8.1), (9) with S = diag(E I, E I, G J) / dl", kHeavy},
@@ -75,7 +92,9 @@ class Engine {
   Engine(const Engine&) = delete;  // its members refer to each other
   Engine& operator=(const Engine&) = delete;
 
-  [[nodiscard]] Eigen::MatrixXd calc_mass_matrix(const ChainState& state) const { return validation::calc_mass_matrix(chains_, state.q); }
+  [[nodiscard]] Eigen::MatrixXd calc_mass_matrix(const ChainState& state) const {
+    return validation::calc_mass_matrix(chains_, state.q);
+  }
   [[nodiscard]] const Eigen::VectorXd& calc_bias(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
     return calc_forces(chains_, inverse_dynamics_, q, qd);
   }
@@ -86,7 +105,8 @@ class Engine {
   [[nodiscard]] const Evaluation& evaluate(const ChainState& state) {
     const Eigen::VectorXd y = system_.make_state(state.q, state.qd);
     rates_.setZero(y.size());
-    if (system_.calc_derivative(0.0, y, rates_, at_) != EvaluationStatus::kOk) at_.qdd.setConstant(std::nan(""));
+    if (system_.calc_derivative(0.0, y, rates_, at_) != EvaluationStatus::kOk)
+      at_.qdd.setConstant(std::nan(""));
     system_.calc_energies(at_);
     return at_;
   }
@@ -97,7 +117,8 @@ class Engine {
     chains.gravity_W.setZero();
     return chains;
   }
-  const Eigen::VectorXd& calc_forces(const Mechanism& chains, InverseDynamics& inverse_dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  const Eigen::VectorXd& calc_forces(const Mechanism& chains, InverseDynamics& inverse_dynamics,
+                                     const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
     calc_frame_motions(chains, q, qd, Eigen::VectorXd::Zero(q.size()), frames_);
     return inverse_dynamics.calc(frames_);
   }
@@ -110,7 +131,8 @@ class Engine {
   std::vector<FrameMotion> frames_;
 };
 
-/// The same chains with heavy bodies, of three different moments, in place of links and elements, and without gravity.
+/// The same chains with heavy bodies, of three different moments, in place of links and elements, and without
+/// gravity.
 Mechanism with_heavy_bodies(Mechanism chains) {
   chains.gravity_W.setZero();
   for (Coordinate& c : chains.coordinates) {
@@ -130,17 +152,24 @@ class Worst {
     take_difference(quantity, relative_difference(found, expected), 1.0);
   }
   /// Scalars count relative to the largest that any state has.
-  void take(Index quantity, double found, double expected) { take_difference(quantity, std::abs(found - expected), std::abs(expected)); }
+  void take(Index quantity, double found, double expected) {
+    take_difference(quantity, std::abs(found - expected), std::abs(expected));
+  }
   /// What is left of equations of motion counts relative to the largest row of |M| |qdd| at the state.
-  void take_residual(Index quantity, const Eigen::MatrixXd& M, const Eigen::VectorXd& qdd, const Eigen::VectorXd& residual) {
+  void take_residual(Index quantity, const Eigen::MatrixXd& M, const Eigen::VectorXd& qdd,
+                     const Eigen::VectorXd& residual) {
     const Eigen::VectorXd terms = M.cwiseAbs() * qdd.cwiseAbs();
-    take_difference(quantity, residual.allFinite() ? residual.cwiseAbs().maxCoeff() / terms.maxCoeff() : std::nan(""), 1.0);
+    take_difference(quantity,
+                    residual.allFinite() ? residual.cwiseAbs().maxCoeff() / terms.maxCoeff() : std::nan(""),
+                    1.0);
   }
   void take_difference(Index quantity, double difference, double scale) {
     differences_[quantity].take(difference);
     largest_[quantity].take(scale);
   }
-  [[nodiscard]] double relative(std::size_t quantity) const { return differences_[quantity].value() / largest_[quantity].value(); }
+  [[nodiscard]] double relative(std::size_t quantity) const {
+    return differences_[quantity].value() / largest_[quantity].value();
+  }
 
  private:
   std::array<Largest, kQuantities> differences_, largest_;
@@ -184,7 +213,8 @@ void compare_driven_chains(RpsupParameters parameters, DriveEnforcement drive, W
     rates.setZero(y.size());
     if (system.calc_derivative(t, y, rates, at) != EvaluationStatus::kOk) at.qdd.setConstant(std::nan(""));
     const TraceForm paper = calc_trace_form(paper_chains, at.q, at.qd);
-    Eigen::VectorXd residual = paper.M * at.qdd + paper.h + paper.g + calc_elastic_terms(parameters, at.q, at.qd).s_f;
+    Eigen::VectorXd residual =
+        paper.M * at.qdd + paper.h + paper.g + calc_elastic_terms(parameters, at.q, at.qd).s_f;
     Eigen::Vector2d found, wanted;
     for (Eigen::Index d = 0; d < 2; ++d) {
       const Drive& driven = chains.drives[static_cast<std::size_t>(d)];
@@ -192,15 +222,17 @@ void compare_driven_chains(RpsupParameters parameters, DriveEnforcement drive, W
       const DrivenMotion law = calc_driven_motion(driven.law, t);
       residual[i] -= at.drive_force[d];
       found[d] = at.qdd[i];
-      wanted[d] = law.qdd - 2.0 * parameters.baumgarte_alpha * (at.qd[i] - law.qd) - std::pow(parameters.baumgarte_beta, 2) * (at.q[i] - law.q);
+      wanted[d] = law.qdd - 2.0 * parameters.baumgarte_alpha * (at.qd[i] - law.qd) -
+                  std::pow(parameters.baumgarte_beta, 2) * (at.q[i] - law.q);
     }
-    worst.take_residual(drive == DriveEnforcement::kPrescribed ? kPrescribed : kMultipliers, paper.M, at.qdd, residual);
+    worst.take_residual(drive == DriveEnforcement::kPrescribed ? kPrescribed : kMultipliers, paper.M, at.qdd,
+                        residual);
     if (drive == DriveEnforcement::kBaumgarte) worst.take(kDriveLaws, found, wanted);
   }
 }
 
-/// s_f as the accelerations show it: without rates that of the springs, in the straight coupler that of the dampers (at low rates, for h
-/// grows with their squares).
+/// s_f as the accelerations show it: without rates that of the springs, in the straight coupler that of the
+/// dampers (at low rates, for h grows with their squares).
 void compare_elastic_terms(const RpsupParameters& parameters, Worst& worst) {
   Engine engine(with_heavy_bodies(open_chains(build_rpsup(parameters).mechanism)));
   const Mechanism paper_chains = with_heavy_bodies(make_paper_chains(parameters));
@@ -211,7 +243,8 @@ void compare_elastic_terms(const RpsupParameters& parameters, Worst& worst) {
     ChainState straight = state;
     straight.q.segment(5, state.q.size() - 7).setZero();  // all sde
     straight.qd *= 1e-3;
-    const std::array<std::pair<Index, ChainState>, 2> parts{{{kSprings, {state.q, zero}}, {kDampers, straight}}};
+    const std::array<std::pair<Index, ChainState>, 2> parts{
+        {{kSprings, {state.q, zero}}, {kDampers, straight}}};
     for (const auto& [quantity, at] : parts) {
       const TraceForm paper = calc_trace_form(paper_chains, at.q, at.qd);
       const Eigen::VectorXd found = -(paper.M * engine.evaluate(at).qdd + paper.h + paper.g);
@@ -224,8 +257,12 @@ void compare_elastic_terms(const RpsupParameters& parameters, Worst& worst) {
 
 Findings compute_trace_form() {
   Findings findings;
-  Table table{.caption = "Engine and trace form at 1,000 random states: largest difference relative to the quantity's largest entry.",
-              .head = {"quantity"}, .rows = {}, .reproducible_to = 10.0};
+  Table table{.caption =
+                  "Engine and trace form at 1,000 random states: largest difference relative to the "
+                  "quantity's largest entry.",
+              .head = {"quantity"},
+              .rows = {},
+              .reproducible_to = 10.0};
   for (const Quantity& quantity : kCompared) table.rows.push_back({quantity.symbol});
   for (const CouplerCase& c : coupler_cases()) {
     const bool rigid = c.parameters.coupler == Coupler::kRigid;
@@ -241,7 +278,8 @@ Findings compute_trace_form() {
       table.rows[k].push_back(shown ? number(worst.relative(k), 2) : "-");
       if (!shown) continue;
       findings.checks.push_back(limit(std::string(quantity.name) + ", " + c.name + ", 1,000 random states",
-                                      std::string("4x4 matrices and traces, ") + quantity.equations, worst.relative(k), 1e-11, "1", quantity.why));
+                                      std::string("4x4 matrices and traces, ") + quantity.equations,
+                                      worst.relative(k), 1e-11, "1", quantity.why));
     }
   }
   findings.tables.push_back(std::move(table));

@@ -34,7 +34,8 @@ constexpr double kMultiplierBound = 1e-11;  // that of the trace form's terms
 /// Poses of bearing and journal in the paper's chains, with their derivatives by the coordinates.
 class JointPoses {
  public:
-  explicit JointPoses(const RpsupParameters& p) : chains_(make_paper_chains(p)), journal_frame_(size() - 1), bearing_frame_(size() - 3) {
+  explicit JointPoses(const RpsupParameters& p)
+      : chains_(make_paper_chains(p)), journal_frame_(size() - 1), bearing_frame_(size() - 3) {
     B_(0, 3) = calc_bearing_x(p);
   }
 
@@ -45,7 +46,9 @@ class JointPoses {
     for (Matrix4d& T_i : b.T_i) T_i = T_i * B_;
     return b;
   }
-  [[nodiscard]] FrameTransforms journal(const VectorXd& q) const { return calc_transforms(chains_, journal_frame_, q); }
+  [[nodiscard]] FrameTransforms journal(const VectorXd& q) const {
+    return calc_transforms(chains_, journal_frame_, q);
+  }
 
   /// The journal as the bearing sees it.
   [[nodiscard]] Matrix4d relative(const VectorXd& q) const { return bearing(q).T.inverse() * journal(q).T; }
@@ -61,30 +64,36 @@ class JointPoses {
 /// A state near the assembled one with the journal off centre: rings and faces touch.
 VectorXd draw_touching_state(const Mechanism& mechanism, const MotionSystem& system, Random& random) {
   Evaluation assembled = system.make_evaluation();
-  if (!LoopClosure(mechanism).assemble(0.0, assembled)) throw std::runtime_error("the linkage of the virtual-work part cannot be assembled");
+  if (!LoopClosure(mechanism).assemble(0.0, assembled))
+    throw std::runtime_error("the linkage of the virtual-work part cannot be assembled");
   VectorXd q = assembled.q + random.symmetric_vector(assembled.q.size(), 2e-5);
   const Eigen::Index slider = q.size() - 2;
-  q[slider] += 0.36e-3;  // the guide lies across the bore's axis, or nearly so: the journal moves beyond the clearance of 0.25 mm
+  // the guide lies across the bore's axis, or nearly so: the journal moves beyond the clearance of 0.25 mm
+  q[slider] += 0.36e-3;
   VectorXd qd = random.symmetric_vector(q.size(), 0.1);
   qd[slider] += 0.5;  // towards the bore
   return system.make_state(q, qd);
 }
 
 /// c = M qdd + h + g + s_f less the drives' forces, with the engine's accelerations and drive forces.
-VectorXd calc_needed_contact_forces(const RpsupParameters& parameters, const Mechanism& chains, const Mechanism& mechanism, const Evaluation& at) {
+VectorXd calc_needed_contact_forces(const RpsupParameters& parameters, const Mechanism& chains,
+                                    const Mechanism& mechanism, const Evaluation& at) {
   const TraceForm paper = calc_trace_form(chains, at.q, at.qd);
   VectorXd needed = paper.M * at.qdd + paper.h + paper.g + calc_elastic_terms(parameters, at.q, at.qd).s_f;
-  for (std::size_t k = 0; k < mechanism.drives.size(); ++k) needed[mechanism.drives[k].coordinate] -= at.drive_force[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < mechanism.drives.size(); ++k)
+    needed[mechanism.drives[k].coordinate] -= at.drive_force[static_cast<Eigen::Index>(k)];
   return needed;
 }
 
 /// Eq. (12): every point's force times the derivative of the point by the coordinate, on bearing and journal.
-VectorXd calc_paper_contact_forces(const RpsupParameters& parameters, const JointPoses& poses, const Evaluation& at) {
+VectorXd calc_paper_contact_forces(const RpsupParameters& parameters, const JointPoses& poses,
+                                   const Evaluation& at) {
   const FrameTransforms b = poses.bearing(at.q);
   const FrameTransforms j = poses.journal(at.q);
   const auto rate_of = [&](const FrameTransforms& part) {
     Matrix4d T_d = Matrix4d::Zero();
-    for (std::size_t i = 0; i < part.T_i.size(); ++i) T_d += part.T_i[i] * at.qd[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < part.T_i.size(); ++i)
+      T_d += part.T_i[i] * at.qd[static_cast<Eigen::Index>(i)];
     return T_d;
   };
   VectorXd c = VectorXd::Zero(at.q.size());
@@ -99,15 +108,18 @@ VectorXd calc_paper_contact_forces(const RpsupParameters& parameters, const Join
   return c;
 }
 
-/// Work of the engine's contact force and moment when one coordinate alone is moved: how the journal moves in the bearing, by differences.
+/// Work of the engine's contact force and moment when one coordinate alone is moved: how the journal moves in
+/// the bearing, by differences.
 VectorXd calc_virtual_work(const JointPoses& poses, const Evaluation& at) {
   const ContactLoad& load = at.joints[0].load;
   const Matrix3d R = poses.relative(at.q).topLeftCorner<3, 3>();
   VectorXd work(at.q.size());
   for (Eigen::Index i = 0; i < work.size(); ++i) {
-    const Matrix4d slope = first_derivative([&](double s) { return poses.relative(at.q + s * VectorXd::Unit(at.q.size(), i)); }, kWorkStep);
+    const Matrix4d slope = first_derivative(
+        [&](double s) { return poses.relative(at.q + s * VectorXd::Unit(at.q.size(), i)); }, kWorkStep);
     const Matrix3d turn = slope.topLeftCorner<3, 3>() * R.transpose();
-    work[i] = load.force.dot(slope.topRightCorner<3, 1>()) + load.moment.dot(Vector3d(turn(2, 1), turn(0, 2), turn(1, 0)));
+    work[i] = load.force.dot(slope.topRightCorner<3, 1>()) +
+              load.moment.dot(Vector3d(turn(2, 1), turn(0, 2), turn(1, 0)));
   }
   return work;
 }
@@ -120,7 +132,8 @@ Eigen::MatrixXd calc_joint_slopes(const JointPoses& poses, const VectorXd& q) {
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     slopes.col(i).head<3>() = (j.T_i[k] - b.T_i[k]).topRightCorner<3, 1>();
-    for (const int axis : {0, 1}) slopes(3 + axis, i) = b.T_i[k].col(2).dot(j.T.col(axis)) + b.T.col(2).dot(j.T_i[k].col(axis));
+    for (const int axis : {0, 1})
+      slopes(3 + axis, i) = b.T_i[k].col(2).dot(j.T.col(axis)) + b.T.col(2).dot(j.T_i[k].col(axis));
   }
   return slopes;
 }
@@ -137,7 +150,8 @@ MultiplierDifferences compare_multipliers(RpsupParameters parameters) {
   const JointPoses poses(parameters);
   MotionSystem system(mechanism);
   Evaluation assembled = system.make_evaluation();
-  if (!LoopClosure(mechanism).assemble(0.0, assembled)) throw std::runtime_error("the ideal linkage of the virtual-work part cannot be assembled");
+  if (!LoopClosure(mechanism).assemble(0.0, assembled))
+    throw std::runtime_error("the ideal linkage of the virtual-work part cannot be assembled");
   Evaluation at = system.make_evaluation();
   Random random(13);
   MultiplierDifferences worst;
@@ -170,8 +184,10 @@ WorkDifferences compare_contact_forces(const RpsupParameters& parameters) {
   for (int k = 0; k < kWorkStates; ++k) {
     const VectorXd y = draw_touching_state(mechanism, system, random);
     VectorXd rates = VectorXd::Zero(y.size());
-    if (system.calc_derivative(0.01, y, rates, at) != EvaluationStatus::kOk) throw std::runtime_error("a touching state cannot be evaluated");
-    if (!(at.joints[0].load.radial_normal_sum > 100.0)) throw std::runtime_error("a touching state does not touch");
+    if (system.calc_derivative(0.01, y, rates, at) != EvaluationStatus::kOk)
+      throw std::runtime_error("a touching state cannot be evaluated");
+    if (!(at.joints[0].load.radial_normal_sum > 100.0))
+      throw std::runtime_error("a touching state does not touch");
     const VectorXd needed = calc_needed_contact_forces(parameters, poses.chains(), mechanism, at);
     worst.virtual_work.take(relative_difference(needed, calc_virtual_work(poses, at)));
     worst.paper.take(relative_difference(needed, calc_paper_contact_forces(parameters, poses, at)));
@@ -193,27 +209,37 @@ Findings compute_virtual_work() {
     for (const DriveEnforcement drive : {DriveEnforcement::kPrescribed, DriveEnforcement::kBaumgarte}) {
       c.parameters.drive = drive;
       const WorkDifferences worst = compare_contact_forces(c.parameters);
-      const std::string of = ", " + c.name + (drive == DriveEnforcement::kPrescribed ? ", drives prescribed" : ", drives by multipliers");
+      const std::string of =
+          ", " + c.name +
+          (drive == DriveEnforcement::kPrescribed ? ", drives prescribed" : ", drives by multipliers");
       const std::string at = of + faces + ", 10 states in contact";
-      findings.checks.push_back(limit("c = M qdd + h + g + s_f less drive torque and force" + at,
-                                      "virtual work of the contact force and moment at each coordinate, central differences of order 8 over " +
-                                          number(kWorkStep) + " rad or m of the trace form's poses",
-                                      worst.virtual_work.value(), 1e-11, "1", 
-                                      "relative to the largest entry of c; poses round at 2e-16, over the step 2e-14"));
-      findings.checks.push_back(limit("c = M qdd + h + g + s_f less drive torque and force, with the contacts found anew" + at,
-                                      "Eq. (12) with the forces of Eqs. (10), (11), some hundred N and more, and the "
-                                      "trace form's derivatives of the contact points",
-                                      worst.paper.value(), 1e-10, "1",
-                                      "relative to the largest entry of c; positions near 1 m round at 2e-16 m, and penetrations of 1e-5 m "
-                                      "with them"));
+      findings.checks.push_back(
+          limit("c = M qdd + h + g + s_f less drive torque and force" + at,
+                "virtual work of the contact force and moment at each coordinate, central differences of "
+                "order 8 over " +
+                    number(kWorkStep) + " rad or m of the trace form's poses",
+                worst.virtual_work.value(), 1e-11, "1",
+                "relative to the largest entry of c; poses round at 2e-16, over the step 2e-14"));
+      findings.checks.push_back(
+          limit("c = M qdd + h + g + s_f less drive torque and force, with the contacts found anew" + at,
+                "Eq. (12) with the forces of Eqs. (10), (11), some hundred N and more, and the "
+                "trace form's derivatives of the contact points",
+                worst.paper.value(), 1e-10, "1",
+                "relative to the largest entry of c; positions near 1 m round at 2e-16 m, and penetrations "
+                "of 1e-5 m "
+                "with them"));
       const MultiplierDifferences ideal = compare_multipliers(c.parameters);
       const std::string at_ideal = of + ", ideal joint, 10 states near the assembled one";
-      findings.checks.push_back(limit("M qdd + h + g + s_f less drive torque and force" + at_ideal,
-                                      "Phi_q^T lambda with the trace form's slopes Phi_q of the joint's five rows and the lambda nearest to it",
-                                      ideal.terms.value(), kMultiplierBound, "1",
-                                      "relative to the largest entry: rounding, and a system of the joint's and drives' multipliers"));
-      findings.checks.push_back(limit("reaction of the joint" + at_ideal, "the same lambda's force", ideal.reaction.value(), kMultiplierBound, "1",
-                                      "relative to its largest component: rounding, and a system of the joint's and drives' multipliers"));
+      findings.checks.push_back(limit(
+          "M qdd + h + g + s_f less drive torque and force" + at_ideal,
+          "Phi_q^T lambda with the trace form's slopes Phi_q of the joint's five rows and the lambda nearest "
+          "to it",
+          ideal.terms.value(), kMultiplierBound, "1",
+          "relative to the largest entry: rounding, and a system of the joint's and drives' multipliers"));
+      findings.checks.push_back(limit("reaction of the joint" + at_ideal, "the same lambda's force",
+                                      ideal.reaction.value(), kMultiplierBound, "1",
+                                      "relative to its largest component: rounding, and a system of the "
+                                      "joint's and drives' multipliers"));
     }
   }
   return findings;

@@ -15,7 +15,9 @@ namespace validation {
 namespace {
 
 /// @param y  velocity of the mass and bristle
-double calc_friction(const OdeState& y) { return kLine.dot(calc_on_line(published_law(), y[0], y[1], y[2]).force_ratio); }
+double calc_friction(const OdeState& y) {
+  return kLine.dot(calc_on_line(published_law(), y[0], y[1], y[2]).force_ratio);
+}
 
 /// Where three equally spaced values have their parabola's extreme.
 double parabola_top(double a, double b, double c) {
@@ -46,18 +48,25 @@ struct ReferencePoint {
   double rate;   ///< of the force, [N/s]
   double force;  ///< [N]
 };
-constexpr std::array<ReferencePoint, 4> kPoints{{{1.0, 1.432415027}, {5.0, 1.313208596}, {10.0, 1.219951806}, {30.0, 1.024484811}}};
+constexpr std::array<ReferencePoint, 4> kPoints{
+    {{1.0, 1.432415027}, {5.0, 1.313208596}, {10.0, 1.219951806}, {30.0, 1.024484811}}};
 
 }  // namespace
 
 Findings compute_break_away() {
   Findings findings;
   for (const ReferencePoint& point : kPoints)
-    findings.checks.push_back(compare(
-        "break-away force, the force on 1 kg at rest growing by " + number(point.rate) + " N/s",
-        "largest friction before it first falls, by a program of its own: the law for one direction, 80-bit numbers, Fehlberg 7(8) at 1e-15",
-        find_break_away(point.rate), point.force, 1e-9, "N", "the reference is known to nine decimals; tolerance of the integration, 1e-13"));
-  charts::Chart chart{.title = "break-away force", .x_label = "force rate [N/s]", .y_label = "[N]", .y_min = 0.9, .y_max = 1.5};
+    findings.checks.push_back(
+        compare("break-away force, the force on 1 kg at rest growing by " + number(point.rate) + " N/s",
+                "largest friction before it first falls, by a program of its own: the law for one direction, "
+                "80-bit numbers, Fehlberg 7(8) at 1e-15",
+                find_break_away(point.rate), point.force, 1e-9, "N",
+                "the reference is known to nine decimals; tolerance of the integration, 1e-13"));
+  charts::Chart chart{.title = "break-away force",
+                      .x_label = "force rate [N/s]",
+                      .y_label = "[N]",
+                      .y_min = 0.9,
+                      .y_max = 1.5};
   charts::Series curve{.markers = true};
   for (const double rate : {0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 25.0, 30.0}) {
     curve.x.push_back(rate);
@@ -65,7 +74,8 @@ Findings compute_break_away() {
   }
   chart.series.push_back(std::move(curve));
   findings.figures.push_back({"friction_break_away.svg",
-                              "The faster the force grows, the less of it the friction withstands: its largest value before the mass slides.",
+                              "The faster the force grows, the less of it the friction withstands: its "
+                              "largest value before the mass slides.",
                               charts::draw({chart}, 1)});
   return findings;
 }

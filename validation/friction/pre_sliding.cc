@@ -25,10 +25,12 @@ struct Record {
   std::vector<double> x, friction;
 };
 
-/// Displacement while the force changes from one value to another, infinitely slowly: dx = dF / (sigma_0 (1 -+ F / F_s)).
+/// Displacement while the force changes from one value to another, infinitely slowly: dx = dF / (sigma_0 (1
+/// -+ F / F_s)).
 double dahl_displacement(double from, double to) {
   const double direction = to > from ? 1.0 : -1.0;
-  return -direction * kBreak / kPreSlidingStiffness * std::log((kBreak - direction * to) / (kBreak - direction * from));
+  return -direction * kBreak / kPreSlidingStiffness *
+         std::log((kBreak - direction * to) / (kBreak - direction * from));
 }
 
 class Experiment {
@@ -86,17 +88,23 @@ double find_distance(const Record& branch, double x_from, double force_from, dou
 }
 
 Figure draw_loop(const Record& load, const Record& down, const Record& up) {
-  charts::Chart chart{.title = "pre-sliding displacement", .x_label = "displacement [µm]", .y_label = "friction force [N]",
-              .y_min = -1.7, .y_max = 2.5};
+  charts::Chart chart{.title = "pre-sliding displacement",
+                      .x_label = "displacement [µm]",
+                      .y_label = "friction force [N]",
+                      .y_min = -1.7,
+                      .y_max = 2.5};
   const auto add = [&chart](const Record& branch, const char* label, const char* colour, double width) {
-    charts::Series series{.label = label, .x = branch.x, .y = branch.friction, .colour = colour, .width = width};
+    charts::Series series{
+        .label = label, .x = branch.x, .y = branch.friction, .colour = colour, .width = width};
     for (double& x : series.x) x *= 1e6;
     chart.series.push_back(std::move(series));
   };
   add(load, "first loading", charts::kGrey, 4.0);
   add(down, "down", charts::kOrange, 1.2);
   add(up, "up again", charts::kBlue, 1.2);
-  return {"friction_pre_sliding.svg", "Below break-away the mass moves by some hundredths of a millimetre, along a closed loop of hysteresis.",
+  return {"friction_pre_sliding.svg",
+          "Below break-away the mass moves by some hundredths of a millimetre, along a closed loop of "
+          "hysteresis.",
           charts::draw({chart}, 1)};
 }
 
@@ -117,10 +125,14 @@ Findings compute_pre_sliding() {
   const double first_load = dahl_displacement(0.0, kTop);
   const double across = dahl_displacement(kTop, -kTop);
   const double ratio = kTop / kBreak;
-  const double area = 2.0 * kBreak * kBreak / kPreSlidingStiffness * (std::log((1.0 + ratio) / (1.0 - ratio)) - 2.0 * ratio);
-  const double end_slope = kPreSlidingStiffness * (1.0 - ratio);                             // of the force at the end of a ramp, [N/m]
-  const double overshoot = kPreSlidingRate / end_slope / std::sqrt(end_slope / 1.0);         // velocity over circular frequency: 2.8e-8 m
-  const double damping_force = std::sqrt(kPreSlidingStiffness) * kPreSlidingRate / kPreSlidingStiffness;         // sigma_1 F' / sigma_0 = 3.2e-5 N
+  const double area =
+      2.0 * kBreak * kBreak / kPreSlidingStiffness * (std::log((1.0 + ratio) / (1.0 - ratio)) - 2.0 * ratio);
+  // of the force at the end of a ramp, [N/m]
+  const double end_slope = kPreSlidingStiffness * (1.0 - ratio);
+  // velocity over circular frequency: 2.8e-8 m
+  const double overshoot = kPreSlidingRate / end_slope / std::sqrt(end_slope / 1.0);
+  // sigma_1 F' / sigma_0 = 3.2e-5 N
+  const double damping_force = std::sqrt(kPreSlidingStiffness) * kPreSlidingRate / kPreSlidingStiffness;
 
   const std::string what = "pre-sliding (force on 1 kg 0 to 1.425 N, to -1.425 N, to 1.425 N): ";
   const char* static_limit = "static limit of the law: F = F_s (1 - exp(-sigma_0 x / F_s)) and its branches";
@@ -128,18 +140,25 @@ Findings compute_pre_sliding() {
   const char* damping = "bristle damping at 0.01 N/s is 3.2e-5 N; twice that";
   Findings findings;
   const std::size_t early = 2;  // 0.015 N: a hundredth of F_s
-  findings.checks.push_back(compare(what + "mean slope of the force over the first 1 % of F_s", "static limit: sigma_0, less 0.5 %",
-                                    load.friction[early] / load.x[early], load.friction[early] / dahl_displacement(0.0, load.friction[early]),
-                                    2.0 * damping_force / load.friction[early] * kPreSlidingStiffness, "N/m", damping));
-  findings.checks.push_back(compare(what + "displacement at 1.425 N", static_limit, x_top, first_load, overshoot, "m", swing));
-  findings.checks.push_back(compare(what + "displacement at -1.425 N", static_limit, x_bottom, first_load + across, overshoot, "m", swing));
-  findings.checks.push_back(compare(what + "displacement at 1.425 N again", "the loop is closed", experiment.x(), x_top, 1e-11, "m",
+  findings.checks.push_back(compare(what + "mean slope of the force over the first 1 % of F_s",
+                                    "static limit: sigma_0, less 0.5 %", load.friction[early] / load.x[early],
+                                    load.friction[early] / dahl_displacement(0.0, load.friction[early]),
+                                    2.0 * damping_force / load.friction[early] * kPreSlidingStiffness, "N/m",
+                                    damping));
+  findings.checks.push_back(
+      compare(what + "displacement at 1.425 N", static_limit, x_top, first_load, overshoot, "m", swing));
+  findings.checks.push_back(compare(what + "displacement at -1.425 N", static_limit, x_bottom,
+                                    first_load + across, overshoot, "m", swing));
+  findings.checks.push_back(compare(what + "displacement at 1.425 N again", "the loop is closed",
+                                    experiment.x(), x_top, 1e-11, "m",
                                     "like the first time but for the tolerance of the integration, 1e-10"));
-  findings.checks.push_back(limit(what + "force over displacement on the way down", static_limit, find_distance(down, x_top, kTop, -1.0),
-                                  2.0 * damping_force, "N", damping));
-  findings.checks.push_back(limit(what + "force over displacement on the way up", static_limit, find_distance(up, x_bottom, -kTop, 1.0),
-                                  2.0 * damping_force, "N", damping));
-  findings.checks.push_back(compare(what + "energy lost in the loop", "static limit: 2 F_s^2 / sigma_0 (ln((1 + r) / (1 - r)) - 2 r), r = 0.95",
+  findings.checks.push_back(limit(what + "force over displacement on the way down", static_limit,
+                                  find_distance(down, x_top, kTop, -1.0), 2.0 * damping_force, "N", damping));
+  findings.checks.push_back(limit(what + "force over displacement on the way up", static_limit,
+                                  find_distance(up, x_bottom, -kTop, 1.0), 2.0 * damping_force, "N",
+                                  damping));
+  findings.checks.push_back(compare(what + "energy lost in the loop",
+                                    "static limit: 2 F_s^2 / sigma_0 (ln((1 + r) / (1 - r)) - 2 r), r = 0.95",
                                     experiment.work() - work_before, area, 2.0 * kTop * overshoot, "J",
                                     "the mass swings on by 2.8e-8 m under 1.425 N at both ends"));
   findings.figures.push_back(draw_loop(load, down, up));

@@ -17,9 +17,9 @@
 
 namespace validation {
 
-/// The values of the article that introduced the law (Canudas de Wit, Olsson, Åström, Lischinsky, IEEE Trans. Automatic Control
-/// 40(3), 1995), with a normal force of 1 N: F_s = 1.5 N, F_c = 1 N, sigma_0 = 1e5 N/m, sigma_1 = sqrt(1e5) N s/m,
-/// sigma_2 = 0.4 N s/m.
+/// The values of the article that introduced the law (Canudas de Wit, Olsson, Åström, Lischinsky, IEEE Trans.
+/// Automatic Control 40(3), 1995), with a normal force of 1 N: F_s = 1.5 N, F_c = 1 N, sigma_0 = 1e5 N/m,
+/// sigma_1 = sqrt(1e5) N s/m, sigma_2 = 0.4 N s/m.
 [[nodiscard]] inline FrictionParameters published_law() {
   return {.mu_s = 1.5, .mu_k = 1.0, .sigma_0 = 1e5, .sigma_1 = std::sqrt(1e5), .sigma_2 = 0.4, .v_s = 1e-3};
 }
@@ -27,7 +27,8 @@ namespace validation {
 /// Motion on a line askew to the tangent frame, so that both components of the law's vectors take part.
 inline const Eigen::Vector2d kLine{0.6, 0.8};
 
-[[nodiscard]] inline BristleForce calc_on_line(const FrictionParameters& law, double v, double z_t, double z_axial) {
+[[nodiscard]] inline BristleForce calc_on_line(const FrictionParameters& law, double v, double z_t,
+                                               double z_axial) {
   return calc_bristle_force(law, v * kLine, {z_t, z_axial});
 }
 

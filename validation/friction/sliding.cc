@@ -30,9 +30,12 @@ std::vector<LawCase> law_cases() {
           {"defaults with sigma_2 = 0.3 s/m", {.sigma_2 = 0.3}}};
 }
 
-double stribeck(const FrictionParameters& p, double v) { return p.mu_k + (p.mu_s - p.mu_k) * std::exp(-(v / p.v_s) * (v / p.v_s)); }
+double stribeck(const FrictionParameters& p, double v) {
+  return p.mu_k + (p.mu_s - p.mu_k) * std::exp(-(v / p.v_s) * (v / p.v_s));
+}
 
-/// From rest to `duration` at a constant velocity. @returns force against the motion; the force across it goes to `across`
+/// From rest to `duration` at a constant velocity. @returns force against the motion; the force across it
+/// goes to `across`
 double slide(const FrictionParameters& law, double v, double duration, double& across) {
   const auto rates = [&](const OdeState& z, OdeState& d, double) {
     const BristleForce f = calc_on_line(law, v, z[0], z[1]);
@@ -50,7 +53,8 @@ double slide(const FrictionParameters& law, double v, double duration, double& a
 
 constexpr std::array<double, 7> kSpeeds{1e-4, 3e-4, 1e-3, 2e-3, 5e-3, 0.05, 0.5};
 
-/// Bristles bend, then slip: F(t) = g (1 - e) + sigma_1 v e + sigma_2 v with e = exp(-t / tau), tau = g / (sigma_0 v).
+/// Bristles bend, then slip: F(t) = g (1 - e) + sigma_1 v e + sigma_2 v with e = exp(-t / tau), tau = g /
+/// (sigma_0 v).
 Check compare_transient(const LawCase& c) {
   Largest worst;
   for (const double v : kSpeeds) {
@@ -65,8 +69,9 @@ Check compare_transient(const LawCase& c) {
     }
   }
   return limit("force after 0.1, 1 and 3 time constants of sliding at 0.1 mm/s to 0.5 m/s, " + c.name,
-               "closed form: g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g), and none across the motion", worst.value(), 1e-11, "1",
-               "tolerance of the integration, 1e-13, over its steps");
+               "closed form: g (1 - e) + sigma_1 v e + sigma_2 v, e = exp(-t sigma_0 v / g), and none across "
+               "the motion",
+               worst.value(), 1e-11, "1", "tolerance of the integration, 1e-13, over its steps");
 }
 
 Check compare_steady(const LawCase& c) {
@@ -78,8 +83,8 @@ Check compare_steady(const LawCase& c) {
     worst.take((found - g - c.law.sigma_2 * v) / g);
   }
   return limit("steady force when sliding at 0.1 mm/s to 0.5 m/s, " + c.name,
-               "Stribeck's curve: mu_k + (mu_s - mu_k) exp(-(v / v_s)^2) + sigma_2 v", worst.value(), 1e-11, "1",
-               "after 40 time constants 4e-18 is missing; tolerance of the integration");
+               "Stribeck's curve: mu_k + (mu_s - mu_k) exp(-(v / v_s)^2) + sigma_2 v", worst.value(), 1e-11,
+               "1", "after 40 time constants 4e-18 is missing; tolerance of the integration");
 }
 
 /// Both vectors turned, the force has turned with them.
@@ -96,8 +101,8 @@ Check compare_turned() {
     worst.take((turned.force_ratio - turn * straight.force_ratio).norm() / 0.2);
     worst.take((turned.bristle_rate - turn * straight.bristle_rate).norm() / 3e-3);
   }
-  return limit("force and bristle rate for 200 random velocities and bristles, both turned by the same angle", "the law knows no direction",
-               worst.value(), 2e-15, "1", "rounding of products near 1");
+  return limit("force and bristle rate for 200 random velocities and bristles, both turned by the same angle",
+               "the law knows no direction", worst.value(), 2e-15, "1", "rounding of products near 1");
 }
 
 /// A bristle at rest is a spring, however its direction.
@@ -110,20 +115,26 @@ Check compare_at_rest() {
     worst.take((f.force_ratio - 100.0 * z).norm());
     worst.take(f.bristle_rate.norm());
   }
-  return limit("a bristle that does not slide: force and rate", "sigma_0 z and 0", worst.value(), 0.0, "1", "one product");
+  return limit("a bristle that does not slide: force and rate", "sigma_0 z and 0", worst.value(), 0.0, "1",
+               "one product");
 }
 
 Figure draw_stribeck() {
   std::vector<charts::Chart> charts;
   for (const LawCase& c : {law_cases()[0], law_cases()[1]}) {
-    charts::Chart chart{.title = c.name, .x_label = "velocity [m/s]", .y_label = "force per normal force", .x_scale = charts::Scale::kLog,
-                .y_min = 0.95 * std::min(c.law.mu_s, c.law.mu_k), .y_max = 1.2 * std::max(c.law.mu_s, c.law.mu_k)};
+    charts::Chart chart{.title = c.name,
+                        .x_label = "velocity [m/s]",
+                        .y_label = "force per normal force",
+                        .x_scale = charts::Scale::kLog,
+                        .y_min = 0.95 * std::min(c.law.mu_s, c.law.mu_k),
+                        .y_max = 1.2 * std::max(c.law.mu_s, c.law.mu_k)};
     charts::Series curve{.label = "Stribeck's curve", .colour = charts::kGrey};
     for (int k = 0; k <= 200; ++k) {
       curve.x.push_back(1e-5 * std::pow(10.0, 0.025 * k));
       curve.y.push_back(stribeck(c.law, curve.x.back()) + c.law.sigma_2 * curve.x.back());
     }
-    charts::Series dots{.label = "after 40 time constants", .colour = charts::kOrange, .markers = true, .width = 0.0};
+    charts::Series dots{
+        .label = "after 40 time constants", .colour = charts::kOrange, .markers = true, .width = 0.0};
     for (const double v : kSpeeds) {
       double across = 0.0;
       dots.x.push_back(v);
@@ -132,7 +143,9 @@ Figure draw_stribeck() {
     chart.series = {std::move(curve), std::move(dots)};
     charts.push_back(std::move(chart));
   }
-  return {"friction_stribeck.svg", "Steady sliding. With the defaults (mu_s < mu_k, as printed in the paper) friction grows with the velocity.",
+  return {"friction_stribeck.svg",
+          "Steady sliding. With the defaults (mu_s < mu_k, as printed in the paper) friction grows with the "
+          "velocity.",
           charts::draw(charts, 2)};
 }
 

@@ -33,17 +33,21 @@ class SliderRecord : public QuietObserver {
   double normal_off = 0.0;  ///< largest |f_n - 1 N|
 
  private:
-  void take_normal(const Evaluation& at) { normal_off = std::max(normal_off, std::abs(at.joints[0].load.radial_normal_sum - 1.0)); }
+  void take_normal(const Evaluation& at) {
+    normal_off = std::max(normal_off, std::abs(at.joints[0].load.radial_normal_sum - 1.0));
+  }
 };
 
 Figure draw_stick_slip(const SliderRecord& record) {
   charts::Chart position{.title = "position", .x_label = "t [s]", .y_label = "[m]", .y_max = 3.2};
   position.series.push_back({.label = "mass", .x = record.t, .y = record.position});
-  position.series.push_back({.label = "end of the spring", .x = record.t, .y = record.end_of_spring, .colour = charts::kGrey});
+  position.series.push_back(
+      {.label = "end of the spring", .x = record.t, .y = record.end_of_spring, .colour = charts::kGrey});
   charts::Chart force{.title = "friction force", .x_label = "t [s]", .y_label = "[N]"};
   force.series.push_back({.x = record.t, .y = record.friction, .colour = charts::kOrange});
   return {"friction_stick_slip.svg",
-          "Stick-slip: 1 kg pulled by a spring of 2 N/m whose end moves at 0.1 m/s, computed as a mechanism with a clearance joint.",
+          "Stick-slip: 1 kg pulled by a spring of 2 N/m whose end moves at 0.1 m/s, computed as a mechanism "
+          "with a clearance joint.",
           charts::draw({position, force}, 2)};
 }
 
@@ -59,14 +63,18 @@ Findings compute_stick_slip() {
   options.absolute_tolerance = 1e-13;
   options.step_limit = 1'000'000;  // some 75,000 are needed
   SliderRecord record;
-  run_from(slider, options, Eigen::Vector3d(0.0, 0.0, resting_height(slider)), Eigen::Vector3d(0.0, -kPull, 0.0), record);
+  run_from(slider, options, Eigen::Vector3d(0.0, 0.0, resting_height(slider)),
+           Eigen::Vector3d(0.0, -kPull, 0.0), record);
   Findings findings;
   findings.checks.push_back(compare(
       "stick-slip (1 kg, spring 2 N/m pulled at 0.1 m/s from rest), the whole engine: position after 25 s",
-      "a program of its own for this experiment: the law for one direction, 80-bit numbers, Fehlberg 7(8) at 1e-15",
-      record.position.back(), 1.9088391992, 1e-10, "m", "the reference is known to ten decimals; dopri5 at a tolerance of 1e-10"));
-  findings.checks.push_back(limit("stick-slip: normal force on the sliding journal", "1 N, the weight of the mass", record.normal_off, 1e-9, "N",
-                                  "penetration of 0.46 mm as the difference of lengths near 1 mm: rounding times K"));
+      "a program of its own for this experiment: the law for one direction, 80-bit numbers, Fehlberg 7(8) at "
+      "1e-15",
+      record.position.back(), 1.9088391992, 1e-10, "m",
+      "the reference is known to ten decimals; dopri5 at a tolerance of 1e-10"));
+  findings.checks.push_back(limit(
+      "stick-slip: normal force on the sliding journal", "1 N, the weight of the mass", record.normal_off,
+      1e-9, "N", "penetration of 0.46 mm as the difference of lengths near 1 mm: rounding times K"));
   findings.figures.push_back(draw_stick_slip(record));
   return findings;
 }

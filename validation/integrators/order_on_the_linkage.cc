@@ -40,7 +40,10 @@ Findings compute_order_on_the_linkage() {
   Ladder rk4;
   for (const double step : {1e-3, 5e-4, 2.5e-4}) {
     LastState last;
-    (void)simulate(mechanism, {.duration = kLinkageOrderDuration, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step}, last);
+    (void)simulate(
+        mechanism,
+        {.duration = kLinkageOrderDuration, .output_rate = 1.0, .integrator = Integrator::kRk4, .step = step},
+        last);
     rk4.add(step, find_error(rpsup.layout, last.q));
   }
 
@@ -55,12 +58,16 @@ Findings compute_order_on_the_linkage() {
 
   const char* reference = "closed form: drive laws, and the slider by Pythagoras";
   Findings findings;
-  findings.checks.push_back(compare("rk4, ideal rigid linkage at 10 rad/s after 2.5 s: observed order at steps of 0.5 and 0.25 ms", reference,
-                                    rk4.observed_order(), 4.0, 0.1, "1", "the next term of the error, a part of the step"));
-  findings.checks.push_back(compare("dopri5 in equal steps, ideal rigid linkage at 10 rad/s after 2.5 s: observed order at steps of 1 and 0.5 ms", reference,
-                                    dopri5.observed_order(), 5.0, 0.2, "1", "the next term of the error, a part of the step"));
-  findings.checks.push_back(limit("rk4 at 0.25 ms, ideal rigid linkage after 2.5 s: largest error of crank angle, rod and slider", reference, rk4.errors.back(),
-                                  2e-11, "rad or m", "twice what order 4 leaves"));
+  findings.checks.push_back(compare(
+      "rk4, ideal rigid linkage at 10 rad/s after 2.5 s: observed order at steps of 0.5 and 0.25 ms",
+      reference, rk4.observed_order(), 4.0, 0.1, "1", "the next term of the error, a part of the step"));
+  findings.checks.push_back(compare(
+      "dopri5 in equal steps, ideal rigid linkage at 10 rad/s after 2.5 s: observed order at steps of 1 and "
+      "0.5 ms",
+      reference, dopri5.observed_order(), 5.0, 0.2, "1", "the next term of the error, a part of the step"));
+  findings.checks.push_back(
+      limit("rk4 at 0.25 ms, ideal rigid linkage after 2.5 s: largest error of crank angle, rod and slider",
+            reference, rk4.errors.back(), 2e-11, "rad or m", "twice what order 4 leaves"));
   return findings;
 }
 

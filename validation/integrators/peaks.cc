@@ -49,8 +49,9 @@ Findings compare_peaks(const std::vector<PeakCase>& cases) {
                                                     .integrator = Integrator::kDopri5,
                                                     .relative_tolerance = 1e-6,
                                                     .absolute_tolerance = 1e-7});
-    const RunResult rk4 = run_rpsup(
-        parameters, {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kRk4, .step = kPeaksStep});
+    const RunResult rk4 =
+        run_rpsup(parameters,
+                  {.duration = 3.0, .output_rate = 10.0, .integrator = Integrator::kRk4, .step = kPeaksStep});
     const RunResult automatic = run_rpsup(parameters, {.duration = 3.0, .output_rate = 10.0});
     const double peak = metric(dopri5, "peak_slider_acceleration_m_s2");
     const double other = metric(rk4, "peak_slider_acceleration_m_s2");

@@ -5,7 +5,8 @@
 
 namespace validation {
 
-/// The drives have their laws' features, differentiate to each other, and jump in their accelerations alone, where the law says so.
+/// The drives have their laws' features, differentiate to each other, and jump in their accelerations alone,
+/// where the law says so.
 [[nodiscard]] Findings compute_drive_laws();
 /// The slider of the ideal rigid linkage moves as the closed form says, peaks included.
 [[nodiscard]] Findings compute_closed_form();

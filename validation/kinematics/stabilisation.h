@@ -33,9 +33,9 @@ class ConstraintObserver : public QuietObserver {
   Visit visit_;
 };
 
-/// Integrates a mechanism with constraints from its assembled position, changed by `disturb`, and shows every step.
-/// Throws where the run does not succeed.
-void integrate(const Mechanism& mechanism, const RunOptions& options, const std::function<void(Evaluation&)>& disturb,
-               const ConstraintObserver::Visit& visit);
+/// Integrates a mechanism with constraints from its assembled position, changed by `disturb`, and shows every
+/// step. Throws where the run does not succeed.
+void integrate(const Mechanism& mechanism, const RunOptions& options,
+               const std::function<void(Evaluation&)>& disturb, const ConstraintObserver::Visit& visit);
 
 }  // namespace validation

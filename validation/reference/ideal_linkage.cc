@@ -58,7 +58,8 @@ Triangle calc_triangle(const RpsupParameters& p, double t, Side side) {
   const Vector3t d = guide_axes(p).x;
   const Taylor along = dot(triangle.S - guide, d);
   triangle.across = triangle.S - guide - along * d;
-  triangle.slider = along + sqrt(Taylor(p.coupler_length * p.coupler_length) - dot(triangle.across, triangle.across));
+  triangle.slider =
+      along + sqrt(Taylor(p.coupler_length * p.coupler_length) - dot(triangle.across, triangle.across));
   triangle.J = guide + triangle.slider * d;
   return triangle;
 }
@@ -87,7 +88,9 @@ Needed calc_needed(const LinkMotion& motion, const Matrix4d& H, const Vector3d& 
   const Vector3d weight = H(3, 3) * gravity;
   const Vector3d mc = (motion.T * H.col(3)).head<3>();
   return {(motion.T_dd * H.col(3)).head<3>() - weight,
-          Vector3d(integral(2, 1) - integral(1, 2), integral(0, 2) - integral(2, 0), integral(1, 0) - integral(0, 1)) - mc.cross(gravity)};
+          Vector3d(integral(2, 1) - integral(1, 2), integral(0, 2) - integral(2, 0),
+                   integral(1, 0) - integral(0, 1)) -
+              mc.cross(gravity)};
 }
 
 /// @param first_half  of the parabolic law
@@ -105,12 +108,14 @@ Taylor calc_crank_angle(const RpsupParameters& p, double t) {
   const Taylor time = Taylor::time(t);
   if (t >= p.run_up) return p.crank_start + p.crank_velocity * (time - 0.5 * p.run_up);
   const Taylor u = 1.0 / p.run_up * time;
-  return p.crank_start + p.crank_velocity * p.run_up * (0.5 * u * u + 1.0 / (kTwoPi * kTwoPi) * (cos(kTwoPi * u) - 1.0));
+  return p.crank_start +
+         p.crank_velocity * p.run_up * (0.5 * u * u + 1.0 / (kTwoPi * kTwoPi) * (cos(kTwoPi * u) - 1.0));
 }
 
 Taylor calc_rod_displacement(const RpsupParameters& p, double t, Side side) {
   constexpr double kAside = 1e-9;  // [s]
-  const double inside = side == Side::kBefore ? std::max(0.0, t - kAside) : t;  // the piece of the law that counts is the one there
+  // the piece of the law that counts is the one there
+  const double inside = side == Side::kBefore ? std::max(0.0, t - kAside) : t;
   const double cycle = 2.0 * p.rod_stroke_time + p.rod_pause;
   const double begin = cycle * std::floor(inside / cycle);
   const double halves = std::floor(2.0 * (inside - begin) / p.rod_stroke_time);
@@ -140,8 +145,8 @@ std::array<LinkMotion, kLinkCount> calc_ideal_motion(const RpsupParameters& p, d
   const Vector3t x_22 = about_guide ? slider.x : cross(slider.y, z_13);
   const Vector3t y_22 = about_guide ? cross(z_13, slider.x) : slider.y;
   return {make_motion(x_11, y_11, z, make_constant(0.0, 0.0, 0.0)), make_motion(x_11, y_11, z, z_12 * x_11),
-          make_motion(x_13, cross(z_13, x_13), z_13, triangle.S), make_motion(slider.x, slider.y, slider.z, triangle.J),
-          make_motion(x_22, y_22, z_13, triangle.J)};
+          make_motion(x_13, cross(z_13, x_13), z_13, triangle.S),
+          make_motion(slider.x, slider.y, slider.z, triangle.J), make_motion(x_22, y_22, z_13, triangle.J)};
 }
 
 IdealForces calc_ideal_forces(const RpsupParameters& p, double t, Side side) {
@@ -151,7 +156,8 @@ IdealForces calc_ideal_forces(const RpsupParameters& p, double t, Side side) {
   IdealForces forces{};
   std::array<Needed, kLinkCount> needed;
   for (std::size_t k = 0; k < kLinkCount; ++k) {
-    const Matrix4d H = calc_pseudo_inertia(p.links[k].mass, {0.5 * length[k], 0.0, 0.0}, p.links[k].inertia.asDiagonal());
+    const Matrix4d H =
+        calc_pseudo_inertia(p.links[k].mass, {0.5 * length[k], 0.0, 0.0}, p.links[k].inertia.asDiagonal());
     const LinkMotion& m = motion[k];
     needed[k] = calc_needed(m, H, gravity);
     forces.kinetic_energy += 0.5 * (m.T_d * H * m.T_d.transpose()).trace();
@@ -162,9 +168,10 @@ IdealForces calc_ideal_forces(const RpsupParameters& p, double t, Side side) {
   const Vector3d S = motion[2].T.topRightCorner<3, 1>();
   const Vector3d J = motion[3].T.topRightCorner<3, 1>();
 
-  // Unknown: force f on the journal at J and moment m k + n o on it, k the yoke's axis and o at right angles to it and to joint R's axis, about which
-  // that joint carries none. The guide takes no force along itself, the yoke no moment about its axis, the S joint no moment at all: -f and the
-  // opposite moment turn the coupler about S.
+  // Unknown: force f on the journal at J and moment m k + n o on it, k the yoke's axis and o at right angles
+  // to it and to joint R's axis, about which that joint carries none. The guide takes no force along itself,
+  // the yoke no moment about its axis, the S joint no moment at all: -f and the opposite moment turn the
+  // coupler about S.
   const Vector3d guide = motion[3].T.block<3, 1>(0, 0);
   const int yoke_column = p.yoke_axis == YokeAxis::kGuide ? 0 : 1;
   const Vector3d k = motion[4].T.block<3, 1>(0, yoke_column), o = motion[4].T.block<3, 1>(0, 1 - yoke_column);

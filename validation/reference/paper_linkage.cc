@@ -17,7 +17,11 @@ constexpr Eigen::Index kFirstElastic = 5;  // after psi^(1,1), z^(1,2) and the S
 /// A frame that turns about (z, y, x) one after the other: an S joint, or an sde.
 FrameIndex add_three_angles(Mechanism& chains, FrameIndex parent, double x) {
   for (const Axis axis : {Axis::kZ, Axis::kY, Axis::kX}) {
-    chains.coordinates.push_back({.name = "", .parent = parent, .placement = {.p = {x, 0.0, 0.0}}, .motion = Motion::kRotation, .axis = axis});
+    chains.coordinates.push_back({.name = "",
+                                  .parent = parent,
+                                  .placement = {.p = {x, 0.0, 0.0}},
+                                  .motion = Motion::kRotation,
+                                  .axis = axis});
     parent = static_cast<FrameIndex>(chains.coordinates.size()) - 1;
     x = 0.0;
   }
@@ -68,14 +72,17 @@ Mechanism make_paper_chains(const RpsupParameters& p) {
   chains.gravity_W = calc_gravity(p);
   chains.coordinates.push_back({.name = "", .placement = {}, .motion = Motion::kRotation, .axis = Axis::kZ});
   set_body(chains.coordinates.back(), p.links[0].mass, 0.5 * p.crank_length, p.links[0].inertia);
-  chains.coordinates.push_back({.name = "", .parent = 0, .placement = {}, .motion = Motion::kTranslation, .axis = Axis::kX});
+  chains.coordinates.push_back(
+      {.name = "", .parent = 0, .placement = {}, .motion = Motion::kTranslation, .axis = Axis::kX});
   set_body(chains.coordinates.back(), p.links[1].mass, 0.5 * p.rod_length, p.links[1].inertia);
   add_coupler(chains, p);
 
   const auto slider = static_cast<FrameIndex>(chains.coordinates.size());
   Placement guide{.p = {0.0, p.guide_offset_y, p.guide_offset_z}};
-  if (p.guide_angle != 0.0) guide.R = Eigen::AngleAxisd(-p.guide_angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  chains.coordinates.push_back({.name = "", .placement = guide, .motion = Motion::kTranslation, .axis = Axis::kX});
+  if (p.guide_angle != 0.0)
+    guide.R = Eigen::AngleAxisd(-p.guide_angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  chains.coordinates.push_back(
+      {.name = "", .placement = guide, .motion = Motion::kTranslation, .axis = Axis::kX});
   set_body(chains.coordinates.back(), p.links[3].mass, 0.0, p.links[3].inertia);
   chains.coordinates.push_back({.name = "", .parent = slider, .placement = {}, .motion = Motion::kRotation,
                                 .axis = p.yoke_axis == YokeAxis::kGuide ? Axis::kX : Axis::kY});
@@ -87,7 +94,8 @@ double calc_bearing_x(const RpsupParameters& p) {
   return p.coupler == Coupler::kRigid ? p.coupler_length : 0.5 * p.coupler_length / (p.rigid_elements - 1);
 }
 
-ElasticTerms calc_elastic_terms(const RpsupParameters& p, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+ElasticTerms calc_elastic_terms(const RpsupParameters& p, const Eigen::VectorXd& q,
+                                const Eigen::VectorXd& qd) {
   ElasticTerms terms{Eigen::VectorXd::Zero(q.size())};
   if (p.coupler == Coupler::kRigid) return terms;
   const double d4 = std::pow(p.coupler_diameter, 4);

@@ -10,7 +10,8 @@ namespace validation {
 /// H = integral of r r^T dm over a body, r = (x, y, z, 1): the paper's pseudo-inertia matrix, Eq. (4).
 /// @param com      centre of mass in the body's frame, [m]
 /// @param inertia  about the frame's origin, [kg m^2]
-[[nodiscard]] inline Eigen::Matrix4d calc_pseudo_inertia(double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia) {
+[[nodiscard]] inline Eigen::Matrix4d calc_pseudo_inertia(double mass, const Eigen::Vector3d& com,
+                                                         const Eigen::Matrix3d& inertia) {
   Eigen::Matrix4d H;
   H.topLeftCorner<3, 3>() = 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
   H.topRightCorner<3, 1>() = mass * com;

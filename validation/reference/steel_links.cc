@@ -43,7 +43,8 @@ LinkInertia calc_tube_along_z(double outer_diameter, double inner_diameter, doub
 
 std::array<LinkInertia, kLinkCount> steel_links() {
   return {calc_tube_along_x(0.028, 0.020, 0.2), calc_tube_along_x(0.020, 0.0, 0.2),
-          calc_tube_along_x(0.010, 0.0, 0.5), calc_box(0.020, 0.100, 0.050), calc_tube_along_z(0.020, 0.015, 0.1)};
+          calc_tube_along_x(0.010, 0.0, 0.5), calc_box(0.020, 0.100, 0.050),
+          calc_tube_along_z(0.020, 0.015, 0.1)};
 }
 
 }  // namespace validation

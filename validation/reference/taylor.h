@@ -9,8 +9,8 @@
 
 namespace validation {
 
-/// A function of time near one instant, as its Taylor polynomial of degree 6: sums, products and functions of such polynomials
-/// carry all derivatives along, exact but for rounding.
+/// A function of time near one instant, as its Taylor polynomial of degree 6: sums, products and functions of
+/// such polynomials carry all derivatives along, exact but for rounding.
 class Taylor {
  public:
   static constexpr std::size_t kTerms = 7;

@@ -68,13 +68,16 @@ std::size_t count_parts(const std::vector<Chapter>& chapters, Cost most_costly) 
   return count;
 }
 
-std::vector<ComputedChapter> compute_chapters(const std::vector<Chapter>& chapters, Cost most_costly, int threads, const PartDone& done) {
+std::vector<ComputedChapter> compute_chapters(const std::vector<Chapter>& chapters, Cost most_costly,
+                                              int threads, const PartDone& done) {
   std::vector<ComputedChapter> computed;
-  for (const Chapter& chapter : chapters) computed.push_back({chapter, std::vector<Findings>(chapter.parts.size())});
+  for (const Chapter& chapter : chapters)
+    computed.push_back({chapter, std::vector<Findings>(chapter.parts.size())});
   std::vector<Task> tasks;
   for (ComputedChapter& chapter : computed)
     for (std::size_t k = 0; k < chapter.chapter.parts.size(); ++k)
-      if (chapter.chapter.parts[k].cost <= most_costly) tasks.push_back({&chapter.chapter.parts[k], &chapter.findings[k]});
+      if (chapter.chapter.parts[k].cost <= most_costly)
+        tasks.push_back({&chapter.chapter.parts[k], &chapter.findings[k]});
   TaskQueue queue(tasks);
   {
     std::vector<std::jthread> pool;

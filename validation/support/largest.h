@@ -8,7 +8,8 @@
 
 namespace validation {
 
-/// The largest magnitude of the numbers taken. A NaN among them stays, and nothing taken is NaN too, so that a limit on it cannot pass.
+/// The largest magnitude of the numbers taken. A NaN among them stays, and nothing taken is NaN too, so that
+/// a limit on it cannot pass.
 class Largest {
  public:
   void take(double number) {

@@ -13,15 +13,16 @@
 
 namespace validation {
 
-/// Mass matrix M of the open chains as the engine's inverse dynamics has it: column j holds the forces that a unit acceleration of
-/// coordinate j alone needs, without rates and gravity.
+/// Mass matrix M of the open chains as the engine's inverse dynamics has it: column j holds the forces that a
+/// unit acceleration of coordinate j alone needs, without rates and gravity.
 [[nodiscard]] inline Eigen::MatrixXd calc_mass_matrix(Mechanism mechanism, const Eigen::VectorXd& q) {
   mechanism.gravity_W.setZero();
   InverseDynamics inverse_dynamics(mechanism);
   std::vector<FrameMotion> frames(mechanism.coordinates.size());
   Eigen::MatrixXd M(q.size(), q.size());
   for (Eigen::Index j = 0; j < q.size(); ++j) {
-    calc_frame_motions(mechanism, q, Eigen::VectorXd::Zero(q.size()), Eigen::VectorXd::Unit(q.size(), j), frames);
+    calc_frame_motions(mechanism, q, Eigen::VectorXd::Zero(q.size()), Eigen::VectorXd::Unit(q.size(), j),
+                       frames);
     M.col(j) = inverse_dynamics.calc(frames);
   }
   return M;

@@ -16,7 +16,9 @@ class Random {
   explicit Random(std::uint64_t seed) : bits_(seed) {}
 
   /// In [-scale, scale).
-  [[nodiscard]] double symmetric(double scale) { return scale * (static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0); }
+  [[nodiscard]] double symmetric(double scale) {
+    return scale * (static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0);
+  }
   [[nodiscard]] Eigen::VectorXd symmetric_vector(Eigen::Index size, double scale) {
     Eigen::VectorXd v(size);
     for (double& x : v) x = symmetric(scale);

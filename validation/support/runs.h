@@ -29,7 +29,8 @@ namespace validation {
 /// A run that must succeed.
 [[nodiscard]] inline RunResult run_rpsup(const RpsupParameters& parameters, const RunOptions& options) {
   RunResult run = simulate_rpsup(parameters, options, {});
-  if (run.status != RunStatus::kSucceeded) throw std::runtime_error("a run of the validation failed: " + run.detail);
+  if (run.status != RunStatus::kSucceeded)
+    throw std::runtime_error("a run of the validation failed: " + run.detail);
   return run;
 }
 
