@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The container image: loaded by podman and started as its user finds it, it asks for a token, computes the paper's study and keeps it.
+# The container image: loaded by podman and started as its user finds it, it asks for a token, computes the paper's sweep and keeps it.
 #   image_test.sh RPSUP SOURCES PRESET
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 sources=$2 preset=$3

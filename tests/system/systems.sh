@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Systems to try packages in, and the paper's study to try them with. Sourced after helpers.sh; expects the folder of the sources in `sources`.
+# Systems to try packages in, and the paper's sweep to try them with. Sourced after helpers.sh; expects the folder of the sources in `sources`.
 source "$sources/packaging/debian/system.sh"
 mirror=$(apt-get indextargets "Codename: $(. /etc/os-release; echo "$VERSION_CODENAME")" 'Created-By: Packages' --format '$(SITE)' | head -n 1)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The tarball: what is in it, what it needs, and that it computes the paper's study in systems that have nothing else of it.
+# The tarball: what is in it, what it needs, and that it computes the paper's sweep in systems that have nothing else of it.
 #   tarball_test.sh RPSUP SOURCES PRESET
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 sources=$2 preset=$3

@@ -25,7 +25,7 @@ async function drawAcross(page, locator, from, to) {
   await page.mouse.up();
 }
 
-test("the paper's study is submitted in the form and watched until it has finished", { timeout: 10 * minutes }, async () => {
+test("the paper's sweep is submitted in the form and watched until it has finished", { timeout: 10 * minutes }, async () => {
   const page = await visit("#/new");
   await page.getByRole("link", { name: "Load the paper's sweep" }).click();
   await page.getByText("40 jobs").waitFor();

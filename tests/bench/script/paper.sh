@@ -50,7 +50,7 @@ time_study() {
 }
 
 echo
-echo "bench: the paper's study"
+echo "bench: the paper's sweep"
 for round in 1 2 3; do
   mujoco=$("$root/build/bench/bench_codes" mujoco)
   start_service
