@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jobs/base/errors.h"
+#include "jobs/base/optional_json.h"
 #include "jobs/requests/sampled_designs.h"
 #include "jobs/results/table_groups.h"
 #include "jobs/statistics/effect_points.h"
@@ -117,6 +118,18 @@ std::vector<std::vector<json>> measures_of(bool morris, const WholeBlocks& whole
   return cells;
 }
 
+void add_measure_columns(bool morris, std::vector<std::string>& columns) {
+  columns.insert(columns.end(),
+                 {"metric", "parameter", "blocks", "blocks_missing", "mean", "deviation", "noise"});
+  if (morris) {
+    columns.insert(columns.end(),
+                   {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"});
+  } else {
+    columns.insert(columns.end(), {"first_order", "first_order_low", "first_order_high", "total", "total_low",
+                                   "total_high"});
+  }
+}
+
 }  // namespace
 
 ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, const std::string& metric) {
@@ -132,15 +145,7 @@ ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, cons
     table.columns.push_back(path.get<std::string>());
     others.push_back(find_column(results, path.get<std::string>(), ""));
   }
-  for (const char* const column : {"metric", "parameter", "blocks", "blocks_missing", "mean", "deviation",
-      "noise"}) table.columns.emplace_back(column);
-  if (morris) {
-    table.columns.insert(table.columns.end(), {"effect_mean", "effect_size", "effect_size_low",
-                                               "effect_size_high", "effect_deviation"});
-  } else {
-    table.columns.insert(table.columns.end(), {"first_order", "first_order_low", "first_order_high", "total",
-                                               "total_low", "total_high"});
-  }
+  add_measure_columns(morris, table.columns);
   for (const RowGroup& group : group_rows(results, others)) {
     const Response response = response_of(results, group, metric_column, points.size());
     const WholeBlocks whole = whole_blocks_of(points, response, dimensions + (morris ? 1 : 2));
@@ -150,8 +155,8 @@ ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, cons
     for (const auto& [path, range] : design.at("over").items()) {
       std::vector<json> cells = group.values;
       cells.insert(cells.end(),
-                   {metric, path, whole.blocks, whole.missing, all.mean ? json(*all.mean) : json(),
-                    all.spread ? json(*all.spread) : json(), noise_of(response, all)});
+                   {metric, path, whole.blocks, whole.missing, value_or_null(all.mean),
+                    value_or_null(all.spread), noise_of(response, all)});
       cells.insert(cells.end(), measures[input].begin(), measures[input].end());
       table.rows.push_back(std::move(cells));
       ++input;

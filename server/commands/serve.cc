@@ -109,6 +109,27 @@ class Serving {
   std::jthread thread_;
 };
 
+jobs::ServiceOptions make_service_options(const ServeOptions& options, const jobs::cluster::Site& site,
+                                          const std::shared_ptr<Metrics>& metrics) {
+  constexpr long kMegabyte = 1'000'000;
+  jobs::ServiceOptions made;
+  made.store = options.store;
+  made.threads = options.threads;
+  made.job_limits = {.wall_time_s = options.job_time_s,
+                     .steps = options.job_steps,
+                     .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
+  made.store_quota = {.most_bytes = options.store_limit_mb * kMegabyte,
+                      .reserve_bytes = options.disk_reserve_mb * kMegabyte};
+  made.site = site;
+  made.executor = options.executor;
+  made.start = jobs::Start::kWhenTold;
+  made.log = [](const std::string& message) { spdlog::warn(message); };
+  made.ran = [metrics](const jobs::JobSpec& spec, const jobs::RunRecord& run) {
+    metrics->add_run(spec, run);
+  };
+  return made;
+}
+
 }  // namespace
 
 int serve(const ServeOptions& options) {
@@ -123,24 +144,8 @@ int serve(const ServeOptions& options) {
   raise_file_limit();
   // Before the first thread: threads take over which signals are blocked.
   const EndSignals signals;
-  jobs::ServiceOptions service_options;
-  service_options.store = options.store;
-  service_options.threads = options.threads;
-  constexpr long kMegabyte = 1'000'000;
-  service_options.job_limits = {.wall_time_s = options.job_time_s,
-                                .steps = options.job_steps,
-                                .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
-  service_options.store_quota = {.most_bytes = options.store_limit_mb * kMegabyte,
-                                .reserve_bytes = options.disk_reserve_mb * kMegabyte};
-  service_options.site = site;
-  service_options.executor = options.executor;
-  service_options.start = jobs::Start::kWhenTold;
-  service_options.log = [](const std::string& message) { spdlog::warn(message); };
   const auto metrics = std::make_shared<Metrics>();
-  service_options.ran = [metrics](const jobs::JobSpec& spec, const jobs::RunRecord& run) {
-    metrics->add_run(spec, run);
-  };
-  jobs::Service service(service_options);
+  jobs::Service service(make_service_options(options, site, metrics));
   Routes routes(service, metrics);
   HttpServer http(routes, {.address = address,
                            .port = options.port,

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "jobs/base/errors.h"
+#include "jobs/base/optional_json.h"
 #include "jobs/flexibility/flexibility.h"
 #include "jobs/results/table_groups.h"
 #include "jobs/sensitivity/sensitivity.h"
@@ -20,6 +20,7 @@ namespace server::report {
 
 namespace {
 
+using jobs::value_or_null;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
@@ -37,6 +38,16 @@ std::string make_summary(const json& sweep) {
   return make_table({"", ""}, rows);
 }
 
+jobs::ReplicateStatistics statistics_of(const jobs::ResultTable& results, const jobs::RowGroup& group,
+                                        const std::string& column) {
+  const std::size_t c = jobs::find_column(results, column, "");
+  std::vector<double> values;
+  for (const std::size_t r : group.rows) {
+    if (const auto value = jobs::number_in(results.rows[r][c])) values.push_back(*value);
+  }
+  return jobs::calc_replicate_statistics(values);
+}
+
 /// A row for each set of parameters: the peak over its replicates, and means of other metrics. Of a described
 /// linkage: its first metrics.
 std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
@@ -51,22 +62,14 @@ std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
   headings.insert(headings.end(), {"runs", metric + ", mean", "spread", "least", "largest"});
   for (const std::string& mean : means) headings.push_back(mean + ", mean");
   const auto groups = jobs::group_rows(results, swept);
-  const auto statistics_of = [&](const jobs::RowGroup& group, const std::string& column) {
-    std::vector<double> values;
-    for (const std::size_t r : group.rows) {
-      if (const auto value = jobs::number_in(results.rows[r][jobs::find_column(results, column, "")]))
-        values.push_back(*value);
-    }
-    return jobs::calc_replicate_statistics(values);
-  };
-  const auto value_or_null = [](const std::optional<double>& value) { return value ? json(*value) : json(); };
   std::vector<std::vector<json>> rows;
   for (std::size_t g = 0; g < std::min(groups.size(), kMostSets); ++g) {
     std::vector<json> cells = groups[g].values;
-    const auto peak = statistics_of(groups[g], metric);
+    const auto peak = statistics_of(results, groups[g], metric);
     cells.insert(cells.end(), {peak.count, value_or_null(peak.mean), value_or_null(peak.spread),
                                value_or_null(peak.min), value_or_null(peak.max)});
-    for (const std::string& mean : means) cells.push_back(value_or_null(statistics_of(groups[g], mean).mean));
+    for (const std::string& mean : means)
+      cells.push_back(value_or_null(statistics_of(results, groups[g], mean).mean));
     rows.push_back(std::move(cells));
   }
   const std::string more = groups.size() > kMostSets
