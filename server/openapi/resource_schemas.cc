@@ -112,13 +112,7 @@ Json make_sweep(Detail detail) {
       {"started_at", or_null(kTime)},
       {"ended_at", or_null(kTime)},
       {"axes", described(list_of(kText), "the parameters that differ from job to job")},
-      {"links", object_of({{"self", kText},
-                           {"results", kText},
-                           {"events", kText},
-                           {"cancel", kText},
-                           {"retry", kText},
-                           {"extend", kText},
-                           {"move", kText}})}};
+      {"links", texts_of({"self", "results", "events", "cancel", "retry", "extend", "move"})}};
   if (detail == Detail::kFull) properties["request"] = ref("SweepRequest");
   return detail == Detail::kFull ? object_of(std::move(properties)) : options_of(std::move(properties));
 }

@@ -18,6 +18,12 @@ Json object_of(Json properties, std::initializer_list<std::string_view> optional
           {"properties", std::move(properties)}};
 }
 
+Json texts_of(std::initializer_list<std::string_view> names) {
+  Json properties = Json::object();
+  for (const std::string_view name : names) properties[std::string(name)] = kText;
+  return object_of(std::move(properties));
+}
+
 Json options_of(Json properties) {
   return {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
 }

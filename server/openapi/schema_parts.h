@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,9 @@ inline const Json kCount{{"type", "integer"}, {"minimum", 0}};
 
 /// An object of exactly these properties, all of which are there unless `optional` names them.
 [[nodiscard]] Json object_of(Json properties, std::initializer_list<std::string_view> optional = {});
+
+/// An object of exactly these texts.
+[[nodiscard]] Json texts_of(std::initializer_list<std::string_view> names);
 
 /// An object of these properties and no others, none of which needs to be there.
 [[nodiscard]] Json options_of(Json properties);

@@ -88,12 +88,7 @@ Json make_search_summary() {
           {"axes", list_of(kText)},
           {"created_at", kText},
           {"ended_at", or_null(kText)},
-          {"links", object_of({{"self", kText},
-                               {"results", kText},
-                               {"cancel", kText},
-                               {"retry", kText},
-                               {"events", kText},
-                               {"sweep", kText}})}};
+          {"links", texts_of({"self", "results", "cancel", "retry", "events", "sweep"})}};
 }
 
 Json make_search() {

@@ -72,12 +72,7 @@ Json make_study_summary() {
           {"worn_clearance_mm", or_null(kNumber)},
           {"created_at", kText},
           {"ended_at", or_null(kText)},
-          {"links", object_of({{"self", kText},
-                               {"results", kText},
-                               {"cancel", kText},
-                               {"retry", kText},
-                               {"events", kText},
-                               {"sweep", kText}})}};
+          {"links", texts_of({"self", "results", "cancel", "retry", "events", "sweep"})}};
 }
 
 /// jobs::kWearColumns.
