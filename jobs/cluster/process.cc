@@ -47,8 +47,8 @@ class Pipe {
       const ssize_t got = ::read(out(), bytes.data(), bytes.size());
       if (got < 0) return errno == EAGAIN || errno == EINTR;
       if (got == 0) return false;
-      const std::size_t room = kMostOutput - text.size();
-      text.append(bytes.data(), std::min(room, static_cast<std::size_t>(got)));
+      const std::size_t left = kMostOutput - text.size();
+      text.append(bytes.data(), std::min(left, static_cast<std::size_t>(got)));
     }
   }
 

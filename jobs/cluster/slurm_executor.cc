@@ -318,25 +318,26 @@ double SlurmExecutor::time_limit_s(const Live& live, const std::vector<TaskPlan>
 }
 
 void SlurmExecutor::take_jobs(Clock::time_point now) {
-  // Room is left for a sweep that comes later: it need not wait for the tasks of a large one to end.
+  // Some tasks are left for a sweep that comes later: it need not wait for the tasks of a large one to end.
   const int most = site_.most_tasks();
-  for (int room = most - open_tasks(); room > 0 && 4 * room >= most; room = most - open_tasks()) {
+  for (int free_tasks = most - open_tasks(); free_tasks > 0 && 4 * free_tasks >= most;
+       free_tasks = most - open_tasks()) {
     const bool refused =
         std::ranges::any_of(live_, [](const auto& live) { return live->batch.refusals > 0; });
-    if (refused || !take_batch(std::max(1, room / 2), now)) return;
+    if (refused || !take_batch(std::max(1, free_tasks / 2), now)) return;
   }
 }
 
-/// @param room  tasks
-bool SlurmExecutor::take_batch(int room, Clock::time_point now) {
+bool SlurmExecutor::take_batch(int free_tasks, Clock::time_point now) {
   const auto rates = batches_.find_cost_rates();
   TaskBounds bound = bounds();
-  bound.most_tasks = room;
+  bound.most_tasks = free_tasks;
   std::size_t most_jobs = static_cast<std::size_t>(probe_size(bound));
   // While nothing is known of what jobs cost, the first ones are to tell.
   if (rates.empty() && !live_.empty()) return false;
   if (job_cost_s_ && !rates.empty()) {
-    const double wished = room * std::max(site_.task_s, site_.least_task_s) * site_.threads / *job_cost_s_;
+    const double wished =
+        free_tasks * std::max(site_.task_s, site_.least_task_s) * site_.threads / *job_cost_s_;
     most_jobs = static_cast<std::size_t>(std::clamp(wished, 1.0, kMostJobs));
   }
   const auto batch = batches_.claim(filter_, most_jobs);

@@ -25,7 +25,7 @@ namespace jobs::cluster {
 
 /// Has jobs computed by a Slurm cluster. One thread does the same again and again, after a start as at any
 /// time: it takes the results that have come into the shared folder, asks Slurm which tasks may still deliver
-/// some, gives what is lost to new tasks, and takes jobs from the store while there is room for more tasks.
+/// some, gives what is lost to new tasks, and takes jobs from the store while more tasks may be submitted.
 /// Tasks go on when the service ends; the next one with the same store takes their results.
 class SlurmExecutor : public Executor {
  public:
@@ -64,7 +64,7 @@ class SlurmExecutor : public Executor {
   void submit_generation(Live& live, const std::vector<TaskPlan>& tasks, Clock::time_point now);
   [[nodiscard]] double time_limit_s(const Live& live, const std::vector<TaskPlan>& tasks) const;
   void take_jobs(Clock::time_point now);
-  bool take_batch(int room, Clock::time_point now);
+  bool take_batch(int free_tasks, Clock::time_point now);
   Live& add_batch(const BatchRow& row);
   void prepare(const Live& live) const;
   [[nodiscard]] static std::vector<TaskPlan> plan_unassigned(const Live& live, const TaskBounds& bound);

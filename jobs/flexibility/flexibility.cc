@@ -84,21 +84,21 @@ std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std:
   if (!along) return reversals;
   std::map<json, std::map<double, std::size_t>> lines;  // all else equal, in the order of the values along
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const auto place = number_in(groups[g].values[*along]);  // jobs of another linkage may have none
-    if (!pairs[g].ratio || !place) continue;
+    const auto x = number_in(groups[g].values[*along]);  // jobs of another linkage may have none
+    if (!pairs[g].ratio || !x) continue;
     json others = groups[g].values;
     others.erase(*along);
-    lines[others][*place] = g;
+    lines[others][*x] = g;
   }
   for (const auto& [others, line] : lines) {
     int last_side = 0;
-    double last_place = 0.0;
-    for (const auto& [place, group] : line) {
+    double last_x = 0.0;
+    for (const auto& [x, group] : line) {
       const int side = side_of(*pairs[group].ratio);
       if (side == 0) continue;
-      if (side == -last_side) reversals[group] = last_place;
+      if (side == -last_side) reversals[group] = last_x;
       last_side = side;
-      last_place = place;
+      last_x = x;
     }
   }
   return reversals;

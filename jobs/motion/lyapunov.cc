@@ -51,7 +51,7 @@ double slope_of(std::span<const double> x, std::span<const double> y) {
 
 using Columns = std::vector<std::vector<double>>;
 
-/// t_s, and the journal's place.
+/// t_s, and the journal's position.
 std::optional<Columns> find_orbit(const json& job_id, const FindTrajectory& find) {
   auto run = find(job_id.get<std::string>(), {.channels = {"journal_x_mm", "journal_y_mm"}, .from = {},
                                               .to = {}});
@@ -61,10 +61,10 @@ std::optional<Columns> find_orbit(const json& job_id, const FindTrajectory& find
 std::optional<Divergence> compare(const Columns& a, const Columns& b) {
   const std::size_t samples = std::min(a[0].size(), b[0].size());
   const auto cut = [&](const Columns& run) {
-    Columns place;
+    Columns positions;
     for (std::size_t c = 1; c < run.size(); ++c)
-      place.emplace_back(run[c].begin(), run[c].begin() + static_cast<std::ptrdiff_t>(samples));
-    return place;
+      positions.emplace_back(run[c].begin(), run[c].begin() + static_cast<std::ptrdiff_t>(samples));
+    return positions;
   };
   return measure_divergence(std::span(a[0]).first(samples), cut(a), cut(b));
 }

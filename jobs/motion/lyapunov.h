@@ -30,8 +30,8 @@ struct Divergence {
                                                            const std::vector<std::vector<double>>& b);
 
 /// The largest Lyapunov exponent of each set of replicates of a sweep, from the runs that begin with slightly
-/// different stiffness beside the one that does not: by the journal's place in the bearing. A row a set: what
-/// is swept, pairs, pairs_diverged, exponent_1_s (the mean over those), exponent_low_1_s and
+/// different stiffness beside the one that does not: by the journal's position in the bearing. A row a set:
+/// what is swept, pairs, pairs_diverged, exponent_1_s (the mean over those), exponent_low_1_s and
 /// exponent_high_1_s (95 % confidence, Student's), from_s and to_s (the mean stretch that was measured).
 /// @param results  rows with job_id, replicate and the columns of `axes`
 /// @throws WrongState if the sweep has no replicates, or more rows than kMostJobsOfDiagram

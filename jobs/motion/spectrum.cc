@@ -28,12 +28,12 @@ bool is_smooth(std::size_t n) {
 /// Sums of cosines over a whole period, with alternating signs.
 double window_at(Window window, double part) {
   constexpr std::array<double, 5> kFlatTop{0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368};
-  const double turn = 2.0 * std::numbers::pi * part;
+  const double phase = 2.0 * std::numbers::pi * part;
   if (window == Window::kRectangular) return 1.0;
-  if (window == Window::kHann) return 0.5 - 0.5 * std::cos(turn);
+  if (window == Window::kHann) return 0.5 - 0.5 * std::cos(phase);
   double sum = 0.0;
   for (std::size_t k = 0; k < kFlatTop.size(); ++k)
-    sum += (k % 2 == 0 ? 1.0 : -1.0) * kFlatTop[k] * std::cos(static_cast<double>(k) * turn);
+    sum += (k % 2 == 0 ? 1.0 : -1.0) * kFlatTop[k] * std::cos(static_cast<double>(k) * phase);
   return sum;
 }
 

@@ -224,35 +224,36 @@ std::vector<double> velocities_of(const Settings& settings) {
   return velocities;
 }
 
-/// One statement over all settings that have its peaks.
-struct Held {
-  std::vector<std::size_t> settings;         ///< those
+/// StatementOutcome of one statement over the settings that have its peaks.
+struct StatementOutcome {
+  std::vector<std::size_t> settings;         ///< those that have its peaks
   std::vector<double> least, largest, logs;  ///< of each one's ratios; the logarithm of their geometric mean
-  std::size_t holding = 0;
+  std::size_t holding = 0;  ///< settings in which the statement holds
 };
 
-Held hold(const Statement& statement, const Settings& settings) {
-  Held held;
+StatementOutcome check_statement(const Statement& statement, const Settings& settings) {
+  StatementOutcome outcome;
   for (std::size_t s = 0; s < settings.peaks.size(); ++s) {
     const Ratios ratios = statement.ratios(settings.peaks[s]);
     if (ratios.empty()) continue;
     const auto [least, largest] = std::ranges::minmax_element(ratios);
     double log_sum = 0.0;
     for (const double ratio : ratios) log_sum += std::log(ratio);
-    held.settings.push_back(s);
-    held.least.push_back(*least);
-    held.largest.push_back(*largest);
-    held.logs.push_back(log_sum / static_cast<double>(ratios.size()));
-    held.holding += std::ranges::all_of(ratios, statement.allows) ? 1 : 0;
+    outcome.settings.push_back(s);
+    outcome.least.push_back(*least);
+    outcome.largest.push_back(*largest);
+    outcome.logs.push_back(log_sum / static_cast<double>(ratios.size()));
+    outcome.holding += std::ranges::all_of(ratios, statement.allows) ? 1 : 0;
   }
-  return held;
+  return outcome;
 }
 
-json index_of(const Statement& statement, const Held& held, const Settings& settings, std::size_t parameter) {
-  if (statement.number.is_null() || held.settings.size() < kFewestSettings) return nullptr;
+json index_of(const Statement& statement, const StatementOutcome& outcome, const Settings& settings,
+              std::size_t parameter) {
+  if (statement.number.is_null() || outcome.settings.size() < kFewestSettings) return nullptr;
   std::vector<json> inputs;
-  for (const std::size_t s : held.settings) inputs.push_back(settings.values[s][parameter]);
-  return value_or_null(calc_first_order_index(inputs, held.logs));
+  for (const std::size_t s : outcome.settings) inputs.push_back(settings.values[s][parameter]);
+  return value_or_null(calc_first_order_index(inputs, outcome.logs));
 }
 
 }  // namespace
@@ -267,20 +268,20 @@ ResultTable hold_against_paper(const ResultTable& results) {
   if (has_indices)
     for (const std::string& parameter : settings.parameters) table.columns.push_back("index." + parameter);
   for (const Statement& statement : make_statements(velocities_of(settings))) {
-    const Held held = hold(statement, settings);
-    const std::size_t count = held.settings.size();
+    const StatementOutcome outcome = check_statement(statement, settings);
+    const std::size_t count = outcome.settings.size();
     std::vector<json> row{
         statement.name,
         statement.number,
         statement.text,
         statement.paper,
-        count > 0 ? json(calc_median(held.least)) : json(),
-        count > 0 ? json(calc_median(held.largest)) : json(),
+        count > 0 ? json(calc_median(outcome.least)) : json(),
+        count > 0 ? json(calc_median(outcome.largest)) : json(),
         count,
-        count > 0 ? json(static_cast<double>(held.holding) / static_cast<double>(count)) : json(),
-        count > 0 ? json(held.holding == count) : json()};
+        count > 0 ? json(static_cast<double>(outcome.holding) / static_cast<double>(count)) : json(),
+        count > 0 ? json(outcome.holding == count) : json()};
     for (std::size_t k = 0; has_indices && k < settings.parameters.size(); ++k)
-      row.push_back(index_of(statement, held, settings, k));
+      row.push_back(index_of(statement, outcome, settings, k));
     table.rows.push_back(std::move(row));
   }
   return table;

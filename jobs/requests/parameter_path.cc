@@ -35,7 +35,7 @@ std::vector<std::string> parts_of(std::string_view path) {
   return parts;
 }
 
-/// The member or element of that name; null if there is none. Of a list only places that it has are known:
+/// The member or element of that name; null if there is none. Of a list only indices that it has are known:
 /// JSON pointers would make others.
 const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& part) {
   if (whole.is_object()) {
@@ -44,9 +44,9 @@ const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& 
   }
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  const bool is_place =
+  const bool is_index =
       error == std::errc() && std::to_string(index) == part && whole.is_array() && index < whole.size();
-  return is_place ? &whole[index] : nullptr;
+  return is_index ? &whole[index] : nullptr;
 }
 
 /// Value at a path; null if there is none.
@@ -106,10 +106,10 @@ std::string path_of_pointer(std::string_view pointer) {
 }
 
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value) {
-  nlohmann::json* place = &parameters;
+  nlohmann::json* target = &parameters;
   for (const std::string& part : parts_of(path))
-    place = place->is_array() ? &place->at(std::stoul(part)) : &(*place)[part];
-  *place = value;
+    target = target->is_array() ? &target->at(std::stoul(part)) : &(*target)[part];
+  *target = value;
 }
 
 const nlohmann::json& value_at_path(const nlohmann::json& completed, std::string_view path) {

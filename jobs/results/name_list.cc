@@ -36,19 +36,19 @@ std::vector<std::size_t> find_names(const std::vector<std::string>& names, std::
                                     std::string_view listed, const std::string& pointer,
                                     std::vector<Fault>& faults) {
   const std::vector<std::string_view> views(known.begin(), known.end());
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto place = static_cast<std::size_t>(std::ranges::find(known, names[i]) - known.begin());
+    const auto index = static_cast<std::size_t>(std::ranges::find(known, names[i]) - known.begin());
     const std::string where = pointer + "/" + std::to_string(i);
-    if (place == known.size()) {
+    if (index == known.size()) {
       faults.push_back({where, "\"" + names[i] + "\": " + describe_unknown_key(names[i], views, listed)});
-    } else if (std::ranges::find(places, place) != places.end()) {
+    } else if (std::ranges::find(indices, index) != indices.end()) {
       faults.push_back({where, "\"" + names[i] + "\" is in the list already"});
     } else {
-      places.push_back(place);
+      indices.push_back(index);
     }
   }
-  return places;
+  return indices;
 }
 
 }  // namespace jobs

@@ -23,8 +23,8 @@ PageChecker::PageChecker(const PageQuery& query, std::string_view id_prefix,
     faults.push_back({"/state", "must be one of " + names});
   }
   if (!query.fields.empty()) {
-    for (const std::size_t place : find_names(split_names(query.fields, keys), keys, {}, "/fields", faults))
-      wanted_.push_back(keys[place]);
+    for (const std::size_t index : find_names(split_names(query.fields, keys), keys, {}, "/fields", faults))
+      wanted_.push_back(keys[index]);
   }
   if (!faults.empty()) throw InvalidRequest(std::move(faults));
 }

@@ -100,7 +100,7 @@ class Reader {
   Condition condition(const ResultFilter& filter) {
     const auto [name, comparison] = split_key(filter.key, columns_);
     const std::string pointer = pointer_token(filter.key);
-    Condition condition{.column = place_of(name, pointer), .comparison = comparison, .number = {},
+    Condition condition{.column = index_of_column(name, pointer), .comparison = comparison, .number = {},
                         .text = filter.value};
     const TextColumn text = text_column(name);
     if (!text.is_text) {
@@ -124,9 +124,9 @@ class Reader {
       descending.push_back(name.starts_with('-'));
       if (descending.back()) name.erase(0, 1);
     }
-    const auto places = find_names(names, columns_, listed_, "/order_by", faults_);
-    for (std::size_t i = 0; i < places.size() && faults_.empty(); ++i)
-      order.emplace_back(places[i], descending[i]);
+    const auto indices = find_names(names, columns_, listed_, "/order_by", faults_);
+    for (std::size_t i = 0; i < indices.size() && faults_.empty(); ++i)
+      order.emplace_back(indices[i], descending[i]);
     return order;
   }
 
@@ -146,7 +146,7 @@ class Reader {
     faults_.push_back({std::move(pointer), std::move(detail)});
   }
 
-  std::size_t place_of(const std::string& name, const std::string& pointer) {
+  std::size_t index_of_column(const std::string& name, const std::string& pointer) {
     const auto found = std::ranges::find(columns_, name);
     if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
     const std::vector<std::string_view> known(columns_.begin(), columns_.end());

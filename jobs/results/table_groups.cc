@@ -40,13 +40,13 @@ std::size_t find_column(const ResultTable& table, const std::string& name, const
 
 std::vector<RowGroup> group_rows(const ResultTable& table, const std::vector<std::size_t>& columns) {
   std::vector<RowGroup> groups;
-  std::map<nlohmann::json, std::size_t> places;
+  std::map<nlohmann::json, std::size_t> indices;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     nlohmann::json values = nlohmann::json::array();
     for (const std::size_t column : columns) values.push_back(table.rows[r][column]);
-    const auto [place, is_new] = places.try_emplace(values, groups.size());
+    const auto [index, is_new] = indices.try_emplace(values, groups.size());
     if (is_new) groups.push_back({.values = values.get<std::vector<nlohmann::json>>(), .rows = {}});
-    groups[place->second].rows.push_back(r);
+    groups[index->second].rows.push_back(r);
   }
   return groups;
 }

@@ -115,15 +115,16 @@ UnitPoints morris_points(std::size_t trajectories, std::size_t dimensions, std::
   const std::size_t jump = levels / 2;
   UnitPoints points;
   for (std::size_t t = 0; t < trajectories; ++t) {
-    std::vector<std::size_t> place(dimensions);
-    for (std::size_t& level : place) level = chance.below(levels);
+    std::vector<std::size_t> grid_point(dimensions);
+    for (std::size_t& level : grid_point) level = chance.below(levels);
     const auto add = [&] {
       points.emplace_back();
-      for (const std::size_t level : place) points.back().push_back(static_cast<double>(level) * spacing);
+      for (const std::size_t level : grid_point)
+        points.back().push_back(static_cast<double>(level) * spacing);
     };
     add();
     for (const std::size_t d : random_order(dimensions, chance)) {
-      place[d] = place[d] < jump ? place[d] + jump : place[d] - jump;
+      grid_point[d] = grid_point[d] < jump ? grid_point[d] + jump : grid_point[d] - jump;
       add();
     }
   }

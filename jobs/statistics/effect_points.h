@@ -11,7 +11,7 @@
 
 namespace jobs {
 
-/// Trajectories of Morris (1991): each begins at a random place of a grid and changes one coordinate after
+/// Trajectories of Morris (1991): each begins at a random point of a grid and changes one coordinate after
 /// the other, in random order, by levels / (2 (levels - 1)) up or down. Point t (dimensions + 1) + s is the
 /// s-th of trajectory t. The same arguments give the same points.
 /// @param levels  of the grid, even
@@ -28,7 +28,7 @@ namespace jobs {
 struct ElementaryEffects {
   double mean = 0.0;       ///< mu: of the effects with their signs
   Estimate mean_size;      ///< mu*: of their magnitudes; the interval is Student's
-  double deviation = 0.0;  ///< sigma: how much the effect depends on the place
+  double deviation = 0.0;  ///< sigma: how much the effect depends on the point
 };
 
 /// @param points, values  of whole trajectories, two or more, as morris_points() gives them

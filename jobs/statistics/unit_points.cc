@@ -30,13 +30,13 @@ UnitPoints latin_hypercube(std::size_t count, std::size_t dimensions, std::uint6
   UnitPoints points(count, std::vector<double>(dimensions));
   for (std::size_t d = 0; d < dimensions; ++d) {
     const std::uint64_t order_seed = splitmix64(seed, 2 * d + 1);
-    const std::uint64_t place_seed = splitmix64(seed, 2 * d + 2);
+    const std::uint64_t offset_seed = splitmix64(seed, 2 * d + 2);
     const auto intervals = random_permutation(count, order_seed);
     for (std::size_t k = 0; k < count; ++k) {
-      // 24 bits of place and 29 of interval: the sum is exact, so that no point is rounded into the next
+      // 24 bits of offset and 29 of interval: the sum is exact, so that no point is rounded into the next
       // interval.
-      const double place = static_cast<double>(splitmix64(place_seed, k + 1) >> 40U) * 0x1p-24;
-      points[k][d] = (static_cast<double>(intervals[k]) + place) / static_cast<double>(count);
+      const double offset = static_cast<double>(splitmix64(offset_seed, k + 1) >> 40U) * 0x1p-24;
+      points[k][d] = (static_cast<double>(intervals[k]) + offset) / static_cast<double>(count);
     }
   }
   return points;

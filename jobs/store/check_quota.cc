@@ -34,9 +34,9 @@ void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes) {
 
 }  // namespace
 
-void check_quota(SQLite::Statement& used, const StoreQuota& room, const std::filesystem::path& file) {
-  if (room.most_bytes > 0) check_store(used, room.most_bytes);
-  if (room.reserve_bytes > 0) check_disk(file, room.reserve_bytes);
+void check_quota(SQLite::Statement& used, const StoreQuota& quota, const std::filesystem::path& file) {
+  if (quota.most_bytes > 0) check_store(used, quota.most_bytes);
+  if (quota.reserve_bytes > 0) check_disk(file, quota.reserve_bytes);
 }
 
 }  // namespace jobs

@@ -18,6 +18,6 @@ inline constexpr const char* kUsedBytesQuery =
 /// @param used  kUsedBytesQuery, prepared
 /// @param file  of the store
 /// @throws StoreLimitReached if it may not
-void check_quota(SQLite::Statement& used, const StoreQuota& room, const std::filesystem::path& file);
+void check_quota(SQLite::Statement& used, const StoreQuota& quota, const std::filesystem::path& file);
 
 }  // namespace jobs

@@ -46,10 +46,10 @@ struct Input {
 Input input_of(const json& request, const ResultTable& results, const std::string& parameter) {
   Input input{.parameter = parameter, .column = find_column(results, parameter, "")};
   const json over = request.value("design", json::object()).value("over", json::object());
-  const json& place = over.contains(parameter)    ? over
+  const json& given_in = over.contains(parameter) ? over
                       : request.contains("sweep") ? request.at("sweep")
                                                   : over;
-  const json given = place.value(parameter, json());
+  const json given = given_in.value(parameter, json());
   input.logarithmic = given.is_object() && given.value("scale", "linear") == "log";
   std::vector<double> values;
   for (const auto& row : results.rows) {
@@ -64,19 +64,20 @@ Input input_of(const json& request, const ResultTable& results, const std::strin
 
 /// A point of one combination, the mean of its replicates.
 struct Point {
-  std::vector<double> place;  ///< values of the inputs
+  std::vector<double> coordinates;  ///< values of the inputs
   double value = 0.0;
 };
 
 /// None if the job has not all inputs.
-std::optional<std::vector<double>> place_of(const std::vector<json>& row, const std::vector<Input>& inputs) {
-  std::vector<double> place;
+std::optional<std::vector<double>> coordinates_of(const std::vector<json>& row,
+                                                  const std::vector<Input>& inputs) {
+  std::vector<double> coordinates;
   for (const Input& input : inputs) {
     const auto value = number_in(row[input.column]);
     if (!value) return std::nullopt;
-    place.push_back(*value);
+    coordinates.push_back(*value);
   }
-  return place;
+  return coordinates;
 }
 
 std::vector<Point> points_of(const ResultTable& results, const std::vector<std::size_t>& rows,
@@ -84,27 +85,30 @@ std::vector<Point> points_of(const ResultTable& results, const std::vector<std::
   std::map<std::vector<double>, std::pair<double, int>> sums;
   for (const std::size_t r : rows) {
     const auto value = number_in(results.rows[r][metric]);
-    const auto place = place_of(results.rows[r], inputs);
-    if (!value || !place) continue;
-    auto& [sum, count] = sums[*place];
+    const auto coordinates = coordinates_of(results.rows[r], inputs);
+    if (!value || !coordinates) continue;
+    auto& [sum, count] = sums[*coordinates];
     sum += *value;
     ++count;
   }
   std::vector<Point> points;
-  for (const auto& [place, sum] : sums) points.push_back({place, sum.first / sum.second});
+  for (const auto& [coordinates, sum] : sums) points.push_back({coordinates, sum.first / sum.second});
   return points;
 }
 
 PolynomialChaos fit(const std::vector<Point>& points, const std::vector<Input>& inputs) {
-  Eigen::MatrixXd places(static_cast<Eigen::Index>(points.size()), static_cast<Eigen::Index>(inputs.size()));
-  Eigen::VectorXd response(places.rows());
-  for (Eigen::Index k = 0; k < places.rows(); ++k) {
+  Eigen::MatrixXd unit_points(static_cast<Eigen::Index>(points.size()),
+                              static_cast<Eigen::Index>(inputs.size()));
+  Eigen::VectorXd response(unit_points.rows());
+  for (Eigen::Index k = 0; k < unit_points.rows(); ++k) {
     const Point& point = points[static_cast<std::size_t>(k)];
-    for (Eigen::Index i = 0; i < places.cols(); ++i) places(k,
-        i) = inputs[static_cast<std::size_t>(i)].to_unit(point.place[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < unit_points.cols(); ++i) {
+      const auto input = static_cast<std::size_t>(i);
+      unit_points(k, i) = inputs[input].to_unit(point.coordinates[input]);
+    }
     response[k] = point.value;
   }
-  return {places, response};
+  return {unit_points, response};
 }
 
 std::vector<double> grid_of(const Input& input) {
@@ -117,13 +121,13 @@ std::vector<double> grid_of(const Input& input) {
 json surface_of(const PolynomialChaos& surrogate, std::size_t inputs, std::size_t x,
                 std::optional<std::size_t> y) {
   json rows = json::array();
-  std::vector<double> place(inputs, 0.0);
+  std::vector<double> at(inputs, 0.0);
   for (int j = 0; j < (y ? kGrid : 1); ++j) {
     json row = json::array();
-    if (y) place[*y] = 2.0 * j / (kGrid - 1) - 1.0;
+    if (y) at[*y] = 2.0 * j / (kGrid - 1) - 1.0;
     for (int i = 0; i < kGrid; ++i) {
-      place[x] = 2.0 * i / (kGrid - 1) - 1.0;
-      row.push_back(surrogate.predict(place));
+      at[x] = 2.0 * i / (kGrid - 1) - 1.0;
+      row.push_back(surrogate.predict(at));
     }
     rows.push_back(std::move(row));
   }
@@ -149,7 +153,7 @@ json surface_json(const std::vector<Point>& points, const std::vector<Input>& in
             {"at", json::array()}};
   for (const Point& point : points) {
     json at{{"value", point.value}, {"left_out_prediction", nullptr}};
-    for (std::size_t i = 0; i < inputs.size(); ++i) at[inputs[i].parameter] = point.place[i];
+    for (std::size_t i = 0; i < inputs.size(); ++i) at[inputs[i].parameter] = point.coordinates[i];
     made["at"].push_back(std::move(at));
   }
   if (points.size() < kFewestPoints) return made;

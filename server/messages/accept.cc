@@ -61,7 +61,7 @@ std::vector<MediaRange> read_ranges(std::string_view accept) {
   return ranges;
 }
 
-/// The place of the narrowest range that a type is in: itself, its kind, or all; past the end if there is
+/// Index of the narrowest range that a type is in: itself, its kind, or all; past the end if there is
 /// none.
 std::size_t find_range(const std::vector<MediaRange>& ranges, std::string_view media_type) {
   const std::string kind = std::string(media_type.substr(0, media_type.find('/'))) + "/*";
@@ -78,15 +78,15 @@ std::optional<std::size_t> find_accepted(std::string_view accept,
                                          std::span<const std::string_view> media_types) {
   const std::vector<MediaRange> ranges = read_ranges(accept);
   std::optional<std::size_t> best;
-  std::size_t best_place = 0;
+  std::size_t best_index = 0;
   for (std::size_t i = 0; i < media_types.size(); ++i) {
-    const std::size_t place = find_range(ranges, media_types[i]);
-    if (place == ranges.size() || ranges[place].weight == 0.0) continue;
-    const bool wins = !best || ranges[place].weight > ranges[best_place].weight ||
-                      (ranges[place].weight == ranges[best_place].weight && place < best_place);
+    const std::size_t index = find_range(ranges, media_types[i]);
+    if (index == ranges.size() || ranges[index].weight == 0.0) continue;
+    const bool wins = !best || ranges[index].weight > ranges[best_index].weight ||
+                      (ranges[index].weight == ranges[best_index].weight && index < best_index);
     if (!wins) continue;
     best = i;
-    best_place = place;
+    best_index = index;
   }
   return best;
 }

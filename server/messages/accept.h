@@ -11,7 +11,7 @@ namespace server {
 /// Which of some media types an Accept header wants most: the one with the largest weight (q), of those the
 /// one whose range stands first, of those the first. A type has the weight of the narrowest range that it is
 /// in (RFC 9110, section 12.5.1).
-/// @returns its place among the types; empty if none is acceptable, or nothing is said
+/// @returns its index among the types; empty if none is acceptable, or nothing is said
 [[nodiscard]] std::optional<std::size_t> find_accepted(std::string_view accept,
                                                        std::span<const std::string_view> media_types);
 

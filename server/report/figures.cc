@@ -39,7 +39,7 @@ std::optional<std::string> find_number(const nlohmann::json& axes, const jobs::R
   return std::nullopt;
 }
 
-/// A metric's values by place along x.
+/// Values of a metric by the value on the x axis.
 using Line = std::map<double, std::vector<double>>;
 
 void add_line(const std::string& label, const Line& line, const char* colour, charts::Chart& chart) {
@@ -94,9 +94,9 @@ std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& r
     for (std::size_t g = 0; g < groups.size() && g < kColours.size(); ++g) {
       Line line;
       for (const std::size_t r : groups[g].rows) {
-        const auto place = jobs::number_in(results.rows[r][x]);  // jobs of another linkage may have none
-        if (const auto value = jobs::number_in(results.rows[r][column]); value && place)
-          line[*place].push_back(*value);
+        const auto at = jobs::number_in(results.rows[r][x]);  // jobs of another linkage may have none
+        if (const auto value = jobs::number_in(results.rows[r][column]); value && at)
+          line[*at].push_back(*value);
       }
       std::string label;
       for (std::size_t i = 0; i < others.size(); ++i) {
