@@ -2,6 +2,8 @@
 #include "jobs/parameters/span.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "jobs/parameters/parameter_value.h"
@@ -20,9 +22,45 @@ std::string describe_end_fault(const json& span, const char* end, bool logarithm
                                                                 : "must be a number";
 }
 
+/// Place of the first digit: 0 of 1 to 9.99, -1 of 0.1 to 0.999. @param x  not 0
+int first_place(double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); }
+
+/// Nearest decimal of at most 12 digits, none below the 15th place of a number of the given scale.
+double nearest_decimal(double x, double scale) {
+  constexpr int kDigits = 12;
+  constexpr int kPlaces = 15;  // one less than a double has for certain
+  if (x == 0.0 || !std::isfinite(x)) return x;
+  const int digits = std::min(kDigits, kPlaces + first_place(x) - first_place(scale));
+  if (digits < 1) return 0.0;
+  std::array<char, 32> text{};
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), x,
+                                     std::chars_format::scientific, digits - 1);
+  double rounded = x;
+  std::from_chars(text.data(), written.ptr, rounded);
+  return rounded;
+}
+
 }  // namespace
 
-double geometric_between(double from, double to, double part) { return from * std::pow(to / from, part); }
+double geometric_between(double from, double to, long double part) {
+  const double ratio = to / from;
+  return static_cast<double>(from * std::pow(static_cast<long double>(ratio), part));
+}
+
+double decimal_between(const Span& span, long double part, double steps) {
+  if (part <= 0.0L) return span.from;
+  if (part >= 1.0L) return span.to;
+  const double x = span.logarithmic ? geometric_between(span.from, span.to, part)
+                                    : static_cast<double>(span.from * (1.0L - part) + span.to * part);
+  const double scale = span.logarithmic ? x : std::max(std::abs(span.from), std::abs(span.to));
+  const long double width = span.logarithmic
+                                ? std::abs(static_cast<long double>(x) * std::log(span.to / span.from))
+                                : std::abs(static_cast<long double>(span.to) - span.from);
+  const double rounded = nearest_decimal(x, scale);
+  const long double moved = std::abs(static_cast<long double>(rounded) - x);
+  const auto [least, most] = std::minmax(span.from, span.to);
+  return std::clamp(moved <= 1e-3L * width / steps ? rounded : x, least, most);
+}
 
 std::optional<Span> read_span(const json& span, std::span<const std::string_view> other_keys,
                               const std::string& pointer, std::vector<Fault>& faults) {

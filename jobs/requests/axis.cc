@@ -47,12 +47,8 @@ class SpanValues {
 
   [[nodiscard]] double operator[](std::uint64_t k) const {
     if (k == 0) return ends_.from;
-    if (k + 1 == count_) return ends_.to;
-    const auto a = static_cast<double>(count_ - 1 - k);
-    const auto b = static_cast<double>(k);
-    const auto n = static_cast<double>(count_ - 1);
-    return ends_.logarithmic ? geometric_between(ends_.from, ends_.to, b / n)
-                             : (ends_.from * a + ends_.to * b) / n;
+    const auto steps = static_cast<double>(count_ - 1);
+    return decimal_between(ends_, static_cast<long double>(k) / steps, steps);
   }
 
   /// They rise or fall, so that a billion of them need not be looked at.

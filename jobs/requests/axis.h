@@ -54,7 +54,7 @@ enum class Repeats { kRefused, kAllowed };
 ///
 ///     linear:  (from (n - 1 - k) + to k) / (n - 1),    log:  from (to / from)^(k / (n - 1)),
 ///
-/// both with exact ends.
+/// both with exact ends, and rounded between them by decimal_between().
 [[nodiscard]] Axis make_axis(const std::string& path, const nlohmann::json& axis, const std::string& pointer,
                              std::vector<Fault>& faults, Repeats repeats = Repeats::kRefused);
 

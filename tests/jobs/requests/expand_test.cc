@@ -111,10 +111,58 @@ TEST(PlanSweep, SpacesLinearAndLogarithmicAxes) {
       R"({"sweep": {"relative_tolerance": {"from": 1e-9, "to": 1e-3, "count": 4, "scale": "log"}}})");
   const double expected[] = {1e-9, 1e-7, 1e-5, 1e-3};
   ASSERT_EQ(plan.jobs.size(), 4U);
-  for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_NEAR(json::parse(plan.jobs[k].swept)[0].get<double>() / expected[k], 1.0, 1e-14) << k;
-  EXPECT_EQ(plan.jobs[0].swept, "[1e-09]");
-  EXPECT_EQ(plan.jobs[3].swept, "[0.001]");
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(json::parse(plan.jobs[k].swept)[0].get<double>(), expected[k]) << k;
+}
+
+std::vector<double> range_values(const std::string& range) {
+  std::vector<double> values;
+  for (const auto& job : plan_of(R"({"sweep": {"gravity_m_s2": )" + range + "}}").jobs)
+    values.push_back(json::parse(job.swept)[0].get<double>());
+  return values;
+}
+
+// A decimal of integers, m 10^-places, is read from its text.
+TEST(PlanSweep, HasRoundNumbersInARange) {
+  for (int places = 0; places <= 4; ++places) {
+    for (const int first : {-300, -7, 0, 1, 12}) {
+      for (int step = 1; step <= 9; ++step) {
+        for (const int count : {3, 7, 11, 101}) {
+          const auto text = [&](int k) { return std::to_string(first + k * step) + "e-" + std::to_string(places); };
+          if (std::abs(std::stod(text(count - 1))) > 1000.0 || std::abs(std::stod(text(0))) > 1000.0) continue;
+          const auto values = range_values(R"({"from": )" + text(0) + R"(, "to": )" + text(count - 1) +
+                                           R"(, "count": )" + std::to_string(count) + "}");
+          ASSERT_EQ(values.size(), static_cast<std::size_t>(count));
+          for (int k = 0; k < count; ++k) ASSERT_EQ(values[static_cast<std::size_t>(k)], std::stod(text(k))) << text(0) << ' ' << text(k);
+        }
+      }
+    }
+  }
+}
+
+TEST(PlanSweep, HasDecimalsOfTwelveDigitsWhereARangeIsNotRound) {
+  EXPECT_EQ(range_values(R"({"from": 0, "to": 2, "count": 4})"), (std::vector{0.0, 0.666666666667, 1.33333333333, 2.0}));
+  EXPECT_EQ(range_values(R"({"from": 5, "to": 15, "count": 3, "scale": "log"})"), (std::vector{5.0, 8.66025403784, 15.0}));
+  EXPECT_EQ(range_values(R"({"from": 0.001, "to": 100, "count": 6, "scale": "log"})"), (std::vector{0.001, 0.01, 0.1, 1.0, 10.0, 100.0}));
+  EXPECT_EQ(range_values(R"({"from": 64, "to": 0.125, "count": 10, "scale": "log"})"), (std::vector{64.0, 32.0, 16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125}));
+  // Ends have all their digits.
+  EXPECT_EQ(range_values(R"({"from": 0.1234567890123456, "to": 1.2345678901234567, "count": 2})"), (std::vector{0.1234567890123456, 1.2345678901234567}));
+}
+
+// Twelve digits would make 1, 1, 1, 1.000000000001 of these.
+TEST(PlanSweep, KeepsTheStepsOfANarrowRange) {
+  for (const char* const scale : {"linear", "log"}) {
+    const auto values = range_values(R"({"from": 1, "to": 1.000000000001, "count": 4, "scale": ")" + std::string(scale) + "\"}");
+    ASSERT_EQ(values.size(), 4U);
+    for (std::size_t k = 1; k < 4; ++k) EXPECT_NEAR(values[k] - values[k - 1], 1e-12 / 3.0, 4e-16) << scale;
+  }
+}
+
+// The levels of Morris' design are thirds of the range.
+TEST(PlanSweep, HasRoundNumbersInADesign) {
+  std::set<double> levels;
+  for (const auto& job : plan_of(R"({"design": {"type": "morris", "trajectories": 20, "over": {"gravity_m_s2": {"from": 0, "to": 0.9}}}})").jobs)
+    levels.insert(json::parse(job.swept)[0].get<double>());
+  EXPECT_EQ(levels, (std::set{0.0, 0.3, 0.6, 0.9}));
 }
 
 /// The numbers of the bits that are set, from 1: a subset of 1 .. 6.
