@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "jobs/parameters/span.h"
 
@@ -15,14 +16,21 @@ bool comes_before(const SearchInterval& interval, double a, double b) {
   return interval.from <= interval.to ? a < b : a > b;
 }
 
-double value_between(const SearchInterval& interval, double a, double b, double part) {
-  const double x = interval.logarithmic ? geometric_between(a, b, part) : std::lerp(a, b, part);
+double value_between(const SearchInterval& interval, double a, double b, long double part, double steps) {
+  const double x = decimal_between({.from = a, .to = b, .logarithmic = interval.logarithmic}, part, steps);
   return interval.integer ? std::round(x) : x;
 }
 
+/// Part of a number below which a bracket around the number is not halved any more
+constexpr double kNarrowestPart = 4.0 * std::numeric_limits<double>::epsilon();
+
+/// Largest width that still counts as the tolerance: 0.26 - 0.245 as doubles is a little more than 0.015.
+double largest_width(const SearchInterval& interval) { return interval.tolerance * (1.0 + 1e-9); }
+
 bool is_narrow(const SearchInterval& interval, double a, double b) {
-  if (std::abs(b - a) <= interval.tolerance) return true;
-  const double middle = value_between(interval, a, b, 0.5);
+  const double narrowest = kNarrowestPart * std::max(std::abs(a), std::abs(b));
+  if (std::abs(b - a) <= std::max(largest_width(interval), narrowest)) return true;
+  const double middle = value_between(interval, a, b, 0.5L, 1.0);
   return !(comes_before(interval, a, middle) &&
            comes_before(interval, middle, b));  // no integer, or no double, lies between
 }
@@ -69,6 +77,54 @@ void collect_falls(const std::vector<Judged>& judged, Limit& limit) {
   }
 }
 
+/// Relative error of a middle that decimal_between() rounds to 12 digits
+constexpr double kDecimalError = 5e-12;
+
+/// Bound of the halvings of a bracket. Each leaves at most half of its width and the error of its middle: at
+/// most a thousandth of the width for the decimal, an eighth for the double.
+std::size_t most_halvings_of_widths(const SearchInterval& interval, double a, double b) {
+  if (is_narrow(interval, a, b)) return 0;
+  const double largest = std::max(std::abs(a), std::abs(b));
+  const double least = (a < 0.0) != (b < 0.0) ? 0.0 : std::min(std::abs(a), std::abs(b));
+  const double end = std::max(largest_width(interval), kNarrowestPart * least);
+  double width = std::abs(b - a);
+  std::size_t halvings = 0;
+  for (; width > end && width > 0.0; ++halvings) {
+    width = width / 2.0 + std::min(width / 1000.0, kDecimalError * largest) +
+            std::min(width / 8.0, std::numeric_limits<double>::epsilon() * largest);
+  }
+  return halvings;
+}
+
+/// The same by the ratio of the ends: of all brackets with one ratio that at the larger end is the widest.
+std::size_t most_halvings_of_ratios(const SearchInterval& interval, double a, double b) {
+  if (is_narrow(interval, a, b)) return 0;
+  const double largest = std::max(a, b);
+  double log_ratio = std::abs(std::log(b / a));
+  std::size_t halvings = 0;
+  for (; -std::expm1(-log_ratio) > std::max(largest_width(interval) / largest, kNarrowestPart); ++halvings) {
+    log_ratio = log_ratio / 2.0 + std::min(log_ratio / 1000.0, kDecimalError) +
+                std::min(log_ratio / 8.0, std::numeric_limits<double>::epsilon());
+  }
+  return halvings;
+}
+
+/// The number itself: integers of parameters are few.
+std::size_t most_halvings_of_integers(const SearchInterval& interval, double a, double b) {
+  if (is_narrow(interval, a, b)) return 0;
+  const double middle = value_between(interval, a, b, 0.5L, 1.0);
+  return 1 + std::max(most_halvings_of_integers(interval, a, middle),
+                      most_halvings_of_integers(interval, middle, b));
+}
+
+/// Whether a first value has been evaluated. Versions before this one did not round it to a decimal.
+bool is_evaluated(const SearchInterval& interval, double x, const std::vector<Evaluation>& evaluations) {
+  const double width = interval.logarithmic ? std::abs(x * std::log(interval.to / interval.from))
+                                            : std::abs(interval.to - interval.from);
+  return std::ranges::any_of(evaluations,
+                             [&](const Evaluation& at) { return std::abs(at.x - x) <= 1e-9 * width; });
+}
+
 }  // namespace
 
 std::string_view verdict_name(Verdict verdict) {
@@ -87,10 +143,11 @@ double calc_quantile(std::vector<double> values, double quantile) {
 std::vector<double> first_values(const SearchInterval& interval) {
   std::vector<double> values;
   for (std::uint64_t k = 0; k < interval.first; ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(interval.first - 1);
+    const auto steps = static_cast<double>(interval.first - 1);
     const double x = k == 0                    ? interval.from
                      : k + 1 == interval.first ? interval.to
-                                               : value_between(interval, interval.from, interval.to, part);
+                                               : value_between(interval, interval.from, interval.to,
+                                                               static_cast<long double>(k) / steps, steps);
     if (values.empty() || values.back() != x) values.push_back(x);
   }
   return values;
@@ -98,19 +155,15 @@ std::vector<double> first_values(const SearchInterval& interval) {
 
 std::size_t most_evaluations(const SearchInterval& interval) {
   const auto values = first_values(interval);
-  std::size_t most_halvings = 0;
+  std::size_t halvings = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
-    // In a logarithmic interval the halves differ in width: the bound takes the wider one.
-    double a = values[i - 1];
-    double b = values[i];
-    std::size_t halvings = 0;
-    for (; !is_narrow(interval, a, b); ++halvings) {
-      const double middle = value_between(interval, a, b, 0.5);
-      (std::abs(b - middle) >= std::abs(middle - a) ? a : b) = middle;
-    }
-    most_halvings = std::max(most_halvings, halvings);
+    const double a = values[i - 1];
+    const double b = values[i];
+    halvings = std::max(halvings, interval.integer       ? most_halvings_of_integers(interval, a, b)
+                                  : interval.logarithmic ? most_halvings_of_ratios(interval, a, b)
+                                                         : most_halvings_of_widths(interval, a, b));
   }
-  return values.size() + most_halvings;
+  return values.size() + halvings;
 }
 
 Limit find_limit(const SearchInterval& interval, const LimitRule& rule, std::vector<Evaluation> evaluations) {
@@ -129,7 +182,7 @@ Limit find_limit(const SearchInterval& interval, const LimitRule& rule, std::vec
   collect_falls(judged, limit);
   if (std::ranges::any_of(evaluations, [](const Evaluation& at) { return at.pending > 0; })) return limit;
   for (const double x : first_values(interval)) {
-    if (std::ranges::find(evaluations, x, &Evaluation::x) == evaluations.end()) limit.next.push_back(x);
+    if (!is_evaluated(interval, x, evaluations)) limit.next.push_back(x);
   }
   if (!limit.next.empty()) return limit;
   if (const Evaluation* const lost = find_lost(evaluations, rule)) {
@@ -145,7 +198,7 @@ Limit find_limit(const SearchInterval& interval, const LimitRule& rule, std::vec
   } else if (is_narrow(interval, *limit.within, *limit.beyond)) {
     limit.verdict = Verdict::kFound;
   } else {
-    limit.next = {value_between(interval, *limit.within, *limit.beyond, 0.5)};
+    limit.next = {value_between(interval, *limit.within, *limit.beyond, 0.5L, 1.0)};
   }
   return limit;
 }
