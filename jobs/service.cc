@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "jobs/base/content_id.h"
+#include "jobs/base/ids.h"
 #include "jobs/base/optional_json.h"
 #include "jobs/base/provenance.h"
 #include "jobs/base/time_text.h"
@@ -242,8 +243,17 @@ std::optional<json> Service::cancel_job(const std::string& id) {
   return finish_cancelling(store_->queue.cancel_job(id), "the job has ended") ? find_job(id) : std::nullopt;
 }
 
-bool Service::delete_sweep(const std::string& id) {
-  const DeleteOutcome outcome = store_->queue.delete_sweep(id);
+bool Service::delete_sweep(const std::string& id) { return delete_sweep(id, ""); }
+
+bool Service::delete_sweep(const std::string& id, const std::string& study) {
+  const DeleteOutcome outcome = store_->queue.delete_sweep(id, study);
+  if (outcome == DeleteOutcome::kOfStudy) {
+    const auto sweep = store_->reader.find_sweep(id);
+    const std::string owner = sweep ? sweep->study_id.value_or("") : "";
+    const char* const kind = owner.starts_with(kSearchPrefix) ? "search " : "wear study ";
+    throw WrongState("the sweep holds the jobs of the " + (kind + owner) +
+                     "; delete that one, and the sweep goes with it");
+  }
   if (outcome == DeleteOutcome::kNotEnded) throw WrongState("the sweep has not ended; cancel it first");
   if (outcome == DeleteOutcome::kMissing) return false;
   tell_change();

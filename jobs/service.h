@@ -155,7 +155,7 @@ class Service {
   std::optional<nlohmann::json> cancel_job(const std::string& id);
 
   /// Deletes a sweep that has ended, with its jobs and the results that no other job shares. False if there
-  /// is none.
+  /// is none. @throws WrongState if it has not ended, or belongs to a study
   bool delete_sweep(const std::string& id);
 
   /// Jobs that have ended since that change; 0: since the beginning.
@@ -200,6 +200,8 @@ class Service {
   void claim(const OnClaim& on_claim);
   /// @param next  takes the next job; empty: nobody does
   void record(const ClaimedJob& job, const RunRecord& run, const OnClaim& next);
+  /// @param study  study that the sweep belongs to; empty: none
+  bool delete_sweep(const std::string& id, const std::string& study);
   /// Does the rest of a cancellation. False if there is nothing of that id. @param why_not null if it may
   /// have ended
   bool finish_cancelling(const Cancellation& cancellation, const char* why_not);

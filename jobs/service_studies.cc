@@ -74,7 +74,7 @@ std::optional<json> Service::retry_study(StudyKind kind, const std::string& id) 
 
 bool Service::delete_study(StudyKind kind, const std::string& id) {
   const auto sweep = runner(kind).find_ended_sweep(id);
-  return sweep && delete_sweep(*sweep);
+  return sweep && delete_sweep(*sweep, id);
 }
 
 void Service::change_sweep(const std::string& id, const std::function<void()>& change) {

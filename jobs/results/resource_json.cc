@@ -9,6 +9,7 @@
 
 #include "engine/simulate_linkage.h"
 #include "jobs/base/flat_json.h"
+#include "jobs/base/ids.h"
 #include "jobs/base/optional_json.h"
 #include "jobs/base/provenance.h"
 #include "jobs/base/time_text.h"
@@ -46,6 +47,11 @@ json job_links(const JobRow& row) {
   const std::string self = "/v1/jobs/" + row.id;
   return {{"self", self}, {"trajectory", self + "/trajectory"},
           {"sweep", row.sweep_id ? json("/v1/sweeps/" + *row.sweep_id) : json()}};
+}
+
+json study_path(const std::optional<std::string>& id) {
+  if (!id) return nullptr;
+  return (id->starts_with(kSearchPrefix) ? "/v1/searches/" : "/v1/wear-studies/") + *id;
 }
 
 json counts_json(const StateCounts& counts) {
@@ -196,9 +202,11 @@ json sweep_json(const SweepRow& row, int threads, Detail detail) {
              {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)},
              {"ended_at", time_or_null(row.ended_ms)},
              {"axes", stored_json(row.swept)},
+             {"study_id", value_or_null(row.study_id)},
              {"links", {{"self", self}, {"results", self + "/results"}, {"events", self + "/events"},
                         {"cancel", self + "/cancel"},
-                        {"retry", self + "/retry"}, {"extend", self + "/extend"}, {"move", self + "/move"}}}};
+                        {"retry", self + "/retry"}, {"extend", self + "/extend"}, {"move", self + "/move"},
+                        {"study", study_path(row.study_id)}}}};
   sweep.update(time_left_json(row, threads));
   if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
   return sweep;

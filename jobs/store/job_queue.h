@@ -24,7 +24,7 @@ struct Cancellation {
   std::vector<std::string> running;  ///< jobs that were being computed
 };
 
-enum class DeleteOutcome { kMissing, kDone, kNotEnded };
+enum class DeleteOutcome { kMissing, kDone, kNotEnded, kOfStudy };
 
 /// Queue of the jobs: adds, claims, records, cancels and deletes them. May be called from any thread. Throws
 /// StorageError.
@@ -70,7 +70,9 @@ class JobQueue {
 
   [[nodiscard]] Cancellation cancel_sweep(const std::string& id);
   [[nodiscard]] Cancellation cancel_job(const std::string& id);
-  [[nodiscard]] DeleteOutcome delete_sweep(const std::string& id);
+  /// Deletes a sweep that has ended, and its study with it.
+  /// @param study  id of that study; kOfStudy if the sweep has another one
+  [[nodiscard]] DeleteOutcome delete_sweep(const std::string& id, const std::string& study = {});
 
  private:
   struct Outcome;  ///< result of a run as it is stored

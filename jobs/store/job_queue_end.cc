@@ -154,10 +154,14 @@ bool JobQueue::move_sweep(const std::string& id, const std::string& executor) {
   });
 }
 
-DeleteOutcome JobQueue::delete_sweep(const std::string& id) {
+DeleteOutcome JobQueue::delete_sweep(const std::string& id, const std::string& study) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return DeleteOutcome::kMissing;
+    SQLite::Statement of_study(database, "SELECT 1 FROM searches WHERE sweep = ? AND id <> ?");
+    of_study.bind(1, *sweep);
+    of_study.bind(2, study);
+    if (of_study.executeStep()) return DeleteOutcome::kOfStudy;
     if (any_in_state(database,
                      "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id))
       return DeleteOutcome::kNotEnded;

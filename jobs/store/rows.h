@@ -39,6 +39,7 @@ struct SweepRow {
   bool replicated = false;
   std::int64_t priority = 0;
   std::string executor;                              ///< empty: it named none
+  std::optional<std::string> study_id;               ///< search or wear study that its jobs evaluate
   std::int64_t created_ms = 0;
   /// Of its first job, and of its last one if all have ended
   std::optional<std::int64_t> started_ms, ended_ms;

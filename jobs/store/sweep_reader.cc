@@ -62,7 +62,8 @@ void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& 
 /// @param request  SQL of what stands in its column
 std::string sweep_columns(const std::string& request) {
   return "SELECT seq, id, name, " + request +
-         ", swept, replicated, priority, created_ms, coalesce(executor, '') FROM sweeps";
+         ", swept, replicated, priority, created_ms, coalesce(executor, ''), "
+         "(SELECT c.id FROM searches c WHERE c.sweep = sweeps.seq) FROM sweeps";
 }
 
 SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
@@ -76,6 +77,7 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   row.priority = found.getColumn(6).getInt64();
   row.created_ms = found.getColumn(7).getInt64();
   row.executor = found.getColumn(8).getString();
+  row.study_id = optional_text(found.getColumn(9));
   read_counts(database, seq, row);
   if (!has_ended(row.counts)) read_costs(database, seq, row);
   return row;

@@ -112,7 +112,15 @@ Json make_sweep(Detail detail) {
       {"started_at", or_null(kTime)},
       {"ended_at", or_null(kTime)},
       {"axes", described(list_of(kText), "the parameters that differ from job to job")},
-      {"links", texts_of({"self", "results", "events", "cancel", "retry", "extend", "move"})}};
+      {"study_id", described(or_null(ref("Id")), "search or wear study whose jobs these are; null: none")},
+      {"links", object_of({{"self", kText},
+                           {"results", kText},
+                           {"events", kText},
+                           {"cancel", kText},
+                           {"retry", kText},
+                           {"extend", kText},
+                           {"move", kText},
+                           {"study", or_null(kText)}})}};
   if (detail == Detail::kFull) properties["request"] = ref("SweepRequest");
   return detail == Detail::kFull ? object_of(std::move(properties)) : options_of(std::move(properties));
 }

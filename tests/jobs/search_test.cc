@@ -146,6 +146,31 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.delete_study(StudyKind::kLimit, id));
 }
 
+// Its evaluations are its result: without them nothing is left of it.
+TEST(Search, KeepsItsSweep) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
+  const std::string sweep = wait_for_end(service, id).at("sweep_id");
+  try {
+    (void)service.delete_sweep(sweep);
+    ADD_FAILURE() << "the sweep is deleted";
+  } catch (const jobs::WrongState& refused) {
+    EXPECT_NE(std::string(refused.what()).find(id), std::string::npos) << refused.what();
+  }
+  EXPECT_TRUE(service.find_study(jobs::Study::kLimit, id).has_value());
+  EXPECT_EQ(service.find_sweep(sweep).value().at("study_id"), id);
+  EXPECT_EQ(service.find_sweep(sweep).value().at("links").at("study"), "/v1/searches/" + id);
+  const std::string other = service.submit_sweep({{"parameters", {{"clearance_mm", 0}}}}).at("id");
+  const json listed = service.list_sweeps({}).at("items");
+  ASSERT_EQ(listed.size(), 2U);
+  EXPECT_EQ(listed.at(0).at("id"), other);
+  EXPECT_EQ(listed.at(0).at("study_id"), nullptr);
+  EXPECT_EQ(listed.at(0).at("links").at("study"), nullptr);
+  EXPECT_EQ(listed.at(1).at("study_id"), id);
+}
+
 TEST(Search, TakesWhatIsAddedToItsSweepByHand) {
   const TemporaryStore store;
   FakeEngine engine;

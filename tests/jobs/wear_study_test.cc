@@ -169,7 +169,10 @@ TEST(WearStudy, IsCancelledAndTakenUpAgain) {
       [&] { return service.find_study(StudyKind::kWear, id).value().at("counts").at("cancelled") == 1; });
   engine.held = false;
   EXPECT_EQ(service.retry_study(StudyKind::kWear, id).value().at("state"), "running");
-  EXPECT_EQ(wait_for_study_end(service, id).at("verdict"), "hours_reached");
+  const json ended = wait_for_study_end(service, id);
+  EXPECT_EQ(ended.at("verdict"), "hours_reached");
+  EXPECT_THROW((void)service.delete_sweep(ended.at("sweep_id")), jobs::WrongState);
+  EXPECT_EQ(service.find_sweep(ended.at("sweep_id")).value().at("links").at("study"), "/v1/wear-studies/" + id);
   EXPECT_TRUE(service.delete_study(StudyKind::kWear, id));
   EXPECT_FALSE(service.find_study(StudyKind::kWear, id));
 }

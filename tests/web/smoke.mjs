@@ -391,6 +391,14 @@ test("a search is begun in its form, draws its limits and is deleted", async () 
   await form.getByText("2 limits to find").waitFor();
   assert.deepEqual(JSON.parse(await form.locator("aside pre").first().textContent()), request);
   await leave(form);
+  // Its jobs are a sweep, which leads back to it and is deleted with it only.
+  const list = await visit("#/");
+  const row = list.getByRole("row", { name: /how far/ });
+  assert.equal(await row.getByRole("button", { name: /^Delete/ }).count(), 0);
+  await row.getByRole("link", { name: "search", exact: true }).click();
+  await list.getByText(/^succeeded: 100 %/).waitFor();
+  assert.ok(list.url().endsWith(`#/searches/${search.id}`));
+  await leave(list);
   await page.getByRole("button", { name: "Delete" }).click();
   await page.getByRole("button", { name: "Delete", exact: true }).last().click();
   await page.getByText("No searches yet").waitFor();

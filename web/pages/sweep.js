@@ -16,6 +16,7 @@ import { linesChart } from "/study/lines.js";
 import { logBoxes } from "/study/log_axes.js";
 import { parallelChart, parallelNote } from "/study/parallel.js";
 import { Selection } from "/study/selection.js";
+import { studyBadge } from "/study/sweep_row.js";
 import { ResultTable } from "/study/table.js";
 
 const mostInAddress = 20;
@@ -94,7 +95,7 @@ export class SweepPage {
     this.drawHead();
     this.drawPickers();
     return [
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id), this.status, this.paper),
+      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id, " ", studyBadge(this.sweep)), this.status, this.paper),
         this.buttons), this.pickers, this.chosen,
       h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0),
         this.card("Lines", this.lines, 1, { tools: this.logs.element })),

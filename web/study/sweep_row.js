@@ -15,6 +15,13 @@ const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 /// An id in one line: "swp_…f9mqab6".
 const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shownOfId)}`;
 
+/// Link to the study that a sweep belongs to. @param {{ study_id: string | null }} sweep
+export function studyBadge({ study_id: id }) {
+  if (id === null) return "";
+  const [page, text] = id.startsWith("sch_") ? ["searches", "search"] : ["wear", "wear study"];
+  return h("a", { class: "badge", href: routeTo(page, id), title: `These jobs are those of the ${text} ${id}` }, text);
+}
+
 /// @param act  is called with "cancel", "retry" or "delete"
 /** @param {(action: "cancel" | "retry" | "delete") => void} act  @param {AbortSignal} signal */
 export function sweepRow(act, signal) {
@@ -41,7 +48,8 @@ export function sweepRow(act, signal) {
     drawn = text;
     const name = sweep.name || sweep.id;
     cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id), title: sweep.id },
-      sweep.name || shortOf(sweep.id)), h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
+      sweep.name || shortOf(sweep.id)), studyBadge(sweep),
+    h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
     state.className = sweep.state;
     state.textContent = sweep.executor === "local" ? sweep.state : `${sweep.state} on ${sweep.executor}`;
     const part = `${Math.floor(100 * sweep.progress)} %`;
@@ -53,7 +61,7 @@ export function sweepRow(act, signal) {
     cells.created.textContent = moment(sweep.created_at);
     setSeen(buttons.cancel, isUnderWay(sweep));
     setSeen(buttons.retry, sweep.counts.failed + sweep.counts.cancelled > 0);
-    setSeen(buttons.delete, !isUnderWay(sweep));
+    setSeen(buttons.delete, !isUnderWay(sweep) && sweep.study_id === null);
     for (const button of Object.values(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
     again.href = routeTo("new", "", { from: sweep.id });
     again.setAttribute("aria-label", `Duplicate ${name}`);

@@ -82,6 +82,10 @@ TEST(Searches, FindLimitsAndHandThemOutAsRows) {
   const std::string sweep = search.at("links").at("sweep");
   EXPECT_EQ(json::parse(bench.call("GET", sweep).body).at("counts"), search.at("counts"));
   EXPECT_EQ(bench.call("POST", path + "/cancel").status, 409);
+  const auto refused = bench.call("DELETE", sweep);
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_NE(refused.body.find(search.at("id").get<std::string>()), std::string::npos) << refused.body;
+  EXPECT_EQ(json::parse(bench.call("GET", sweep).body).at("links").at("study"), path);
   EXPECT_EQ(bench.call("DELETE", path).status, 204);
   for (const std::string& gone : {path, path + "/results", sweep})
     EXPECT_EQ(bench.call("GET", gone).status, 404);
