@@ -6,6 +6,7 @@
 #include "jobs/cluster/check.h"
 #include "server/commands/command.h"
 #include "server/commands/signals.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
@@ -16,8 +17,9 @@ void print(const jobs::cluster::Finding& finding) {
   std::cout << (finding.kind == Kind::kGood      ? "ok       "
                 : finding.kind == Kind::kWarning ? "warning  "
                                                  : "FAULT    ")
-            << finding.text << '\n';
-  if (!finding.advice.empty()) std::cout << "         -> " << finding.advice << '\n';
+            << terminal_text(finding.text, LineEnds::kKept) << '\n';
+  if (!finding.advice.empty())
+    std::cout << "         -> " << terminal_text(finding.advice, LineEnds::kKept) << '\n';
   std::cout << std::flush;
 }
 

@@ -16,18 +16,20 @@
 #include "jobs/base/errors.h"
 #include "server/http/memory_reserve.h"
 #include "server/messages/json_text.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
 namespace {
 
 int report(ExitCode code, const std::string& text) {
-  std::cerr << "rpsup: " << text << '\n';
+  std::cerr << "rpsup: " << terminal_text(text) << '\n';
   return code;
 }
 
 int report(const jobs::InvalidRequest& error) {
-  for (const jobs::Fault& fault : error.faults()) std::cerr << fault.pointer << ": " << fault.detail << '\n';
+  for (const jobs::Fault& fault : error.faults())
+    std::cerr << terminal_text(fault.pointer) << ": " << terminal_text(fault.detail) << '\n';
   return kBadInput;
 }
 
@@ -92,7 +94,7 @@ void check_output_file(const std::string& option, const std::string& path) {
 
 void write_text(const std::string& path, const std::string& text) {
   if (path == "-") {
-    std::cout << text << std::flush;
+    std::cout << (isatty(STDOUT_FILENO) != 0 ? terminal_text(text, LineEnds::kKept) : text) << std::flush;
     if (!std::cout) throw CannotWrite("cannot write to standard output");
     return;
   }

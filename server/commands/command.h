@@ -43,7 +43,8 @@ int run_guarded(const std::function<int()>& command);
 /// written
 void check_output_file(const std::string& option, const std::string& path);
 
-/// Writes a whole file, "-" for standard output.
+/// Writes a whole file, "-" for standard output. A terminal gets its control characters as text; see
+/// terminal_text().
 /// @throws CannotWrite if not every byte reached it
 void write_text(const std::string& path, const std::string& text);
 

@@ -14,6 +14,7 @@
 #include "jobs/paper/paper_statements.h"
 #include "jobs/results/result_table.h"
 #include "server/commands/command.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
@@ -100,7 +101,8 @@ std::string make_index_table(const std::vector<Row>& rows) {
         indices.emplace_back(value.get<double>(), column.substr(column.find('.') + 1));
     std::ranges::sort(indices, std::greater<>());
     text += pad(std::to_string(row.at("number").get<int>()), 3);
-    for (const auto& [index, parameter] : indices) text += parameter + format_number(" %.2f  ", index);
+    for (const auto& [index, parameter] : indices)
+      text += terminal_text(parameter) + format_number(" %.2f  ", index);
     text += "\n";
   }
   return text;

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "server/commands/command.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
@@ -13,7 +14,7 @@ int submit(const SubmitOptions& options) {
   const auto resource =
       service.submit(options.job ? RemoteService::Kind::kJob : RemoteService::Kind::kSweep, request);
   const auto id = resource.at("id").get<std::string>();
-  write_text("-", id + "\n");
+  write_text("-", terminal_text(id) + "\n");
   return options.watch ? watch({.remote = options.remote, .id = id}) : kDone;
 }
 
@@ -30,7 +31,7 @@ int cancel(const CancelOptions& options) {
   RemoteService service(options.remote);
   for (const std::string& id : options.ids) {
     const auto resource = service.cancel(id).json;
-    std::cout << id << ' ' << resource.at("state").get<std::string>() << std::endl;
+    std::cout << id << ' ' << terminal_text(resource.at("state").get<std::string>()) << std::endl;
   }
   return kDone;
 }

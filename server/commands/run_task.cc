@@ -11,6 +11,7 @@
 #include "jobs/runs/run_record.h"
 #include "server/commands/command.h"
 #include "server/commands/signals.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
@@ -55,7 +56,7 @@ int run_task(const RunTaskOptions& options) {
        .threads = threads,
        .runner = jobs::engine_runner()},
       [&] { return signals.arrived(); },
-      [](const std::string& message) { std::cerr << "rpsup: " << message << '\n'; });
+      [](const std::string& message) { std::cerr << "rpsup: " << terminal_text(message) << '\n'; });
   return complete ? kDone : kInterrupted;
 }
 

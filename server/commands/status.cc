@@ -7,6 +7,7 @@
 #include "server/commands/progress.h"
 #include "server/commands/remote_commands.h"
 #include "server/messages/json_text.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
@@ -14,8 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Text of the service, which may be a user's.
+std::string text_of(const Json& value) { return terminal_text(value.get<std::string>()); }
+
 std::string text_or(const Json& value, const std::string& otherwise) {
-  return value.is_string() ? value.get<std::string>() : otherwise;
+  return value.is_string() ? text_of(value) : otherwise;
 }
 
 std::string percent(const Json& sweep) {
@@ -33,7 +37,7 @@ std::string describe_counts(const Json& counts) {
   std::string text;
   for (const auto& [state, count] : counts.items()) {
     if (state == "total" || count == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(count.get<long>()) + " " + state;
+    text += (text.empty() ? "" : ", ") + std::to_string(count.get<long>()) + " " + terminal_text(state);
   }
   return text;
 }
@@ -49,8 +53,8 @@ std::string describe_times(const Json& resource) {
 
 std::string describe_sweep(const Json& sweep) {
   std::ostringstream out;
-  add_line_to(out, "sweep", sweep.at("id").get<std::string>() + "  " + sweep.at("name").get<std::string>());
-  add_line_to(out, "state", sweep.at("state").get<std::string>());
+  add_line_to(out, "sweep", text_of(sweep.at("id")) + "  " + text_of(sweep.at("name")));
+  add_line_to(out, "state", text_of(sweep.at("state")));
   add_line_to(out, "progress", percent(sweep) + ", time left " + time_left(sweep));
   add_line_to(out, "jobs",
               std::to_string(sweep.at("counts").at("total").get<long>()) + ": " +
@@ -61,12 +65,12 @@ std::string describe_sweep(const Json& sweep) {
 
 std::string describe_job(const Json& job) {
   std::ostringstream out;
-  add_line_to(out, "job", job.at("id").get<std::string>());
+  add_line_to(out, "job", text_of(job.at("id")));
   add_line_to(out, "sweep", text_or(job.at("sweep_id"), "-"));
-  add_line_to(out, "state", job.at("state").get<std::string>());
+  add_line_to(out, "state", text_of(job.at("state")));
   const Json& error = job.at("error");
   if (error.is_object())
-    add_line_to(out, "error", error.at("reason").get<std::string>() + ": " + text_or(error.at("detail"), ""));
+    add_line_to(out, "error", text_of(error.at("reason")) + ": " + text_or(error.at("detail"), ""));
   add_line_to(out, "created", describe_times(job));
   add_line_to(out, "attempts", std::to_string(job.at("attempts").get<long>()));
   return out.str();
@@ -82,9 +86,9 @@ std::string describe_list(const Json& items) {
   };
   add_row("ID", "STATE", "PROGRESS", "TIME LEFT", "JOBS", "NAME");
   for (const Json& sweep : items) {
-    add_row(sweep.at("id").get<std::string>(), sweep.at("state").get<std::string>(), percent(sweep),
+    add_row(text_of(sweep.at("id")), text_of(sweep.at("state")), percent(sweep),
             time_left(sweep), std::to_string(sweep.at("counts").at("total").get<long>()),
-            sweep.at("name").get<std::string>());
+            text_of(sweep.at("name")));
   }
   return out.str();
 }

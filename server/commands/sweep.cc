@@ -11,6 +11,7 @@
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
 #include "server/commands/signals.h"
+#include "server/messages/terminal_text.h"
 #include "server/routes/tables.h"
 
 namespace server::commands {
@@ -60,7 +61,9 @@ int sweep(const SweepOptions& options) {
   jobs::ServiceOptions service_options;
   service_options.store = options.store;
   service_options.threads = options.threads;
-  service_options.log = [](const std::string& message) { std::cerr << "rpsup: " << message << '\n'; };
+  service_options.log = [](const std::string& message) {
+    std::cerr << "rpsup: " << terminal_text(message) << '\n';
+  };
   jobs::Service service(service_options);
   const auto id = service.submit_sweep(request).at("id").get<std::string>();
   std::cerr << "sweep " << id << " in " << options.store << '\n';

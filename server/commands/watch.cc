@@ -9,6 +9,7 @@
 #include "server/commands/progress.h"
 #include "server/commands/remote_commands.h"
 #include "server/commands/signals.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
@@ -72,8 +73,8 @@ class Watcher {
     if (!lost_since_) {
       lost_since_ = Clock::now();
       view_.finish();
-      std::cerr << "rpsup: " << error.what() << "; trying again for " << kPatience.count() << " s"
-                << std::endl;
+      std::cerr << "rpsup: " << terminal_text(error.what()) << "; trying again for " << kPatience.count()
+                << " s" << std::endl;
     }
     if (Clock::now() - *lost_since_ > kPatience) throw error;
   }
@@ -99,7 +100,7 @@ int watch(const WatchOptions& options) {
     std::cerr << "rpsup: no longer watching; " << options.id << " goes on (rpsup cancel ends it)\n";
     return kInterrupted;
   }
-  std::cerr << options.id << ' ' << *state << '\n';
+  std::cerr << options.id << ' ' << terminal_text(*state) << '\n';
   return *state == "succeeded" ? kDone : kJobFailed;
 }
 

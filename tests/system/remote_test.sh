@@ -40,6 +40,23 @@ if command -v script >/dev/null; then
   grep -qF '[##############################] 100 %  4 of 4 jobs' terminal || fail "no bar on a terminal"
 fi
 
+# A name that would forge a row, rename the window and clear the line.
+printf '%s' '{"name": "x\u001b]0;owned\u0007\u001b[2K\r\nswp_0  failed\u009b2J\u202e ü", "parameters": {"duration_s": 0.02, "run_up_s": 0.01}}' >forged.json
+expect_code 0 "$rpsup" submit --watch forged.json
+forged=$(cat out)
+shown='x\x1b]0;owned\x07\x1b[2K\x0d\x0aswp_0  failed\u{009b}2J\u{202e} ü'
+expect_code 0 "$rpsup" status
+grep -qF "$shown" out || fail "the name is not shown as text: $(cat -v out)"
+expect_equal "$(tr -d '\n -~ü' <out | wc -c | tr -d ' ')" 0 "control characters in the list"
+expect_code 0 "$rpsup" status "$forged"
+grep -qF "$shown" out || fail "the name is not shown as text: $(cat -v out)"
+expect_code 0 "$rpsup" status "$forged" --json
+expect_equal "$(jq -r .name out | tail -n 1 | cut -c1-13)" 'swp_0  failed' "the name in the JSON, as it was sent"
+if command -v script >/dev/null; then
+  script --quiet --return --command "$rpsup status $forged --json" terminal </dev/null >/dev/null
+  if grep -qP '\xc2\x9b' terminal; then fail "a control character of the JSON has reached the terminal"; fi
+fi
+
 # One job, watched and cancelled.
 echo '{"duration_s": 500}' >long.json
 expect_code 0 "$rpsup" submit --job long.json

@@ -37,6 +37,11 @@ TEST(RunGuarded, PrintsEachFaultOnALine) {
             "/a: unknown\n/b/0: too small\n");
 }
 
+TEST(RunGuarded, PrintsTextOfUsersAsText) {
+  EXPECT_EQ(words_of(jobs::InvalidRequest(std::vector<jobs::Fault>{{"/a\x1b[2K\n", "no \"\r\""}}), kBadInput), "/a\\x1b[2K\\x0a: no \"\\x0d\"\n");
+  EXPECT_EQ(words_of(BadInput("a\nrpsup: b\x07"), kBadInput), "rpsup: a\\x0arpsup: b\\x07\n");
+}
+
 TEST(RunGuarded, TellsBadInputFromAFailingMachine) {
   EXPECT_EQ(words_of(BadInput("no such file"), kBadInput), "rpsup: no such file\n");
   EXPECT_EQ(words_of(jobs::StorageError("in use", 5), kMachineFailed), "rpsup: in use\n");
