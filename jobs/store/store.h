@@ -44,6 +44,11 @@ class Store {
   SweepReader reader{core_};
 };
 
+/// Checks that a file may be copied by a program that does not serve it.
+/// @throws InvalidRequest if it is no store, StorageError if it is in use under another name or has several:
+///     then what the file holds under this one may be old
+void check_can_be_copied(const std::filesystem::path& store);
+
 /// Writes a consistent copy of a store, a store itself, to a file that does not exist. The store may be in
 /// use by any process, which goes on.
 /// @param stop  asked now and then; true ends the copying, and there is no file

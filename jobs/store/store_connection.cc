@@ -70,7 +70,7 @@ void keep_from_others(const std::string& file) {
 }
 
 /// SQLite would make the file readable for all; its log and index files copy the file's mode.
-SQLite::Database open_for_writing(const std::filesystem::path& store) {
+void make_for_owner(const std::filesystem::path& store) {
   check_log_has_store(store);
   const int file = ::open(store.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kOwnerOnly);
   if (file >= 0) {
@@ -79,8 +79,37 @@ SQLite::Database open_for_writing(const std::filesystem::path& store) {
     throw system_error("cannot make the store " + store.string());
   }
   for (const char* suffix : {"", "-wal", "-shm"}) keep_from_others(store.string() + suffix);
+}
+
+SQLite::Database open_for_writing(const std::filesystem::path& store) {
   return with_storage_errors(
       [&] { return SQLite::Database(store.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms); });
+}
+
+/// One byte far beyond those that SQLite locks, from 2^30 on.
+struct flock lock_of_file(short type) {
+  struct flock lock {};
+  lock.l_type = type;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = off_t{1} << 62;
+  lock.l_len = 1;
+  return lock;
+}
+
+/// Whether another descriptor holds that lock; nothing is locked by asking.
+bool is_locked(int file) {
+  struct flock lock = lock_of_file(F_RDLCK);
+  return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+}
+
+/// With several names the log of a process that was killed may lie beside another one, unseen.
+void check_has_one_name(int file, const std::filesystem::path& store) {
+  struct stat status {};
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink < 2) return;
+  throw StorageError("the store " + store.string() + " has " + std::to_string(status.st_nlink) +
+                         " names (hard links), and its log belongs to one of them: keep one name, or make "
+                         "the others copies (cp, rpsup export); it has been left as it is",
+                     SQLITE_CANTOPEN);
 }
 
 }  // namespace
@@ -114,15 +143,61 @@ StoreLock::StoreLock(const std::filesystem::path& store) {
     ::close(file_);
     throw error;
   }
+  struct flock lock = lock_of_file(F_WRLCK);  // for is_locked()
+  static_cast<void>(::fcntl(file_, F_OFD_SETLK, &lock));
 }
 
 StoreLock::~StoreLock() { ::close(file_); }
+
+StoreFileLock::StoreFileLock(const std::filesystem::path& store) {
+  make_for_owner(store);
+  file_ = ::open(store.c_str(), O_RDWR | O_CLOEXEC);
+  if (file_ < 0) return;  // SQLite tells why when it opens the file
+  try {
+    struct flock lock = lock_of_file(F_WRLCK);
+    if (::fcntl(file_, F_OFD_SETLK, &lock) != 0) {
+      if (errno != EAGAIN && errno != EACCES) throw system_error("cannot lock " + store.string());
+      throw StorageError("the store " + store.string() + " is in use by another process, under another name",
+                         SQLITE_BUSY);
+    }
+    check_has_one_name(file_, store);
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+StoreFileLock::~StoreFileLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void check_name_of_store(const std::filesystem::path& store) {
+  const int file = ::open(store.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw system_error("cannot read the store " + store.string());
+  const std::string path = std::filesystem::weakly_canonical(store).string() + ".lock";
+  const int own = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool other_name = own < 0 ? errno == ENOENT : !is_locked(own);
+  if (own >= 0) ::close(own);
+  try {
+    if (is_locked(file) && other_name)
+      throw StorageError("the store " + store.string() +
+                             " is in use by another process, under another name, which its log belongs to: "
+                             "export it under that one",
+                         SQLITE_BUSY);
+    check_has_one_name(file, store);
+  } catch (...) {
+    ::close(file);
+    throw;
+  }
+  ::close(file);
+}
 
 void roll_back_unfinished(SQLite::Database& database) noexcept {
   if (sqlite3_get_autocommit(database.getHandle()) == 0) database.tryExec("ROLLBACK");
 }
 
-Writer::Writer(const std::filesystem::path& store) : database_(open_for_writing(store)) {
+Writer::Writer(const std::filesystem::path& store)
+    : file_lock_(store), database_(open_for_writing(store)) {
   with_storage_errors([&] {
     harden(database_);
     // A store that is refused stays as it is: nothing is added to its log before all is known to go well, and

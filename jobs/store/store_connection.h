@@ -30,6 +30,26 @@ class StoreLock {
   int file_ = -1;
 };
 
+/// Lock of the store's file itself, whatever its name: a hard link and a bind mount are the same file, but
+/// SQLite names the log after the name, so that two who use two names lose each other's work. Open file
+/// description lock of one byte beyond those that SQLite locks.
+class StoreFileLock {
+ public:
+  /// Makes the file if there is none.
+  /// @throws StorageError if the file is in use under another name, or has several
+  explicit StoreFileLock(const std::filesystem::path& store);
+  ~StoreFileLock();
+  StoreFileLock(const StoreFileLock&) = delete;
+  StoreFileLock& operator=(const StoreFileLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+/// Checks that a file that somebody else may serve is not served under another name, and has one name only.
+/// Not for a file that this process serves: closing it takes away SQLite's locks.
+void check_name_of_store(const std::filesystem::path& store);
+
 /// Whether a system call failed because the disk, or the share of this user or process, is full.
 [[nodiscard]] Disk disk_state(int system_error);
 
@@ -159,6 +179,8 @@ class Writer {
 
   void set_durability(Durability durability);
 
+  /// Closed last: closing any descriptor of the file takes away SQLite's own locks on it.
+  StoreFileLock file_lock_;
   std::mutex mutex_;  // guards the rest
   SQLite::Database database_;
   Statements statements_{database_};

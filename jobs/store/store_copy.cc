@@ -7,9 +7,13 @@
 #include <unistd.h>
 
 #include "jobs/store/store.h"
+#include "jobs/store/store_connection.h"
+#include "jobs/store/store_schema.h"
 
 namespace jobs {
 namespace {
+
+constexpr int kCopyBusyTimeout_ms = 5000;
 
 /// Makes the file, for its owner only: SQLite would make it readable for all.
 void make_empty_file(const std::filesystem::path& file) {
@@ -23,15 +27,27 @@ int ask_whether_to_stop(void* stop) { return (*static_cast<const std::function<b
 
 }  // namespace
 
+void check_can_be_copied(const std::filesystem::path& store) {
+  check_name_of_store(store);
+  bool is_ours = false;
+  try {
+    SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kCopyBusyTimeout_ms);
+    is_ours = is_store(database);
+  } catch (const SQLite::Exception& error) {
+    if (!is_damage(error.getErrorCode()))
+      throw StorageError("cannot read " + store.string() + ": " + error.what(), error.getExtendedErrorCode());
+  }
+  if (!is_ours) throw InvalidRequest(std::vector<Fault>{{store.string(), "is no store of this program"}});
+}
+
 bool copy_store(const std::filesystem::path& store, const std::filesystem::path& file,
                 const std::function<bool()>& stop) {
-  constexpr int kBusyTimeout_ms = 5000;
   constexpr int kStepsBetweenQuestions = 1000;
   make_empty_file(file);
   try {
     return with_storage_errors([&] {
       // A read-only connection of its own: it holds one snapshot of the store, while the others go on.
-      SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms);
+      SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kCopyBusyTimeout_ms);
       auto question = stop;
       sqlite3_progress_handler(database.getHandle(), kStepsBetweenQuestions, ask_whether_to_stop, &question);
       SQLite::Statement copy(database, "VACUUM INTO ?");

@@ -174,7 +174,7 @@ void check_health(SQLite::Database& database, const std::string& name) {
 
 void check_identity(SQLite::Database& database, const std::string& name) {
   const int version = pragma(database, "user_version");
-  if (pragma(database, "application_id") != kApplicationId && !(version == 0 && is_empty(database))) {
+  if (!is_store(database) && !(version == 0 && is_empty(database))) {
     throw StorageError(name + " is a database, but not a store of this program; it has been left as it is",
                        SQLITE_NOTADB);
   }
@@ -197,6 +197,8 @@ void migrate(SQLite::Database& database) {
 }
 
 }  // namespace
+
+bool is_store(SQLite::Database& database) { return pragma(database, "application_id") == kApplicationId; }
 
 void prepare_schema(SQLite::Database& database, const std::filesystem::path& store) {
   const std::string name = store.string();

@@ -14,6 +14,7 @@ int export_store(const ExportOptions& options) {
     throw BadInput("--db " + options.store + ": there is no such store");
   if (std::filesystem::exists(options.file))
     throw BadInput(options.file + " exists already; a copy replaces nothing");
+  jobs::check_can_be_copied(options.store);
   const EndSignals signals;
   return jobs::copy_store(options.store, options.file, [&] { return signals.arrived(); }) ? kDone
                                                                                           : kInterrupted;

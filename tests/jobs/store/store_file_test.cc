@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whom the file of a store is for, and which files are refused and left alone.
 
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -25,6 +26,82 @@ TEST(Store, IsRefusedToASecondOpener) {
     EXPECT_THROW(jobs::Store second(temporary.file()), jobs::StorageError);
   }
   EXPECT_NO_THROW(jobs::Store third(temporary.file()));
+}
+
+/// The words with which a store is refused; empty: it is opened.
+std::string refusal_of(const std::filesystem::path& file) {
+  try {
+    const jobs::Store store(file);
+  } catch (const jobs::StorageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusal_of_copy(const std::filesystem::path& file) {
+  try {
+    jobs::check_can_be_copied(file);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// SQLite names the log after the name of the file: under the other name nothing would be seen of the log.
+TEST(Store, IsRefusedUnderAnotherName) {
+  const TemporaryStore temporary;
+  const std::filesystem::path link = temporary.file().string() + ".link";
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, "{}");
+    std::filesystem::create_hard_link(temporary.file(), link);
+    EXPECT_NE(refusal_of(link).find("in use by another process, under another name"), std::string::npos) << refusal_of(link);
+    EXPECT_NE(refusal_of_copy(link).find("under another name"), std::string::npos) << refusal_of_copy(link);
+    // Who has opened it before goes on.
+    add_sweep(store, "{}");
+    EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 2U);
+  }
+  for (const auto& name : {link, temporary.file()}) {
+    EXPECT_NE(refusal_of(name).find("has 2 names"), std::string::npos) << refusal_of(name);
+    EXPECT_NE(refusal_of_copy(name).find("has 2 names"), std::string::npos) << refusal_of_copy(name);
+  }
+  std::filesystem::remove(link);
+  EXPECT_EQ(refusal_of_copy(temporary.file()), "");
+  jobs::Store again(temporary.file());
+  EXPECT_EQ(again.reader.list_sweeps("", "", 10).size(), 2U);
+}
+
+// A bind mount shows one file, with one link, in two folders; so does a file that is moved while it is open.
+TEST(Store, IsRefusedInAnotherFolder) {
+  const TemporaryStore temporary;
+  const std::filesystem::path moved = temporary.file().string() + ".moved";
+  {
+    const jobs::Store store(temporary.file());
+    EXPECT_EQ(refusal_of_copy(temporary.file()), "");
+    std::filesystem::rename(temporary.file(), moved);
+    EXPECT_NE(refusal_of(moved).find("under another name"), std::string::npos) << refusal_of(moved);
+    EXPECT_NE(refusal_of_copy(moved).find("under another name"), std::string::npos) << refusal_of_copy(moved);
+    std::filesystem::rename(moved, temporary.file());
+  }
+  EXPECT_EQ(refusal_of(temporary.file()), "");
+}
+
+TEST(Store, IsCopiedOnlyIfItIsOne) {
+  const TemporaryStore temporary;
+  const std::filesystem::path file = temporary.file();
+  { std::ofstream(file) << ""; }
+  EXPECT_NE(refusal_of_copy(file).find("is no store"), std::string::npos);
+  { std::ofstream(file) << "clearance_mm,peak\n0.1,12\n"; }
+  EXPECT_NE(refusal_of_copy(file).find("is no store"), std::string::npos);
+  std::filesystem::remove(file);
+  {
+    SQLite::Database other(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    other.exec("CREATE TABLE sweeps (id TEXT)");
+  }
+  EXPECT_NE(refusal_of_copy(file).find("is no store"), std::string::npos);
+  std::filesystem::remove(file);
+  { const jobs::Store store(file); }
+  EXPECT_EQ(refusal_of_copy(file), "");
 }
 
 TEST(Store, IsForItsOwnerOnly) {
