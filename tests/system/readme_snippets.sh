@@ -25,11 +25,16 @@ find_python() {
 }
 
 start_service store.db
-echo '{"parameters": {"duration_s": 0.3, "run_up_s": 0.1}, "sweep": {"clearance_mm": [0, 0.25], "coupler": ["rigid", "flexible"]}}' >sweep.json
+# The second job ends before its window: it has no peak, and stands before the one with the largest.
+echo '{"parameters": {"run_up_s": 0.1}, "cases": [{"clearance_mm": 0, "coupler": "rigid", "duration_s": 0.3},
+  {"clearance_mm": 0.1, "coupler": "rigid", "duration_s": 0.05}, {"clearance_mm": 0.25, "coupler": "rigid", "duration_s": 0.3},
+  {"clearance_mm": 0.25, "coupler": "flexible", "duration_s": 0.3}]}' >sweep.json
 id=$(submit sweep.json)
 wait_for_end "$id"
 # What both are to find: the largest peak of all.
-peak=$(get "$url/v1/sweeps/$id/results" | jq -r 'map(.peak_slider_acceleration_m_s2) | max | . * 100 | round / 100')
+worst=$(get "$url/v1/sweeps/$id/results" | jq -c 'max_by(.peak_slider_acceleration_m_s2)')
+peak=$(jq -r '.peak_slider_acceleration_m_s2 | . * 100 | round / 100' <<<"$worst")
+expect_equal "$(get "$url/v1/sweeps/$id/results" | jq 'map(.peak_slider_acceleration_m_s2 == null) | index(true)')" 1 "the row without a peak"
 skipped=
 
 snippet Python >snippet.py
@@ -44,6 +49,8 @@ snippet Octave >snippet.m
 if command -v octave-cli >/dev/null; then
   expect_code 0 octave-cli --norc --quiet snippet.m
   grep -qF "$peak" out || { cat out; fail "Octave does not show the peak $peak"; }
+  named=$(jq -r '"at \(.clearance_mm) mm, \(.coupler) coupler"' <<<"$worst")
+  grep -qF "$named" out || { cat out; fail "Octave names another job than the one $named"; }
 else
   skipped="$skipped Octave"
 fi
