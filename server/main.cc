@@ -143,6 +143,12 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
       ->delimiter(',')
       ->envname("RPSUP_NAME");
   command
+      ->add_option("--base-path", options.base_path,
+                   "Path under which a proxy shows the service, as /rpsup, for links and Location; a proxy "
+                   "that sends X-Forwarded-Prefix needs none")
+      ->type_name("PATH")
+      ->envname("RPSUP_BASE_PATH");
+  command
       ->add_option("--token-file", options.token_file,
                    "Token file, readable by its owner only: the token that clients must send; RPSUP_TOKEN in "
                    "the environment if left out")

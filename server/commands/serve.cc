@@ -62,20 +62,28 @@ std::string url(const std::string& address, int port) {
   return "http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
 }
 
-/// Origins as browsers send them: scheme, host, perhaps a port, in lower case, nothing else.
-const std::vector<std::string>& checked_origins(const std::vector<std::string>& origins) {
+/// Origins as browsers send them: scheme, host, perhaps a port.
+std::vector<std::string> checked_origins(const std::vector<std::string>& origins) {
+  std::vector<std::string> normal;
   for (const std::string& origin : origins) {
-    const auto url = parse_service_url(origin);
-    const bool upper = std::ranges::any_of(origin, [](unsigned char c) { return std::isupper(c) != 0; });
-    if (!url || url->origin != origin || upper) {
+    const auto url = parse_service_url(normal_origin(origin));
+    if (!url || !url->prefix.empty()) {
       throw BadInput(
           "--cors-origin " + origin +
-          ": must be like https://lab.example.org or http://127.0.0.1:3000, in lower case and without a "
-          "path; "
-          "there is no word for all of them, since whatever page a user opens could then use the service");
+          ": must be like https://lab.example.org or http://127.0.0.1:3000, without a path; there is no word "
+          "for all of them, since whatever page a user opens could then use the service");
     }
+    normal.push_back(normal_origin(url->origin));
   }
-  return origins;
+  return normal;
+}
+
+std::string checked_base_path(const std::string& path) {
+  const auto checked = find_base_path(path);
+  if (!checked || path.find(',') != std::string::npos)
+    throw BadInput("--base-path " + path +
+                   ": must be like /rpsup, the path under which a proxy shows the service");
+  return *checked;
 }
 
 /// Each connection and each file of the store takes one, and many systems allow 1024 unless they are asked.
@@ -136,7 +144,8 @@ int serve(const ServeOptions& options) {
   const std::string token = find_service_token(options.token_file);
   const std::string address = checked_address(options.host, token);
   const std::vector<std::string>& names = checked_names(options.names);
-  const std::vector<std::string>& cors_origins = checked_origins(options.cors_origins);
+  const std::vector<std::string> cors_origins = checked_origins(options.cors_origins);
+  const std::string base_path = checked_base_path(options.base_path);
   const jobs::cluster::Site site = make_site(options.cluster);
   if (options.executor == "slurm" && site.folder.empty())
     throw BadInput("--executor slurm needs --slurm-folder");
@@ -151,7 +160,8 @@ int serve(const ServeOptions& options) {
                            .port = options.port,
                            .cors_origins = cors_origins,
                            .names = names,
-                           .token = token});
+                           .token = token,
+                           .base_path = base_path});
   const int port = http.bind();
   if (port == 0) {
     throw std::runtime_error("cannot listen on " + url(address, options.port) +

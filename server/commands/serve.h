@@ -16,6 +16,7 @@ struct ServeOptions {
   int threads = 2;
   std::vector<std::string> cors_origins;  ///< other sites whose pages may ask
   std::vector<std::string> names;         ///< other names under which clients reach the service
+  std::string base_path;                  ///< path under which a proxy shows the service
   std::string token_file;  ///< with the token that clients must carry; empty: that of the environment, if
                            ///< there is one
   double job_time_s = 3600.0;             ///< most that a job may take; 0: no limit, as below

@@ -46,18 +46,17 @@ std::string token_in(const std::string& authorization) {
   return colon == std::string::npos ? "" : user_and_password.substr(colon + 1);
 }
 
-/// For programs that watch over this one; they tell nothing of what is stored.
-bool is_open(std::string_view path) { return path == "/healthz" || path == "/readyz"; }
-
 }  // namespace
 
 AccessCheck::AccessCheck(const std::string& token) : digest_(token.empty() ? "" : jobs::sha256_hex(token)) {}
 
 bool AccessCheck::is_allowed(std::string_view path, const std::string& authorization) const {
-  if (digest_.empty() || is_open(path)) return true;
+  if (digest_.empty() || is_probe(path)) return true;
   const std::string digest = jobs::sha256_hex(token_in(authorization));
   return CRYPTO_memcmp(digest.data(), digest_.data(), digest_.size()) == 0;
 }
+
+bool is_probe(std::string_view path) { return path == "/healthz" || path == "/readyz"; }
 
 std::string describe_token_fault(std::string_view token) {
   if (token.size() < kShortestToken || token.size() > kLongestToken) {

@@ -205,7 +205,7 @@ class HttpServer::Impl {
       answer_preflight(request, response);
       return Handled::Handled;
     }
-    if (!access_check_.is_allowed(request.path, request.get_header_value("Authorization"))) {
+    if (!access_check_.is_allowed(own_path(request), request.get_header_value("Authorization"))) {
       spdlog::info("refused without the token: {} {} of {}", request.method, request.path,
                    request.remote_addr);
       copy_to(response, make_access_problem());
@@ -250,14 +250,30 @@ class HttpServer::Impl {
                                      .host = request.get_header_value("Host"),
                                      .origin = request.get_header_value("Origin"),
                                      .fetch_site = request.get_header_value("Sec-Fetch-Site"),
-                                     .fetch_mode = request.get_header_value("Sec-Fetch-Mode")});
+                                     .fetch_mode = request.get_header_value("Sec-Fetch-Mode"),
+                                     .any_host = is_probe(own_path(request))});
+  }
+
+  /// Path below the base path, if the proxy has passed it on. "/" for the base path itself.
+  [[nodiscard]] std::string own_path(const httplib::Request& request) const {
+    const std::string& base = options.base_path;
+    if (base.empty() || !request.path.starts_with(base)) return request.path;
+    if (request.path.size() == base.size()) return "/";
+    return request.path[base.size()] == '/' ? request.path.substr(base.size()) : request.path;
+  }
+
+  /// Of the option, unless the proxy says it with the request.
+  [[nodiscard]] std::string base_path_of(const httplib::Request& request) const {
+    const auto forwarded = find_base_path(request.get_header_value("X-Forwarded-Prefix"));
+    return forwarded && !forwarded->empty() ? *forwarded : options.base_path;
   }
 
   void answer(const httplib::Request& from, std::string body, httplib::Response& to) {
     const auto start = std::chrono::steady_clock::now();
     Request request;
     request.method = from.method;
-    request.path = from.path;
+    request.path = own_path(from);
+    request.base_path = base_path_of(from);
     request.query.assign(from.params.begin(), from.params.end());
     request.accept = from.get_header_value("Accept");
     request.accept_encoding = from.get_header_value(kAcceptEncoding);
@@ -268,7 +284,10 @@ class HttpServer::Impl {
       request.idempotency_key = from.get_header_value("Idempotency-Key");
     request.body = std::move(body);
     request.id = request_ids_.next();
-    Response response = routes_.answer(request);
+    // Without the slash a browser would take the addresses of the page for those beside it.
+    const bool slash_is_missing = !options.base_path.empty() && from.path == options.base_path;
+    Response response =
+        slash_is_missing ? make_redirect(from.path.substr(from.path.rfind('/') + 1) + "/") : routes_.answer(request);
     if (response.events && !guard.reserve_event_stream(response.events))
       response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();

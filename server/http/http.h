@@ -17,6 +17,8 @@ struct HttpOptions {
   std::vector<std::string>
       names{};  ///< other names under which clients reach this server, as "rpsup.example.org", in lower case
   std::string token{};                      ///< that every request must carry, see AccessCheck; empty: none
+  /// Path under which a proxy shows the service, as "/rpsup"; see find_base_path(). Requests may come with it
+  std::string base_path{};
 };
 
 struct HttpLimits;

@@ -34,6 +34,7 @@ bool is_token_character(unsigned char c) {
 
 /// What the header lines say about the length of the body and the name of the host.
 struct Framing {
+  bool may_lack_host = false;  ///< as HTTP/1.0 may
   int host_count = 0;
   int length_count = 0;
   std::string length;
@@ -77,7 +78,7 @@ std::optional<Refusal> find_fault_in_length(const std::string& text, std::size_t
 }
 
 std::optional<Refusal> find_fault_in_framing(const Framing& framing, std::size_t body_bytes) {
-  if (framing.host_count != 1) return Refusal{400, "a request must have exactly one Host header"};
+  if (framing.host_count != 1 && !(framing.host_count == 0 && framing.may_lack_host)) return Refusal{400, "a request must have exactly one Host header"};
   if (framing.length_count + framing.encoding_count > 1)
     return Refusal{400, "the length of the body is given twice"};
   if (framing.encoding_count == 1 && framing.encoding != "chunked") {
@@ -171,6 +172,7 @@ std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t bod
       return Refusal{first ? 414 : 431,
                      "a line of the head is longer than " + std::to_string(kMaxLineBytes) + " bytes"};
     }
+    if (first) framing.may_lack_host = line.ends_with(" HTTP/1.0");
     auto fault = first ? find_fault_in_request_line(line) : read_header_line(line, framing);
     if (fault) return fault;
     first = false;
@@ -197,14 +199,16 @@ RequestHead read_head(std::string_view head) {
 
 OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed,
                          std::vector<std::string> names)
-    : bound_host_(lower(bound_host)), allowed_(std::move(allowed)), names_(std::move(names)) {}
+    : bound_host_(lower(bound_host)), allowed_(std::move(allowed)), names_(std::move(names)) {
+  std::ranges::transform(allowed_, allowed_.begin(), normal_origin);
+}
 
 bool OriginCheck::is_allowed(const std::string& origin) const {
-  return std::ranges::find(allowed_, lower(origin)) != allowed_.end();
+  return std::ranges::find(allowed_, normal_origin(origin)) != allowed_.end();
 }
 
 std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
-  if (!names_this_server(headers.host))
+  if (!headers.any_host && !names_this_server(headers.host))
     return Refusal{403, "this service does not answer under the name in Host"};
   if (is_allowed(headers.origin)) return std::nullopt;
   if (!headers.origin.empty() && !is_own(headers.origin, headers.host)) {
@@ -226,10 +230,44 @@ bool OriginCheck::names_this_server(const std::string& host) const {
 }
 
 bool OriginCheck::is_own(const std::string& origin, const std::string& host) const {
-  if (lower(origin) == "http://" + lower(host)) return true;
+  const std::string own = normal_origin(origin);
+  if (own == normal_origin("http://" + host)) return true;
   // A proxy that speaks https passes its own name on.
-  return std::ranges::find(names_, bare_host(host)) != names_.end() &&
-         lower(origin) == "https://" + lower(host);
+  return std::ranges::find(names_, bare_host(host)) != names_.end() && own == normal_origin("https://" + host);
+}
+
+std::string normal_origin(std::string_view origin) {
+  std::string normal = lower(origin);
+  const auto host = normal.find("://");
+  const auto colon = normal.rfind(':');
+  if (host == std::string::npos || colon <= host || normal.find(']', colon) != std::string::npos) return normal;
+  const std::string_view port = std::string_view(normal).substr(colon + 1);
+  const std::string_view own = normal.starts_with("https:") ? "443" : normal.starts_with("http:") ? "80" : "";
+  if (port.empty() || port == own) normal.resize(colon);
+  return normal;
+}
+
+std::optional<std::string> find_base_path(std::string_view text) {
+  constexpr std::string_view kSigns = "-._~!$&'()*+;=:@%";
+  std::string path;
+  while (!text.empty()) {
+    std::string_view part = trimmed(text.substr(0, text.find(',')));
+    text.remove_prefix(std::min(text.find(','), text.size() - 1) + 1);
+    while (part.ends_with('/')) part.remove_suffix(1);
+    if (!part.empty() && !part.starts_with('/')) return std::nullopt;
+    path += part;
+  }
+  if (path.size() > kMaxPathBytes) return std::nullopt;
+  for (std::string_view rest = path; !rest.empty();) {
+    rest.remove_prefix(1);
+    const std::string_view segment = rest.substr(0, rest.find('/'));
+    rest.remove_prefix(segment.size());
+    const bool good = std::ranges::all_of(segment, [&](unsigned char c) {
+      return (c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (!good || segment.empty() || segment == "." || segment == "..") return std::nullopt;
+  }
+  return path;
 }
 
 bool is_address(const std::string& host) {

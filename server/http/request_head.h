@@ -60,6 +60,7 @@ class OriginCheck {
     std::string origin;
     std::string fetch_site;  ///< Sec-Fetch-Site
     std::string fetch_mode;  ///< Sec-Fetch-Mode
+    bool any_host = false;   ///< the path is one that is served under every name
   };
 
   [[nodiscard]] std::optional<Refusal> find_fault(const Headers& headers) const;
@@ -76,6 +77,17 @@ class OriginCheck {
   std::vector<std::string> allowed_;
   std::vector<std::string> names_;
 };
+
+/// Scheme, host and port of an origin as browsers send it: in lower case, without the port that the scheme has
+/// anyway. "HTTPS://Lab.example.org:443" is "https://lab.example.org".
+[[nodiscard]] std::string normal_origin(std::string_view origin);
+
+/// Path before which a proxy has cut off nothing or all of itself, as "/rpsup" or "/user/a/proxy/8080": without a
+/// slash at its end; empty for "/".
+/// @param text  that of an option, or of an X-Forwarded-Prefix header, in which each proxy adds its own after a
+///     comma
+/// @returns empty if it is no path: it must begin with one slash and have no empty, "." or ".." segment
+[[nodiscard]] std::optional<std::string> find_base_path(std::string_view text);
 
 /// True for an IP address, of either version.
 [[nodiscard]] bool is_address(const std::string& host);

@@ -24,6 +24,8 @@ struct Request {
   std::string prefer{};
   std::string last_event_id{};
   std::optional<std::string> idempotency_key{};
+  /// Path under which clients reach the service through a proxy, as "/rpsup"; empty: at the root of its host
+  std::string base_path{};
 };
 
 /// A file that is sent as a body and is gone when it has been.
@@ -69,6 +71,12 @@ struct Response {
   std::shared_ptr<FileBody> file{};                         ///< stands for the body, if there is one
   std::shared_ptr<EventSource> events{};                    ///< follow the head, if there are any
 };
+
+/// Answer that sends the client to another address.
+/// @param location  relative to that of the request, which a proxy may show under another path
+[[nodiscard]] inline Response make_redirect(std::string location) {
+  return {.status = 308, .content_type = {}, .body = {}, .headers = {{"Location", std::move(location)}}};
+}
 
 /// Answer with a JSON text as its body.
 [[nodiscard]] inline Response json_response(int status, std::string text) {

@@ -179,7 +179,7 @@ nlohmann::ordered_json make_document(std::span<const Route> routes) {
             {"description",
              "Simulates the RPSUP linkage over sweeps of its parameters, keeps peaks and trajectories, and "
              "hands them out. Units stand in the names; whatever answers GET answers HEAD, too."}}},
-          {"servers", {{{"url", "/"}}}},
+          {"servers", {{{"url", ".."}}}},  // relative to /v1/openapi.json
           {"security", {Json::object(), {{"bearer", Json::array()}}, {{"basic", Json::array()}}}},
           {"paths", make_paths(routes)},
           {"components",

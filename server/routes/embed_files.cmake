@@ -5,6 +5,8 @@
 # In modules, a NAME of IMPORTS (NAME=PATH) is replaced by its PATH: a browser does not know where packages are.
 # A file of node_modules is served as /lib/three.HASH.js, too, with the hash of its content. Files that stand after it in
 # FILES ask for it by that name.
+# Sources name each other from the root, "/core/api.js". What is served names them from where it stands, "../core/api.js",
+# since a proxy may show the service under a path. Pages are served in the root: /, /docs.
 set(types_html "text/html; charset=utf-8")
 set(types_css "text/css; charset=utf-8")
 set(types_js "text/javascript; charset=utf-8")
@@ -40,6 +42,21 @@ foreach(entry IN LISTS FILES)
       string(REPLACE "${quote}${package}${quote}" "${quote}${hashed_${package}}${quote}" text "${text}")
     endforeach()
   endforeach()
+
+  if(extension STREQUAL "js")
+    string(REGEX MATCHALL "[^/]+/" folders "${path}")
+    list(TRANSFORM folders REPLACE ".+" "../")
+    string(JOIN "" up "./" ${folders})
+    foreach(before "from " "import(")
+      foreach(quote "'" "\"")
+        string(REPLACE "${before}${quote}/" "${before}${quote}${up}" text "${text}")
+      endforeach()
+    endforeach()
+  elseif(extension STREQUAL "html")
+    foreach(attribute href src)
+      string(REPLACE "${attribute}=\"/" "${attribute}=\"" text "${text}")
+    endforeach()
+  endif()
 
   list(LENGTH parts number)
   set(part "${scratch}/${number}")

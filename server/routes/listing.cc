@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/listing.h"
 
+#include <utility>
+
+#include "server/routes/resource.h"
+
 namespace server {
 
 nlohmann::json list_page(const Request& request,
@@ -11,7 +15,9 @@ nlohmann::json list_page(const Request& request,
   page.limit = query.count("limit").value_or(page.limit);
   page.cursor = query.text("cursor").value_or("");
   page.fields = query.names("fields");
-  return query.check_and([&] { return list(page); });
+  nlohmann::json found = query.check_and([&] { return list(page); });
+  for (auto& item : found.at("items")) item = under_base_path(request, std::move(item));
+  return found;
 }
 
 jobs::ResultQuery read_result_query(Query& query) {

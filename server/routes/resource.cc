@@ -19,12 +19,20 @@ bool wait_as_preferred(const RequestContext& context, const Resource& resource, 
 
 }  // namespace
 
+nlohmann::json under_base_path(const Request& request, nlohmann::json resource) {
+  if (request.base_path.empty() || !resource.contains("links")) return resource;
+  for (auto& link : resource.at("links")) {
+    if (link.is_string()) link = request.base_path + link.get<std::string>();
+  }
+  return resource;
+}
+
 Response respond_created(const RequestContext& context, const Resource& resource, nlohmann::json created) {
   const std::string id = created.at("id");
   Response response = json_response(201, "");
   if (wait_as_preferred(context, resource, id, response)) created = resource.find(id).value_or(created);
-  response.body = to_text(created) + "\n";
-  response.headers.emplace_back("Location", resource.path + id);
+  response.body = to_text(under_base_path(context.request, std::move(created))) + "\n";
+  response.headers.emplace_back("Location", context.request.base_path + resource.path + id);
   return response;
 }
 
@@ -33,14 +41,14 @@ Response respond_found(const RequestContext& context, const Resource& resource) 
   wait_as_preferred(context, resource, context.id, response);
   const auto found = resource.find(context.id);
   if (!found) throw resource.missing(context.id);
-  response.body = to_text(*found) + "\n";
+  response.body = to_text(under_base_path(context.request, *found)) + "\n";
   return with_etag_if(resource.has_ended(*found), context.request, std::move(response));
 }
 
 Response respond_updated(const RequestContext& context, const Resource& resource,
                          const std::optional<nlohmann::json>& updated) {
   if (!updated) throw resource.missing(context.id);
-  return json_response(200, to_text(*updated));
+  return json_response(200, to_text(under_base_path(context.request, *updated)));
 }
 
 }  // namespace server

@@ -23,6 +23,9 @@ struct Resource {
   std::function<HttpError(const std::string& id)> missing;
 };
 
+/// Resource with its links as clients reach them through the proxy of a request.
+[[nodiscard]] nlohmann::json under_base_path(const Request& request, nlohmann::json resource);
+
 /// Answers 201 with the Location; with the state at the end, if the client prefers to wait and the end comes
 /// by then.
 /// @param created  state at its creation

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/routes.h"
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <exception>
 #include <new>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -33,12 +36,51 @@ std::optional<std::string> match(std::string_view pattern, std::string_view path
   return is_id(id) ? std::optional(std::move(id)) : std::nullopt;
 }
 
+/// Query of a request as it stands in an address.
+std::string address_query(const Request& request) {
+  constexpr std::string_view kSigns = "-._~,:";
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string text;
+  const auto add = [&](std::string_view part) {
+    for (const unsigned char c : part) {
+      if ((c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos)
+        text += static_cast<char>(c);
+      else (text += '%') += {kDigits[c >> 4U], kDigits[c & 15U]};
+    }
+  };
+  for (const auto& [key, value] : request.query) {
+    text += text.empty() ? '?' : '&';
+    add(key);
+    text += '=';
+    add(value);
+  }
+  return text;
+}
+
 bool changes_something(const std::string& method) { return method == "POST" || method == "DELETE"; }
 
 Response make_wrong_method(const std::string& allowed) {
   Response response = make_problem(405, "this path allows: " + allowed);
   response.headers.emplace_back("Allow", allowed);
   return response;
+}
+
+/// Leads from a path with a slash too many to the one that is meant, or says which.
+/// @throws HttpError 404
+Response answer_unknown_path(const Request& request, const std::string& method) {
+  std::string_view meant = request.path;
+  while (meant.size() > 1 && meant.ends_with('/')) meant.remove_suffix(1);
+  const bool known = meant.size() < request.path.size() && meant.size() > 1 &&
+                     (is_page_file(meant) || std::ranges::any_of(route_table(), [&](const Route& route) {
+                        return match(route.pattern, meant).has_value();
+                      }));
+  if (!known) throw HttpError(404, "there is nothing at " + request.path);
+  if (method != "GET")
+    throw HttpError(404, "there is nothing at " + request.path + "; " + std::string(meant) +
+                             ", without a slash at its end, is meant");
+  std::string up;
+  for (std::size_t k = meant.size(); k < request.path.size(); ++k) up += "../";
+  return make_redirect(up + std::string(meant.substr(meant.rfind('/') + 1)) + address_query(request));
 }
 
 }  // namespace
@@ -89,7 +131,7 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
     allowed = "GET, HEAD";
   }
   if (!allowed.empty()) return make_wrong_method(allowed);
-  throw HttpError(404, "there is nothing at " + request.path);
+  return answer_unknown_path(request, method);
 }
 
 }  // namespace server

@@ -94,7 +94,10 @@ expect_code 3 "$rpsup" sweep sweep.json --db store.db
 
 expect_code 2 "$rpsup" serve --db never.db --cors-origin 'https://lab.example.org,*'
 expect_text err "cors-origin \*: must be like https://"
-expect_code 2 "$rpsup" serve --db never.db --cors-origin https://lab.example.org/
+expect_code 2 "$rpsup" serve --db never.db --cors-origin https://lab.example.org/pages
+expect_code 2 "$rpsup" serve --db never.db --base-path rpsup
+expect_text err "base-path rpsup: must be like /rpsup"
+expect_code 2 "$rpsup" serve --db never.db --base-path //rpsup
 [ ! -e never.db ] || fail "a refused command has made a store"
 
 # Cancelling ends a running job soon, although nothing is sent but the request line.

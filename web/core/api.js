@@ -23,6 +23,11 @@ class Away extends Error {
   }
 }
 
+/// Path before those of the service, if a proxy shows it under one: "/rpsup".
+const base = new URL("..", import.meta.url).pathname.replace(/\/$/, "");
+/// Path of the service as the browser reaches it. @type {(path: string) => string}
+export const addressOf = (path) => base + path;
+
 /**
  * @param {string} path
  * @param {{ method?: string, body?: unknown, signal?: AbortSignal }} options
@@ -55,9 +60,9 @@ function problemOf(text) {
 }
 
 /** @type {(id: string) => string} */
-const sweepPath = (id) => `/v1/sweeps/${encodeURIComponent(id)}`;
+const sweepPath = (id) => addressOf(`/v1/sweeps/${encodeURIComponent(id)}`);
 /** @type {(id: string) => string} */
-const jobPath = (id) => `/v1/jobs/${encodeURIComponent(id)}`;
+const jobPath = (id) => addressOf(`/v1/jobs/${encodeURIComponent(id)}`);
 /** @type {(path: string, query?: object) => string} */
 const withQuery = (path, query = {}) => {
   const set = Object.entries(query).filter(([, value]) => value !== undefined && value !== "");
@@ -65,17 +70,17 @@ const withQuery = (path, query = {}) => {
 };
 
 /** @type {(signal: AbortSignal) => Promise<Api.Get<"/healthz">>} */
-export const findHealth = (signal) => ask("/healthz", { signal });
+export const findHealth = (signal) => ask(addressOf("/healthz"), { signal });
 /** @type {(query: Api.Query<"/v1/sweeps">, signal: AbortSignal) => Promise<Api.Page<"/v1/sweeps">>} */
-export const listSweeps = (query, signal) => ask(withQuery("/v1/sweeps", query), { signal });
+export const listSweeps = (query, signal) => ask(withQuery(addressOf("/v1/sweeps"), query), { signal });
 /** @type {(signal: AbortSignal) => Promise<Api.Get<"/v1/executors">>} */
-export const listExecutors = (signal) => ask("/v1/executors", { signal });
+export const listExecutors = (signal) => ask(addressOf("/v1/executors"), { signal });
 /** @type {(query: Api.Query<"/v1/jobs">, signal: AbortSignal) => Promise<Api.Page<"/v1/jobs">>} */
-export const listJobs = (query, signal) => ask(withQuery("/v1/jobs", query), { signal });
+export const listJobs = (query, signal) => ask(withQuery(addressOf("/v1/jobs"), query), { signal });
 /** @type {(id: string, signal?: AbortSignal) => Promise<Api.Get<"/v1/sweeps/{id}">>} */
 export const findSweep = (id, signal) => ask(sweepPath(id), { signal });
 /** @type {(request: Api.Body<"/v1/sweeps">) => Promise<Api.Post<"/v1/sweeps">>} */
-export const submitSweep = (request) => ask("/v1/sweeps", { method: "POST", body: request });
+export const submitSweep = (request) => ask(addressOf("/v1/sweeps"), { method: "POST", body: request });
 /** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/cancel">>} */
 export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
 /** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/retry">>} */
@@ -90,7 +95,7 @@ export const findResults = (id, query, signal) => ask(resultsUrl(id, query), { s
 /** @type {(id: string, signal: AbortSignal) => Promise<Api.Job>} */
 export const findJob = (id, signal) => ask(jobPath(id), { signal });
 /** @type {(parameters: Api.Body<"/v1/jobs">) => Promise<Api.Job>} */
-export const submitJob = (parameters) => ask("/v1/jobs", { method: "POST", body: parameters });
+export const submitJob = (parameters) => ask(addressOf("/v1/jobs"), { method: "POST", body: parameters });
 /** @type {(id: string) => Promise<Api.Post<"/v1/jobs/{id}/cancel">>} */
 export const cancelJob = (id) => ask(`${jobPath(id)}/cancel`, { method: "POST" });
 /// Requests to the service for studies of one kind.
@@ -112,9 +117,9 @@ function studies(path) {
 }
 
 /** @type {Searches} */
-export const searches = studies("/v1/searches");
+export const searches = studies(addressOf("/v1/searches"));
 /** @type {WearStudies} */
-export const wearStudies = studies("/v1/wear-studies");
+export const wearStudies = studies(addressOf("/v1/wear-studies"));
 
 /** @type {(id: string) => string} */
 export const eventsUrl = (id) => `${sweepPath(id)}/events`;
@@ -172,11 +177,11 @@ export async function findTrajectory(id, { channels, ...query }, signal) {
 
 /// One of the linkages that the program brings along, as a set of parameters.
 /** @type {(name: string, signal: AbortSignal) => Promise<Api.Schemas["Parameters"]>} */
-export const exampleLinkage = (name, signal) => ask(`/linkages/${name}.json`, { signal });
+export const exampleLinkage = (name, signal) => ask(addressOf(`/linkages/${name}.json`), { signal });
 
 /// The JSON Schemas of all requests, by their names in the interface's description.
 /** @type {(signal: AbortSignal) => Promise<Record<string, any>>} */
-export const requestSchemas = (signal) => ask("/v1/openapi.json", { signal })
+export const requestSchemas = (signal) => ask(addressOf("/v1/openapi.json"), { signal })
   .then(({ components }) => components.schemas);
 
 /** @type {Promise<any> | null} */
@@ -185,7 +190,7 @@ let schema = null;
 /// The JSON Schema of the parameters, asked for once.
 /** @returns {Promise<any>} */
 export function parameterSchema() {
-  schema ??= ask("/v1/parameters").catch((error) => {
+  schema ??= ask(addressOf("/v1/parameters")).catch((error) => {
     schema = null;
     throw error;
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows the OpenAPI document of this service, with a form for each request. Nothing is asked of another site.
 window.SwaggerUIBundle({
-  url: "/v1/openapi.json",
+  url: "v1/openapi.json",  // of the page at /docs
   domNode: document.querySelector("#interface"),
   validatorUrl: null,
   tryItOutEnabled: true,

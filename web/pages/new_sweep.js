@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A new sweep: a form made from the service's own description of its parameters.
-import { exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
+import { addressOf, exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { bytes, plural, span } from "/core/format.js";
 import { routeTo } from "/core/route.js";
@@ -33,7 +33,7 @@ export async function show(main, { query, signal }) {
 }
 
 class SweepForm extends RequestForm {
-  path = "/v1/sweeps";
+  path = addressOf("/v1/sweeps");
   route = "sweeps";
   ask = submitSweep;
 

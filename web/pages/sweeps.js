@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of sweeps, up to date by itself.
-import { cancelSweep, deleteSweep, findSweep, listExecutors, listSweeps, retrySweep } from "/core/api.js";
+import { addressOf, cancelSweep, deleteSweep, findSweep, listExecutors, listSweeps, retrySweep } from "/core/api.js";
 import { loadCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
@@ -68,7 +68,7 @@ class SweepList {
     return h("section", { class: "card", hidden: true }, h("h2", {}, "No sweeps yet"),
       h("p", {}, whatItIs),
       h("p", {}, "The paper's sweep is an example, ready to be submitted. For scripts and notebooks, ",
-        h("a", { href: "/docs" }, "the REST interface is documented"), " on a page to try it with."),
+        h("a", { href: addressOf("/docs") }, "the REST interface is documented"), " on a page to try it with."),
       h("p", {}, h("a", { class: "button main", href: "#/new" }, "New sweep"), " ",
         h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) }, "Load the paper's sweep")));
   }

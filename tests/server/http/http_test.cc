@@ -242,6 +242,77 @@ TEST_F(Http, ReadsTheBodyOfAGetAsNothingElse) {
   EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << "one answer a connection";
 }
 
+// Probes of clusters and load balancers name the address of a pod, or no host at all.
+TEST_F(Http, AnswersProbesUnderEveryName) {
+  for (const char* const path : {"/healthz", "/readyz"}) {
+    for (const char* const head : {" HTTP/1.1\r\nHost: 10.1.2.3:8080\r\n\r\n", " HTTP/1.1\r\nHost: evil.example\r\n\r\n", " HTTP/1.0\r\n\r\n",
+                                   " HTTP/1.0\r\nHost: other\r\n\r\n"})
+      EXPECT_EQ(status_of(ask(std::string("GET ") + path + head)), 200) << path << head;
+    EXPECT_EQ(status_of(ask(std::string("GET ") + path + " HTTP/1.1\r\n\r\n")), 400) << "HTTP/1.1 has a Host";
+    EXPECT_EQ(status_of(ask(std::string("GET ") + path + " HTTP/1.1\r\nHost: localhost\r\nOrigin: http://evil.example\r\n\r\n")), 403);
+  }
+  EXPECT_EQ(status_of(ask("GET /v1/sweeps HTTP/1.0\r\n\r\n")), 403);
+  EXPECT_EQ(status_of(ask("GET /v1/sweeps HTTP/1.0\r\nHost: localhost\r\n\r\n")), 200);
+}
+
+TEST_F(Http, WritesLinksAsTheProxyShowsThem) {
+  const std::string body = R"({"sweep": {"clearance_mm": [0.1]}})";
+  const std::string posted = post("/v1/sweeps", body, "X-Forwarded-Prefix: /user/a/proxy/8080/\r\nIdempotency-Key: k\r\n");
+  const std::string id = nlohmann::json::parse(body_of(posted)).at("id");
+  EXPECT_NE(posted.find("Location: /user/a/proxy/8080/v1/sweeps/" + id + "\r\n"), std::string::npos) << posted;
+  const auto links = [](const std::string& answer) { return nlohmann::json::parse(body_of(answer)).at("links"); };
+  EXPECT_EQ(links(posted).at("results"), "/user/a/proxy/8080/v1/sweeps/" + id + "/results");
+  EXPECT_EQ(links(posted).at("study"), nullptr);
+  EXPECT_EQ(links(get("/v1/sweeps/" + id, "X-Forwarded-Prefix: /x\r\n")).at("self"), "/x/v1/sweeps/" + id);
+  const auto page = nlohmann::json::parse(body_of(get("/v1/sweeps", "X-Forwarded-Prefix: /x\r\n")));
+  EXPECT_EQ(page.at("items").at(0).at("links").at("self"), "/x/v1/sweeps/" + id);
+  // What is stored under the key names no proxy; what is no path counts for nothing.
+  EXPECT_EQ(links(post("/v1/sweeps", body, "Idempotency-Key: k\r\n")).at("self"), "/v1/sweeps/" + id);
+  for (const char* const bad : {"//evil.example", "https://evil.example", "/a/..", "x"})
+    EXPECT_EQ(links(get("/v1/sweeps/" + id, std::string("X-Forwarded-Prefix: ") + bad + "\r\n")).at("self"), "/v1/sweeps/" + id) << bad;
+}
+
+TEST(HttpBasePath, IsAcceptedBeforeEveryPath) {
+  Bench bench;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0, .token = "0123456789abcdef", .base_path = "/a/rpsup"}, short_limits());
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
+  const auto ask = [port](const std::string& path) {
+    RawClient client(port);
+    client.send("GET " + path + " HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer 0123456789abcdef\r\n\r\n");
+    return client.read_all();
+  };
+  const std::string id = bench.submit(R"({"sweep": {"clearance_mm": [0.1]}})");
+  for (const std::string path : {"/a/rpsup/v1/sweeps/" + id, "/v1/sweeps/" + id}) {
+    const std::string answer = ask(path);
+    EXPECT_EQ(status_of(answer), 200) << path;
+    EXPECT_EQ(nlohmann::json::parse(body_of(answer)).at("links").at("self"), "/a/rpsup/v1/sweeps/" + id) << path;
+  }
+  EXPECT_NE(ask("/a/rpsup/").find("src=\"app.js\""), std::string::npos);
+  const std::string without_slash = ask("/a/rpsup");
+  EXPECT_EQ(status_of(without_slash), 308);
+  EXPECT_NE(without_slash.find("Location: rpsup/\r\n"), std::string::npos) << without_slash;
+  EXPECT_EQ(status_of(ask("/a/rpsup2/v1/sweeps")), 404);
+  RawClient probe(port);
+  probe.send("GET /a/rpsup/healthz HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(status_of(probe.read_all()), 200) << "without the token, too";
+  http.stop();
+}
+
+TEST_F(Http, LeadsFromASlashTooMany) {
+  for (const auto& [path, location] : {std::pair{"/v1/sweeps/", "../sweeps"}, {"/v1/sweeps/?limit=5&state=", "../sweeps?limit=5&state="}, {"/docs/", "../docs"},
+                                       {"/v1/sweeps//", "../../sweeps"}, {"/v1/sweeps/swp_0/results/?clearance_mm_gt=a%26b", "../results?clearance_mm_gt=a%26b"}}) {
+    const std::string answer = get(path);
+    EXPECT_EQ(status_of(answer), 308) << path;
+    EXPECT_NE(answer.find(std::string("Location: ") + location + "\r\n"), std::string::npos) << path << answer;
+  }
+  const std::string posted = post("/v1/sweeps/", "{}");
+  EXPECT_EQ(status_of(posted), 404);
+  EXPECT_NE(posted.find("/v1/sweeps, without a slash at its end, is meant"), std::string::npos) << posted;
+  for (const char* const path : {"/nothing/", "//", "//evil.example/", "/v1/nothing/"}) EXPECT_EQ(status_of(get(path)), 404) << path;
+}
+
 TEST_F(Http, DecodesThePathAndTheQuery) {
   EXPECT_EQ(status_of(get("/v1/%73weeps?limit=%35")), 200);
   EXPECT_EQ(status_of(get("/v1/sweeps?limit=%35%35%35%35%35")), 422);

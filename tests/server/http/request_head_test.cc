@@ -37,6 +37,8 @@ INSTANTIATE_TEST_SUITE_P(
         HeadCase{"Length", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 1000", 0},
         HeadCase{"Chunked", "POST / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: Chunked", 0},
         HeadCase{"NoHost", "GET / HTTP/1.1\r\nAccept: a", 400},
+        HeadCase{"NoHostAsInHttp10", "GET /healthz HTTP/1.0", 0},
+        HeadCase{"TwoHostsInHttp10", "GET / HTTP/1.0\r\nHost: a\r\nhost: b", 400},
         HeadCase{"TwoHosts", "GET / HTTP/1.1\r\nHost: a\r\nhost: b", 400},
         HeadCase{"TwoLengths", "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\nContent-length: 5", 400},
         HeadCase{"LengthAndChunked",
@@ -126,6 +128,31 @@ TEST(Origin, MayBeAnotherSiteThatIsAllowed) {
   }
   // And it does not make another name of this server good.
   EXPECT_TRUE(check.find_fault({"GET", "evil.com", "https://lab.example.org", "cross-site", "cors"}));
+}
+
+TEST(Origin, IsTheSameInEverySpelling) {
+  for (const char* const option : {"https://lab.example.org", "https://lab.example.org:443", "HTTPS://LAB.example.org", "https://lab.example.org:"}) {
+    const OriginCheck check("127.0.0.1", {option});
+    EXPECT_FALSE(check.find_fault({"POST", "localhost:80", "https://lab.example.org", "cross-site", "cors"})) << option;
+    EXPECT_TRUE(check.find_fault({"POST", "localhost:80", "https://lab.example.org:80", "cross-site", "cors"})) << option;
+  }
+  EXPECT_EQ(server::normal_origin("http://[::1]:80"), "http://[::1]");
+  EXPECT_EQ(server::normal_origin("http://[::1]"), "http://[::1]");
+  EXPECT_EQ(server::normal_origin("http://a:443"), "http://a:443");
+  EXPECT_EQ(server::normal_origin("null"), "null");
+  // A proxy may pass the port on that the browser leaves out.
+  const OriginCheck check("127.0.0.1", {}, {"rpsup.example.org"});
+  EXPECT_FALSE(check.find_fault({"POST", "rpsup.example.org:443", "https://rpsup.example.org", "same-origin", "cors"}));
+  EXPECT_FALSE(check.find_fault({"POST", "rpsup.example.org:80", "http://rpsup.example.org", "same-origin", "cors"}));
+  EXPECT_TRUE(check.find_fault({"POST", "rpsup.example.org:80", "https://rpsup.example.org", "same-origin", "cors"}));
+}
+
+TEST(BasePath, IsOneOfAProxy) {
+  for (const auto& [text, path] : {std::pair{"/rpsup", "/rpsup"}, {"/rpsup/", "/rpsup"}, {"/", ""}, {"", ""}, {"/user/a%20b/proxy/8080/", "/user/a%20b/proxy/8080"},
+                                   {"/a, /b/", "/a/b"}, {"/a,", "/a"}})
+    EXPECT_EQ(server::find_base_path(text), path) << text;
+  for (const char* const text : {"rpsup", "//evil.example", "/a//b", "/a/../b", "/a/./b", "/a?b", "/a#b", "/a b", "https://evil.example", "/a\\b", "/<b>", "/a, b"})
+    EXPECT_FALSE(server::find_base_path(text)) << text;
 }
 
 TEST(Origin, MayComeThroughAProxyUnderAnotherName) {

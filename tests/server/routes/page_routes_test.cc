@@ -35,8 +35,9 @@ std::string hashed_name(Bench& bench, const std::string& page, const std::string
   const auto dot = path.rfind('.');
   const std::string text = get_page(bench, page).body;
   std::smatch found;
-  const std::regex name("[\"'](" + path.substr(0, dot) + "\\.[0-9a-f]{16}\\" + path.substr(dot) + ")[\"']");
-  return std::regex_search(text, found, name) ? found[1].str() : "";
+  const std::regex name("[\"'][./]*(/?" + path.substr(1, dot - 1) + "\\.[0-9a-f]{16}\\" + path.substr(dot) + ")[\"']");
+  if (!std::regex_search(text, found, name)) return "";
+  return found[1].str().starts_with('/') ? found[1].str() : "/" + found[1].str();
 }
 
 TEST(Page, TravelsCompressedToWhoeverWantsThat) {
@@ -56,6 +57,21 @@ TEST(Page, TravelsCompressedToWhoeverWantsThat) {
       EXPECT_EQ(header_of(*answer, "Cache-Control"), "private, no-cache") << path;
     }
   }
+}
+
+// Behind a proxy the root of the service is no root of the host.
+TEST(Page, NamesItsPartsFromWhereItStands) {
+  Bench bench;
+  const std::regex from_the_root("(?:href|src)=\"/|(?:from |import\\()[\"']/|fetch\\([\"']/");
+  for (const char* const path : {"/", "/docs", "/app.js", "/core/api.js", "/core/uplot.js", "/pages/sweep.js", "/scene/three.js", "/lib/three.module.js", "/docs/docs.js"}) {
+    const auto page = get_page(bench, path);
+    if (page.status == 404 && std::string(path) != "/") continue;  // built without the packages
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(page.body, found, from_the_root)) << path << ": " << found.str();
+  }
+  EXPECT_NE(get_page(bench, "/app.js").body.find("\"./core/api.js\""), std::string::npos);
+  EXPECT_NE(get_page(bench, "/pages/sweep.js").body.find("\"./../core/api.js\""), std::string::npos);
+  EXPECT_NE(get_page(bench, "/").body.find("src=\"app.js\""), std::string::npos);
 }
 
 TEST(Page, HasATagForEachRepresentation) {
