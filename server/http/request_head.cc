@@ -78,7 +78,9 @@ std::optional<Refusal> find_fault_in_length(const std::string& text, std::size_t
 }
 
 std::optional<Refusal> find_fault_in_framing(const Framing& framing, std::size_t body_bytes) {
-  if (framing.host_count != 1 && !(framing.host_count == 0 && framing.may_lack_host)) return Refusal{400, "a request must have exactly one Host header"};
+  const bool lacks_host = framing.host_count == 0 && framing.may_lack_host;
+  if (framing.host_count != 1 && !lacks_host)
+    return Refusal{400, "a request must have exactly one Host header"};
   if (framing.length_count + framing.encoding_count > 1)
     return Refusal{400, "the length of the body is given twice"};
   if (framing.encoding_count == 1 && framing.encoding != "chunked") {
@@ -88,13 +90,34 @@ std::optional<Refusal> find_fault_in_framing(const Framing& framing, std::size_t
   return std::nullopt;
 }
 
+/// Target of a request in its two forms (RFC 9112, section 3.2): "/v1/sweeps?limit=1", and with scheme and
+/// host before it, as clients send it that take the service for a proxy.
+struct Target {
+  std::string_view host;  ///< with its port; empty in the first form
+  std::string_view rest;  ///< path and query; the path may be empty in the second form
+};
+
+Target split_target(std::string_view target) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (lower(target.substr(0, scheme.size())) != scheme) continue;
+    const std::string_view after = target.substr(scheme.size());
+    const auto end = std::min(after.find_first_of("/?#"), after.size());
+    if (end > 0) return {.host = after.substr(0, end), .rest = after.substr(end)};
+  }
+  return {.host = {}, .rest = target};
+}
+
 std::optional<Refusal> find_fault_in_request_line(std::string_view line) {
   const auto start = line.find(' ');
   if (start == std::string_view::npos) return Refusal{400, "the request line is incomplete"};
-  const auto end = line.find_first_of(" ?#", start + 1);
-  if (end == std::string_view::npos) return Refusal{400, "the request line is incomplete"};
-  if (line[start + 1] != '/') return Refusal{400, "the path does not start with /"};
-  if (end - start - 1 > kMaxPathBytes) {
+  const auto blank = line.find(' ', start + 1);
+  if (blank == std::string_view::npos) return Refusal{400, "the request line is incomplete"};
+  const Target target = split_target(line.substr(start + 1, blank - start - 1));
+  if (target.host.find('@') != std::string_view::npos)
+    return Refusal{400, "the target names a user, which http does not have"};
+  if (target.host.empty() && !target.rest.starts_with('/'))
+    return Refusal{400, "the path does not start with /"};
+  if (std::min(target.rest.find_first_of("?#"), target.rest.size()) > kMaxPathBytes) {
     return Refusal{414, "the path is longer than " + std::to_string(kMaxPathBytes) + " bytes"};
   }
   return std::nullopt;
@@ -126,13 +149,15 @@ std::string query_text(std::string_view text) {
   return percent_decoded(result);
 }
 
-void read_request_line(std::string_view line, RequestHead& result) {
+/// @returns the host in the target; empty if there is none
+std::string_view read_request_line(std::string_view line, RequestHead& result) {
   const auto start = line.find(' ') + 1;
-  std::string_view target = line.substr(start, line.find(' ', start) - start);
-  result.request_line.append(line.substr(0, start)).append("/").append(line.substr(start + target.size()));
-  target = target.substr(0, target.find('#'));
+  const std::string_view whole = line.substr(start, line.find(' ', start) - start);
+  result.request_line.append(line.substr(0, start)).append("/").append(line.substr(start + whole.size()));
+  const Target parts = split_target(whole);
+  std::string_view target = parts.rest.substr(0, parts.rest.find('#'));
   const auto mark = std::min(target.find('?'), target.size());
-  result.path = percent_decoded(target.substr(0, mark));
+  result.path = mark == 0 ? "/" : percent_decoded(target.substr(0, mark));
   target.remove_prefix(std::min(mark + 1, target.size()));
   while (!target.empty()) {
     const std::string_view item = target.substr(0, target.find('&'));
@@ -142,6 +167,7 @@ void read_request_line(std::string_view line, RequestHead& result) {
     const std::string_view value = item.substr(std::min(equals + 1, item.size()));
     result.query.emplace_back(query_text(item.substr(0, equals)), query_text(value));
   }
+  return parts.host;
 }
 
 /// The name in a Host header: no port, no brackets, no dot at its end, in lower case.
@@ -187,13 +213,15 @@ RequestHead read_head(std::string_view head) {
     head.remove_prefix(line.size() + 2);
     return line;
   };
-  read_request_line(take_line(), result);
+  const std::string_view host = read_request_line(take_line(), result);
   for (std::string_view line = take_line(); !line.empty(); line = take_line()) {
     const auto colon = line.find(':');
     const std::string_view value = trimmed(line.substr(colon + 1));
     const auto [header, is_first] = result.headers.try_emplace(lower(line.substr(0, colon)), value);
     if (!is_first) header->second.append(", ").append(value);
   }
+  // The Host header beside it is not to be looked at (RFC 9112, section 3.2.2).
+  if (!host.empty()) result.headers["host"] = host;
   return result;
 }
 
@@ -233,16 +261,20 @@ bool OriginCheck::is_own(const std::string& origin, const std::string& host) con
   const std::string own = normal_origin(origin);
   if (own == normal_origin("http://" + host)) return true;
   // A proxy that speaks https passes its own name on.
-  return std::ranges::find(names_, bare_host(host)) != names_.end() && own == normal_origin("https://" + host);
+  return std::ranges::find(names_, bare_host(host)) != names_.end() &&
+         own == normal_origin("https://" + host);
 }
 
 std::string normal_origin(std::string_view origin) {
   std::string normal = lower(origin);
   const auto host = normal.find("://");
   const auto colon = normal.rfind(':');
-  if (host == std::string::npos || colon <= host || normal.find(']', colon) != std::string::npos) return normal;
+  const bool in_brackets = colon != std::string::npos && normal.find(']', colon) != std::string::npos;
+  if (host == std::string::npos || colon <= host || in_brackets) return normal;
   const std::string_view port = std::string_view(normal).substr(colon + 1);
-  const std::string_view own = normal.starts_with("https:") ? "443" : normal.starts_with("http:") ? "80" : "";
+  const std::string_view own = normal.starts_with("https:")  ? "443"
+                               : normal.starts_with("http:") ? "80"
+                                                             : "";
   if (port.empty() || port == own) normal.resize(colon);
   return normal;
 }
@@ -263,7 +295,8 @@ std::optional<std::string> find_base_path(std::string_view text) {
     const std::string_view segment = rest.substr(0, rest.find('/'));
     rest.remove_prefix(segment.size());
     const bool good = std::ranges::all_of(segment, [&](unsigned char c) {
-      return (c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos;
+      return (c < 0x80 && std::isalnum(c) != 0) ||
+             kSigns.find(static_cast<char>(c)) != std::string_view::npos;
     });
     if (!good || segment.empty() || segment == "." || segment == "..") return std::nullopt;
   }

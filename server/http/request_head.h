@@ -78,15 +78,15 @@ class OriginCheck {
   std::vector<std::string> names_;
 };
 
-/// Scheme, host and port of an origin as browsers send it: in lower case, without the port that the scheme has
-/// anyway. "HTTPS://Lab.example.org:443" is "https://lab.example.org".
+/// Scheme, host and port of an origin as browsers send it: in lower case, without the port that the scheme
+/// has anyway. "HTTPS://Lab.example.org:443" is "https://lab.example.org".
 [[nodiscard]] std::string normal_origin(std::string_view origin);
 
-/// Path before which a proxy has cut off nothing or all of itself, as "/rpsup" or "/user/a/proxy/8080": without a
-/// slash at its end; empty for "/".
-/// @param text  that of an option, or of an X-Forwarded-Prefix header, in which each proxy adds its own after a
-///     comma
-/// @returns empty if it is no path: it must begin with one slash and have no empty, "." or ".." segment
+/// Path under which a proxy shows the service, as "/rpsup" or "/user/a/proxy/8080": without a slash at its
+/// end; empty for "/".
+/// @param text  that of an option, or of an X-Forwarded-Prefix header, in which each proxy adds its own after
+///     a comma
+/// @returns nothing if it is no path: it must begin with one slash, and have no empty, "." or ".." segment
 [[nodiscard]] std::optional<std::string> find_base_path(std::string_view text);
 
 /// True for an IP address, of either version.

@@ -53,7 +53,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const server::RequestHead read = server::read_head(head);
   fuzz::expect(!server::find_fault_in_head(read.request_line + "\r\nHost: a\r\n\r\n", kBodyBytes),
                "what the library is shown is a good head");
-  fuzz::expect(read.headers.contains("host"), "a good head names its host");
+  fuzz::expect(read.headers.contains("host") || read.request_line.ends_with("HTTP/1.0"),
+               "a good head names its host");
   for (const auto& [name, value] : read.headers) {
     if (value.find(", ") != std::string::npos) continue;  // perhaps of several lines
     fuzz::expect(head.find(value) != std::string_view::npos, "the value of a header is what was sent");
