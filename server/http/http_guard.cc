@@ -50,6 +50,8 @@ void fill(httplib::Request& request, RequestHead head) {
 /// Event stream that follows the head of the answer, set by the handler. The library calls a handler on the
 /// thread that serves the connection, and does not tell the handler which connection that is.
 thread_local std::shared_ptr<EventSource> events_of_this_connection;
+/// Stream of that connection, while the library serves it.
+thread_local HttpStream* stream_of_this_connection = nullptr;
 
 /// Head of the answer as HTTP/1.1 text: status line, headers, empty line.
 std::string head_of(const Response& response) {
@@ -148,6 +150,10 @@ void GuardedServer::stream_events(std::shared_ptr<EventSource> events) {
   events_of_this_connection = std::move(events);
 }
 
+std::ptrdiff_t GuardedServer::read_body(char* to, std::size_t size) {
+  return stream_of_this_connection->read(to, size);
+}
+
 void GuardedServer::serve(HttpStream& stream) {
   switch (stream.read_head()) {
     case HttpStream::Head::kClosed:
@@ -167,7 +173,9 @@ void GuardedServer::serve(HttpStream& stream) {
   // the rest.
   RequestHead head = read_head(stream.head());
   stream.replace_head(head.request_line + "\r\n\r\n");
+  stream_of_this_connection = &stream;
   process_with_library(*this, stream, [&head](httplib::Request& request) { fill(request, std::move(head)); });
+  stream_of_this_connection = nullptr;
 }
 
 /// Lets the library serve a request. Older versions ask the stream for the addresses of its ends; newer

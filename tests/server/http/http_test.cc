@@ -166,6 +166,15 @@ TEST_F(Http, TakesWhatCurlSendsByDefault) {
   EXPECT_EQ(status_of(ask(head + chunked(padded_request(), 777))), 201);
 }
 
+TEST_F(Http, TakesTrailersAfterChunks) {
+  const std::string body = R"({"sweep": {"clearance_mm": [0.1]}})";
+  const std::string wire = chunked(body, 5);
+  EXPECT_EQ(status_of(ask("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\nTrailer: Checksum\r\n\r\n" +
+                          wire.substr(0, wire.size() - 2) + "Checksum: 1\r\n\r\n")),
+            201);
+  EXPECT_EQ(sweep_count(), 1U);
+}
+
 TEST_F(Http, SaysContinueToAClientThatAsks) {
   RawClient client(port_);
   client.send(
@@ -240,6 +249,15 @@ TEST_F(Http, ReadsTheBodyOfAGetAsNothingElse) {
           "HTTP/1.1\r\nHost: evil\r\n\r\n");
   EXPECT_EQ(status_of(answer), 200);
   EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << "one answer a connection";
+}
+
+// The host of the target counts, not that of the header.
+TEST_F(Http, TakesATargetWithItsHost) {
+  const std::string answer = ask("GET http://localhost:" + std::to_string(port_) + "/v1/sweeps?limit=1 HTTP/1.1\r\nHost: other\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 200) << answer;
+  EXPECT_EQ(status_of(ask("GET http://localhost HTTP/1.1\r\nHost: localhost\r\n\r\n")), 200);
+  EXPECT_EQ(status_of(ask("GET http://evil.example/v1/sweeps HTTP/1.1\r\nHost: localhost\r\n\r\n")), 403);
+  EXPECT_EQ(status_of(ask("GET http://localhost/v1/sweeps?nothing=1 HTTP/1.1\r\nHost: localhost\r\n\r\n")), 422);
 }
 
 // Probes of clusters and load balancers name the address of a pod, or no host at all.
