@@ -321,7 +321,9 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
     add({.key = slides(motion) ? "coefficients_m_s" : "coefficients_rad_s", .kind = FieldKind::kNumbers,
          .range = between(-1e9, 1e9),
          .unit = slides(motion) ? "m/s^k" : "rad/s^k",
-         .help = "c_0, c_1, ...: the coordinate is c_0 + c_1 t + c_2 t^2 + ...", .required = true});
+         .help = "c_0, c_1, ... of the coordinate itself, not of its rate: c_0 + c_1 t + c_2 t^2 + ..., c_k "
+                 "in the unit of the coordinate by s^k",
+         .required = true});
   } else if (law == "table") {
     add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s",
          .help = "Rising; two or more", .required = true});
