@@ -70,9 +70,19 @@ void add_threads_option(CLI::App& command, int& threads) {
       ->envname("RPSUP_THREADS");
 }
 
+/// Names by which SQLite keeps nothing, or takes the rest for options.
+std::string describe_store_name_fault(const std::string& name) {
+  if (name.empty()) return "the store has no name: a file is needed";
+  if (name == ":memory:") return ":memory: would keep nothing: a store is a file (./:memory: is one)";
+  if (name.starts_with("file:"))
+    return "file: URIs are not taken: give the path alone (./" + name + " is a file)";
+  return "";
+}
+
 void add_store_options(CLI::App& command, std::string& store, int& threads) {
   command.add_option("--db", store, "SQLite file of sweeps and results; created if missing")
       ->required()
+      ->check(describe_store_name_fault)
       ->type_name("FILE")
       ->envname("RPSUP_DB");
   add_threads_option(command, threads);
@@ -191,9 +201,11 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
       app.add_subcommand("export", "Write a consistent copy of a store, even while a service uses it");
   command->add_option("file", options.file, "SQLite file for the copy; must not exist")
       ->required()
+      ->check(describe_store_name_fault)
       ->type_name("FILE");
   command->add_option("--db", options.store, "SQLite file of sweeps and results")
       ->required()
+      ->check(describe_store_name_fault)
       ->type_name("FILE")
       ->envname("RPSUP_DB");
   return command;

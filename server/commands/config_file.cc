@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <istream>
+#include <string_view>
 
 namespace server::commands {
 
@@ -16,6 +18,15 @@ std::filesystem::path config_home() {
   return user == nullptr ? std::filesystem::path() : std::filesystem::path(user) / ".config";
 }
 
+/// Some editors begin a file with the byte order mark of UTF-8, which would be part of the first name.
+void skip_byte_order_mark(std::istream& input) {
+  const auto start = input.tellg();
+  char mark[3] = {};
+  if (input.read(mark, sizeof mark) && std::string_view(mark, sizeof mark) == "\xef\xbb\xbf") return;
+  input.clear();
+  input.seekg(start);
+}
+
 /// "++" and "--" are the parser's marks of where a section begins and ends.
 bool is_mark(const CLI::ConfigItem& item) { return item.name == "++" || item.name == "--"; }
 
@@ -24,6 +35,7 @@ bool is_mark(const CLI::ConfigItem& item) { return item.name == "++" || item.nam
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
   std::vector<CLI::ConfigItem> given;
   std::vector<CLI::ConfigItem> shared;
+  skip_byte_order_mark(input);
   for (CLI::ConfigItem& item : CLI::ConfigTOML::from_config(input)) {
     const bool of_program = app_.get_option_no_throw("--" + item.name) != nullptr;
     (item.parents.empty() && !is_mark(item) && !of_program ? shared : given).push_back(std::move(item));

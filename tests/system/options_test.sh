@@ -23,6 +23,22 @@ done
 expect_code 0 "$rpsup" --config options.ini simulate job.json --trajectory from_line.csv
 expect_equal "$(rows from_line.csv)" 52 "lines of the trajectory named on the command line"
 
+# As Windows' editors save it.
+(printf '\xef\xbb\xbf' && cat options.ini) >marked.ini
+expect_code 0 "$rpsup" --config marked.ini simulate job.json --trajectory marked.csv
+cmp marked.csv from_line.csv
+
+# What SQLite would not keep in a file of that name.
+for name in :memory: file:a.db 'file:a.db?mode=memory' ''; do
+  expect_code 2 "$rpsup" serve --db "$name" --port 0
+  expect_text err 'db'
+  expect_code 2 "$rpsup" sweep sweep.json --db "$name"
+  expect_code 2 "$rpsup" export --db "$name" copy.db
+done
+RPSUP_DB=:memory: expect_code 2 "$rpsup" serve --port 0
+expect_text err ':memory: would keep nothing'
+[ -z "$(find . -name ':memory:*' -o -name 'file:*')" ] || fail "a refused name has made a file"
+
 printf '[simulate]\ntrajektory=t.csv\n' >wrong.ini
 expect_code 2 "$rpsup" --config wrong.ini simulate job.json
 expect_text err trajektory
