@@ -7,10 +7,11 @@
 namespace jobs {
 namespace {
 
-double calc_variance_s2(const CostOfKind& cost, double mean_s) {
-  if (cost.computed < 2) return mean_s * mean_s;
+/// Variance of the wall time a simulated second.
+double calc_rate_variance(const CostOfKind& cost, double rate) {
+  if (cost.computed < 2) return rate * rate;
   const auto n = static_cast<double>(cost.computed);
-  return std::max(0.0, (cost.wall_time_squares_s2 - n * mean_s * mean_s) / (n - 1.0));
+  return std::max(0.0, (cost.rate_squares - cost.rates * cost.rates / n) / (n - 1.0));
 }
 
 }  // namespace
@@ -22,13 +23,23 @@ std::optional<TimeLeft> estimate_time_left(const SweepRow& row, int threads) {
   double variance_s2 = 0.0;
   double longest_s = 0.0;
   for (const auto& [kind, cost] : row.costs) {
-    if (cost.queued + cost.running == 0) continue;
-    if (cost.computed == 0) return std::nullopt;
-    const double mean_s = cost.wall_time_s / static_cast<double>(cost.computed);
-    const double left = static_cast<double>(cost.queued) + 0.5 * static_cast<double>(cost.running);
-    thread_time_s += mean_s * left;
-    variance_s2 += calc_variance_s2(cost, mean_s) * left * (1.0 + left / static_cast<double>(cost.computed));
-    longest_s = std::max(longest_s, cost.queued > 0 ? mean_s : 0.5 * mean_s);
+    const std::size_t running = cost.running.size();
+    if (cost.queued == 0 && running == 0) continue;
+    if (cost.computed == 0 || !(cost.computed_s > 0.0)) return std::nullopt;
+    const double rate = cost.wall_time_s / cost.computed_s;
+    double left_squares_s2 = cost.queued_squares_s2;
+    thread_time_s += rate * cost.queued_s;
+    longest_s = std::max(longest_s, rate * cost.longest_queued_s);
+    for (const RunningCost& job : cost.running) {
+      // A job that takes longer than expected is expected to take as much longer again.
+      const double left_s = std::abs(rate * job.simulated_s - job.elapsed_s);
+      thread_time_s += left_s;
+      longest_s = std::max(longest_s, left_s);
+      left_squares_s2 += job.simulated_s * job.simulated_s;
+    }
+    const double left = static_cast<double>(cost.queued) + static_cast<double>(running);
+    variance_s2 += calc_rate_variance(cost, rate) * left_squares_s2 *
+                   (1.0 + left / static_cast<double>(cost.computed));
   }
   const double spread_s = 2.0 * std::sqrt(variance_s2) / threads;
   const double expected_s = std::max(longest_s, thread_time_s / threads);

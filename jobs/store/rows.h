@@ -24,12 +24,25 @@ using StateCounts = std::array<std::int64_t, kJobStates.size()>;
 [[nodiscard]] std::string_view sweep_state(const StateCounts& counts);
 [[nodiscard]] bool has_ended(const StateCounts& counts);
 
-/// Jobs of one PlannedJob::kind in a sweep: how many are left, and what those that were computed cost.
+/// Job that is being computed.
+struct RunningCost {
+  double simulated_s = 1.0;  ///< as CostOfKind counts it
+  double elapsed_s = 0.0;    ///< since it was claimed
+};
+
+/// Jobs of one PlannedJob::kind in a sweep: how many are left, and what those that were computed cost. The
+/// cost of a job grows with the time that it simulates, which counts as 1 s if the sweep does not vary it.
 struct CostOfKind {
-  std::int64_t queued = 0, running = 0;
+  std::int64_t queued = 0;
+  double queued_s = 0.0;            ///< simulated time of those together
+  double queued_squares_s2 = 0.0;   ///< the sum of its squares
+  double longest_queued_s = 0.0;
+  std::vector<RunningCost> running{};
   std::int64_t computed = 0;        ///< ended jobs that were computed, not reused
+  double computed_s = 0.0;          ///< simulated time of those together
   double wall_time_s = 0.0;         ///< of those together, each on one thread
-  double wall_time_squares_s2 = 0;  ///< the sum of their squares
+  double rates = 0.0;               ///< the sum of their wall times a simulated second
+  double rate_squares = 0.0;        ///< the sum of the squares of these
 };
 
 struct SweepRow {

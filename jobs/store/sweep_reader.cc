@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <system_error>
 
+#include <nlohmann/json.hpp>
+
+#include "jobs/base/time_text.h"
 #include "jobs/store/read_rows.h"
 #include "jobs/store/store_insert.h"
 
@@ -42,21 +45,56 @@ void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow&
   if (!has_ended(row.counts)) row.ended_ms.reset();
 }
 
+/// SQL of the time that a job simulates, if the sweep varies it; else 1.
+std::string simulated_time(const std::string& swept) {
+  const auto paths = nlohmann::json::parse(swept, nullptr, false);
+  if (!paths.is_array()) return "1.0";
+  const auto found = std::ranges::find(paths, "duration_s");
+  if (found == paths.end()) return "1.0";
+  return "coalesce(json_extract(j.swept, '$[" + std::to_string(found - paths.begin()) + "]'), 1.0)";
+}
+
+void read_running_costs(const SQLite::Database& database, std::int64_t sweep, const std::string& time,
+                        SweepRow& row) {
+  SQLite::Statement running(database,
+                            "SELECT j.kind, " + time +
+                                ", j.started_ms FROM jobs j WHERE j.sweep = ? AND j.state = 'running'");
+  running.bind(1, sweep);
+  const std::int64_t now_ms = now_unix_ms();
+  while (running.executeStep()) {
+    const std::int64_t started_ms = optional_int(running.getColumn(2)).value_or(now_ms);
+    row.costs[running.getColumn(0).getString()].running.push_back(
+        {.simulated_s = running.getColumn(1).getDouble(),
+         .elapsed_s = std::max(0.0, static_cast<double>(now_ms - started_ms) / 1000.0)});
+  }
+}
+
 void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
-  SQLite::Statement cost(database,
-                         "SELECT j.kind, sum(j.state = 'queued'), sum(j.state = 'running'), sum(r.seq IS NOT "
-                         "NULL), total(r.wall_time_s), "
-                         "total(r.wall_time_s * r.wall_time_s) FROM jobs j LEFT JOIN results r ON r.seq = "
-                         "j.result AND j.reused = 0 "
-                         "WHERE j.sweep = ? GROUP BY j.kind");
+  const std::string time = simulated_time(row.swept);
+  SQLite::Statement cost(
+      database,
+      "SELECT kind, sum(state = 'queued'), total(t) FILTER (WHERE state = 'queued'), "
+      "total(t * t) FILTER (WHERE state = 'queued'), coalesce(max(t) FILTER (WHERE state = 'queued'), 0.0), "
+      "count(cost), total(t) FILTER (WHERE cost IS NOT NULL), total(cost), total(cost / t), "
+      "total(cost * cost / (t * t)) FROM (SELECT j.kind AS kind, j.state AS state, " +
+          time +
+          " AS t, r.wall_time_s AS cost FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
+          "WHERE j.sweep = ?) GROUP BY kind");
   cost.bind(1, sweep);
   while (cost.executeStep()) {
-    row.costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(),
-                                                .running = cost.getColumn(2).getInt64(),
-                                                .computed = cost.getColumn(3).getInt64(),
-                                                .wall_time_s = cost.getColumn(4).getDouble(),
-                                                .wall_time_squares_s2 = cost.getColumn(5).getDouble()};
+    CostOfKind& of_kind = row.costs[cost.getColumn(0).getString()];
+    of_kind = {.queued = cost.getColumn(1).getInt64(),
+               .queued_s = cost.getColumn(2).getDouble(),
+               .queued_squares_s2 = cost.getColumn(3).getDouble(),
+               .longest_queued_s = cost.getColumn(4).getDouble(),
+               .running = std::move(of_kind.running),
+               .computed = cost.getColumn(5).getInt64(),
+               .computed_s = cost.getColumn(6).getDouble(),
+               .wall_time_s = cost.getColumn(7).getDouble(),
+               .rates = cost.getColumn(8).getDouble(),
+               .rate_squares = cost.getColumn(9).getDouble()};
   }
+  read_running_costs(database, sweep, time, row);
 }
 
 /// @param request  SQL of what stands in its column
