@@ -19,7 +19,7 @@ using std::chrono::seconds;
 using Strings = std::vector<std::string>;
 
 json await(const jobs::Service& service, const std::string& id) {
-  EXPECT_TRUE(service.wait_for_sweep(id, seconds(20)));
+  EXPECT_TRUE(service.wait_for_sweep(id, seconds(300)));
   return service.find_sweep(id).value();
 }
 

@@ -151,7 +151,7 @@ TEST(Search, KeepsItsSweep) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = service.submit_study(jobs::Study::kLimit, request_for(5.3)).at("id");
+  const std::string id = service.submit_study(jobs::StudyKind::kLimit, request_for(5.3)).at("id");
   const std::string sweep = wait_for_end(service, id).at("sweep_id");
   try {
     (void)service.delete_sweep(sweep);
@@ -159,7 +159,7 @@ TEST(Search, KeepsItsSweep) {
   } catch (const jobs::WrongState& refused) {
     EXPECT_NE(std::string(refused.what()).find(id), std::string::npos) << refused.what();
   }
-  EXPECT_TRUE(service.find_study(jobs::Study::kLimit, id).has_value());
+  EXPECT_TRUE(service.find_study(jobs::StudyKind::kLimit, id).has_value());
   EXPECT_EQ(service.find_sweep(sweep).value().at("study_id"), id);
   EXPECT_EQ(service.find_sweep(sweep).value().at("links").at("study"), "/v1/searches/" + id);
   const std::string other = service.submit_sweep({{"parameters", {{"clearance_mm", 0}}}}).at("id");
@@ -221,7 +221,7 @@ TEST(Search, IsWaitedFor) {
   EXPECT_FALSE(service.wait_for_study(StudyKind::kLimit, "sch_none", std::chrono::hours(1)));
   EXPECT_FALSE(service.wait_for_study(StudyKind::kWear, id, std::chrono::hours(1)));
   engine.release();
-  EXPECT_TRUE(service.wait_for_study(StudyKind::kLimit, id, std::chrono::seconds(20)));
+  EXPECT_TRUE(service.wait_for_study(StudyKind::kLimit, id, std::chrono::seconds(300)));
   EXPECT_EQ(service.find_study(StudyKind::kLimit, id).value().at("state"), "succeeded");
 }
 

@@ -76,7 +76,7 @@ void FakeEngine::release() {
 
 void FakeEngine::await_running(int count) {
   std::unique_lock lock(mutex_);
-  if (!changed_.wait_for(lock, std::chrono::seconds(20), [&] { return running_ == count; }))
+  if (!changed_.wait_for(lock, std::chrono::seconds(300), [&] { return running_ == count; }))
     throw std::runtime_error("no such number of runs began");
 }
 

@@ -236,7 +236,7 @@ TEST(Service, WakesAFreeThreadForWhatWaitedForACancelledJob) {
   options.runner = [&, fake = engine.runner()](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
     if (begun++ == 0) {
       begun.notify_all();
-      beside = second.wait_for(5s) == std::future_status::ready;
+      beside = second.wait_for(60s) == std::future_status::ready;
     } else {
       second_began.set_value();
     }
@@ -513,7 +513,7 @@ TEST(Service, ComputesNothingBeforeItIsTold) {
   EXPECT_TRUE(engine.begun_speeds().empty());
   service.start();
   service.start();  // once more changes nothing
-  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(20)));
+  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(300)));
   EXPECT_EQ(engine.begun_speeds().size(), 3U);
 }
 

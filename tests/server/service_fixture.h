@@ -94,7 +94,7 @@ class Bench {
   /// Submits a sweep and waits for its end.
   std::string run(const std::string& body) {
     const std::string id = submit(body);
-    if (!service_.wait_for_sweep(id, std::chrono::seconds(20)))
+    if (!service_.wait_for_sweep(id, std::chrono::seconds(300)))
       throw std::runtime_error("the sweep does not end");
     return id;
   }

@@ -29,7 +29,7 @@ Ended run_sensitivity(const ordered_json& request) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
   const std::string id = service.submit_sweep(request).at("id");
-  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(60)));
+  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(300)));
   return {service.find_sweep(id).value(), service.find_results(id).value()};
 }
 

@@ -115,7 +115,7 @@ class ScriptedEngine {
 
   /// Returns when a run beyond the list has begun.
   void await_endless_run() {
-    ASSERT_EQ(endless_.get_future().wait_for(std::chrono::seconds(20)), std::future_status::ready);
+    ASSERT_EQ(endless_.get_future().wait_for(std::chrono::seconds(300)), std::future_status::ready);
   }
 
  private:
@@ -152,7 +152,7 @@ void expect_set(const ReplicateStatistics& set, std::size_t count, double mean, 
 /// The table of a sweep that has to end by itself.
 jobs::ResultTable results_of(jobs::Service& service, const char* request) {
   const std::string id = service.submit_sweep(request_of(request)).at("id");
-  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(20)));
+  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(300)));
   return service.find_results(id).value();
 }
 

@@ -89,7 +89,7 @@ TEST_P(FormerStore, GoesOn) {
   EXPECT_TRUE(service.find_trajectory(job, {}).has_value());
 
   ASSERT_TRUE(service.extend_sweep(id, {{"sweep", {{"clearance_mm", {0.2}}}}}).has_value());
-  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(20)));
+  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(300)));
   EXPECT_EQ(service.find_sweep(id).value().at("counts").at("succeeded"), 3);
 }
 

