@@ -14,7 +14,7 @@ namespace server {
 struct BodyForm {
   bool chunked = false;        ///< else content_length counts
   std::size_t content_length = 0;
-  std::string coding;          ///< Content-Encoding: "", "identity", "gzip" or "deflate"
+  std::string coding{};        ///< Content-Encoding: "", "identity", "gzip" or "deflate"
 };
 
 /// Takes bytes off the wire. @returns how many there were, at most `size`; 0 or less at the end, after an

@@ -116,7 +116,7 @@ TEST(PlanSweep, SpacesLinearAndLogarithmicAxes) {
 
 std::vector<double> range_values(const std::string& range) {
   std::vector<double> values;
-  for (const auto& job : plan_of(R"({"sweep": {"gravity_m_s2": )" + range + "}}").jobs)
+  for (const auto& job : expanded_plan_of(R"({"sweep": {"gravity_m_s2": )" + range + "}}").jobs)
     values.push_back(json::parse(job.swept)[0].get<double>());
   return values;
 }
@@ -160,7 +160,7 @@ TEST(PlanSweep, KeepsTheStepsOfANarrowRange) {
 // The levels of Morris' design are thirds of the range.
 TEST(PlanSweep, HasRoundNumbersInADesign) {
   std::set<double> levels;
-  for (const auto& job : plan_of(R"({"design": {"type": "morris", "trajectories": 20, "over": {"gravity_m_s2": {"from": 0, "to": 0.9}}}})").jobs)
+  for (const auto& job : expanded_plan_of(R"({"design": {"type": "morris", "trajectories": 20, "over": {"gravity_m_s2": {"from": 0, "to": 0.9}}}})").jobs)
     levels.insert(json::parse(job.swept)[0].get<double>());
   EXPECT_EQ(levels, (std::set{0.0, 0.3, 0.6, 0.9}));
 }

@@ -248,8 +248,29 @@ TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
   costs = store.reader.find_sweep(sweep).value().costs;
   EXPECT_EQ(costs.at("rigid, clearance").computed, 1);
   EXPECT_EQ(costs.at("rigid, clearance").wall_time_s, 2.0);
-  EXPECT_EQ(costs.at("rigid, clearance").running, 1);
+  ASSERT_EQ(costs.at("rigid, clearance").running.size(), 1U);
+  EXPECT_EQ(costs.at("rigid, clearance").running.at(0).simulated_s, 1.0);
   EXPECT_EQ(costs.at("flexible, clearance").queued, 3);
+  EXPECT_EQ(costs.at("flexible, clearance").queued_s, 3.0);
+}
+
+// A run takes 2 s on the wall here, whatever it simulates.
+TEST(Store, CountsTheTimeThatJobsSimulateIfASweepVariesIt) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string sweep = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5], "duration_s": [0.5, 2, 6, 7]}})");
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(1.0)));
+  (void)store.queue.claim();
+  const jobs::CostOfKind cost = store.reader.find_sweep(sweep).value().costs.at("rigid, clearance");
+  EXPECT_EQ(cost.computed_s, 0.5);
+  EXPECT_EQ(cost.rates, 4.0);
+  EXPECT_EQ(cost.rate_squares, 16.0);
+  EXPECT_EQ(cost.queued_s, 13.0);
+  EXPECT_EQ(cost.queued_squares_s2, 36.0 + 49.0);
+  EXPECT_EQ(cost.longest_queued_s, 7.0);
+  ASSERT_EQ(cost.running.size(), 1U);
+  EXPECT_EQ(cost.running.at(0).simulated_s, 2.0);
+  EXPECT_GE(cost.running.at(0).elapsed_s, 0.0);
 }
 
 // It may have megabytes, which nobody looks at there.

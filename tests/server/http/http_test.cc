@@ -302,7 +302,7 @@ TEST(HttpBasePath, IsAcceptedBeforeEveryPath) {
     return client.read_all();
   };
   const std::string id = bench.submit(R"({"sweep": {"clearance_mm": [0.1]}})");
-  for (const std::string path : {"/a/rpsup/v1/sweeps/" + id, "/v1/sweeps/" + id}) {
+  for (const std::string& path : {"/a/rpsup/v1/sweeps/" + id, "/v1/sweeps/" + id}) {
     const std::string answer = ask(path);
     EXPECT_EQ(status_of(answer), 200) << path;
     EXPECT_EQ(nlohmann::json::parse(body_of(answer)).at("links").at("self"), "/a/rpsup/v1/sweeps/" + id) << path;
