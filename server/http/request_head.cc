@@ -225,6 +225,14 @@ RequestHead read_head(std::string_view head) {
   return result;
 }
 
+/// Whether a name is written out: one with an escape stands for another.
+static bool is_plain_name(std::string_view host) {
+  constexpr std::string_view kSigns = ".-_:[]";
+  return std::ranges::all_of(host, [&](unsigned char c) {
+    return (c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
 OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed,
                          std::vector<std::string> names)
     : bound_host_(lower(bound_host)), allowed_(std::move(allowed)), names_(std::move(names)) {
@@ -236,7 +244,8 @@ bool OriginCheck::is_allowed(const std::string& origin) const {
 }
 
 std::optional<Refusal> OriginCheck::find_fault(const Headers& headers) const {
-  if (!headers.any_host && !names_this_server(headers.host))
+  const bool is_open = headers.any_host && is_plain_name(headers.host);
+  if (!is_open && !names_this_server(headers.host))
     return Refusal{403, "this service does not answer under the name in Host"};
   if (is_allowed(headers.origin)) return std::nullopt;
   if (!headers.origin.empty() && !is_own(headers.origin, headers.host)) {

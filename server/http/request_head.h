@@ -60,7 +60,7 @@ class OriginCheck {
     std::string origin;
     std::string fetch_site;  ///< Sec-Fetch-Site
     std::string fetch_mode;  ///< Sec-Fetch-Mode
-    bool any_host = false;   ///< the path is one that is served under every name
+    bool any_host = false;   ///< the path is one that is served under every name without escapes
   };
 
   [[nodiscard]] std::optional<Refusal> find_fault(const Headers& headers) const;

@@ -69,7 +69,8 @@ TEST(Service, ComputesASweepAndShowsIt) {
                                      {"cancel", "/v1/sweeps/" + id + "/cancel"},
                                      {"retry", "/v1/sweeps/" + id + "/retry"},
                                      {"extend", "/v1/sweeps/" + id + "/extend"},
-                                     {"move", "/v1/sweeps/" + id + "/move"}}));
+                                     {"move", "/v1/sweeps/" + id + "/move"},
+                                     {"study", nullptr}}));
   for (const char* time : {"created_at", "started_at", "ended_at"}) {
     std::string form = sweep.at(time);
     std::replace_if(form.begin(), form.end(), [](char c) { return c >= '0' && c <= '9'; }, 'd');

@@ -35,7 +35,9 @@ TEST_F(Http, RefusesOtherNamesAndOtherSitesOnEveryRoute) {
     std::string path(route.pattern);
     if (const auto id = path.find("{id}"); id != std::string::npos) path.replace(id, 4, "swp_1");
     const std::string line = std::string(route.method) + " " + path + " HTTP/1.1\r\n";
-    EXPECT_EQ(status_of(ask(line + "Host: evil.com\r\n\r\n")), 403) << line;
+    const bool probe = path == "/healthz" || path == "/readyz";  // answered under every name
+    EXPECT_EQ(status_of(ask(line + "Host: evil.com\r\n\r\n")), probe ? 200 : 403) << line;
+    EXPECT_EQ(status_of(ask(line + "Host: evil%2ecom\r\n\r\n")), 403) << line;
     EXPECT_EQ(status_of(ask(line + "Host: localhost\r\nOrigin: http://evil.com\r\n\r\n")), 403) << line;
     EXPECT_EQ(status_of(ask(
                   line + "Host: localhost\r\nSec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: no-cors\r\n\r\n")),

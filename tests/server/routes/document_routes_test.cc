@@ -99,11 +99,11 @@ TEST(Docs, ServeThePageWithAllItsParts) {
     return;
   }
   ASSERT_EQ(page.status, 200);
-  const std::regex part(R"re((src|href)="(/docs/[^"]+)")re");
+  const std::regex part(R"re((src|href)="(docs/[^"]+)")re");
   std::size_t parts = 0;
   for (std::sregex_iterator found(page.body.begin(), page.body.end(), part), end; found != end;
        ++found, ++parts) {
-    const auto response = bench.call("GET", (*found)[2]);
+    const auto response = bench.call("GET", "/" + (*found)[2].str());
     EXPECT_EQ(response.status, 200) << (*found)[2];
     EXPECT_GT(response.body.size(), 100U) << (*found)[2];
   }

@@ -21,8 +21,8 @@ using server_tests::header;
 TEST(Routes, AnswerUnknownPathsWith404) {
   Bench bench;
   for (const char* const path :
-       {"/nothing", "/v1", "/v1/sweeps/", "/v1/sweeps/a/b", "/v1/sweeps//results", "/v1/sweeps/a b",
-        "/index.html/", "//", "/../server/main.cc", "/v1/sweeps/results/cancel/"}) {
+       {"/nothing", "/nothing/", "/v1", "/v1/", "/v1/sweeps/a/b", "/v1/sweeps//results", "/v1/sweeps/a b",
+        "//", "/../server/main.cc"}) {
     const auto response = bench.call("GET", path);
     EXPECT_EQ(response.status, 404) << path;
     EXPECT_EQ(response.content_type, "application/problem+json") << path;
@@ -65,12 +65,13 @@ TEST(Routes, ServeThePage) {
   EXPECT_EQ(page.status, 200);
   EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
   // Whatever the page asks for is there, and nothing in it needs more than the policy of the server allows.
-  const std::regex reference(R"re((?:src|href)="(/[^"#]*)")re");
+  const std::regex reference(R"re((?:src|href)="([^"#:]+)")re");
   std::vector<std::string> parts;
   for (std::sregex_iterator each(page.body.begin(), page.body.end(), reference), end; each != end; ++each)
     parts.push_back((*each)[1]);
-  EXPECT_NE(std::find(parts.begin(), parts.end(), "/app.js"), parts.end());
-  for (const std::string& part : parts) EXPECT_EQ(bench.call("GET", part).status, 200) << part;
+  // Relative, since a proxy may show the service under a path.
+  EXPECT_NE(std::find(parts.begin(), parts.end(), "app.js"), parts.end());
+  for (const std::string& part : parts) EXPECT_EQ(bench.call("GET", "/" + part).status, 200) << part;
   EXPECT_EQ(page.body.find("style="), std::string::npos);
   EXPECT_EQ(page.body.find("onclick"), std::string::npos);
   EXPECT_EQ(page.body.find("<script>"), std::string::npos);
