@@ -42,16 +42,14 @@ double nearest_decimal(double x, double scale) {
 
 }  // namespace
 
-double geometric_between(double from, double to, long double part) {
-  const double ratio = to / from;
-  return static_cast<double>(from * std::pow(static_cast<long double>(ratio), part));
-}
+double geometric_between(double from, double to, double part) { return from * std::pow(to / from, part); }
 
 double decimal_between(const Span& span, long double part, double steps) {
   if (part <= 0.0L) return span.from;
   if (part >= 1.0L) return span.to;
-  const double x = span.logarithmic ? geometric_between(span.from, span.to, part)
-                                    : static_cast<double>(span.from * (1.0L - part) + span.to * part);
+  const auto x = static_cast<double>(
+      span.logarithmic ? span.from * std::pow(static_cast<long double>(span.to / span.from), part)
+                       : span.from * (1.0L - part) + span.to * part);
   const double scale = span.logarithmic ? x : std::max(std::abs(span.from), std::abs(span.to));
   const long double width = span.logarithmic
                                 ? std::abs(static_cast<long double>(x) * std::log(span.to / span.from))

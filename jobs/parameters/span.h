@@ -22,7 +22,7 @@ struct Span {
 
 /// Number between two others above 0, from (to / from)^part: NaN or beyond the ends if to / from is no normal
 /// double.
-[[nodiscard]] double geometric_between(double from, double to, long double part);
+[[nodiscard]] double geometric_between(double from, double to, double part);
 
 /// Value of a span at a part of it: the nearest decimal of at most 12 significant digits, none of them below
 /// the 15th place of the larger end, so that a sixth of 0 to 0.6 is 0.1, and a sum that cancels is 0. Ends are

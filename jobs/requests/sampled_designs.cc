@@ -73,19 +73,18 @@ class Dimension {
     if (!values_.empty())
       return values_[std::min(static_cast<std::size_t>(u * static_cast<double>(values_.size())),
                               values_.size() - 1)];
-    if (integer_) return json(static_cast<std::int64_t>(integer_at(u)));
-    return json(decimal_between(span_, u, kSteps));
+    return integer_ ? json(static_cast<std::int64_t>(integer_at(u))) : json(number_at(u, span_.to));
   }
 
  private:
-  /// Steps of a range whose points lie anywhere, for decimal_between()
-  static constexpr double kSteps = 1e6;
+  /// Rounding could lead beyond the end, by one bit.
+  [[nodiscard]] double number_at(double u, double end) const {
+    return std::min(span_.logarithmic ? geometric_between(span_.from, end, u) : std::lerp(span_.from, end, u),
+                    end);
+  }
 
   [[nodiscard]] double integer_at(double u) const {
-    const double end = span_.to + 1.0;
-    const double x =
-        span_.logarithmic ? geometric_between(span_.from, end, u) : std::lerp(span_.from, end, u);
-    return std::min(std::floor(x), span_.to);
+    return std::min(std::floor(number_at(u, span_.to + 1.0)), span_.to);
   }
 
   bool integer_;

@@ -15,7 +15,7 @@ namespace jobs {
 // Designs that fill a space: {"type", "count", "seed", "over": {path: {"from", "to", "scale"} or a list}}. A
 // coordinate u in [0, 1) is
 //
-//     of a number:    from (1 - u) + to u,                  or with "log"  from (to / from)^u, decimals both,
+//     of a number:    from (1 - u) + to u,                  or with "log"  from (to / from)^u,
 //     of an integer:  from + floor(u (to - from + 1)),      or with "log"  floor(from ((to + 1) / from)^u),
 //     of a list:      its value with the number floor(u n),
 //

@@ -41,9 +41,9 @@ Json make_headers() {
   const Json text{{"type", "string"}};
   return {
       {"Location",
-       {{"description", "The path of what was made"},
+       {{"description", "Path of what was made; behind a proxy that of the proxy stands before it"},
         {"required", true},
-        {"schema", {{"type", "string"}, {"pattern", "^/v1/"}}}}},
+        {"schema", {{"type", "string"}, {"pattern", "^(/[^?#]*)?/v1/"}}}}},
       {"ETag", {{"description", "For If-None-Match; only on what has ended"}, {"schema", text}}},
       {"Preference-Applied",
        {{"description", "The wait that was done; without it there was none"},

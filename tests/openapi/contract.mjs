@@ -36,6 +36,13 @@ function decoded(target) {
   }
 }
 
+/** Whether a redirect leads to the same path without the slash at its end. */
+function leadsFromASlashTooMany({ method, target, headers, body }) {
+  const path = target.split("?")[0];
+  const meant = new URL(headers.location ?? "", `http://localhost${path}`).pathname;
+  return method === "GET" && body === "" && path.endsWith("/") && meant === path.replace(/\/+$/, "");
+}
+
 export class Contract {
   constructor(document) {
     this.document = document;
@@ -74,9 +81,10 @@ export class Contract {
 
   /**
    * What is wrong with an answer, as texts; none if the document allows it.
-   * @param exchange {method, target, status, headers (lower case), body (text)}
+   * @param recorded {method, target, status, headers (lower case), body (text)}
    */
-  check(exchange) {
+  check(recorded) {
+    const exchange = { ...recorded, target: recorded.target.replace(/^https?:\/\/[^/?#]*/i, "") || "/" };
     const method = exchange.method.toLowerCase() === "head" ? "get" : exchange.method.toLowerCase();
     const path = this.paths.find(({ pattern }) => pattern.test(decoded(exchange.target)))?.path;
     const operation = path && this.document.paths[path][method];
@@ -86,6 +94,7 @@ export class Contract {
   }
 
   #checkRefusal(exchange, path) {
+    if (exchange.status === 308 && leadsFromASlashTooMany(exchange)) return [];
     if (!refusals.includes(exchange.status)) return [`${exchange.status} where there is no operation`];
     const faults = this.#checkProblem(exchange);
     if (exchange.status === 405 && !exchange.headers.allow) faults.push("405 without Allow");

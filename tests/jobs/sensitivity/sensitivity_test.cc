@@ -29,7 +29,7 @@ Ended run_sensitivity(const ordered_json& request) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
   const std::string id = service.submit_sweep(request).at("id");
-  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(300)));
+  EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(60)));
   return {service.find_sweep(id).value(), service.find_results(id).value()};
 }
 
@@ -83,7 +83,7 @@ TEST(Sensitivity, HasTheElementaryEffectsOfTheWholeRange) {
   const double size = effect_cell(table, 1, "effect_size");
   EXPECT_LE(size, effect(4.0) * (1 + 1e-6));
   EXPECT_GE(size, effect(4.0 + 5.0 / 3.0) * (1 - 1e-6));
-  EXPECT_NEAR(effect_cell(table, 1, "effect_mean"), size, 1e-9 * size) << "speeds are decimals of 12 digits";
+  EXPECT_EQ(effect_cell(table, 1, "effect_mean"), size);
   EXPECT_EQ(effect_cell(table, 1, "metric"), peak());
 }
 
