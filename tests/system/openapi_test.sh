@@ -12,8 +12,8 @@ node "$3/query_keys.mjs" "$url"
 
 # What is written down wrongly is found.
 jq -cn 'first(inputs | select(.status == 201) | .status = 202)' exchanges.ndjson >wrong
-jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz") | .body = "{\"status\": 1}")' exchanges.ndjson >>wrong
-jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz") | .headers["x-more"] = "1")' exchanges.ndjson >>wrong
+jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz" and .status == 200) | .body = "{\"status\": 1}")' exchanges.ndjson >>wrong
+jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz" and .status == 200) | .headers["x-more"] = "1")' exchanges.ndjson >>wrong
 expect_equal "$(wc -l <wrong)" 3 "answers to spoil"
 cat exchanges.ndjson wrong >spoilt
 expect_code 1 node "$3/check_exchanges.mjs" openapi.json spoilt

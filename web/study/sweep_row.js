@@ -17,7 +17,7 @@ const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shown
 
 /// Link to the study that a sweep belongs to. @param {{ study_id: string | null }} sweep
 export function studyBadge({ study_id: id }) {
-  if (id === null) return "";
+  if (!id) return "";
   const [page, text] = id.startsWith("sch_") ? ["searches", "search"] : ["wear", "wear study"];
   return h("a", { class: "badge", href: routeTo(page, id), title: `These jobs are those of the ${text} ${id}` }, text);
 }
@@ -61,7 +61,7 @@ export function sweepRow(act, signal) {
     cells.created.textContent = moment(sweep.created_at);
     setSeen(buttons.cancel, isUnderWay(sweep));
     setSeen(buttons.retry, sweep.counts.failed + sweep.counts.cancelled > 0);
-    setSeen(buttons.delete, !isUnderWay(sweep) && sweep.study_id === null);
+    setSeen(buttons.delete, !isUnderWay(sweep) && !sweep.study_id);
     for (const button of Object.values(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
     again.href = routeTo("new", "", { from: sweep.id });
     again.setAttribute("aria-label", `Duplicate ${name}`);
