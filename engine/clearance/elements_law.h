@@ -178,7 +178,7 @@ RPSUP_INLINE void add_sums(const JointLoad<Lanes>& of, JointLoad<double>& load) 
 }
 
 /// Forces of an arc's elements, eight side by side. Elements are taken one by one where the numbers of eight
-/// are not contiguous, or eight would go around the ring. Between the arc's end and its beginning none touches.
+/// are not contiguous, or eight would go around the ring. None touches outside the arc.
 RPSUP_INLINE bool add_arc_abreast(const RadialElements& elements,
                                   const RelativeMotion<double, double>& journal, const Vec3<double>& axial,
                                   int ring, const ElementArc& arc, const double* bristles,

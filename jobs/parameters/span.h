@@ -25,9 +25,9 @@ struct Span {
 [[nodiscard]] double geometric_between(double from, double to, double part);
 
 /// Value of a span at a part of it: the nearest decimal of at most 12 significant digits, none of them below
-/// the 15th place of the larger end, so that a sixth of 0 to 0.6 is 0.1, and a sum that cancels is 0. Ends are
-/// exact. Where decimals of 12 digits are too coarse, further from the value than a thousandth of a step, the
-/// value is the nearest double.
+/// the 15th place of the larger end, so that a sixth of 0 to 0.6 is 0.1, and a sum that cancels is 0. Ends
+/// are exact. Where decimals of 12 digits are too coarse, further from the value than a thousandth of a step,
+/// the value is the nearest double.
 /// @param part   in [0, 1]
 /// @param steps  number of steps in the span
 [[nodiscard]] double decimal_between(const Span& span, long double part, double steps);

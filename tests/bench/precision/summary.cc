@@ -57,12 +57,12 @@ std::string error_text(double error) {
 const char* name_of(Coupler coupler) { return coupler == Coupler::kRigid ? "rigid" : "flexible"; }
 
 charts::Chart draw_chart(const std::vector<Measurement>& measurements, Coupler coupler) {
-  const std::array colours{validation::kOrange, validation::kBlue, validation::kGreen, validation::kPurple};
+  const std::array colours{charts::kOrange, charts::kBlue, charts::kGreen, charts::kPurple};
   charts::Chart chart{.title = std::string(name_of(coupler)) + " coupler",
                       .x_label = "CPU ms per simulated second",
                       .y_label = "worst relative error of the peak",
-                      .x_scale = validation::Scale::kLog,
-                      .y_scale = validation::Scale::kLog};
+                      .x_scale = charts::Scale::kLog,
+                      .y_scale = charts::Scale::kLog};
   for (const Group& g : group(measurements, coupler)) {
     if (chart.series.empty() || chart.series.back().label != g.setting->integrator)
       chart.series.push_back(charts::Series{.label = g.setting->integrator,
