@@ -7,7 +7,7 @@
 
 namespace engine {
 
-/// What a friction law gives at one contact: force per normal force, and the bristle's rate. Both in the
+/// Result of a friction law at one contact: force per normal force, and the bristle's rate. Both in the
 /// tangent frame (t, axial).
 struct BristleForce {
   Eigen::Vector2d force_ratio;   ///< sigma_0 z + sigma_1 zd + sigma_2 v, [1]; it acts against v

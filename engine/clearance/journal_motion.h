@@ -20,7 +20,7 @@ struct JournalMotion {
   [[nodiscard]] Eigen::Vector3d calc_velocity(const Eigen::Vector3d& r) const { return v + w.cross(r); }
 };
 
-/// What all contacts of one joint do together. Force and moment act on the journal, about its centre, in {b};
+/// Load of all contacts of one joint. Force and moment act on the journal, about its centre, in {b};
 /// on the bearing the opposite.
 struct ContactLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]

@@ -7,7 +7,7 @@
 
 namespace engine {
 
-/// How a run ended, and its cost.
+/// End of a run: status, time reached, cost.
 struct RunOutcome {
   RunStatus status = RunStatus::kSucceeded;
   double t = 0.0;        ///< reached, [s]

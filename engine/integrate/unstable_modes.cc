@@ -16,7 +16,7 @@ constexpr double kSlowestGrowth = 20.0;  // [1/s]; the contact changes before a 
 
 }  // namespace
 
-// Of their sizes from the beginning: see MotionSystem::allocate().
+// Matrices have their final sizes from the beginning: see MotionSystem::allocate().
 UnstableModes::UnstableModes(Eigen::Index free_count)
     : response_(2 * free_count, 2 * free_count), solver_(2 * free_count) {}
 

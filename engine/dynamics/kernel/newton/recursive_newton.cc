@@ -37,7 +37,7 @@ void RecursiveNewtonSolver<Scalar>::solve_in_place(NumbersAt<Scalar> x) {
   work_.bias_force.fill({});
   contacts_.add_bristle_loads(tree_, z, work_, losses);
   tree_.solve(x, work_);
-  // Of bristles that do not act; apply_woodbury() writes the others.
+  // Rows of bristles that do not act; apply_woodbury() writes the others.
   for (int b = 0; b < layout_.bristles; ++b) z.set(b, inverse_shift_ * z[b]);
   contacts_.apply_woodbury(tree_, z, work_, losses);
   losses.structural = tree_.calc_damper_power(work_.qd);
