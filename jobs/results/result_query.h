@@ -23,11 +23,11 @@ struct ResultFilter {
 /// Query of the results of a sweep. Columns are those of its table, all other parameters, and kErrorColumns.
 struct ResultQuery {
   /// Columns, with commas between, in the order in which they are wanted; empty: all
-  std::string fields;
-  std::vector<ResultFilter> filters;  ///< rows that have no value of the column pass none
+  std::string fields{};
+  std::vector<ResultFilter> filters{};  ///< rows that have no value of the column pass none
   /// Columns, with commas between; one with a leading '-' has its largest values first. Null comes last
-  std::string order_by;
-  std::optional<std::size_t> limit;   ///< rows
+  std::string order_by{};
+  std::optional<std::size_t> limit{};  ///< rows
 };
 
 /// Columns of why a job failed, as a word and as a sentence. Tables have them only if a query names them.

@@ -94,9 +94,10 @@ Json make_lyapunov() {
   return rows_of(
       {{"pairs", described(kCount, "of a perturbed run and the one that is not")},
        {"pairs_diverged", described(kCount, "those whose distance grew as far as the motion allows")},
-       {"exponent_1_s", described(kNumberOrNull, "mean over those")},
-       {"exponent_low_1_s", kNumberOrNull},
-       {"exponent_high_1_s", kNumberOrNull},
+       {"exponent_1_s", described(kNumberOrNull, "mean growth of the distance's logarithm; null if all pairs "
+                                                 "had parted within the run-up")},
+       {"exponent_low_1_s", described(kNumberOrNull, "lower end of the 95 % interval; above 0: chaotic")},
+       {"exponent_high_1_s", described(kNumberOrNull, "upper end of the 95 % interval")},
        {"from_s", described(kNumberOrNull, "with to_s: where it was measured, on the mean")},
        {"to_s", kNumberOrNull}});
 }

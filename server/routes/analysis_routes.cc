@@ -46,12 +46,14 @@ std::optional<SweepAndResults> find_sweep_and_results(const RequestContext& cont
   return results ? std::optional(SweepAndResults{std::move(*sweep), std::move(*results)}) : std::nullopt;
 }
 
-/// The sweep with job_id, the values of its axes, and run_up_s.
+/// The sweep with job_id, replicate if it has any, the values of its axes, and run_up_s.
 std::optional<SweepAndResults> find_with_run_up(const RequestContext& context) {
   const auto sweep = context.service.find_sweep(context.id);
-  if (!sweep) return std::nullopt;
+  const auto all = sweep ? context.service.find_results(context.id, {.limit = 1}) : std::nullopt;
+  if (!all) return std::nullopt;
   jobs::ResultQuery query;
   query.fields = "job_id,run_up_s";
+  if (std::ranges::find(all->columns, "replicate") != all->columns.end()) query.fields += ",replicate";
   for (const auto& path : sweep->at("axes")) {
     if (path != "run_up_s") query.fields += "," + path.get<std::string>();
   }
@@ -236,7 +238,7 @@ Response get_bifurcation(const RequestContext& context) {
 Response get_lyapunov(const RequestContext& context) {
   Query query(context.request, {"format"});
   const TableFormat format = find_row_format(context.request, query);
-  const auto table = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
+  const auto table = run_analysis(context, query, find_with_run_up, [&](const SweepAndResults& found) {
     return make_lyapunov(found.sweep.at("axes"), found.results,
                          trajectory_finder(context, "a journal, whose positions this analysis compares"));
   });

@@ -13,7 +13,7 @@ export async function lyapunovCard(element, { sweep }, signal) {
   const rows = await findAnalysis(sweep.id, "lyapunov", {}, signal);
   /** @type {(row: typeof rows[number]) => string} */
   const shown = (row) =>
-    (row.exponent_1_s === null ? "no divergence"
+    (row.exponent_1_s === null ? "parted in the run-up"
       : `${number(row.exponent_1_s, 3)} (${number(row.exponent_low_1_s, 3)} to ${number(row.exponent_high_1_s, 3)})`);
   element.replaceChildren(table("Lyapunov exponents", rows,
     [...axisColumns(sweep.axes), ["Exponent [1/s]", shown],

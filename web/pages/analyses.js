@@ -66,7 +66,7 @@ function cardsFor({ sweep, numbers, isRpsup }) {
       bifurcationCard],
     isRpsup && sweep.request.replicates
       && ["Largest Lyapunov exponent",
-        "Divergence rate of runs with nearly equal contact stiffness; a positive exponent means chaos.", lyapunovCard],
+        "Divergence rate of runs with nearly equal contact stiffness; an interval above 0 means chaos.", lyapunovCard],
   ];
   return cards.filter(Boolean);
 }

@@ -106,7 +106,9 @@ TEST(Analyses, LookAtMotionsOnceATurn) {
   ASSERT_EQ(exponents.size(), 2U);
   EXPECT_EQ(exponents.at(0).at("pairs"), 1);
   EXPECT_EQ(exponents.at(0).at("pairs_diverged"), 0) << "both runs are the same";
-  EXPECT_TRUE(exponents.at(0).at("exponent_1_s").is_null());
+  EXPECT_EQ(exponents.at(0).at("exponent_1_s"), 0.0);
+  EXPECT_LT(exponents.at(0).at("exponent_low_1_s"), 0.0);
+  EXPECT_GT(exponents.at(0).at("exponent_high_1_s"), 0.0);
 
   const std::string job =
       "/v1/jobs/" +
