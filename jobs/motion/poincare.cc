@@ -2,8 +2,10 @@
 #include "jobs/motion/poincare.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,18 +14,126 @@
 
 namespace jobs {
 
-engine::Trajectory take_section(const engine::Trajectory& run, double phase) {
-  const auto angle_at =
-      std::ranges::find(run.channels, "crank_angle_rad", &engine::QuantityInfo::key) - run.channels.begin();
+namespace {
+
+constexpr std::string_view kCrankAngle = "crank_angle_rad";
+
+/// Channels that are the derivatives of another one; empty: there is none.
+struct Derivatives {
+  std::string_view channel, rate, acceleration;
+};
+constexpr std::array<Derivatives, 3> kDerivatives{
+    {{kCrankAngle, "crank_velocity_rad_s", ""},
+     {"slider_position_m", "slider_velocity_m_s", "slider_acceleration_m_s2"},
+     {"slider_velocity_m_s", "slider_acceleration_m_s2", ""}}};
+
+const std::vector<double>* find_column_of(const engine::Trajectory& run, std::string_view key) {
+  const auto found = std::ranges::find(run.channels, key, &engine::QuantityInfo::key);
+  return found == run.channels.end() ? nullptr
+                                     : &run.columns[static_cast<std::size_t>(found - run.channels.begin())];
+}
+
+/// Positions, angles, quaternions and energies are smooth; forces and accelerations have kinks.
+bool is_smooth(std::string_view key) {
+  if (key.ends_with("_n_m")) return false;
+  return std::ranges::any_of(std::array<std::string_view, 9>{"_m", "_mm", "_rad", "_mrad", "_j", "_qw", "_qx",
+                                                             "_qy", "_qz"},
+                             [&](std::string_view unit) { return key.ends_with(unit); });
+}
+
+/// A channel between its samples: the polynomial of least degree that has its values, and as many of its
+/// stored derivatives as there are, at both ends of the interval (Hermite interpolation, quintic or cubic:
+/// Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6). Without derivatives,
+/// the cubic through four samples of a smooth channel, the line through two of another one.
+class Interpolant {
+ public:
+  Interpolant(const engine::Trajectory& run, std::size_t channel)
+      : t_(run.columns.front()), x_(run.columns[channel]), smooth_(is_smooth(run.channels[channel].key)) {
+    const auto found = std::ranges::find(kDerivatives, run.channels[channel].key, &Derivatives::channel);
+    if (found == kDerivatives.end()) return;
+    rate_ = find_column_of(run, found->rate);
+    if (rate_ != nullptr) acceleration_ = find_column_of(run, found->acceleration);
+  }
+
+  /// @param k  the sample that ends the interval, 1 or more  @param u  of the interval, from 0 to 1
+  [[nodiscard]] double at(std::size_t k, double u) const {
+    if (rate_ != nullptr) return calc_hermite(k, u);
+    return smooth_ && t_.size() >= 4 ? calc_cubic(k, std::lerp(t_[k - 1], t_[k], u))
+                                     : std::lerp(x_[k - 1], x_[k], u);
+  }
+
+ private:
+  [[nodiscard]] double calc_hermite(std::size_t k, double u) const {
+    const double h = t_[k] - t_[k - 1];
+    const double rise = x_[k] - x_[k - 1];
+    const double v0 = h * (*rate_)[k - 1], v1 = h * (*rate_)[k];
+    if (acceleration_ == nullptr) {
+      const double c2 = 3.0 * rise - 2.0 * v0 - v1, c3 = v0 + v1 - 2.0 * rise;
+      return x_[k - 1] + u * (v0 + u * (c2 + u * c3));
+    }
+    const double a0 = h * h * (*acceleration_)[k - 1], a1 = h * h * (*acceleration_)[k];
+    const double c3 = 10.0 * rise - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1;
+    const double c4 = -15.0 * rise + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1;
+    const double c5 = 6.0 * rise - 3.0 * (v0 + v1) - 0.5 * (a0 - a1);
+    return x_[k - 1] + u * (v0 + u * (0.5 * a0 + u * (c3 + u * (c4 + u * c5))));
+  }
+
+  /// Lagrange's, through the samples next to the interval.
+  [[nodiscard]] double calc_cubic(std::size_t k, double t) const {
+    const std::size_t first = std::clamp<std::size_t>(k, 2, t_.size() - 2) - 2;
+    double sum = 0.0;
+    for (std::size_t i = first; i < first + 4; ++i) {
+      double weight = x_[i];
+      for (std::size_t j = first; j < first + 4; ++j)
+        if (j != i) weight *= (t - t_[j]) / (t_[i] - t_[j]);
+      sum += weight;
+    }
+    return sum;
+  }
+
+  const std::vector<double>& t_;
+  const std::vector<double>& x_;
+  const std::vector<double>* rate_ = nullptr;
+  const std::vector<double>* acceleration_ = nullptr;
+  bool smooth_;
+};
+
+/// Where in its k-th interval the angle passes a value between those at its ends, by bisection.
+double find_passage(const Interpolant& angle, std::size_t k, double value, bool rises) {
+  double low = 0.0, high = 1.0;
+  for (double middle = 0.5; low < middle && middle < high; middle = 0.5 * (low + high))
+    ((angle.at(k, middle) < value) == rises ? low : high) = middle;
+  return high;
+}
+
+}  // namespace
+
+std::vector<std::string> section_channels(std::vector<std::string> wanted) {
+  const std::vector<std::string> asked = wanted;
+  wanted.emplace_back(kCrankAngle);
+  for (const Derivatives& of : kDerivatives) {
+    if (of.channel != kCrankAngle && std::ranges::find(asked, of.channel) == asked.end()) continue;
+    wanted.emplace_back(of.rate);
+    if (!of.acceleration.empty()) wanted.emplace_back(of.acceleration);
+  }
+  return wanted;
+}
+
+engine::Trajectory take_section(const engine::Trajectory& run, double phase,
+                                const std::vector<std::string>& wanted) {
+  const auto angle_at = static_cast<std::size_t>(
+      std::ranges::find(run.channels, kCrankAngle, &engine::QuantityInfo::key) - run.channels.begin());
   const std::vector<double>& t = run.columns.at(0);
-  const std::vector<double>& angle = run.columns.at(static_cast<std::size_t>(angle_at));
+  const std::vector<double>& angle = run.columns.at(angle_at);
+  const Interpolant angle_between(run, angle_at);
   engine::Trajectory section;
   section.channels = {run.channels[0], {.key = "turn", .help = "turns of the crank since its place at rest"}};
-  std::vector<const std::vector<double>*> others;
+  std::vector<Interpolant> others;
   for (std::size_t c = 1; c < run.columns.size(); ++c) {
-    if (static_cast<std::ptrdiff_t>(c) == angle_at) continue;
+    if (c == angle_at || (!wanted.empty() && std::ranges::find(wanted, run.channels[c].key) == wanted.end()))
+      continue;
     section.channels.push_back(run.channels[c]);
-    others.push_back(&run.columns[c]);
+    others.emplace_back(run, c);
   }
   section.columns.resize(section.channels.size());
   for (std::size_t k = 1; k < t.size(); ++k) {
@@ -32,11 +142,11 @@ engine::Trajectory take_section(const engine::Trajectory& run, double phase) {
     // The whole number in (before, after], or in [after, before) of a crank that turns back.
     const double turn = after > before ? std::floor(after) : std::ceil(after);
     if (after == before || (after > before ? turn <= before : turn >= before)) continue;
-    const double part = (turn - before) / (after - before);
+    const double passed = phase + 2.0 * std::numbers::pi * turn;
+    const double part = turn == after ? 1.0 : find_passage(angle_between, k, passed, after > before);
     section.columns[0].push_back(std::lerp(t[k - 1], t[k], part));
     section.columns[1].push_back(turn);
-    for (std::size_t c = 0; c < others.size(); ++c)
-      section.columns[c + 2].push_back(std::lerp((*others[c])[k - 1], (*others[c])[k], part));
+    for (std::size_t c = 0; c < others.size(); ++c) section.columns[c + 2].push_back(others[c].at(k, part));
   }
   return section;
 }
@@ -47,7 +157,7 @@ ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& resu
     throw WrongState("the sweep has " + std::to_string(results.rows.size()) + " jobs; a diagram is made of " +
                      std::to_string(kMostJobsOfDiagram) + " at most");
   }
-  if (query.channel == "t_s" || query.channel == "crank_angle_rad") {
+  if (query.channel == "t_s" || query.channel == kCrankAngle) {
     throw InvalidRequest(std::vector<Fault>{
         {"/channel", "must be a channel other than t_s and crank_angle_rad, which define the section"}});
   }
@@ -58,12 +168,12 @@ ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& resu
   const std::size_t job = find_column(results, "job_id", "");
   table.columns.insert(table.columns.end(), {"job_id", "t_s", query.channel});
   for (const auto& row : results.rows) {
-    const TrajectoryQuery wanted{.channels = {query.channel, "crank_angle_rad"},
+    const TrajectoryQuery wanted{.channels = section_channels({query.channel}),
                                  .from = query.from ? *query.from : row[run_up].get<double>(),
-        .to = {}};
+                                 .to = {}};
     const auto run = find(row[job].get<std::string>(), wanted);
     if (!run) continue;
-    const engine::Trajectory section = take_section(*run, query.phase);
+    const engine::Trajectory section = take_section(*run, query.phase, {query.channel});
     for (std::size_t k = 0; k < section.columns[0].size(); ++k) {
       std::vector<nlohmann::json> cells;
       for (const std::size_t column : swept) cells.push_back(row[column]);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -12,12 +13,22 @@
 
 namespace jobs {
 
-/// The state of a run once a turn, whenever the crank passes an angle: linear between the samples around that
-/// instant.
-/// @param run  t_s first, crank_angle_rad, and what else is wanted
+/// Channels that take_section needs for those that are wanted: these, crank_angle_rad, and the derivatives
+/// that a run keeps of both.
+[[nodiscard]] std::vector<std::string> section_channels(std::vector<std::string> wanted);
+
+/// The state of a run once a turn, whenever the crank passes an angle. Instant and state are those of
+/// polynomials through the samples and their stored derivatives: the error falls with the 4th power of the
+/// sampling interval, of a position with rate and acceleration with the 6th (as far as the instant is right),
+/// of forces, accelerations and velocities without derivatives with the 2nd.
+/// Source: M. Henon, On the numerical computation of Poincare maps, Physica D 5 (1982) 412-414, asks for the
+/// crossing to the accuracy of the integration; here as accurately as samples allow.
+/// @param run  t_s first, crank_angle_rad, what else is wanted, and derivatives of these if there are any
 /// @param phase  the angle, [rad]
+/// @param wanted  channels; empty: all of the run's
 /// @returns t_s, turn (its number, from the crank's place at rest) and what else was wanted; a row a turn
-[[nodiscard]] engine::Trajectory take_section(const engine::Trajectory& run, double phase);
+[[nodiscard]] engine::Trajectory take_section(const engine::Trajectory& run, double phase,
+                                              const std::vector<std::string>& wanted = {});
 
 /// Finds channels of a job; empty if it has none.
 using FindTrajectory =

@@ -279,17 +279,15 @@ Response get_spectrum(const RequestContext& context) {
 Response get_poincare(const RequestContext& context) {
   Query query(context.request, {"channels", "phase_rad", "from", "to", "format"});
   const TableFormat format = find_column_format(context.request, query);
-  jobs::TrajectoryQuery wanted;
-  wanted.channels = query.list("channels");
-  if (wanted.channels.empty()) wanted.channels = {"journal_x_mm", "journal_y_mm"};
-  wanted.channels.emplace_back("crank_angle_rad");
-  wanted.from = query.number("from");
-  wanted.to = query.number("to");
+  std::vector<std::string> channels = query.list("channels");
+  if (channels.empty()) channels = {"journal_x_mm", "journal_y_mm"};
+  const jobs::TrajectoryQuery wanted{.channels = jobs::section_channels(channels),
+                                     .from = query.number("from"), .to = query.number("to")};
   const double phase = query.number("phase_rad").value_or(0.0);
   const auto run =
       query.check_and([&] { return find_rpsup_trajectory(context, context.id, wanted, kSection); });
   if (!run) throw no_trajectory(context);
-  return make_columns(context, format, jobs::take_section(*run, phase), "poincare");
+  return make_columns(context, format, jobs::take_section(*run, phase, channels), "poincare");
 }
 
 Response get_wear(const RequestContext& context) {

@@ -114,6 +114,61 @@ TEST(TakeSection, HasTheInstantsAtWhichTheCrankPasses) {
       << "backwards";
 }
 
+/// A crank that turns by w t + a sin(3 t), a slider at sin(7 t), a journal at cos(5 t), and a force like it.
+engine::Trajectory known_motion(double w, double a, double dt) {
+  std::vector<std::vector<double>> columns(7);
+  for (int k = 0; k * dt <= 40.0; ++k) {
+    const double t = k * dt;
+    const std::array<double, 7> row{t, w * t + a * std::sin(3.0 * t), w + 3.0 * a * std::cos(3.0 * t),
+                                    std::sin(7.0 * t), 7.0 * std::cos(7.0 * t), -49.0 * std::sin(7.0 * t),
+                                    std::cos(5.0 * t)};
+    for (std::size_t c = 0; c < row.size(); ++c) columns[c].push_back(row[c]);
+  }
+  columns.push_back(columns.back());
+  return run_of({"t_s", "crank_angle_rad", "crank_velocity_rad_s", "slider_position_m", "slider_velocity_m_s",
+                 "slider_acceleration_m_s2", "journal_x_mm", "contact_force_n"},
+                std::move(columns));
+}
+
+/// Largest errors of a section of that motion: instants, slider, journal, force.
+std::array<double, 4> section_errors(double w, double a, double dt) {
+  const auto section = jobs::take_section(known_motion(w, a, dt), 1.0,
+                                          {"slider_position_m", "journal_x_mm", "contact_force_n"});
+  std::array<double, 4> errors{};
+  for (std::size_t k = 0; k < section.columns[0].size(); ++k) {
+    const double passed = 1.0 + 2.0 * pi * section.columns[1][k];
+    double t = section.columns[0][k];
+    for (int n = 0; n < 20; ++n)
+      t -= (w * t + a * std::sin(3.0 * t) - passed) / (w + 3.0 * a * std::cos(3.0 * t));
+    const std::array<double, 4> exact{t, std::sin(7.0 * t), std::cos(5.0 * t), std::cos(5.0 * t)};
+    for (std::size_t c = 0; c < 4; ++c)
+      errors[c] = std::max(errors[c], std::abs(section.columns[c == 0 ? 0 : c + 1][k] - exact[c]));
+  }
+  return errors;
+}
+
+// The largest of 100 errors or more, each with its own place between two samples.
+TEST(TakeSection, ConvergesWithTheOrderOfItsPolynomials) {
+  const auto coarse = section_errors(17.0, 2.0, 0.02), fine = section_errors(17.0, 2.0, 0.01);
+  EXPECT_NEAR(std::log2(coarse[0] / fine[0]), 4.0, 0.3) << "instants, by angle and velocity";
+  EXPECT_NEAR(std::log2(coarse[1] / fine[1]), 4.0, 0.3) << "a position is no better than its instant";
+  // A steady crank: the instants are exact, and each channel shows its own order.
+  const auto steady = section_errors(17.0, 0.0, 0.02), finer = section_errors(17.0, 0.0, 0.01);
+  EXPECT_LT(steady[0], 1e-13);
+  EXPECT_NEAR(std::log2(steady[1] / finer[1]), 6.0, 0.3) << "with rate and acceleration";
+  EXPECT_NEAR(std::log2(steady[2] / finer[2]), 4.0, 0.3) << "by four samples";
+  EXPECT_NEAR(std::log2(steady[3] / finer[3]), 2.0, 0.3) << "by two samples";
+}
+
+TEST(TakeSection, KeepsWhatIsWantedOnly) {
+  const auto section = jobs::take_section(known_motion(17.0, 2.0, 0.01), 1.0, {"journal_x_mm"});
+  ASSERT_EQ(section.channels.size(), 3U);
+  EXPECT_EQ(section.channels[2].key, "journal_x_mm");
+  EXPECT_EQ(jobs::section_channels({"slider_position_m"}),
+            (std::vector<std::string>{"slider_position_m", "crank_angle_rad", "crank_velocity_rad_s",
+                                      "slider_velocity_m_s", "slider_acceleration_m_s2"}));
+}
+
 /// An exponent's statistics over many sets of runs.
 struct Sets {
   int count = 0, holding = 0, above = 0, below = 0;  ///< intervals that hold a value, lie above or below 0

@@ -28,7 +28,10 @@ engine::RunResult long_run(const jobs::JobSpec& spec, const engine::StopQuery& s
     auto& column = result.trajectory.columns[c];
     column.clear();
     for (int k = 0; k < 64; ++k)
-      column.push_back(c == 0 ? k / 1000.0 : c == 1 ? 0.5 * k : static_cast<double>(c) + (k % 4));
+      column.push_back(c == 0   ? k / 1000.0
+                       : c == 1 ? 0.5 * k
+                       : c == 2 ? 500.0  // the rate of column 1
+                                : static_cast<double>(c) + (k % 4));
   }
   return result;
 }
