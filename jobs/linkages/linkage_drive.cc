@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string_view>
 
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/parameters/parameter_value.h"
@@ -25,6 +26,17 @@ void check_table(const json& drive, engine::Motion motion, const std::string& po
                       "must have one value for each of the " + std::to_string(times.size()) + " times"});
 }
 
+/// Lets the former key stand for the present one, but not beside it.
+void allow_former_key(const json& drive, engine::Motion motion, const std::string& pointer,
+                      LinkageFields& fields, std::vector<Fault>& faults) {
+  const auto [key, former_key] = coefficient_keys(motion);
+  if (!drive.contains(former_key)) return;
+  std::ranges::find(fields, std::string_view(key), &LinkageField::key)->required = false;
+  if (drive.contains(key))
+    faults.push_back({pointer + pointer_token(former_key),
+                      std::string("is the former name of ") + key + ": give one of them"});
+}
+
 engine::StrokeLaw stroke_law_of(const std::string& word) {
   if (word == "cosine") return engine::StrokeLaw::kCosine;
   return word == "parabolic" ? engine::StrokeLaw::kParabolic : engine::StrokeLaw::kCycloidal;
@@ -42,7 +54,9 @@ void check_drive(const json& drive, engine::Motion motion, const std::string& po
     check_fields(json{{"law", drive.value("law", json())}}, any, pointer, faults);
     return;
   }
-  check_fields(drive, drive_fields(motion, law), pointer, faults);
+  LinkageFields fields = drive_fields(motion, law);
+  if (law == "polynomial") allow_former_key(drive, motion, pointer, fields, faults);
+  check_fields(drive, fields, pointer, faults);
   if (law == "table" && faults.size() == before) check_table(drive, motion, pointer, faults);
 }
 
@@ -69,7 +83,10 @@ engine::DriveLaw read_drive(const json& drive, engine::Motion motion,
     return engine::Harmonic{at("mean_m", "mean_rad"), at("amplitude_m", "amplitude_rad"),
                             2.0 * std::numbers::pi * drive.at("frequency_hz").get<double>(),
                             drive.value("phase_rad", 0.0)};
-  if (law == "polynomial") return engine::Polynomial{numbers("coefficients_m_s", "coefficients_rad_s")};
+  if (law == "polynomial") {
+    const auto [key, former_key] = coefficient_keys(motion);
+    return engine::Polynomial{drive.at(drive.contains(key) ? key : former_key).get<Numbers>()};
+  }
   return engine::Spline(drive.at("times_s").get<Numbers>(), numbers("values_m", "values_rad"));
 }
 

@@ -15,6 +15,7 @@ using nlohmann::json;
 constexpr Range kLength = between(-1000, 1000);
 constexpr Range kAngle = between(-360, 360);
 constexpr Range kTime = between(0, 3600);
+constexpr Range kCoefficients = between(-1e9, 1e9);
 
 constexpr std::size_t kLongestText = 100;
 
@@ -318,12 +319,15 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
          .required = true});
     add({.key = "phase_rad", .range = kAny, .unit = "rad", .help = "Of the sine; without it 0"});
   } else if (law == "polynomial") {
-    add({.key = slides(motion) ? "coefficients_m_s" : "coefficients_rad_s", .kind = FieldKind::kNumbers,
-         .range = between(-1e9, 1e9),
-         .unit = slides(motion) ? "m/s^k" : "rad/s^k",
-         .help = "c_0, c_1, ... of the coordinate itself, not of its rate: c_0 + c_1 t + c_2 t^2 + ..., c_k "
-                 "in the unit of the coordinate by s^k",
+    const auto [key, former_key] = coefficient_keys(motion);
+    const std::string_view unit = slides(motion) ? "m/s^k" : "rad/s^k";
+    add({.key = key, .kind = FieldKind::kNumbers, .range = kCoefficients, .unit = unit,
+         .help = "c_0, c_1, ... of the coordinate itself, c_0 + c_1 t + c_2 t^2 + ...: the element of index "
+                 "k in the unit of the coordinate by s^k",
          .required = true});
+    add({.key = former_key, .kind = FieldKind::kNumbers, .range = kCoefficients, .unit = unit,
+         .help = slides(motion) ? "Former name of coefficients_m, with the same meaning"
+                                : "Former name of coefficients_rad, with the same meaning"});
   } else if (law == "table") {
     add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s",
          .help = "Rising; two or more", .required = true});
@@ -335,6 +339,11 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
          .required = true});
   }
   return fields;
+}
+
+CoefficientKeys coefficient_keys(engine::Motion motion) {
+  return slides(motion) ? CoefficientKeys{"coefficients_m", "coefficients_m_s"}
+                        : CoefficientKeys{"coefficients_rad", "coefficients_rad_s"};
 }
 
 const LinkageFields& clearance_fields() {

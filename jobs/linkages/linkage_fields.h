@@ -49,6 +49,13 @@ using LinkageFields = std::vector<LinkageField>;
 [[nodiscard]] const LinkageFields& spring_fields();
 [[nodiscard]] LinkageFields freedom_fields(engine::Motion motion);
 [[nodiscard]] LinkageFields drive_fields(engine::Motion motion, std::string_view law);
+
+/// Keys of the coefficients of a polynomial drive, which has one of both. The former key looks like a rate's.
+struct CoefficientKeys {
+  const char* key;
+  const char* former_key;
+};
+[[nodiscard]] CoefficientKeys coefficient_keys(engine::Motion motion);
 [[nodiscard]] const LinkageFields& clearance_fields();  ///< parameters of a job that a clearance joint may
                                                         ///< have
 

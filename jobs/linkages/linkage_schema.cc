@@ -24,6 +24,11 @@ json schema_of_drive(engine::Motion motion) {
   for (const std::string_view law : kLaws) {
     json schema = schema_of_fields(drive_fields(motion, law));
     schema["properties"]["law"] = {{"const", law}};
+    if (law == "polynomial") {
+      const auto [key, former_key] = coefficient_keys(motion);
+      schema["required"] = {"law"};
+      schema["oneOf"] = {{{"required", {key}}}, {{"required", {former_key}}}};
+    }
     any.push_back(std::move(schema));
   }
   return {{"description", "The law by which the coordinate moves; without it it is free"},

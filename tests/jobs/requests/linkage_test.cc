@@ -338,6 +338,12 @@ constexpr Refusal kRefusals[] = {
      "one entry or more"},
     {"rpsup_alone", R"([{"op": "add", "path": "/coupler_length_m", "value": 0.4}])", "/coupler_length_m",
      "belongs to the linkage"},
+    {"polynomial_without_coefficients", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "polynomial"}}])",
+     "/linkage/joints/crank/drive/coefficients_rad", "is missing"},
+    {"polynomial_with_both_names", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
+       "value": {"law": "polynomial", "coefficients_rad": [0, 1], "coefficients_rad_s": [0, 1]}}])",
+     "/linkage/joints/crank/drive/coefficients_rad_s", "former name of coefficients_rad"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, LinkageRefusal, testing::ValuesIn(kRefusals),
@@ -351,6 +357,22 @@ TEST(LinkageRefusals, ComeAllAtOnce) {
   EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
             (std::vector<std::string>{"/linkage/bodies/crank/mass_kg", "/linkage/joints/crank/from",
                                       "/linkage/joints/rocker/axis"}));
+}
+
+// q = 1 + 2 t + 3 t^2 by either name.
+TEST(PolynomialDrive, HasCoefficientsOfThePosition) {
+  for (const char* const key : {"coefficients_rad", "coefficients_rad_s"}) {
+    const json given{{"duration_s", 0.5}, {"run_up_s", 0}, {"output_rate_hz", 10},
+                     {"linkage", {{"bodies", {{"b", {{"mass_kg", 1}, {"inertia_kg_m2", {1, 1, 1}}}}}},
+                                  {"joints", {{"j", {{"kind", "revolute"}, {"from", "ground"}, {"to", "b"},
+                                                     {"drive", {{"law", "polynomial"},
+                                                                {key, {1, 2, 3}}}}}}}}}}};
+    const engine::RunResult result = run(given);
+    ASSERT_EQ(result.status, engine::RunStatus::kSucceeded) << result.detail;
+    EXPECT_NEAR(column(result.trajectory, "j_rad").back(), 1.0 + 2.0 * 0.5 + 3.0 * 0.25, 1e-12) << key;
+    EXPECT_NEAR(column(result.trajectory, "j_rad_s").back(), 2.0 + 6.0 * 0.5, 1e-12) << key;
+    EXPECT_NEAR(column(result.trajectory, "j_rad_s2").back(), 6.0, 1e-12) << key;
+  }
 }
 
 TEST(LinkageSprings, AreSweptAndLeaveChannelsAndPeaks) {
