@@ -14,6 +14,7 @@
 #include "jobs/linkages/linkage_joint.h"
 #include "jobs/linkages/linkage_size.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -201,7 +202,10 @@ class LinkageChecker {
     if (kind != JointKind::kRevolute || !joint.contains("clearance") || !joint.at("clearance").is_object())
       return;
     const std::size_t before = faults_.size();
-    check_fields(joint.at("clearance"), clearance_fields(), pointer + "/clearance", faults_);
+    json clearance = joint.at("clearance");
+    if (clearance.erase(std::string(kWearKey)) > 0)
+      fault(pointer + "/clearance" + pointer_token(kWearKey), std::string(kWearOfDescribed));
+    check_fields(clearance, clearance_fields(), pointer + "/clearance", faults_);
     if (faults_.size() > before) return;
     const engine::RpsupParameters given = clearance_parameters(joint.at("clearance"), defaults_);
     if (given.c_r >= given.bearing_radius)

@@ -79,7 +79,7 @@ json wear_schema() {
           {"description",
            std::string(kWearHelp) +
                ". As many lists as radial_levels says, all of the same length, no depth above a tenth of "
-               "the bearing's radius. Left out, the bore is round"}};
+               "the bearing's radius. Left out, the bore is round. Of the linkage rpsup only"}};
 }
 
 }  // namespace jobs

@@ -35,6 +35,10 @@ inline constexpr Range kWearDepthRange{.minimum = 0.0, .maximum = 100'000.0};
 
 [[nodiscard]] nlohmann::json wear_schema();
 
+/// Fault of the key beside a described linkage, or in one of its joints.
+inline constexpr std::string_view kWearOfDescribed =
+    "worn bores are given with the linkage \"rpsup\" only; the bores of a described linkage are round";
+
 /// Help of the key, in one line.
 inline constexpr std::string_view kWearHelp =
     "Depth worn off the bearing's bore: for each ring of the journal a list of sectors of equal width, from "

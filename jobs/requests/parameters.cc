@@ -43,7 +43,9 @@ void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
   }
   for (const auto& [key, value] : given.items()) {
     const ParameterInfo* info = find_parameter(key);
-    if (key == "links" || key == kWearKey || (info != nullptr && info->scope == ParameterScope::kRpsup))
+    if (key == kWearKey)
+      faults.push_back({pointer_token(key), std::string(kWearOfDescribed)});
+    else if (key == "links" || (info != nullptr && info->scope == ParameterScope::kRpsup))
       faults.push_back({pointer_token(key),
                         "belongs to the linkage \"rpsup\"; a described linkage says it in its description"});
   }
