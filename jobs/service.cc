@@ -196,7 +196,7 @@ std::optional<ResultTable> Service::find_results(const std::string& sweep_id,
   const auto others = find_other_columns(query, swept_of(*sweep));
   const auto results = store_->reader.find_results(sweep_id, needed_parameters(others));
   if (!results) return std::nullopt;
-  ResultTable table = result_table(*results, others);
+  ResultTable table = result_table(*results, others, query.metric);
   jobs::apply(query, table, kSweepColumns);
   return table;
 }

@@ -17,6 +17,7 @@
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
 #include "jobs/results/result_query.h"
+#include "jobs/results/table_groups.h"
 #include "jobs/results/time_left.h"
 
 namespace jobs {
@@ -278,7 +279,8 @@ const std::vector<std::string>& job_listing_keys() {
   return keys;
 }
 
-ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others) {
+ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others,
+                         const std::string& replicate_metric) {
   const SweepRow& sweep = results.sweep;
   const auto swept = swept_of(sweep);
   ResultTable table{.columns = {"job_id", "state"}, .rows = {}, .ended = has_ended(sweep.counts)};
@@ -286,14 +288,13 @@ ResultTable result_table(const SweepResults& results, const std::vector<std::str
   table.columns.insert(table.columns.end(), swept.begin(), swept.end());
   const std::vector<std::string> keys = metric_keys_of(sweep);
   const MetricColumns metrics = metric_columns(keys, table.columns.size());
-  const auto replicated = metrics.find(kReplicateMetric);
-  const std::size_t peak = replicated == metrics.end() ? table.columns.size() : replicated->second;
   table.columns.insert(table.columns.end(), keys.begin(), keys.end());
+  const std::size_t compared = find_metric(table, replicate_metric);
   const std::size_t own = table.columns.size();
   table.columns.insert(table.columns.end(), others.begin(), others.end());
   table.rows.reserve(results.rows.size());
-  std::vector<ReplicateValue> peaks;
-  peaks.reserve(results.rows.size());
+  std::vector<ReplicateValue> values;
+  values.reserve(results.rows.size());
   for (const ResultRow& row : results.rows) {
     std::vector<json> cells;
     cells.reserve(table.columns.size());
@@ -304,12 +305,12 @@ ResultTable result_table(const SweepResults& results, const std::vector<std::str
     cells.resize(own);
     append_others(row, others, cells);
     if (row.metrics) put_metrics(*row.metrics, metrics, cells);
-    peaks.push_back(replicate_value(row, cells[peak]));
+    values.push_back(replicate_value(row, cells[compared]));
     table.rows.push_back(std::move(cells));
   }
   const bool repeated =
-      std::ranges::any_of(peaks, [](const ReplicateValue& value) { return value.replicate > 0; });
-  if (repeated) table.replicates = calc_statistics_by_row(peaks);
+      std::ranges::any_of(values, [](const ReplicateValue& value) { return value.replicate > 0; });
+  if (repeated) table.replicates = calc_statistics_by_row(values);
   return table;
 }
 

@@ -28,6 +28,7 @@ struct ResultQuery {
   /// Columns, with commas between; one with a leading '-' has its largest values first. Null comes last
   std::string order_by{};
   std::optional<std::size_t> limit{};  ///< rows
+  std::string metric{};                ///< of replicates' statistics; empty: see choose_metric()
 };
 
 /// Columns of why a job failed, as a word and as a sentence. Tables have them only if a query names them.

@@ -9,11 +9,10 @@
 
 namespace jobs {
 
-/// The metric that replicates of a parameter set are compared by.
+/// The metric that replicates of a parameter set are compared by, unless another one is chosen.
 inline constexpr std::string_view kReplicateMetric = "peak_slider_acceleration_m_s2";
 
-/// Statistics of kReplicateMetric over the replicates of one parameter set, in its unit; of a described
-/// linkage, of its first metric.
+/// Statistics of a metric over the replicates of one parameter set, in its unit.
 struct ReplicateStatistics {
   std::size_t count = 0;         ///< replicates that have a value: those that have succeeded
   std::optional<double> mean;    ///< empty if count is 0

@@ -151,7 +151,7 @@ Json make_result_row() {
   properties.update(metric_properties(metric_value));
   properties["replicates_count"] =
       described(kCount, "of the row's set, those that have succeeded; the statistics are of their " +
-                            std::string(jobs::kReplicateMetric));
+                            std::string(jobs::kReplicateMetric) + ", or of the metric of the query");
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"})
     properties[key] = or_null(kNumber);
   for (const std::string_view column : jobs::kErrorColumns)

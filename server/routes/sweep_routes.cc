@@ -64,9 +64,10 @@ Response delete_sweep(const RequestContext& context) {
 }
 
 Response get_results(const RequestContext& context) {
-  Query query(context.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
+  Query query(context.request, {"format", "fields", "order_by", "limit", "metric"}, Query::Others::kKept);
   const TableFormat format = find_row_format(context.request, query);
-  const jobs::ResultQuery wanted = read_result_query(query);
+  jobs::ResultQuery wanted = read_result_query(query);
+  wanted.metric = query.text("metric").value_or("");
   const auto table = query.check_and([&] { return context.service.find_results(context.id, wanted); });
   if (!table) throw no_such_sweep(context.id);
   return with_etag_if(table->ended, context.request,

@@ -469,6 +469,43 @@ TEST(LinkageSweep, IsComputedAndTabulated) {
       << "a metric of another linkage";
 }
 
+// Mean and largest value over the replicates, against those of the rows themselves.
+void expect_statistics_of(const jobs::ResultTable& table, const std::string& metric) {
+  const auto column = static_cast<std::size_t>(
+      std::find(table.columns.begin(), table.columns.end(), metric) - table.columns.begin());
+  ASSERT_LT(column, table.columns.size());
+  double sum = 0.0, most = -1e300;
+  for (const auto& row : table.rows) {
+    sum += row.at(column).get<double>();
+    most = std::max(most, row.at(column).get<double>());
+  }
+  ASSERT_EQ(table.replicates.size(), table.rows.size());
+  const double mean = sum / static_cast<double>(table.rows.size());
+  EXPECT_NEAR(table.replicates[0].mean.value(), mean, 1e-9 * most) << metric;
+  EXPECT_EQ(table.replicates[0].max.value(), most) << metric;
+}
+
+TEST(LinkageSweep, ComparesReplicatesByTheMetricThatIsChosen) {
+  const TemporaryStore store;
+  jobs::ServiceOptions options;
+  options.store = store.file();
+  options.threads = 1;
+  jobs::Service service(std::move(options));
+  json parameters = example("slider_crank");
+  parameters["duration_s"] = 0.01;
+  parameters["run_up_s"] = 0;
+  const std::string metric = "peak_crank_pin_contact_force_n";
+  const json replicates{{"count", 3}, {"perturbation", 1e-3}};
+  const std::string id =
+      service.submit_sweep({{"parameters", parameters}, {"replicates", replicates}}).at("id");
+  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::minutes(2)));
+  const auto unasked = service.find_results(id);
+  expect_statistics_of(*unasked, unasked->columns.at(3));  // behind job_id, state, replicate: the first one
+  expect_statistics_of(*service.find_results(id, {.metric = metric}), metric);
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)service.find_results(id, {.metric = "no_metric"}); })),
+            std::vector<std::string>{"/metric"});
+}
+
 TEST(LinkageSweep, RefusesWhatIsNoPlaceOrNoValueOfTheDescription) {
   const auto pointers = [](const json& axes, const json& parameters) {
     return pointers_of(faults_of([&] {
