@@ -2,7 +2,9 @@
 #include "engine/analysis/linkage_quantities.h"
 
 #include <cstddef>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "engine/dynamics/spring_motion.h"
@@ -13,6 +15,32 @@ namespace {
 
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
+/// "joints.elbow" -> "the joint elbow"
+std::string describe_source(std::string_view source) {
+  if (source.empty()) return "every linkage";
+  const std::size_t dot = source.find('.');
+  const std::string_view kind = source.substr(0, dot);
+  return std::string("the ") + (kind == "bodies" ? "body" : kind == "springs" ? "spring" : "joint") + " " +
+         std::string(source.substr(dot + 1));
+}
+
+/// @param what  "channel" or "metric"  @param sources  one a quantity
+std::optional<KeyClash> find_clash_of(const char* what, const std::vector<QuantityInfo>& table,
+                                      const std::vector<std::string>& sources) {
+  std::map<std::string_view, std::string_view> source_of;
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const auto [entry, is_new] = source_of.emplace(table[k].key, sources[k]);
+    if (is_new) continue;
+    const bool named = !sources[k].empty();
+    const std::string_view source(sources[k]);
+    return KeyClash{.field = std::string(named ? source : entry->second),
+                    .detail = std::string("makes the ") + what + " " + table[k].key + ", and so does " +
+                              describe_source(named ? entry->second : source) +
+                              ": give one of them another name"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage& built, double steady_from)
@@ -20,11 +48,20 @@ LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage&
   measured_.steady_from = steady_from;
   measured_.prepare = prepare();
   add_channel("t_s", "Time", [](const Evaluation& at) { return at.t; });
-  for (std::size_t k = 0; k < linkage.joints.size(); ++k)
+  for (std::size_t k = 0; k < linkage.joints.size(); ++k) {
+    source_ = "joints." + linkage.joints[k].name;
     for (int i = 0; i < built.joints[k].count; ++i)
       add_coordinate(linkage.joints[k].freedoms[static_cast<std::size_t>(i)], built.joints[k].first + i);
-  for (std::size_t k = 0; k < linkage.joints.size(); ++k) add_joint(linkage.joints[k], built.joints[k]);
-  for (std::size_t k = 0; k < linkage.springs.size(); ++k) add_spring(linkage.springs[k], k);
+  }
+  for (std::size_t k = 0; k < linkage.joints.size(); ++k) {
+    source_ = "joints." + linkage.joints[k].name;
+    add_joint(linkage.joints[k], built.joints[k]);
+  }
+  for (std::size_t k = 0; k < linkage.springs.size(); ++k) {
+    source_ = "springs." + linkage.springs[k].name;
+    add_spring(linkage.springs[k], k);
+  }
+  source_.clear();
   add_energy_channels();
   add_run_metrics();
 }
@@ -35,10 +72,12 @@ Preparation LinkageQuantities::prepare() {
 
 void LinkageQuantities::add_channel(std::string key, std::string help, Reading read) {
   channels_.push_back({.info = {.key = std::move(key), .help = std::move(help)}, .read = std::move(read)});
+  channel_sources_.push_back(source_);
 }
 
 void LinkageQuantities::add_metric(QuantityInfo info, Result result) {
   metrics_.push_back(std::move(info));
+  metric_sources_.push_back(source_);
   results_.push_back(std::move(result));
 }
 
@@ -170,6 +209,7 @@ void LinkageQuantities::add_energy_channels() {
   channels_.push_back(
       {.info = {.key = "energy_imbalance_j", .help = "E − E(0) − work of the drives + losses"},
        .kind = Channel::Kind::kImbalance});
+  channel_sources_.push_back(source_);
 }
 
 void LinkageQuantities::add_run_metrics() {
@@ -211,6 +251,16 @@ std::vector<QuantityInfo> LinkageQuantities::channel_table() const {
   for (const Channel& channel : channels_) table.push_back(channel.info);
   for (QuantityInfo& pose : pose_channels(built_.mechanism.links)) table.push_back(std::move(pose));
   return table;
+}
+
+std::optional<KeyClash> LinkageQuantities::find_key_clash() const {
+  const std::vector<QuantityInfo> table = channel_table();
+  std::vector<std::string> sources = channel_sources_;
+  const auto poses_of_one = (table.size() - sources.size()) / built_.mechanism.links.size();
+  for (const NamedFrame& link : built_.mechanism.links)  // "rod,2" is an element of the beam rod
+    sources.insert(sources.end(), poses_of_one, "bodies." + link.name.substr(0, link.name.find(',')));
+  const auto clash = find_clash_of("channel", table, sources);
+  return clash ? clash : find_clash_of("metric", metrics_, metric_sources_);
 }
 
 std::vector<double> LinkageQuantities::calc_metrics(const RunMetrics& metrics,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/analysis/joint_reactions.h"
@@ -10,6 +12,13 @@
 #include "engine/model/linkage.h"
 
 namespace engine {
+
+/// Two channels or two metrics of one key, to which names such as "elbow" with its drive and "elbow_drive_n"
+/// lead.
+struct KeyClash {
+  std::string field;   ///< "joints.NAME", "springs.NAME" or "bodies.NAME", as of InvalidInput
+  std::string detail;  ///< the key and what else has it
+};
 
 /// Channels and metrics of a described linkage, by the names of its joints: coordinates and
 /// drives, reactions of all joints, clearance joints, poses of the bodies.
@@ -26,6 +35,7 @@ class LinkageQuantities {
   /// All channels, those of the poses with them.
   [[nodiscard]] std::vector<QuantityInfo> channel_table() const;
   [[nodiscard]] const std::vector<QuantityInfo>& metric_table() const { return metrics_; }
+  [[nodiscard]] std::optional<KeyClash> find_key_clash() const;
 
   /// In the order of metric_table(). @param metrics  of measured()
   [[nodiscard]] std::vector<double> calc_metrics(const RunMetrics& metrics, const RunOutcome& outcome) const;
@@ -48,6 +58,8 @@ class LinkageQuantities {
 
   const BuiltLinkage& built_;
   JointReactions reactions_;
+  std::string source_;  ///< of what is added, as KeyClash::field; empty: every linkage has it
+  std::vector<std::string> channel_sources_, metric_sources_;
   std::vector<Channel> channels_;
   Measured measured_;
   std::vector<QuantityInfo> metrics_;

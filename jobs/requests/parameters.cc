@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/analysis/linkage_quantities.h"
 #include "engine/errors.h"
 #include "engine/simulate_linkage.h"
 #include "engine/simulate_rpsup.h"
@@ -144,6 +145,13 @@ std::string pointer_of_geometry(const json& completed, std::string_view otherwis
   return pointer_token(otherwise);
 }
 
+/// The fault of a linkage whose names make one key twice.
+void add_key_fault(const engine::Linkage& linkage, std::vector<Fault>& faults) {
+  const engine::BuiltLinkage built = engine::build_linkage(linkage);
+  const auto clash = engine::LinkageQuantities(linkage, built, 0.0).find_key_clash();
+  if (clash) faults.push_back({pointer_of_linkage_field(clash->field), clash->detail});
+}
+
 void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
   try {
     if (spec.linkage) {
@@ -245,8 +253,10 @@ json fill_in_defaults(const json& given) {
 std::vector<Fault> find_combination_faults(const json& completed) {
   std::vector<Fault> faults;
   if (describes_linkage(completed)) {
-    if (!read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults))
-      return faults;
+    const auto linkage =
+        read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults);
+    if (linkage) add_key_fault(*linkage, faults);
+    if (!faults.empty()) return faults;
   } else {
     add_link_faults(completed, faults);
     if (faults.empty()) faults = find_inertia_faults(completed);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -362,6 +363,89 @@ TEST(LinkageRefusals, ComeAllAtOnce) {
   EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
             (std::vector<std::string>{"/linkage/bodies/crank/mass_kg", "/linkage/joints/crank/from",
                                       "/linkage/joints/rocker/axis"}));
+}
+
+// Where the names of two things make one key: the place that is named, the key and the other thing.
+struct Clash {
+  const char* name;
+  const char* joint;     ///< name of a prismatic joint that carries the second body
+  const char* change;    ///< JSON patch
+  const char* pointer;
+  const char* key;
+  const char* other;
+};
+void PrintTo(const Clash& clash, std::ostream* out) { *out << clash.name; }
+
+class ClashOfKeys : public testing::TestWithParam<Clash> {};
+
+TEST_P(ClashOfKeys, IsNamedWithBothSources) {
+  json given = json_of(R"({"linkage": {"bodies": {"a": {"mass_kg": 1, "inertia_kg_m2": [1, 1, 1]},
+      "c": {"mass_kg": 1}}, "joints": {"elbow": {"kind": "revolute", "from": "ground", "to": "a",
+      "drive": {"law": "polynomial", "coefficients_rad": [0, 1]}}}}})");
+  given["linkage"]["joints"][GetParam().joint] = {{"kind", "prismatic"}, {"from", "a"}, {"to", "c"}};
+  given = given.patch(json_of(GetParam().change));
+  const auto faults = faults_of([&] { (void)jobs::complete_parameters(given, ""); });
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].pointer, GetParam().pointer);
+  EXPECT_NE(faults[0].detail.find(GetParam().key), std::string::npos) << faults[0].detail;
+  EXPECT_NE(faults[0].detail.find(GetParam().other), std::string::npos) << faults[0].detail;
+}
+
+constexpr const char* kAddSpring = R"([{"op": "add", "path": "/linkage/springs", "value": {"stay":
+    {"from": "ground", "to": "c", "at_m": [1, 0, 0], "stiffness_n_m": 1}}}])";
+
+constexpr Clash kClashes[] = {
+    {"drive", "elbow_drive_n", "[]", "/linkage/joints/elbow_drive_n", " elbow_drive_n_m,", "the joint elbow"},
+    {"moment", "elbow_moment_x_n", "[]", "/linkage/joints/elbow", " elbow_moment_x_n_m,",
+     "the joint elbow_moment_x_n"},
+    {"pose", "pose_c_y", "[]", "/linkage/bodies/c", " pose_c_y_m,", "the joint pose_c_y"},
+    {"spring", "stay_length", kAddSpring, "/linkage/springs/stay", " stay_length_m,",
+     "the joint stay_length"},
+    {"element_of_a_beam", "slide", R"([{"op": "add", "path": "/linkage/bodies/a_1", "value": {"mass_kg": 1}},
+        {"op": "add", "path": "/linkage/joints/third",
+         "value": {"kind": "prismatic", "from": "c", "to": "a_1"}},
+        {"op": "replace", "path": "/linkage/bodies/a", "value": {"mass_kg": 1, "beam": {"length_m": 1,
+         "diameter_mm": 10}}}])",
+     "/linkage/bodies/a_1", " pose_a_1_x_m,", "the body a:"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, ClashOfKeys, testing::ValuesIn(kClashes),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// Every joint by the name of every channel, less its unit: refused, or no key occurs twice.
+TEST(KeysOfALinkage, OccurOnce) {
+  const json plain = json_of(R"({"linkage": {"bodies": {"a": {"mass_kg": 1, "inertia_kg_m2": [1, 1, 1]},
+      "c": {"mass_kg": 1}}, "joints": {"elbow": {"kind": "cylindrical", "from": "ground", "to": "a",
+      "freedoms": {"turn": {"drive": {"law": "polynomial", "coefficients_rad": [0, 1]}},
+                   "slide": {"drive": {"law": "polynomial", "coefficients_m": [0, 1]}}}},
+      "slide": {"kind": "prismatic", "from": "a", "to": "c"}}}})");
+  const auto tables_of = [](const json& given) {
+    return engine::linkage_tables(*jobs::to_job_spec(jobs::complete_parameters(given, "")).linkage);
+  };
+  const auto tables = tables_of(plain);
+  std::set<std::string> names;
+  for (const auto* const table : {&tables.channels, &tables.metrics})
+    for (const engine::QuantityInfo& info : *table)
+      for (std::size_t end = 1; end < std::min<std::size_t>(info.key.size(), 33); ++end)
+        if (info.key[end] == '_') names.insert(info.key.substr(0, end));
+  names.erase("elbow");
+  std::size_t refused = 0;
+  for (const std::string& name : names) {
+    json given = plain;
+    given["linkage"]["joints"].erase("slide");
+    given["linkage"]["joints"][name] = plain["linkage"]["joints"]["slide"];
+    try {
+      const auto made = tables_of(given);
+      for (const auto* const table : {&made.channels, &made.metrics}) {
+        std::set<std::string> keys;
+        for (const engine::QuantityInfo& info : *table) EXPECT_TRUE(keys.insert(info.key).second) << info.key;
+      }
+    } catch (const jobs::InvalidRequest&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 5U);
+  EXPECT_LT(refused, names.size());
 }
 
 // q = 1 + 2 t + 3 t^2 by either name.
