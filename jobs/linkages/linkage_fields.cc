@@ -135,8 +135,9 @@ const LinkageFields& body_fields() {
        .kind = FieldKind::kInertia,
        .range = between(-1e9, 1e9),
        .unit = "kg m^2",
-       .help = "(xx, yy, zz) or (xx, yy, zz, xy, xz, yz) about the centre of mass, along the body's axes; "
-               "without it none: a point"},
+       .help = "(xx, yy, zz) or (xx, yy, zz, xy, xz, yz) about the centre of mass, along the body's axes: "
+               "elements of the inertia tensor, xy = -integral of x y dm, the negative of the product of "
+               "inertia of other conventions; without it none: a point"},
       {.key = "inertia_about_origin_kg_m2",
        .kind = FieldKind::kInertia,
        .range = between(-1e9, 1e9),
