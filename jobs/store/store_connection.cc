@@ -4,11 +4,13 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include "jobs/store/store_schema.h"
@@ -112,6 +114,39 @@ void check_has_one_name(int file, const std::filesystem::path& store) {
                      SQLITE_CANTOPEN);
 }
 
+/// Extended attribute of a store that is open: inode of its folder and name, which its log is named after.
+/// The attribute belongs to the file, whatever its name; a copy by cp has none, and some file systems keep
+/// none.
+constexpr const char* kLogMark = "user.rpsup.log_of";
+
+std::string log_mark_of(const std::filesystem::path& store) {
+  const std::filesystem::path path = std::filesystem::weakly_canonical(store);
+  struct stat folder {};
+  ::stat(path.parent_path().c_str(), &folder);
+  return std::to_string(folder.st_ino) + " " + path.string();
+}
+
+/// Folder's inode and file name of a mark.
+std::pair<std::string, std::string> place_of(const std::string& mark) {
+  return {mark.substr(0, mark.find(' ')), mark.substr(mark.rfind('/') + 1)};
+}
+
+/// A process that was killed leaves its log beside the name that it used: under another name, as of a bind
+/// mount, the store would be opened without it.
+void check_log_is_here(int file, const std::filesystem::path& store) {
+  constexpr std::size_t kLongestMark = 4096;
+  std::string mark(kLongestMark, '\0');
+  const ssize_t length = ::fgetxattr(file, kLogMark, mark.data(), mark.size());
+  if (length <= 0 || has_content(store.string() + "-wal")) return;
+  mark.resize(static_cast<std::size_t>(length));
+  if (place_of(mark) == place_of(log_mark_of(store))) return;
+  throw StorageError("the store " + store.string() + " was not closed when it was last used, as " +
+                         mark.substr(mark.find(' ') + 1) +
+                         ", and its log lies beside that name: start once under that name, or, if the log is "
+                         "lost, use a copy (cp); it has been left as it is",
+                     SQLITE_CANTOPEN);
+}
+
 }  // namespace
 
 Disk disk_state(int system_error) {
@@ -161,6 +196,10 @@ StoreFileLock::StoreFileLock(const std::filesystem::path& store) {
                          SQLITE_BUSY);
     }
     check_has_one_name(file_, store);
+    check_log_is_here(file_, store);
+    const std::string mark = log_mark_of(store);
+    static_cast<void>(::fsetxattr(file_, kLogMark, mark.data(), mark.size(), 0));
+    log_ = std::filesystem::weakly_canonical(store).string() + "-wal";
   } catch (...) {
     ::close(file_);
     throw;
@@ -168,7 +207,9 @@ StoreFileLock::StoreFileLock(const std::filesystem::path& store) {
 }
 
 StoreFileLock::~StoreFileLock() {
-  if (file_ >= 0) ::close(file_);
+  if (file_ < 0) return;
+  if (!has_content(log_)) static_cast<void>(::fremovexattr(file_, kLogMark));
+  ::close(file_);
 }
 
 void check_name_of_store(const std::filesystem::path& store) {
@@ -185,6 +226,7 @@ void check_name_of_store(const std::filesystem::path& store) {
                              "export it under that one",
                          SQLITE_BUSY);
     check_has_one_name(file, store);
+    check_log_is_here(file, store);
   } catch (...) {
     ::close(file);
     throw;

@@ -36,17 +36,20 @@ class StoreLock {
 class StoreFileLock {
  public:
   /// Makes the file if there is none.
-  /// @throws StorageError if the file is in use under another name, or has several
+  /// @throws StorageError if the file is in use under another name, or has several, or was not closed when it
+  ///     was in use under another one, which its log lies beside
   explicit StoreFileLock(const std::filesystem::path& store);
   ~StoreFileLock();
   StoreFileLock(const StoreFileLock&) = delete;
   StoreFileLock& operator=(const StoreFileLock&) = delete;
 
  private:
+  std::filesystem::path log_;
   int file_ = -1;
 };
 
-/// Checks that a file that somebody else may serve is not served under another name, and has one name only.
+/// Checks that a file that somebody else may serve is not served under another name, has one name only, and
+/// has its log beside this name.
 /// Not for a file that this process serves: closing it takes away SQLite's locks.
 void check_name_of_store(const std::filesystem::path& store);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whom the file of a store is for, and which files are refused and left alone.
 
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <sys/xattr.h>
+#include <unistd.h>
 
 #include "jobs/base/errors.h"
 #include "jobs/store/store.h"
@@ -84,6 +88,46 @@ TEST(Store, IsRefusedInAnotherFolder) {
     std::filesystem::rename(moved, temporary.file());
   }
   EXPECT_EQ(refusal_of(temporary.file()), "");
+}
+
+/// Serves a store and is killed with a sweep in its log.
+void serve_and_be_killed(const std::filesystem::path& file) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    jobs::Store store(file);
+    add_sweep(store, "{}");
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+// The log of a killed process lies beside the name that it used: opened under another name, as a bind mount
+// has, the store would lack what stands in the log.
+TEST(Store, IsRefusedUnderAnotherNameThanItsLogs) {
+  const TemporaryStore temporary;
+  const std::filesystem::path file = temporary.file(), moved = file.string() + ".moved";
+  serve_and_be_killed(file);
+  if (::getxattr(file.c_str(), "user.rpsup.log_of", nullptr, 0) <= 0)
+    GTEST_SKIP() << "this file system has no extended attributes";
+  std::filesystem::rename(file, moved);
+  EXPECT_NE(refusal_of(moved).find("its log lies beside that name"), std::string::npos) << refusal_of(moved);
+  EXPECT_NE(refusal_of(moved).find(file.string()), std::string::npos) << refusal_of(moved);
+  EXPECT_NE(refusal_of_copy(moved).find("its log lies beside that name"), std::string::npos);
+  std::filesystem::rename(moved, file);
+  {
+    jobs::Store store(file);
+    EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1U) << "with its log";
+  }
+  std::filesystem::rename(file, moved);
+  EXPECT_EQ(refusal_of(moved), "") << "closed, it may be moved";
+  std::filesystem::rename(moved, file);
+  serve_and_be_killed(file);
+  std::filesystem::rename(file, moved);
+  std::filesystem::rename(file.string() + "-wal", moved.string() + "-wal");
+  jobs::Store store(moved);
+  EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 2U) << "its log has come with it";
 }
 
 TEST(Store, IsCopiedOnlyIfItIsOne) {
