@@ -215,7 +215,8 @@ std::optional<engine::Trajectory> Service::find_trajectory(const std::string& jo
 std::optional<SweepNews> Service::find_news(const std::string& sweep_id, std::int64_t after) const {
   const auto changes = store_->reader.find_changes(sweep_id, after);
   if (!changes) return std::nullopt;
-  SweepNews news{.progress = progress_json(changes->sweep, slots_for(changes->sweep)),
+  SweepNews news{.progress = progress_json(with_parts_done(changes->sweep), slots_for(changes->sweep),
+                                           options_.executor),
                  .ended = has_ended(changes->sweep.counts), .jobs = {}};
   for (const EndedJob& job : changes->ended) news.jobs.push_back({job.change, ended_job_json(job)});
   return news;
@@ -325,8 +326,22 @@ int Service::slots_for(const SweepRow& row) const {
                                                  : options_.threads;
 }
 
+SweepRow Service::with_parts_done(SweepRow row) const {
+  const auto fill_in = [this](Costs& costs) {
+    for (auto& [kind, cost] : costs) {
+      for (RunningCost& job : cost.running) {
+        for (const auto& executor : executors_)
+          if (const auto part = executor->find_part_done(job.id)) job.part_done = part;
+      }
+    }
+  };
+  fill_in(row.costs);
+  for (RivalSweep& rival : row.rivals) fill_in(rival.costs);
+  return row;
+}
+
 json Service::sweep_resource(const SweepRow& row, Detail detail) const {
-  json sweep = sweep_json(row, slots_for(row), detail);
+  json sweep = sweep_json(with_parts_done(row), slots_for(row), detail, options_.executor);
   if (row.executor.empty()) sweep["executor"] = options_.executor;
   return sweep;
 }

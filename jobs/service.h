@@ -195,6 +195,8 @@ class Service {
   [[nodiscard]] bool has_cluster() const { return !options_.site.folder.empty(); }
   [[nodiscard]] ExecutorFilter filter_of(std::string_view executor) const;
   [[nodiscard]] int slots_for(const SweepRow& row) const;
+  /// With what the executors know of its running jobs, and of its rivals'.
+  [[nodiscard]] SweepRow with_parts_done(SweepRow row) const;
   [[nodiscard]] nlohmann::json sweep_resource(const SweepRow& row, Detail detail) const;
 
   void claim(const OnClaim& on_claim);

@@ -68,9 +68,17 @@ void LocalPool::wake() {
 
 void LocalPool::stop_job(const std::string& id) {
   const std::lock_guard lock(running_mutex_);
-  for (auto& [attempt, stop] : running_) {
-    if (attempt.first == id) stop.request_stop();
+  for (auto& [attempt, task] : running_) {
+    if (attempt.first == id) task.stop.request_stop();
   }
+}
+
+std::optional<double> LocalPool::find_part_done(const std::string& id) const {
+  const std::lock_guard lock(running_mutex_);
+  for (const auto& [attempt, task] : running_) {
+    if (attempt.first == id) return task.part_done->load();
+  }
+  return std::nullopt;
 }
 
 nlohmann::json LocalPool::status() const {
@@ -118,9 +126,10 @@ std::optional<LocalPool::Task> LocalPool::take(const HandOver& hand_over) {
   std::optional<Task> task;
   try {
     hand_over([&](const ClaimedJob& job) {
-      task.emplace(Task{.job = job, .stop = {}});
+      auto part_done = std::make_shared<std::atomic<double>>(0.0);
+      task.emplace(Task{.job = job, .stop = {}, .part_done = std::move(part_done)});
       const std::lock_guard lock(running_mutex_);
-      running_.insert_or_assign({job.id, job.attempt}, task->stop);
+      running_.insert_or_assign({job.id, job.attempt}, *task);
     });
   } catch (...) {
     if (task) forget(task->job);
@@ -140,15 +149,15 @@ void LocalPool::forget(const ClaimedJob& job) noexcept {
 std::optional<LocalPool::Task> LocalPool::claim_next() { return take(source_.claim); }
 
 std::optional<LocalPool::Task> LocalPool::compute(const Task& task, const std::stop_token& stop) {
-  const std::optional<RunRecord> record = run(task.job, stop, task.stop.get_token());
+  const std::optional<RunRecord> record = run(task, stop);
   std::optional<Task> next = deliver(task.job, record, stop);
   // If another job has waited for this one, this thread takes it now: nobody need be woken.
   forget(task.job);
   return next;
 }
 
-std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_token& stop,
-                                        const std::stop_token& job_stop) const {
+std::optional<RunRecord> LocalPool::run(const Task& task, const std::stop_token& stop) const {
+  const ClaimedJob& job = task.job;
   // Parameters that cannot be read are those of a damaged store or an older program; run_and_record tells the
   // user of the job. It sees the specification that is read here, whose linkage says which metrics there are.
   JobSpec spec;
@@ -156,7 +165,10 @@ std::optional<RunRecord> LocalPool::run(const ClaimedJob& job, const std::stop_t
     spec = within_limits(to_job_spec(nlohmann::json::parse(job.parameters)), limits_);
     return runner_(spec, query);
   };
-  const auto stopped = [&](double) { return stop.stop_requested() || job_stop.stop_requested(); };
+  const auto stopped = [&](double t) {
+    task.part_done->store(t / spec.options.duration);
+    return stop.stop_requested() || task.stop.stop_requested();
+  };
   try {
     RunRecord record = run_and_record(spec, read_and_run, stopped, limits_.wall_time_s);
     if (source_.ran) source_.ran(spec, record);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -45,6 +47,7 @@ class LocalPool : public Executor {
 
   void wake() override;
   void stop_job(const std::string& id) override;
+  [[nodiscard]] std::optional<double> find_part_done(const std::string& id) const override;
   /// Stops all running jobs and gives them back to the source, too.
   void stop() override;
   [[nodiscard]] nlohmann::json status() const override;
@@ -54,6 +57,7 @@ class LocalPool : public Executor {
   struct Task {
     ClaimedJob job;
     std::stop_source stop;
+    std::shared_ptr<std::atomic<double>> part_done;
   };
 
   void work(const std::stop_token& stop);
@@ -61,8 +65,7 @@ class LocalPool : public Executor {
   /// Does what is to be done for the job. @returns the next one, if that has been claimed on the way
   [[nodiscard]] std::optional<Task> compute(const Task& task, const std::stop_token& stop);
   /// Empty if there was no memory even to say so.
-  [[nodiscard]] std::optional<RunRecord> run(const ClaimedJob& job, const std::stop_token& stop,
-                                             const std::stop_token& job_stop) const;
+  [[nodiscard]] std::optional<RunRecord> run(const Task& task, const std::stop_token& stop) const;
   /// @param record  empty: the job goes back to the queue
   [[nodiscard]] std::optional<Task> deliver(const ClaimedJob& job, const std::optional<RunRecord>& record,
                                             const std::stop_token& stop);
@@ -81,10 +84,10 @@ class LocalPool : public Executor {
   const std::function<void(const std::string&)> log_;
 
   // Guards running_; taken while the source is locked, so nothing may be asked of that under it
-  std::mutex running_mutex_;
+  mutable std::mutex running_mutex_;
   /// By id and attempt: a job that was cancelled and queued again may begin before its former attempt has
   /// stopped.
-  std::map<std::pair<std::string, std::int64_t>, std::stop_source> running_;
+  std::map<std::pair<std::string, std::int64_t>, Task> running_;
 
   std::mutex wake_mutex_;  // guards wakes_
   std::condition_variable_any wake_;

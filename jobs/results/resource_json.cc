@@ -69,8 +69,8 @@ double progress(const StateCounts& counts) {
   return static_cast<double>(total - left) / static_cast<double>(total);
 }
 
-json time_left_json(const SweepRow& row, int threads) {
-  const auto left = estimate_time_left(row, threads);
+json time_left_json(const SweepRow& row, int threads, std::string_view default_executor) {
+  const auto left = estimate_time_left(row, threads, default_executor);
   if (!left) return {{"eta_s", nullptr}, {"eta_low_s", nullptr}, {"eta_high_s", nullptr}};
   return {{"eta_s", left->expected_s}, {"eta_low_s", left->low_s}, {"eta_high_s", left->high_s}};
 }
@@ -195,7 +195,7 @@ json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& 
   return job;
 }
 
-json sweep_json(const SweepRow& row, int threads, Detail detail) {
+json sweep_json(const SweepRow& row, int threads, Detail detail, std::string_view default_executor) {
   const std::string self = "/v1/sweeps/" + row.id;
   json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)},
              {"counts", counts_json(row.counts)},
@@ -208,7 +208,7 @@ json sweep_json(const SweepRow& row, int threads, Detail detail) {
                         {"cancel", self + "/cancel"},
                         {"retry", self + "/retry"}, {"extend", self + "/extend"}, {"move", self + "/move"},
                         {"study", study_path(row.study_id)}}}};
-  sweep.update(time_left_json(row, threads));
+  sweep.update(time_left_json(row, threads, default_executor));
   if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
   return sweep;
 }
@@ -234,10 +234,10 @@ json unstored_job_json(const json& parameters, const RunRecord& record, std::int
           {"run", run_json(run, 1, false)}};
 }
 
-json progress_json(const SweepRow& row, int threads) {
+json progress_json(const SweepRow& row, int threads, std::string_view default_executor) {
   json progress_now{{"sweep_id", row.id}, {"state", sweep_state(row.counts)},
                     {"counts", counts_json(row.counts)}, {"progress", progress(row.counts)}};
-  progress_now.update(time_left_json(row, threads));
+  progress_now.update(time_left_json(row, threads, default_executor));
   return progress_now;
 }
 

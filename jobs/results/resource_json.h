@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -21,7 +22,9 @@ enum class Detail { kFull, kListing };
                                       const std::vector<std::string>& wanted = {});
 
 /// A listing leaves out the request. @param threads  how many jobs are computed at a time, for the ETA
-[[nodiscard]] nlohmann::json sweep_json(const SweepRow& row, int threads, Detail detail);
+/// @param default_executor  of sweeps that name none
+[[nodiscard]] nlohmann::json sweep_json(const SweepRow& row, int threads, Detail detail,
+                                        std::string_view default_executor = {});
 
 /// A job that was computed without a store: no id, no links.
 [[nodiscard]] nlohmann::json unstored_job_json(const nlohmann::json& parameters, const RunRecord& record,
@@ -31,7 +34,8 @@ enum class Detail { kFull, kListing };
 [[nodiscard]] nlohmann::json study_json(const StudyRow& row, const std::string& route);
 
 /// Progress of a sweep, a part of its resource.
-[[nodiscard]] nlohmann::json progress_json(const SweepRow& row, int threads);
+[[nodiscard]] nlohmann::json progress_json(const SweepRow& row, int threads,
+                                           std::string_view default_executor = {});
 
 /// Keys of an object.
 [[nodiscard]] std::vector<std::string> keys_of(const nlohmann::json& object);

@@ -3,46 +3,110 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
 
 namespace jobs {
 namespace {
 
-/// Variance of the wall time a simulated second.
-double calc_rate_variance(const CostOfKind& cost, double rate) {
-  if (cost.computed < 2) return rate * rate;
-  const auto n = static_cast<double>(cost.computed);
-  return std::max(0.0, (cost.rate_squares - cost.rates * cost.rates / n) / (n - 1.0));
+/// Cost of a simulated second of a kind, and how well it is known.
+struct Rate {
+  double mean = 0.0;
+  double variance = 0.0;    ///< of one job's
+  double samples = 1.0;
+};
+
+std::optional<Rate> find_rate(const std::string& kind, const CostOfKind& cost, double unit_s,
+                              const std::map<std::string, double>& usual) {
+  if (cost.computed > 0 && cost.computed_s > 0.0) {
+    const auto n = static_cast<double>(cost.computed);
+    double wall_time_s = cost.wall_time_s, computed_s = cost.computed_s;
+    for (const RunningCost& job : cost.running) {
+      if (job.part_done) wall_time_s += job.elapsed_s;
+      computed_s += job.part_done.value_or(0.0) * job.simulated_s;
+    }
+    const double mean = wall_time_s / computed_s;
+    const double variance =
+        cost.computed < 2 ? mean * mean
+                          : std::max(0.0, (cost.rate_squares - cost.rates * cost.rates / n) / (n - 1.0));
+    return Rate{.mean = mean, .variance = variance, .samples = n};
+  }
+  const auto found = usual.find(kind);
+  if (found == usual.end()) return std::nullopt;
+  const double mean = found->second * unit_s;
+  return Rate{.mean = mean, .variance = mean * mean};
+}
+
+/// Time on one thread.
+struct Work {
+  double expected_s = 0.0, variance_s2 = 0.0;
+  double longest_s = 0.0;   ///< of its jobs
+
+  void add(const Work& other) {
+    expected_s += other.expected_s;
+    variance_s2 += other.variance_s2;
+  }
+};
+
+/// By passing time: the solvers give way to other programs, so that their CPU time says too little.
+/// @param waiting  part of the queued jobs that counts
+std::optional<Work> calc_work(const Costs& costs, double waiting, double unit_s,
+                              const std::map<std::string, double>& usual) {
+  Work work;
+  for (const auto& [kind, cost] : costs) {
+    const double queued = waiting * static_cast<double>(cost.queued);
+    if (queued == 0.0 && cost.running.empty()) continue;
+    const auto rate = find_rate(kind, cost, unit_s, usual);
+    if (!rate) return std::nullopt;
+    double left_squares_s2 = waiting * cost.queued_squares_s2;
+    work.expected_s += rate->mean * waiting * cost.queued_s;
+    if (queued > 0.0) work.longest_s = std::max(work.longest_s, rate->mean * cost.longest_queued_s);
+    for (const RunningCost& job : cost.running) {
+      // A job that takes longer than expected is expected to take as much longer again.
+      const double expected_s = rate->mean * job.simulated_s;
+      const double left_s =
+          job.part_done ? (1.0 - *job.part_done) * expected_s : std::abs(expected_s - job.elapsed_s);
+      work.expected_s += left_s;
+      work.longest_s = std::max(work.longest_s, left_s);
+      left_squares_s2 += job.simulated_s * job.simulated_s;
+    }
+    const double left = queued + static_cast<double>(cost.running.size());
+    work.variance_s2 += rate->variance * left_squares_s2 * (1.0 + left / rate->samples);
+  }
+  return work;
+}
+
+double count_queued(const Costs& costs) {
+  std::int64_t queued = 0;
+  for (const auto& [kind, cost] : costs) queued += cost.queued;
+  return static_cast<double>(queued);
+}
+
+/// Part of a rival's queued jobs that are claimed before the last one of the sweep.
+double part_before(const SweepRow& row, const RivalSweep& rival) {
+  if (rival.priority != row.priority) return rival.priority > row.priority ? 1.0 : 0.0;
+  const double queued = count_queued(rival.costs);
+  return queued > 0.0 ? std::min(1.0, count_queued(row.costs) / queued) : 0.0;
 }
 
 }  // namespace
 
-std::optional<TimeLeft> estimate_time_left(const SweepRow& row, int threads) {
+std::optional<TimeLeft> estimate_time_left(const SweepRow& row, int threads,
+                                           std::string_view default_executor) {
   if (has_ended(row.counts)) return TimeLeft{};
-  // By passing time: the solvers give way to other programs, so that their CPU time says too little.
-  double thread_time_s = 0.0;
-  double variance_s2 = 0.0;
-  double longest_s = 0.0;
-  for (const auto& [kind, cost] : row.costs) {
-    const std::size_t running = cost.running.size();
-    if (cost.queued == 0 && running == 0) continue;
-    if (cost.computed == 0 || !(cost.computed_s > 0.0)) return std::nullopt;
-    const double rate = cost.wall_time_s / cost.computed_s;
-    double left_squares_s2 = cost.queued_squares_s2;
-    thread_time_s += rate * cost.queued_s;
-    longest_s = std::max(longest_s, rate * cost.longest_queued_s);
-    for (const RunningCost& job : cost.running) {
-      // A job that takes longer than expected is expected to take as much longer again.
-      const double left_s = std::abs(rate * job.simulated_s - job.elapsed_s);
-      thread_time_s += left_s;
-      longest_s = std::max(longest_s, left_s);
-      left_squares_s2 += job.simulated_s * job.simulated_s;
-    }
-    const double left = static_cast<double>(cost.queued) + static_cast<double>(running);
-    variance_s2 += calc_rate_variance(cost, rate) * left_squares_s2 *
-                   (1.0 + left / static_cast<double>(cost.computed));
+  const auto executor = [&](const std::string& name) { return name.empty() ? default_executor : name; };
+  auto work = calc_work(row.costs, 1.0, row.unit_s, row.usual_rates);
+  if (!work) return std::nullopt;
+  for (const RivalSweep& rival : row.rivals) {
+    if (count_queued(row.costs) == 0.0 || executor(rival.executor) != executor(row.executor)) continue;
+    const auto before =
+        calc_work(rival.costs, part_before(row, rival), rival.unit_s, row.usual_rates);
+    if (!before) return std::nullopt;
+    work->add(*before);
   }
-  const double spread_s = 2.0 * std::sqrt(variance_s2) / threads;
-  const double expected_s = std::max(longest_s, thread_time_s / threads);
+  const double spread_s = 2.0 * std::sqrt(work->variance_s2) / threads;
+  const double expected_s = std::max(work->longest_s, work->expected_s / threads);
   return TimeLeft{.expected_s = expected_s, .low_s = std::max(0.0, expected_s - spread_s),
                   .high_s = expected_s + spread_s};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -22,6 +23,8 @@ class Executor {
   virtual void wake() = 0;
   /// Stops the job if it is being computed; its record comes to nothing unless the store still wants it.
   virtual void stop_job(const std::string& id) = 0;
+  /// Part of its time that a running job has simulated; empty: not known.
+  [[nodiscard]] virtual std::optional<double> find_part_done(const std::string& /*id*/) const { return {}; }
   /// Ends the executor's own threads. Returns when that is done.
   virtual void stop() = 0;
   /// {"name", "slots": how many jobs it can compute at a time, "tasks": {"pending", "running"}, "nodes":

@@ -7,6 +7,7 @@
 #include "jobs/base/time_text.h"
 #include "jobs/store/store_insert.h"
 #include "jobs/store/check_quota.h"
+#include "jobs/store/read_rows.h"
 #include "jobs/store/store_results.h"
 #include "jobs/store/sweep_order.h"
 
@@ -225,17 +226,7 @@ void ClusterBatches::end(std::int64_t batch) {
 }
 
 std::map<std::string, double> ClusterBatches::find_cost_rates() const {
-  return core_.readers.read([&](const SQLite::Database& database) {
-    SQLite::Statement list(database,
-                           "SELECT j.kind, avg(r.wall_time_s / json_extract(c.parameters, '$.duration_s')) "
-                           "FROM (SELECT seq, content, wall_time_s FROM results WHERE error_reason IS NULL "
-                           "ORDER BY seq DESC LIMIT 500) r "
-                           "JOIN contents c ON c.seq = r.content JOIN jobs j ON j.result = r.seq AND "
-                           "j.reused = 0 GROUP BY j.kind");
-    std::map<std::string, double> rates;
-    while (list.executeStep()) rates.emplace(list.getColumn(0).getString(), list.getColumn(1).getDouble());
-    return rates;
-  });
+  return core_.readers.read([](const SQLite::Database& database) { return read_cost_rates(database); });
 }
 
 std::string ClusterBatches::find_identity() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,8 @@ namespace jobs {
 [[nodiscard]] std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id);
 [[nodiscard]] std::optional<SweepResults> read_results(const SQLite::Database& database,
                                                        const std::string& sweep_id, RowParameters parameters);
+/// As ClusterBatches::find_cost_rates().
+[[nodiscard]] std::map<std::string, double> read_cost_rates(const SQLite::Database& database);
 [[nodiscard]] std::optional<StudyRow> read_study(const SQLite::Database& database, const std::string& id);
 
 }  // namespace jobs

@@ -28,6 +28,8 @@ using StateCounts = std::array<std::int64_t, kJobStates.size()>;
 struct RunningCost {
   double simulated_s = 1.0;  ///< as CostOfKind counts it
   double elapsed_s = 0.0;    ///< since it was claimed
+  std::string id{};
+  std::optional<double> part_done{};  ///< of its simulated time; empty: not known, as of the store itself
 };
 
 /// Jobs of one PlannedJob::kind in a sweep: how many are left, and what those that were computed cost. The
@@ -45,6 +47,16 @@ struct CostOfKind {
   double rate_squares = 0.0;        ///< the sum of the squares of these
 };
 
+using Costs = std::map<std::string, CostOfKind>;  ///< by PlannedJob::kind
+
+/// Sweep that shares the threads with another one, or the jobs without a sweep.
+struct RivalSweep {
+  std::int64_t priority = 0;
+  std::string executor{};    ///< empty: it named none
+  double unit_s = 1.0;       ///< what CostOfKind counts as 1 s, [s]
+  Costs costs{};
+};
+
 struct SweepRow {
   std::string id, name;
   std::string request;                               ///< empty in listings and changes
@@ -57,7 +69,12 @@ struct SweepRow {
   /// Of its first job, and of its last one if all have ended
   std::optional<std::int64_t> started_ms, ended_ms;
   StateCounts counts{};
-  std::map<std::string, CostOfKind> costs;           ///< only of sweeps that have not ended
+  // The rest only of sweeps that have not ended:
+  Costs costs;
+  double unit_s = 1.0;                               ///< as RivalSweep's
+  std::vector<RivalSweep> rivals;                    ///< others that have not ended
+  /// Wall time a simulated second by kind, of the store's last results; empty if nothing needs it
+  std::map<std::string, double> usual_rates;
 };
 
 /// The run behind a result.

@@ -9,6 +9,7 @@
 #include "jobs/base/time_text.h"
 #include "jobs/store/read_rows.h"
 #include "jobs/store/store_insert.h"
+#include "jobs/store/sweep_order.h"
 
 namespace jobs {
 namespace {
@@ -45,32 +46,39 @@ void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow&
   if (!has_ended(row.counts)) row.ended_ms.reset();
 }
 
+constexpr const char* kUnit = "1.0";
+/// SQL of the time that a job simulates, whatever sweep it is of.
+constexpr const char* kOwnTime =
+    "(SELECT json_extract(c.parameters, '$.duration_s') FROM contents c WHERE c.seq = j.content)";
+
 /// SQL of the time that a job simulates, if the sweep varies it; else 1.
 std::string simulated_time(const std::string& swept) {
   const auto paths = nlohmann::json::parse(swept, nullptr, false);
-  if (!paths.is_array()) return "1.0";
+  if (!paths.is_array()) return kUnit;
   const auto found = std::ranges::find(paths, "duration_s");
-  if (found == paths.end()) return "1.0";
+  if (found == paths.end()) return kUnit;
   return "coalesce(json_extract(j.swept, '$[" + std::to_string(found - paths.begin()) + "]'), 1.0)";
 }
 
 void read_running_costs(const SQLite::Database& database, std::int64_t sweep, const std::string& time,
-                        SweepRow& row) {
-  SQLite::Statement running(database,
-                            "SELECT j.kind, " + time +
-                                ", j.started_ms FROM jobs j WHERE j.sweep = ? AND j.state = 'running'");
-  running.bind(1, sweep);
+                        Costs& costs) {
+  SQLite::Statement running(database, "SELECT j.kind, " + time +
+                                          ", j.started_ms, j.id FROM jobs j WHERE j.sweep IS ? AND j.state = "
+                                          "'running'");
+  if (sweep != kSingleJobs) running.bind(1, sweep);
   const std::int64_t now_ms = now_unix_ms();
   while (running.executeStep()) {
     const std::int64_t started_ms = optional_int(running.getColumn(2)).value_or(now_ms);
-    row.costs[running.getColumn(0).getString()].running.push_back(
+    costs[running.getColumn(0).getString()].running.push_back(
         {.simulated_s = running.getColumn(1).getDouble(),
-         .elapsed_s = std::max(0.0, static_cast<double>(now_ms - started_ms) / 1000.0)});
+         .elapsed_s = std::max(0.0, static_cast<double>(now_ms - started_ms) / 1000.0),
+         .id = running.getColumn(3).getString()});
   }
 }
 
-void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& row) {
-  const std::string time = simulated_time(row.swept);
+/// @param sweep  kSingleJobs: those that wait or run; of these, the cost of what has ended is not looked at
+Costs read_costs(const SQLite::Database& database, std::int64_t sweep, const std::string& time) {
+  Costs costs;
   SQLite::Statement cost(
       database,
       "SELECT kind, sum(state = 'queued'), total(t) FILTER (WHERE state = 'queued'), "
@@ -79,22 +87,90 @@ void read_costs(const SQLite::Database& database, std::int64_t sweep, SweepRow& 
       "total(cost * cost / (t * t)) FROM (SELECT j.kind AS kind, j.state AS state, " +
           time +
           " AS t, r.wall_time_s AS cost FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
-          "WHERE j.sweep = ?) GROUP BY kind");
-  cost.bind(1, sweep);
+          "WHERE j.sweep IS ?" +
+          (sweep == kSingleJobs ? " AND j.state = 'queued'" : "") + ") GROUP BY kind");
+  if (sweep != kSingleJobs) cost.bind(1, sweep);
   while (cost.executeStep()) {
-    CostOfKind& of_kind = row.costs[cost.getColumn(0).getString()];
-    of_kind = {.queued = cost.getColumn(1).getInt64(),
-               .queued_s = cost.getColumn(2).getDouble(),
-               .queued_squares_s2 = cost.getColumn(3).getDouble(),
-               .longest_queued_s = cost.getColumn(4).getDouble(),
-               .running = std::move(of_kind.running),
-               .computed = cost.getColumn(5).getInt64(),
-               .computed_s = cost.getColumn(6).getDouble(),
-               .wall_time_s = cost.getColumn(7).getDouble(),
-               .rates = cost.getColumn(8).getDouble(),
-               .rate_squares = cost.getColumn(9).getDouble()};
+    costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(),
+                                            .queued_s = cost.getColumn(2).getDouble(),
+                                            .queued_squares_s2 = cost.getColumn(3).getDouble(),
+                                            .longest_queued_s = cost.getColumn(4).getDouble(),
+                                            .computed = cost.getColumn(5).getInt64(),
+                                            .computed_s = cost.getColumn(6).getDouble(),
+                                            .wall_time_s = cost.getColumn(7).getDouble(),
+                                            .rates = cost.getColumn(8).getDouble(),
+                                            .rate_squares = cost.getColumn(9).getDouble()};
   }
-  read_running_costs(database, sweep, time, row);
+  read_running_costs(database, sweep, time, costs);
+  return costs;
+}
+
+/// The simulated time of every job of a sweep that does not vary it.
+double read_unit(const SQLite::Database& database, std::int64_t sweep, const std::string& time) {
+  if (time != kUnit) return 1.0;
+  SQLite::Statement first(database,
+                          "SELECT json_extract(c.parameters, '$.duration_s') FROM jobs j JOIN contents c ON "
+                          "c.seq = j.content WHERE j.sweep = ? LIMIT 1");
+  first.bind(1, sweep);
+  return first.executeStep() ? optional_double(first.getColumn(0)).value_or(1.0) : 1.0;
+}
+
+/// The sweeps that have not ended, with what is left of them, read when it is first asked for.
+class ActiveSweeps {
+ public:
+  explicit ActiveSweeps(const SQLite::Database& database) : database_(database) {}
+
+  /// All but one, which has not ended.
+  [[nodiscard]] std::vector<RivalSweep> rivals_of(std::int64_t sweep) {
+    if (!is_read_) read();
+    std::vector<RivalSweep> rivals;
+    for (const auto& [seq, active] : active_)
+      if (seq != sweep) rivals.push_back(active);
+    return rivals;
+  }
+
+ private:
+  void read() {
+    is_read_ = true;
+    SQLite::Statement list(
+        database_,
+        "SELECT seq, swept, priority, coalesce(executor, '') FROM sweeps s WHERE "
+        "EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') OR "
+        "EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') "
+        "UNION ALL SELECT 0, '', 0, '' WHERE "
+        "EXISTS (SELECT 1 FROM jobs WHERE sweep IS NULL AND state IN ('queued', 'running'))");
+    while (list.executeStep()) {
+      const std::int64_t seq = list.getColumn(0).getInt64();
+      const std::string time = seq == kSingleJobs ? kOwnTime : simulated_time(list.getColumn(1).getString());
+      active_.emplace(seq, RivalSweep{.priority = list.getColumn(2).getInt64(),
+                                      .executor = list.getColumn(3).getString(),
+                                      .unit_s = seq == kSingleJobs ? 1.0 : read_unit(database_, seq, time),
+                                      .costs = read_costs(database_, seq, time)});
+    }
+  }
+
+  const SQLite::Database& database_;
+  bool is_read_ = false;
+  std::map<std::int64_t, RivalSweep> active_;
+};
+
+bool lacks_rate(const Costs& costs) {
+  return std::ranges::any_of(costs, [](const auto& of_kind) {
+    const CostOfKind& cost = of_kind.second;
+    return cost.computed == 0 && (cost.queued > 0 || !cost.running.empty());
+  });
+}
+
+/// What is left of a sweep, and of those that it shares the threads with.
+void read_what_is_left(const SQLite::Database& database, std::int64_t seq, ActiveSweeps& active,
+                       SweepRow& row) {
+  const std::string time = simulated_time(row.swept);
+  row.costs = read_costs(database, seq, time);
+  row.unit_s = read_unit(database, seq, time);
+  row.rivals = active.rivals_of(seq);
+  if (lacks_rate(row.costs) ||
+      std::ranges::any_of(row.rivals, [](const RivalSweep& rival) { return lacks_rate(rival.costs); }))
+    row.usual_rates = read_cost_rates(database);
 }
 
 /// @param request  SQL of what stands in its column
@@ -104,7 +180,7 @@ std::string sweep_columns(const std::string& request) {
          "(SELECT c.id FROM searches c WHERE c.sweep = sweeps.seq) FROM sweeps";
 }
 
-SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
+SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found, ActiveSweeps& active) {
   SweepRow row;
   const std::int64_t seq = found.getColumn(0).getInt64();
   row.id = found.getColumn(1).getString();
@@ -117,7 +193,7 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found) {
   row.executor = found.getColumn(8).getString();
   row.study_id = optional_text(found.getColumn(9));
   read_counts(database, seq, row);
-  if (!has_ended(row.counts)) read_costs(database, seq, row);
+  if (!has_ended(row.counts)) read_what_is_left(database, seq, active, row);
   return row;
 }
 
@@ -125,7 +201,8 @@ std::optional<SweepRow> read_sweep_with(const SQLite::Database& database, const 
                                         const std::string& request) {
   SQLite::Statement find(database, sweep_columns(request) + " WHERE id = ?");
   find.bind(1, id);
-  return find.executeStep() ? std::optional(sweep_row(database, find)) : std::nullopt;
+  ActiveSweeps active(database);
+  return find.executeStep() ? std::optional(sweep_row(database, find, active)) : std::nullopt;
 }
 
 /// @param parameters, metrics  SQL of what stands in their columns
@@ -202,6 +279,18 @@ std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::
   return read_sweep_with(database, id, "request");
 }
 
+std::map<std::string, double> read_cost_rates(const SQLite::Database& database) {
+  SQLite::Statement list(database,
+                         "SELECT j.kind, avg(r.wall_time_s / json_extract(c.parameters, '$.duration_s')) "
+                         "FROM (SELECT seq, content, wall_time_s FROM results WHERE error_reason IS NULL "
+                         "ORDER BY seq DESC LIMIT 500) r "
+                         "JOIN contents c ON c.seq = r.content JOIN jobs j ON j.result = r.seq AND "
+                         "j.reused = 0 GROUP BY j.kind");
+  std::map<std::string, double> rates;
+  while (list.executeStep()) rates.emplace(list.getColumn(0).getString(), list.getColumn(1).getDouble());
+  return rates;
+}
+
 std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id) {
   SQLite::Statement find(database, job_columns("c.parameters", "r.metrics") + " WHERE j.id = ?");
   find.bind(1, id);
@@ -229,10 +318,11 @@ std::vector<SweepRow> SweepReader::list_sweeps(const std::string& state, const s
     SQLite::Statement list(database, sweep_columns("''") + " WHERE ?1 = '' OR id < ?1 ORDER BY id DESC");
     list.bind(1, before);
     std::vector<SweepRow> rows;
+    ActiveSweeps active(database);
     // A sweep's state is made of its jobs', so it cannot be asked for in SQL without counting them for every
     // sweep.
     while (rows.size() < limit && list.executeStep()) {
-      SweepRow row = sweep_row(database, list);
+      SweepRow row = sweep_row(database, list, active);
       if (state.empty() || sweep_state(row.counts) == state) rows.push_back(std::move(row));
     }
     return rows;

@@ -254,6 +254,35 @@ TEST(Store, CountsOnlyWhatASweepHasComputedItselfAsItsCost) {
   EXPECT_EQ(costs.at("flexible, clearance").queued_s, 3.0);
 }
 
+TEST(Store, FindsTheSweepsThatShareTheThreads) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string ended =
+      add_sweep(store, R"({"parameters": {"duration_s": 4}, "sweep": {"crank_velocity_rad_s": [4]}})");
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(1.0)));
+  EXPECT_TRUE(store.reader.find_sweep(ended)->rivals.empty());
+  const std::string first = add_sweep(store, R"({"priority": 3, "parameters": {"duration_s": 7},
+                                                 "sweep": {"crank_velocity_rad_s": [5, 6]}})");
+  const std::string second =
+      add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [7], "duration_s": [1, 2, 3]}})");
+  (void)store.queue.claim();
+  for (const jobs::SweepRow& row :
+       {store.reader.find_sweep(second).value(), store.reader.list_sweeps("", "", 3).at(0)}) {
+    EXPECT_EQ(row.id, second);
+    EXPECT_EQ(row.unit_s, 1.0);
+    ASSERT_EQ(row.rivals.size(), 1U);
+    EXPECT_EQ(row.rivals[0].priority, 3);
+    EXPECT_EQ(row.rivals[0].unit_s, 7.0);
+    EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").queued, 1);
+    EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").running.size(), 1U);
+    EXPECT_EQ(row.usual_rates.at("rigid, clearance"), 0.5) << "2 s for 4 s of the ended sweep";
+  }
+  const auto row = store.reader.find_sweep(first).value();
+  EXPECT_EQ(row.unit_s, 7.0);
+  ASSERT_EQ(row.rivals.size(), 1U);
+  EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").queued_s, 6.0);
+}
+
 // A run takes 2 s on the wall here, whatever it simulates.
 TEST(Store, CountsTheTimeThatJobsSimulateIfASweepVariesIt) {
   const TemporaryStore temporary;
