@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/log.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
+#include <thread>
 #include <utility>
 
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
 namespace server::commands {
@@ -24,15 +31,101 @@ class EscapedMessage final : public spdlog::custom_flag_formatter {
   }
 };
 
+/// Sends the lines of the log to a queue.
+class QueueSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit QueueSink(int descriptor) : lines_(descriptor) {}
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    if (lost_ > 0) {
+      const std::string text = std::to_string(lost_) + " lines of the log are lost: nobody read them";
+      if (!add({message.time, {}, message.logger_name, spdlog::level::warn, text})) {
+        ++lost_;
+        return;
+      }
+      lost_ = 0;
+    }
+    if (!add(message)) ++lost_;
+  }
+  void flush_() override {}
+
+ private:
+  bool add(const spdlog::details::log_msg& message) {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    return lines_.add({line.data(), line.size()});
+  }
+
+  LineQueue lines_;
+  std::size_t lost_ = 0;  ///< lines that found no room, and that the log has not told of
+};
+
 }  // namespace
 
-void start_log(const std::string& level) {
+struct LineQueue::State {
+  explicit State(int out) : descriptor(out) {}
+
+  const int descriptor;
+  std::mutex mutex;  // guards the rest
+  std::condition_variable changed;
+  std::string queued;
+  bool ending = false;
+  bool ended = false;  ///< the thread has written everything
+};
+
+LineQueue::LineQueue(int descriptor) : state_(std::make_shared<State>(descriptor)) {
+  std::thread([state = state_] { work(state); }).detach();
+}
+
+LineQueue::~LineQueue() {
+  constexpr std::chrono::milliseconds kPatience{500};
+  std::unique_lock lock(state_->mutex);
+  state_->ending = true;
+  state_->changed.notify_all();
+  state_->changed.wait_for(lock, kPatience, [this] { return state_->ended; });
+}
+
+bool LineQueue::add(std::string_view line) {
+  const std::lock_guard lock(state_->mutex);
+  if (state_->queued.size() + line.size() > kMostBytes) return false;
+  state_->queued.append(line);
+  state_->changed.notify_all();
+  return true;
+}
+
+void LineQueue::work(const std::shared_ptr<State>& state) {
+  std::unique_lock lock(state->mutex);
+  for (std::string lines;;) {
+    state->changed.wait(lock, [&] { return state->ending || !state->queued.empty(); });
+    if (state->queued.empty()) break;
+    lines = std::exchange(state->queued, {});
+    lock.unlock();
+    std::string_view left = lines;
+    while (!left.empty()) {
+      const ssize_t written = ::write(state->descriptor, left.data(), left.size());
+      if (written < 0 && errno != EINTR && errno != EAGAIN) break;  // gone for good, or a disk that is full
+      if (written < 0 && errno == EAGAIN) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      left.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+    }
+    lock.lock();
+  }
+  state->ended = true;
+  state->changed.notify_all();
+}
+
+Log::Log(const std::string& level) {
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   formatter->add_flag<EscapedMessage>('*').set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %*");
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("rpsup"));
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("rpsup", std::make_shared<QueueSink>(STDERR_FILENO)));
   spdlog::set_formatter(std::move(formatter));
   spdlog::set_level(spdlog::level::from_str(level));
+  // By default the library writes to standard error, which may block.
+  spdlog::set_error_handler([](const std::string&) {});
 }
+
+Log::~Log() { spdlog::set_default_logger(std::make_shared<spdlog::logger>("none")); }
 
 std::string escape_for_log(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";

@@ -149,10 +149,10 @@ int serve(const ServeOptions& options) {
   const jobs::cluster::Site site = make_site(options.cluster);
   if (options.executor == "slurm" && site.folder.empty())
     throw BadInput("--executor slurm needs --slurm-folder");
-  start_log(options.log_level);
   raise_file_limit();
   // Before the first thread: threads take over which signals are blocked.
   const EndSignals signals;
+  const Log log(options.log_level);
   const auto metrics = std::make_shared<Metrics>();
   jobs::Service service(make_service_options(options, site, metrics));
   Routes routes(service, metrics);
