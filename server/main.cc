@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -24,6 +27,7 @@
 #include "server/commands/remote_command_line.h"
 #include "server/commands/run_task.h"
 #include "server/commands/serve.h"
+#include "server/commands/service_token.h"
 #include "server/commands/simulate.h"
 #include "server/commands/sweep.h"
 #include "server/commands/validate.h"
@@ -162,6 +166,7 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
       ->add_option("--token-file", options.token_file,
                    "Token file, readable by its owner only: the token that clients must send; RPSUP_TOKEN in "
                    "the environment if left out")
+      ->check(server::commands::describe_file_name_fault)
       ->type_name("FILE")
       ->envname("RPSUP_TOKEN_FILE");
   add_limit_options(*command, options);
@@ -272,6 +277,24 @@ std::vector<std::string> read_arguments(int argc, char** argv) {
   return arguments;
 }
 
+/// Hides the value of --token in the list of processes, which every user can read.
+void hide_token(int argc, char** argv) {
+  constexpr std::string_view kOption = "--token";
+  bool found = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    char* const value = argument.starts_with("--token=")          ? argv[i] + kOption.size() + 1
+                        : argument == kOption && i + 1 < argc ? argv[i + 1]
+                                                              : nullptr;
+    if (value == nullptr) continue;
+    std::fill_n(value, std::strlen(value), 'x');
+    found = true;
+  }
+  if (found)
+    std::cerr << "rpsup: --token shows the token to other users for a moment; give it by --token-file, "
+                 "RPSUP_TOKEN or the configuration file\n";
+}
+
 int print_man_page(const CLI::App& app) {
   server::commands::write_text("-", server::commands::make_man_page(server::commands::describe_commands(app),
                                                                     std::string(jobs::kProgramVersion)));
@@ -291,6 +314,7 @@ void describe(CLI::App& app, const std::vector<Command>& remote) {
                  "and token may stand above the sections. Default: rpsup/config.ini in $XDG_CONFIG_HOME "
                  "(~/.config) if it exists (Env:RPSUP_CONFIG)",
                  named != nullptr)
+      ->check(server::commands::describe_config_file_fault)
       ->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.require_subcommand(1);
@@ -337,7 +361,9 @@ int main(int argc, char** argv) {
   for (const char* const name : {"simulate", "sweep", "serve", "check-cluster"})
     server::commands::add_numerics_option(*app.get_subcommand(name), numerics);
   try {
-    app.parse(read_arguments(argc, argv));
+    std::vector<std::string> arguments = read_arguments(argc, argv);
+    hide_token(argc, argv);
+    app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? server::commands::kDone : server::commands::kBadInput;
   }

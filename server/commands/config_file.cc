@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/config_file.h"
 
+#include <sys/stat.h>
+
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <istream>
 #include <string_view>
+
+#include "server/commands/service_token.h"
 
 namespace server::commands {
 
@@ -37,6 +42,8 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
   std::vector<CLI::ConfigItem> shared;
   skip_byte_order_mark(input);
   for (CLI::ConfigItem& item : CLI::ConfigTOML::from_config(input)) {
+    // The parser would take an option without a value for one that is left out.
+    if (item.name == "token-file" && item.inputs.empty()) item.inputs = {""};
     const bool of_program = app_.get_option_no_throw("--" + item.name) != nullptr;
     (item.parents.empty() && !is_mark(item) && !of_program ? shared : given).push_back(std::move(item));
   }
@@ -61,6 +68,22 @@ bool ConfigFile::is_in_environment(const CLI::ConfigItem& item) const {
   const CLI::Option* const option = command->get_option_no_throw("--" + item.name);
   return option != nullptr && !option->get_envname().empty() &&
          std::getenv(option->get_envname().c_str()) != nullptr;
+}
+
+std::string describe_config_file_fault(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || S_ISDIR(status.st_mode)) return "";  // the parser tells the user
+  if (S_ISCHR(status.st_mode)) return "";                                        // /dev/null
+  if (!S_ISREG(status.st_mode)) return path + " is no regular file";
+  std::ifstream input(path);
+  skip_byte_order_mark(input);
+  std::string fault;
+  for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(input)) {
+    if (item.name == "token") fault = describe_secret_fault(status);
+    // A token of the environment goes to whatever service the file names.
+    if (item.name == "url" && fault.empty()) fault = describe_owner_fault(status);
+  }
+  return fault.empty() ? "" : path + ": " + fault;
 }
 
 std::string find_user_config() {

@@ -26,6 +26,10 @@ class ConfigFile : public CLI::ConfigTOML {
   std::vector<std::string> remote_;
 };
 
+/// Fault of the configuration file, empty if there is none: a FIFO, which may never end; a token that others
+/// than its owner can read; the address of a service that others can change. A missing file has no fault.
+[[nodiscard]] std::string describe_config_file_fault(const std::string& path);
+
 /// The file that is read if none is named: rpsup/config.ini in $XDG_CONFIG_HOME, which is ~/.config by
 /// default. Empty if there is no such file.
 [[nodiscard]] std::string find_user_config();

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/commands/remote_commands.h"
+#include "server/commands/service_token.h"
 
 namespace server::commands {
 
@@ -17,9 +18,16 @@ void add_remote_options(CLI::App& command, RemoteOptions& options) {
       ->capture_default_str()
       ->envname("RPSUP_URL");
   command
+      .add_option("--token-file", options.token_file,
+                  "Token file, readable by its owner only: the token, sent as Authorization: Bearer; before "
+                  "RPSUP_TOKEN in the environment and token in the configuration file")
+      ->check(describe_file_name_fault)
+      ->type_name("FILE")
+      ->envname("RPSUP_TOKEN_FILE");
+  command
       .add_option("--token", options.token,
-                  "Token, sent as Authorization: Bearer; safer in the environment or in the configuration "
-                  "file, since other users see command lines")
+                  "Token; for the environment and the configuration file, since other users see command "
+                  "lines: there the program warns and hides the token")
       ->envname("RPSUP_TOKEN");
 }
 

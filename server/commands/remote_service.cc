@@ -8,6 +8,7 @@
 
 #include "jobs/base/errors.h"
 #include "server/commands/command.h"
+#include "server/commands/service_token.h"
 #include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
 
@@ -29,9 +30,11 @@ ServiceUrl checked_url(const std::string& url) {
   return *parsed;
 }
 
-const std::string& checked_token(const std::string& token) {
+std::string checked_token(const RemoteOptions& options) {
+  std::string token = find_token(options.token_file, nullptr);
+  if (token.empty()) token = options.token;
   const bool visible = std::ranges::all_of(token, [](unsigned char c) { return c > ' ' && c < 0x7f; });
-  if (!visible) throw BadInput("--token: must hold visible ASCII characters only, no blanks");
+  if (!visible) throw BadInput("the token must hold visible ASCII characters only, no blanks");
   return token;
 }
 
@@ -73,7 +76,7 @@ const std::string& checked_id(const std::string& id) {
 }  // namespace
 
 RemoteService::RemoteService(const RemoteOptions& options)
-    : url_(options.url), client_(checked_url(options.url), checked_token(options.token)) {}
+    : url_(options.url), client_(checked_url(options.url), checked_token(options)) {}
 
 Json RemoteService::submit(Kind kind, const Json& request) {
   return read(client_.post(path_of(kind), to_text(request)));
@@ -121,7 +124,7 @@ void RemoteService::check(const HttpClient::Answer& answer) const {
   const auto problem = find_problem(answer);
   // Not of this service but of what stands in front of it.
   if (answer.status == kUnauthorized || (answer.status == kForbidden && !problem)) {
-    throw BadInput(url_ + " refuses the request (" + status + "): give the right --token or RPSUP_TOKEN");
+    throw BadInput(url_ + " refuses the request (" + status + "): give the right token by --token-file or RPSUP_TOKEN");
   }
   if (!problem)
     throw std::runtime_error(url_ + " answers " + status + ", but not as this service does. Is --url right?");

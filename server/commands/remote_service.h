@@ -12,7 +12,8 @@ namespace server::commands {
 /// Address of the service that a command talks to, and token.
 struct RemoteOptions {
   std::string url = "http://127.0.0.1:8080";
-  std::string token;  ///< empty: none is sent
+  std::string token{};       ///< empty: none is sent
+  std::string token_file{};  ///< file of the token, before `token`; empty: none
 };
 
 /// A service that runs elsewhere, as the commands use it. Its refusals become what run_guarded() tells:

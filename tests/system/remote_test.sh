@@ -136,6 +136,7 @@ case "$(get "$url/v1/sweeps/$id" | jq -r .state)" in queued | running) ;; *) fai
 unset RPSUP_URL
 mkdir -p config/rpsup
 printf 'url=%s\ntoken=abc\n[results]\nformat=json\n' "$url" >config/rpsup/config.ini
+chmod 600 config/rpsup/config.ini
 expect_code 0 "$rpsup" status "$id"
 expect_code 0 "$rpsup" results "$id"
 expect_text out '^\{"job_id"'

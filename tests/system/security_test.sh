@@ -25,6 +25,32 @@ expect_text err '16 to 512 characters'
 RPSUP_TOKEN='two words, not one token' expect_code 2 "$rpsup" serve --db a.db --port 0
 expect_text err 'visible ASCII'
 expect_code 2 "$rpsup" serve --db a.db --port 0 --token-file missing
+
+# A token that was meant and is missing: on the command line, in the environment, in the configuration file, and an empty file.
+# `timeout`, since what waits for a FIFO or serves without a token goes on for ever.
+expect_code 2 timeout 20 "$rpsup" serve --db a.db --port 0 --token-file ''
+RPSUP_TOKEN_FILE='' expect_code 2 timeout 20 "$rpsup" serve --db a.db --port 0
+RPSUP_TOKEN='' expect_code 2 timeout 20 "$rpsup" serve --db a.db --port 0
+for value in '' '""'; do
+  printf '[serve]\ntoken-file=%s\n' "$value" >none.ini
+  expect_code 2 timeout 20 "$rpsup" --config none.ini serve --db a.db --port 0
+  expect_text err 'names no file'
+done
+(umask 077 && : >empty && mkfifo fifo)
+for name in empty fifo . /dev/null; do
+  expect_code 2 timeout 20 "$rpsup" serve --db a.db --port 0 --token-file "$name"
+  expect_code 2 timeout 20 "$rpsup" status --token-file "$name"
+done
+expect_code 2 timeout 20 "$rpsup" --config fifo status
+expect_text err 'is no regular file'
+# A file that another user can change is no secret of this one, whatever its mode. Only the administrator can make one.
+if [ "$(id -u)" = 0 ]; then
+  cp token foreign
+  chmod 600 foreign
+  chown 65534 foreign
+  expect_code 2 timeout 20 "$rpsup" serve --db a.db --port 0 --token-file foreign
+  expect_text err 'belongs to another user'
+fi
 expect_code 2 "$rpsup" serve --db a.db --port 0 --host rpsup.example.org
 expect_code 2 "$rpsup" serve --db a.db --port 0 --name https://rpsup.example.org
 [ ! -e a.db ] || fail "a refused command has made a store"
@@ -53,6 +79,37 @@ expect_equal "$(status_of --header "Authorization: Bearer $secret" "$url/v1/swee
 expect_equal "$(status_of --user "anybody:$secret" "$url/")" 200 "the token as a password"
 expect_equal "$(status_of --header "Authorization: Bearer $secret" --data '{"sweep": {"clearance_mm": [0]}, "parameters": {"duration_s": 0.05}}' "$url/v1/sweeps")" 201 "a sweep with the token"
 RPSUP_URL=$url RPSUP_TOKEN=$secret expect_code 0 "$rpsup" status
+RPSUP_URL=$url expect_code 0 "$rpsup" status --token-file token
+RPSUP_URL=$url RPSUP_TOKEN_FILE=token expect_code 0 "$rpsup" status
+
+# A configuration file with a token is a secret, and one with the address of the service says where tokens go.
+printf 'url=%s\ntoken=%s\n' "$url" "$secret" >client.ini
+chmod 644 client.ini
+expect_code 2 "$rpsup" --config client.ini status
+expect_text err 'client.ini: other users can read or write the file'
+RPSUP_CONFIG=client.ini expect_code 2 "$rpsup" status
+chmod 600 client.ini
+expect_code 0 "$rpsup" --config client.ini status
+printf 'url=%s\n' "$url" >address.ini
+chmod 646 address.ini
+RPSUP_TOKEN=$secret expect_code 2 "$rpsup" --config address.ini status
+expect_text err 'address.ini: other users can write the file'
+chmod 644 address.ini
+RPSUP_TOKEN=$secret expect_code 0 "$rpsup" --config address.ini status
+
+# The arguments of a client that runs do not hold the token, and its user is warned.
+sweep=$(RPSUP_URL=$url RPSUP_TOKEN=$secret "$rpsup" submit - <<<'{"parameters": {"duration_s": 500}, "sweep": {"clearance_mm": [0.3]}}')
+for form in "--token $secret" "--token=$secret"; do
+  # shellcheck disable=SC2086  # an option with its value
+  "$rpsup" watch "$sweep" --url "$url" $form 2>watched &
+  watcher=$!
+  until grep -q 'of 1' watched; do sleep 0.1; done
+  ! tr '\0' ' ' <"/proc/$watcher/cmdline" | grep -F "$secret" || fail "the arguments of a client hold the token"
+  expect_text watched 'give it by --token-file'
+  kill -TERM "$watcher"
+  wait "$watcher" || true
+done
+RPSUP_URL=$url RPSUP_TOKEN=$secret expect_code 0 "$rpsup" cancel "$sweep"
 
 # The name that a proxy passes on, over https and without, and no other.
 with_token() { status_of --header "Authorization: Bearer $secret" "$@"; }
