@@ -23,6 +23,7 @@
 #include "server/commands/man_page.h"
 #include "server/commands/numerics.h"
 #include "server/commands/option_table.h"
+#include "server/commands/output_check.h"
 #include "server/commands/paper.h"
 #include "server/commands/remote_command_line.h"
 #include "server/commands/run_task.h"
@@ -365,11 +366,16 @@ int main(int argc, char** argv) {
     hide_token(argc, argv);
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? server::commands::kDone : server::commands::kBadInput;
+    const bool is_help = app.exit(error) == 0;
+    return server::commands::run_guarded([&]() -> int {
+      if (is_help) server::commands::check_standard_output();
+      return is_help ? server::commands::kDone : server::commands::kBadInput;
+    });
   }
   const auto parsed =
       std::ranges::find_if(commands, [](const Command& command) { return command.line->parsed(); });
   return server::commands::run_guarded([&] {
+    server::commands::check_outputs(app, *parsed->line);
     server::commands::check_processor();
     server::commands::enter_numerics(numerics, argv);
     return parsed->run();

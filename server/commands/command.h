@@ -43,7 +43,11 @@ int run_guarded(const std::function<int()>& command);
 /// written
 void check_output_file(const std::string& option, const std::string& path);
 
-/// Writes a whole file, "-" for standard output. A terminal gets its control characters as text; see
+/// Checks that what has been written to standard output got there. @throws CannotWrite
+void check_standard_output();
+
+/// Writes a whole file, "-" for standard output: beside the file of that name, and renamed, so that a reader
+/// or a full disk finds the old file or the new one. A terminal gets its control characters as text; see
 /// terminal_text().
 /// @throws CannotWrite if not every byte reached it
 void write_text(const std::string& path, const std::string& text);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/remote_commands.h"
 
-#include <iostream>
-
 #include "server/commands/command.h"
 #include "server/messages/terminal_text.h"
 
@@ -31,7 +29,7 @@ int cancel(const CancelOptions& options) {
   RemoteService service(options.remote);
   for (const std::string& id : options.ids) {
     const auto resource = service.cancel(id).json;
-    std::cout << id << ' ' << terminal_text(resource.at("state").get<std::string>()) << std::endl;
+    write_text("-", id + " " + terminal_text(resource.at("state").get<std::string>()) + "\n");
   }
   return kDone;
 }

@@ -61,5 +61,13 @@ expect_text err SLURM_ARRAY_TASK_ID
 SLURM_ARRAY_TASK_ID=many expect_code 2 "$rpsup" run-task . 0
 expect_code 3 "$rpsup" run-task . 0 --index 0
 expect_text err g0.list
+# What is printed and does not arrive is said, of every command.
+for words in --help 'serve --help' --version 'completion bash' man; do
+  code=0
+  # shellcheck disable=SC2086  # the words are arguments
+  "$rpsup" $words >/dev/full 2>err || code=$?
+  expect_equal "$code" 3 "exit code of $words on a full device"
+  expect_text err 'cannot write to standard output'
+done
 [ ! -e a.db ] || fail "a refused command has made a store"
 echo "options work"

@@ -62,6 +62,50 @@ expect_code 2 "$rpsup" sweep missing.json --db none.db
 [ ! -e none.db ] || fail "a store was made for nothing"
 expect_code 3 "$rpsup" sweep sweep.json --db nowhere/a.db
 
+# No output is written over a file that the command reads, nor over the store: by its name, by a link of either kind, before there is a
+# store, and as standard output.
+cp sweep.json kept.json
+ln -s kept.json symbolic.csv
+ln kept.json hard.csv
+ln -s not_yet.db later.csv
+refuse() { expect_code 2 "$@" && expect_text err 'is the same file as'; }
+for output in kept.json symbolic.csv hard.csv ./kept.json; do
+  refuse "$rpsup" sweep kept.json --db not_yet.db --results "$output"
+done
+for output in not_yet.db ./not_yet.db later.csv not_yet.db-wal not_yet.db-shm not_yet.db.lock; do
+  refuse "$rpsup" sweep kept.json --db not_yet.db --results "$output"
+done
+ln -s one.db link.db
+for output in one.db link.db; do
+  refuse "$rpsup" sweep kept.json --db link.db --results "$output"
+  RPSUP_RESULTS=$output refuse "$rpsup" sweep kept.json --db one.db
+done
+code=0
+"$rpsup" sweep - --db other.db <kept.json >>kept.json 2>err || code=$?
+expect_equal "$code" 2 "exit code with standard input as the output"
+"$rpsup" sweep kept.json --db one.db >>one.db 2>err && fail "the table was added to the store"
+expect_text err 'standard output: is the same file as --db one.db'
+expect_code 2 "$rpsup" export --db one.db one.db-wal
+cmp kept.json sweep.json || fail "an input has changed"
+expect_equal "$(sqlite3 one.db 'PRAGMA integrity_check')" ok "the store"
+[ ! -e not_yet.db ] || fail "a refused command has made a store"
+echo '{"duration_s": 0.05}' >p.json
+ln -s p.json p.csv
+refuse "$rpsup" simulate p.json --trajectory p.csv
+ln -s t.csv t.svg
+refuse "$rpsup" simulate p.json --trajectory t.csv --plot t.svg
+expect_equal "$(cat p.json)" '{"duration_s": 0.05}' "the parameters"
+
+# An output is the old file or the whole new one: other names of the old file keep it, a link leads to the new one, and the mode stays.
+echo old >table.csv
+chmod 640 table.csv
+ln table.csv old_name.csv
+ln -s table.csv link.csv
+expect_code 0 "$rpsup" sweep sweep.json --db one.db --results link.csv
+expect_equal "$(cat old_name.csv)" old "the former file under its other name"
+expect_equal "$(readlink link.csv) $(stat --format=%a table.csv) $(head -c 6 table.csv)" 'table.csv 640 job_id' "the new file"
+[ -z "$(find . -name '*.part')" ] || fail "a part of an output is left over"
+
 # A job that fails: 1, and its row is there.
 cat >fails.json <<'JSON'
 {"parameters": {"duration_s": 0.05, "integrator": "rk4", "step_s": 1e-3}, "sweep": {"clearance_mm": [0, 0.25]}}
