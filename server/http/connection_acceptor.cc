@@ -2,6 +2,7 @@
 #include "server/http/connection_acceptor.h"
 
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <new>
 #include <stdexcept>
@@ -40,6 +42,17 @@ bool add_to_epoll(int epoll_fd, int descriptor, void* source) {
   return ::epoll_ctl(epoll_fd, EPOLL_CTL_ADD, descriptor, &event) == 0;
 }
 
+/// See PendingConnection::peer.
+std::string peer_of(const sockaddr_storage& address) {
+  std::array<char, sizeof(sockaddr_in6)> bytes{};
+  if (address.ss_family == AF_INET) {
+    std::memcpy(bytes.data(), &reinterpret_cast<const sockaddr_in&>(address).sin_addr, 4);
+    return {bytes.data(), 4};
+  }
+  std::memcpy(bytes.data(), &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr, 8);
+  return {bytes.data(), 8};
+}
+
 }  // namespace
 
 ConnectionAcceptor::ConnectionAcceptor(const Limits& limits, std::function<void(PendingConnection)> on_head,
@@ -53,6 +66,7 @@ ConnectionAcceptor::ConnectionAcceptor(const Limits& limits, std::function<void(
 }
 
 ConnectionAcceptor::~ConnectionAcceptor() {
+  for (const int socket : to_linger_) ::close(socket);
   ::close(epoll_fd_);
   ::close(wakeup_fd_);
 }
@@ -61,6 +75,20 @@ void ConnectionAcceptor::stop() {
   stopping_ = true;
   const std::uint64_t one = 1;
   static_cast<void>(!::write(wakeup_fd_, &one, sizeof one));
+}
+
+bool ConnectionAcceptor::linger(int socket) noexcept {
+  ::shutdown(socket, SHUT_WR);
+  try {
+    const std::lock_guard lock(mutex_);
+    if (!running_) return false;
+    to_linger_.push_back(socket);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  const std::uint64_t one = 1;
+  static_cast<void>(!::write(wakeup_fd_, &one, sizeof one));
+  return true;
 }
 
 bool ConnectionAcceptor::run(int listening) {
@@ -72,11 +100,17 @@ bool ConnectionAcceptor::run(int listening) {
   }
   stop_accepting(listening);
   const auto drain_deadline = Clock::now() + limits_.drain_time;
-  while (good && !pending_.empty() && Clock::now() < drain_deadline) {
+  while (good && !(pending_.empty() && lingering_.empty()) && Clock::now() < drain_deadline) {
     good = serve_events(listening);
     close_timed_out();
   }
-  while (!pending_.empty()) close(pending_.begin());
+  {
+    const std::lock_guard lock(mutex_);
+    running_ = false;
+  }
+  watch_lingering();
+  for (std::list<Watched>* const list : {&pending_, &lingering_})
+    while (!list->empty()) close(list->begin());
   return good;
 }
 
@@ -86,42 +120,68 @@ bool ConnectionAcceptor::serve_events(int listening) {
       ::epoll_wait(epoll_fd_, events.data(), static_cast<int>(events.size()), poll_timeout_ms());
   if (ready < 0) return errno == EINTR;
   bool new_connection = false;
+  bool woken = false;
   for (int i = 0; i < ready; ++i) {
     void* const source = events[static_cast<std::size_t>(i)].data.ptr;
-    if (source == nullptr) new_connection = true;
-    else if (source != this) read_ready(static_cast<PendingConnection*>(source));
+    if (source == nullptr) {
+      new_connection = true;
+    } else if (source == this) {
+      woken = true;
+    } else {
+      Watched& watched = *static_cast<Watched*>(source);
+      if (watched.lingering ? discard_some(watched.connection) : read_some(watched.connection))
+        close(watched.self);
+    }
   }
-  // Last, since accepting may close one of the connections that have events.
+  // Last, since both may close one of the connections that have events.
+  if (woken) watch_lingering();
   return !new_connection || accept_next(listening);
 }
 
 bool ConnectionAcceptor::accept_next(int listening) {
-  const int socket = ::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC);
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  const int socket = ::accept4(listening, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC);
   if (socket < 0) {
     if (is_final(errno)) return false;
     if (errno == EINTR || errno == ECONNABORTED || errno == EAGAIN) return true;
-    // No descriptors or no memory: the oldest pending connection is closed to free some.
-    if (pending_.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    else close(pending_.begin());
+    // No descriptors or no memory: the oldest connection is closed to free some, first one that is answered.
+    if (!lingering_.empty()) close(lingering_.begin());
+    else if (!pending_.empty()) close(pending_.begin());
+    else std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return true;
   }
-  if (pending_.size() >= limits_.max_pending) close(pending_.begin());
+  Place place;
   try {
-    pending_.push_back({.socket = socket, .received = {}});
+    std::string peer = peer_of(address);
+    if (pending_.size() >= limits_.max_pending) make_room(peer);
+    place = add(pending_, {.socket = socket, .received = {}, .peer = std::move(peer)});
   } catch (const std::bad_alloc&) {
     ::close(socket);
     return true;
   }
   // Most clients have sent their head by now.
-  if (read_some(pending_.back()) || !add_to_epoll(epoll_fd_, socket, &pending_.back()))
-    close(std::prev(pending_.end()));
+  if (read_some(place->connection) || !add_to_epoll(epoll_fd_, socket, &*place)) close(place);
   return true;
 }
 
-void ConnectionAcceptor::read_ready(const PendingConnection* ready) {
-  const auto connection =
-      std::ranges::find_if(pending_, [&](const PendingConnection& each) { return &each == ready; });
-  if (read_some(*connection)) close(connection);
+/// Closes the oldest connection of the peer that has most of them; of equals, that of the new one.
+void ConnectionAcceptor::make_room(const std::string& peer) {
+  auto most = pending_of_peer_.find(peer);
+  for (auto each = pending_of_peer_.begin(); each != pending_of_peer_.end(); ++each)
+    if (most == pending_of_peer_.end() || each->second > most->second) most = each;
+  const auto oldest = std::ranges::find_if(
+      pending_, [&](const Watched& each) { return each.connection.peer == most->first; });
+  if (oldest != pending_.end()) close(oldest);
+}
+
+ConnectionAcceptor::Place ConnectionAcceptor::add(std::list<Watched>& to, PendingConnection connection) {
+  const bool lingering = &to == &lingering_;
+  std::size_t* const count = lingering ? nullptr : &pending_of_peer_[connection.peer];
+  to.push_back({.connection = std::move(connection), .lingering = lingering});
+  if (count != nullptr) ++*count;
+  to.back().self = std::prev(to.end());
+  return to.back().self;
 }
 
 bool ConnectionAcceptor::read_some(PendingConnection& connection) {
@@ -130,11 +190,15 @@ bool ConnectionAcceptor::read_some(PendingConnection& connection) {
   if (got < 0) return errno != EAGAIN && errno != EINTR;
   if (got == 0) return true;  // closed, without a whole head
   try {
-    // The empty line may straddle two reads.
     std::string& received = connection.received;
+    // The empty line may straddle two reads.
     const std::size_t searched =
         received.size() < kEndOfHead.size() ? 0 : received.size() - kEndOfHead.size() + 1;
     received.append(bytes.data(), static_cast<std::size_t>(got));
+    // Line ends before the request line are skipped (RFC 9112, section 2.2).
+    if (searched == 0) {
+      while (received.starts_with("\r\n")) received.erase(0, 2);
+    }
     const bool complete = received.find(kEndOfHead, searched) != std::string::npos;
     if (!complete && received.size() <= limits_.head_bytes) return false;
   } catch (const std::bad_alloc&) {
@@ -143,25 +207,52 @@ bool ConnectionAcceptor::read_some(PendingConnection& connection) {
   ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, connection.socket, nullptr);
   on_head_({.socket = std::exchange(connection.socket, -1),
             .received = std::move(connection.received),
-            .accepted = connection.accepted});
+            .accepted = connection.accepted,
+            .peer = connection.peer});
   return true;
+}
+
+bool ConnectionAcceptor::discard_some(const PendingConnection& connection) const {
+  std::array<char, kBytesAtATime> bytes;
+  const ssize_t got = ::recv(connection.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+  return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
+}
+
+void ConnectionAcceptor::watch_lingering() {
+  std::uint64_t wakeups = 0;
+  static_cast<void>(!::read(wakeup_fd_, &wakeups, sizeof wakeups));
+  std::vector<int> sockets;
+  {
+    const std::lock_guard lock(mutex_);
+    sockets.swap(to_linger_);
+  }
+  for (const int socket : sockets) {
+    if (lingering_.size() >= limits_.max_lingering) close(lingering_.begin());
+    try {
+      const Place place = add(lingering_, {.socket = socket, .received = {}});
+      // Most clients have closed their end by now.
+      if (discard_some(place->connection) || !add_to_epoll(epoll_fd_, socket, &*place)) close(place);
+    } catch (const std::bad_alloc&) {
+      ::close(socket);
+    }
+  }
 }
 
 void ConnectionAcceptor::stop_accepting(int listening) {
   ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, listening, nullptr);
-  ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, wakeup_fd_, nullptr);
   ::close(listening);
-  for (auto connection = pending_.begin(); connection != pending_.end();) {
-    const auto next = std::next(connection);
-    if (connection->received.empty()) close(connection);
-    connection = next;
+  for (auto each = pending_.begin(); each != pending_.end();) {
+    const auto next = std::next(each);
+    if (each->connection.received.empty()) close(each);
+    each = next;
   }
 }
 
 /// A client that has begun to send gets the timeout answer, as far as its socket takes it at once.
 void ConnectionAcceptor::close_timed_out() {
-  while (!pending_.empty() && pending_.front().accepted + limits_.head_time <= Clock::now()) {
-    const PendingConnection& late = pending_.front();
+  const auto now = Clock::now();
+  while (!pending_.empty() && pending_.front().connection.accepted + limits_.head_time <= now) {
+    const PendingConnection& late = pending_.front().connection;
     try {
       const std::string answer = late.received.empty() ? "" : make_timeout_answer_(late.received);
       static_cast<void>(::send(late.socket, answer.data(), answer.size(), MSG_DONTWAIT | MSG_NOSIGNAL));
@@ -170,18 +261,30 @@ void ConnectionAcceptor::close_timed_out() {
     }
     close(pending_.begin());
   }
+  while (!lingering_.empty() && lingering_.front().connection.accepted + limits_.linger_time <= now)
+    close(lingering_.begin());
 }
 
-void ConnectionAcceptor::close(std::list<PendingConnection>::iterator connection) {
+void ConnectionAcceptor::close(Place place) {
+  const PendingConnection& connection = place->connection;
   // close() also removes the socket from epoll.
-  if (connection->socket >= 0) ::close(connection->socket);
-  pending_.erase(connection);
+  if (connection.socket >= 0) ::close(connection.socket);
+  if (place->lingering) {
+    lingering_.erase(place);
+    return;
+  }
+  const auto count = pending_of_peer_.find(connection.peer);
+  if (count != pending_of_peer_.end() && --count->second == 0) pending_of_peer_.erase(count);
+  pending_.erase(place);
 }
 
 int ConnectionAcceptor::poll_timeout_ms() const {
   constexpr int kAtMost = 100;
-  if (pending_.empty()) return -1;
-  const auto deadline = pending_.front().accepted + limits_.head_time;
+  if (pending_.empty() && lingering_.empty()) return -1;
+  auto deadline = Clock::time_point::max();
+  if (!pending_.empty()) deadline = pending_.front().connection.accepted + limits_.head_time;
+  if (!lingering_.empty())
+    deadline = std::min(deadline, lingering_.front().connection.accepted + limits_.linger_time);
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
   return static_cast<int>(std::clamp<long>(left.count(), 0, kAtMost));
 }

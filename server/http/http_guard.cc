@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/http_guard.h"
 
+#include <strings.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <exception>
 #include <new>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "server/http/memory_reserve.h"
@@ -25,6 +28,8 @@ namespace server {
 namespace {
 
 constexpr std::size_t kThreads = 32;  // they wait for clients most of the time
+constexpr std::size_t kProbeThreads = 2;
+constexpr std::size_t kMostProbesQueued = 512;
 constexpr int kBacklog = 511;  // the library's 5 makes clients wait for a second when a few come at once
 
 void set_reuse_address(socket_t socket) {
@@ -65,22 +70,41 @@ std::string head_of(const Response& response) {
 
 std::string text_of(const Response& response) { return head_of(response) + response.body; }
 
+/// Whether a head asks for a path that may be a probe, which its last segment says.
+bool may_be_probe(std::string_view head) {
+  const std::string_view line = head.substr(0, head.find("\r\n"));
+  if (!line.starts_with("GET ") && !line.starts_with("HEAD ")) return false;
+  std::string_view target = line.substr(line.find(' ') + 1);
+  target = target.substr(0, target.find_first_of(" ?#"));
+  return target.ends_with("/healthz") || target.ends_with("/readyz");
+}
+
 }  // namespace
 
 GuardedServer::GuardedServer(const HttpLimits& limits,
                              std::function<Response(int, const std::string&)> make_refusal)
     : limits_(limits),
       make_refusal_(std::move(make_refusal)),
+      busy_(make_refusal_(503, "as many requests as may wait are waiting; try again")),
       no_memory_answer_(
           text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
-      pool_(kThreads),
       acceptor_(
-          {.head_bytes = limits.head_bytes, .head_time = limits.head_time, .drain_time = limits.drain_time},
+          {.head_bytes = limits.head_bytes,
+           .head_time = limits.head_time,
+           .linger_time = limits.linger_time,
+           .drain_time = limits.drain_time},
           [this](PendingConnection connection) { queue_connection(std::move(connection)); },
           [this](const std::string& received) {
             return refusal_text(408, "the head of the request did not come in time",
                                 received.starts_with("HEAD "));
-          }) {
+          }),
+      pool_(kThreads, limits.max_queued,
+            [this](PendingConnection connection) {
+              --queued_;
+              serve_and_close(std::move(connection));
+            }),
+      probe_pool_(kProbeThreads, kMostProbesQueued,
+                  [this](PendingConnection connection) { serve_and_close(std::move(connection)); }) {
   set_socket_options(set_reuse_address);
   set_tcp_nodelay(true);
   set_payload_max_length(limits.body_bytes);
@@ -88,6 +112,7 @@ GuardedServer::GuardedServer(const HttpLimits& limits,
 
 GuardedServer::~GuardedServer() {
   pool_.finish();
+  probe_pool_.finish();
   const socket_t socket = svr_sock_.exchange(INVALID_SOCKET);
   if (socket != INVALID_SOCKET) ::close(socket);
 }
@@ -102,26 +127,41 @@ bool GuardedServer::accept_connections() {
   const bool good = acceptor_.run(svr_sock_);
   svr_sock_ = INVALID_SOCKET;
   pool_.finish();
+  probe_pool_.finish();
   return good;
 }
 
 void GuardedServer::stop_accepting() { acceptor_.stop(); }
 
 void GuardedServer::queue_connection(PendingConnection connection) noexcept {
-  const int socket = connection.socket;
-  ++queued_;
+  std::optional<PendingConnection> displaced;
   try {
-    pool_.add(
-        [this, connection = std::move(connection)]() mutable { serve_and_close(std::move(connection)); });
+    if (may_be_probe(connection.received)) {
+      displaced = probe_pool_.add(connection);
+    } else {
+      ++queued_;
+      displaced = pool_.add(connection);
+      if (displaced) --queued_;
+    }
   } catch (const std::bad_alloc&) {
-    --queued_;
+    if (!may_be_probe(connection.received)) --queued_;
     log_error("a connection is closed: no memory");
-    ::close(socket);
+    ::close(connection.socket);
+    return;
   }
+  if (displaced) refuse_without_worker(std::move(*displaced), busy_);
+}
+
+void GuardedServer::refuse_without_worker(PendingConnection connection, const Response& refusal) noexcept {
+  try {
+    const std::string answer = connection.received.starts_with("HEAD ") ? head_of(refusal) : text_of(refusal);
+    static_cast<void>(::send(connection.socket, answer.data(), answer.size(), MSG_DONTWAIT | MSG_NOSIGNAL));
+  } catch (const std::bad_alloc&) {  // closed without an answer
+  }
+  if (!acceptor_.linger(connection.socket)) ::close(connection.socket);
 }
 
 void GuardedServer::serve_and_close(PendingConnection connection) noexcept {
-  --queued_;
   const int socket = connection.socket;
   HttpStream stream(std::move(connection), limits_, draining_, queued_);
   events_of_this_connection.reset();
@@ -130,6 +170,7 @@ void GuardedServer::serve_and_close(PendingConnection connection) noexcept {
     if (!event_hub_.adopt(socket, std::move(events))) ::close(socket);
     return;
   }
+  if (acceptor_.linger(socket)) return;
   stream.lingering_close();
   ::close(socket);
 }
@@ -151,6 +192,7 @@ void GuardedServer::stream_events(std::shared_ptr<EventSource> events) {
 }
 
 std::ptrdiff_t GuardedServer::read_body(char* to, std::size_t size) {
+  stream_of_this_connection->send_continue();
   return stream_of_this_connection->read(to, size);
 }
 
@@ -172,6 +214,9 @@ void GuardedServer::serve(HttpStream& stream) {
   // refuse and in how they parse a query. The library therefore parses method and version alone; fill() sets
   // the rest.
   RequestHead head = read_head(stream.head());
+  // Nor does the library say "100 Continue": it would before it has asked whether the client may.
+  if (const auto expected = head.headers.extract("expect"))
+    stream.expect_continue(::strcasecmp(expected.mapped().c_str(), "100-continue") == 0);
   stream.replace_head(head.request_line + "\r\n\r\n");
   stream_of_this_connection = &stream;
   process_with_library(*this, stream, [&head](httplib::Request& request) { fill(request, std::move(head)); });

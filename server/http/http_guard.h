@@ -64,6 +64,8 @@ class GuardedServer final : public httplib::Server {
 
  private:
   void queue_connection(PendingConnection connection) noexcept;
+  /// Answers on the thread that accepts: as much as the socket takes at once, which is all of it.
+  void refuse_without_worker(PendingConnection connection, const Response& refusal) noexcept;
   void serve_and_close(PendingConnection connection) noexcept;
   /// Serves the request; an exception is logged, and answered if nothing has been sent.
   void serve_guarded(HttpStream& stream) noexcept;
@@ -75,12 +77,17 @@ class GuardedServer final : public httplib::Server {
 
   HttpLimits limits_;
   std::function<Response(int, const std::string&)> make_refusal_;
-  const std::string no_memory_answer_;  ///< made in advance, while there is memory
+  // Made in advance, while there is memory and time.
+  const Response busy_;
+  const std::string no_memory_answer_;
   std::atomic<bool> draining_ = false;
   std::atomic<int> queued_ = 0;  ///< connections that no thread has taken yet
   EventHub event_hub_;
-  WorkerPool pool_;  // its tasks use what stands above
   ConnectionAcceptor acceptor_;
+  // They use what stands above. Probes have threads of their own: whether the service is up must be told
+  // while all others are busy.
+  WorkerPool pool_;
+  WorkerPool probe_pool_;
 };
 
 }  // namespace server

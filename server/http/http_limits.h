@@ -22,6 +22,7 @@ struct HttpLimits {
   std::chrono::milliseconds linger_time{2'000};  ///< wait for the client to close its end
   std::chrono::milliseconds crowded_time{
       500};  ///< each longer wait, while other connections queue for a thread
+  std::size_t max_queued = 512;                  ///< connections that wait for a thread; beyond them: 503
   std::chrono::milliseconds drain_time{1'000};   ///< time left to every connection once the server is ending
 };
 

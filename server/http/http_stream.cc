@@ -81,6 +81,13 @@ void HttpStream::replace_head(const std::string& head) {
   head_size_ = head.size();
 }
 
+void HttpStream::send_continue() {
+  if (!std::exchange(expects_continue_, false)) return;
+  constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+  // The first bytes of a connection: its socket has room for them.
+  static_cast<void>(::send(socket_, kContinue.data(), kContinue.size(), MSG_DONTWAIT | MSG_NOSIGNAL));
+}
+
 bool HttpStream::send_all(std::string_view text) {
   while (!text.empty()) {
     const ssize_t sent = write(text.data(), text.size());

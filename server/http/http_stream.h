@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "server/http/connection_acceptor.h"
 #include "server/http/http_limits.h"
+#include "server/http/pending_connection.h"
 
 namespace server {
 
@@ -34,6 +34,11 @@ class HttpStream final : public httplib::Stream {
 
   /// Replaces the head that was read. Not after read().
   void replace_head(const std::string& head);
+
+  /// Notes whether the client waits for "100 Continue" before it sends the body (RFC 9110, section 10.1.1).
+  void expect_continue(bool expected) { expects_continue_ = expected; }
+  /// Sends it to a client that waits, once. Not counted as part of the answer.
+  void send_continue();
 
   /// Whether the client has been sent anything.
   [[nodiscard]] bool has_sent() const { return sent_bytes_ > 0; }
@@ -77,6 +82,7 @@ class HttpStream final : public httplib::Stream {
   Clock::time_point crowded_deadline_;  ///< of reads, while other connections queue for a thread
   std::optional<Clock::time_point> write_start_;  ///< of the first write
   std::size_t sent_bytes_ = 0;
+  bool expects_continue_ = false;
   Clock::duration waited_{};  ///< sum of the waits until the client took more
 };
 

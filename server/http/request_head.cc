@@ -170,14 +170,18 @@ std::string_view read_request_line(std::string_view line, RequestHead& result) {
   return parts.host;
 }
 
-/// The name in a Host header: no port, no brackets, no dot at its end, in lower case.
+/// The name in a Host header: no port, no brackets, no dot at its end, in lower case. Empty where anything but
+/// a port follows the name.
 std::string bare_host(const std::string& host) {
   std::string name = lower(host);
-  if (name.starts_with('[')) {
-    const auto end = name.find(']');
-    return end == std::string::npos ? "" : name.substr(1, end - 1);
-  }
-  name = name.substr(0, name.find(':'));
+  const bool bracketed = name.starts_with('[');
+  const auto end = bracketed ? name.find(']') : std::min(name.find(':'), name.size());
+  if (end == std::string::npos) return "";
+  const std::string_view port = std::string_view(name).substr(bracketed ? end + 1 : end);
+  if (!port.empty() && (port[0] != ':' || port.find_first_not_of("0123456789", 1) != std::string_view::npos))
+    return "";
+  if (bracketed) return name.substr(1, end - 1);
+  name.resize(end);
   if (name.ends_with('.')) name.pop_back();
   return name;
 }

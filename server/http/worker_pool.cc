@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/worker_pool.h"
 
-#include <chrono>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -10,7 +8,8 @@
 
 namespace server {
 
-WorkerPool::WorkerPool(std::size_t threads) {
+WorkerPool::WorkerPool(std::size_t threads, std::size_t most_queued, Serve serve)
+    : serve_(std::move(serve)), queue_(most_queued) {
   try {
     for (std::size_t i = 0; i < threads; ++i)
       threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
@@ -24,17 +23,14 @@ WorkerPool::WorkerPool(std::size_t threads) {
 
 WorkerPool::~WorkerPool() { finish(); }
 
-void WorkerPool::add(Task task) {
-  for (;;) {
-    try {
-      const std::lock_guard lock(mutex_);
-      tasks_.push_back(std::move(task));  // left as it is if there is no memory
-      break;
-    } catch (const std::bad_alloc&) {  // what is being answered gives some back
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+std::optional<PendingConnection> WorkerPool::add(PendingConnection& connection) {
+  std::optional<PendingConnection> displaced;
+  {
+    const std::lock_guard lock(mutex_);
+    displaced = queue_.add(connection);
   }
   changed_.notify_one();
+  return displaced;
 }
 
 void WorkerPool::finish() {
@@ -44,14 +40,13 @@ void WorkerPool::finish() {
 
 void WorkerPool::work(const std::stop_token& stop) {
   for (;;) {
-    Task task;
+    std::optional<PendingConnection> next;
     {
       std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, [this] { return !tasks_.empty(); })) return;
-      task = std::move(tasks_.front());
-      tasks_.pop_front();
+      if (!changed_.wait(lock, stop, [this] { return queue_.size() > 0; })) return;
+      next = queue_.take();
     }
-    task();
+    serve_(std::move(*next));
   }
 }
 

@@ -3,40 +3,43 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
+#include "server/http/fair_queue.h"
+
 namespace server {
 
-/// Threads that run tasks in the order of add(). Without memory for a task, add() waits; the process does not
-/// end.
+/// Threads that serve connections, in the order of a FairQueue.
 class WorkerPool {
  public:
-  using Task = std::function<void()>;
+  using Serve = std::function<void(PendingConnection)>;
 
+  /// @param most_queued  connections that may wait for a thread
+  /// @param serve        must not throw
   /// @throws std::runtime_error if the system does not allow so many threads
-  explicit WorkerPool(std::size_t threads);
+  WorkerPool(std::size_t threads, std::size_t most_queued, Serve serve);
   ~WorkerPool();  ///< finish()
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Returns when the task is queued: at once, unless there is no memory for it.
-  /// @param task  must not throw
-  void add(Task task);
+  /// Queues a connection. @returns see FairQueue::add()
+  [[nodiscard]] std::optional<PendingConnection> add(PendingConnection& connection);
 
-  /// Runs the queued tasks and ends the threads.
+  /// Serves the queued connections and ends the threads.
   void finish();
 
  private:
   void work(const std::stop_token& stop);
 
-  std::mutex mutex_;  // guards tasks_
+  const Serve serve_;
+  std::mutex mutex_;  // guards queue_
   std::condition_variable_any changed_;
-  std::deque<Task> tasks_;
+  FairQueue queue_;
   std::vector<std::jthread> threads_;  // last: they use the rest
 };
 

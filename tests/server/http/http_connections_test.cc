@@ -115,6 +115,71 @@ TEST(HttpCrowd, GivesThePlaceOfTheOldestThatWaitsToANewOne) {
   http.stop();
 }
 
+/// Server with other limits than the fixture's.
+class LimitedServer {
+ public:
+  explicit LimitedServer(const HttpLimits& limits, const std::string& token = "")
+      : http_(bench_.routes(), {.address = "127.0.0.1", .port = 0, .token = token}, limits), port_(http_.bind()) {
+    listener_ = std::jthread([this] { http_.listen(); });
+  }
+  ~LimitedServer() { http_.stop(); }
+  LimitedServer(const LimitedServer&) = delete;
+  LimitedServer& operator=(const LimitedServer&) = delete;
+  [[nodiscard]] int port() const { return port_; }
+
+ private:
+  Bench bench_;
+  HttpServer http_;
+  int port_;
+  std::jthread listener_;
+};
+
+constexpr const char* kBodyThatDoesNotCome =
+    "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n{";
+constexpr const char* kGet = "GET /v1/sweeps HTTP/1.1\r\nHost: localhost\r\n\r\n";
+
+TEST(HttpCrowd, ServesOthersAtOnceBesideHundredsThatStayOpenOnceTheyAreAnswered) {
+  HttpLimits limits;
+  limits.linger_time = limits.crowded_time = 5s;  // a thread each would be theirs for so long
+  const LimitedServer server(limits, "a-token-of-sixteen");
+  std::list<RawClient> others;
+  for (int i = 0; i < 200; ++i) {
+    others.emplace_back(server.port()).send(kGet);
+    EXPECT_EQ(others.back().read_status(), 401) << i;
+  }
+  const auto start = Clock::now();
+  RawClient client(server.port());
+  client.send(kGet);
+  EXPECT_EQ(client.read_status(), 401);
+  EXPECT_LT(Clock::now() - start, 1s);
+}
+
+TEST(HttpCrowd, AnswersProbesWhileEveryThreadIsBusyAndRefusesWhatNoQueueTakes) {
+  HttpLimits limits;
+  limits.crowded_time = 5s;
+  limits.max_queued = 8;
+  const LimitedServer server(limits);
+  std::list<RawClient> busy;
+  for (int i = 0; i < 60; ++i) {
+    if (i == 32) std::this_thread::sleep_for(300ms);  // each of those has a thread
+    busy.emplace_back(server.port()).send(kBodyThatDoesNotCome);
+  }
+  // 8 wait; of the rest each is told to come again.
+  std::size_t refused = 0;
+  for (RawClient& each : busy) refused += each.answered_within(20ms) ? 1 : 0;
+  EXPECT_EQ(refused, 20U);
+  const std::string answer = busy.back().read_all();
+  EXPECT_EQ(status_of(answer), 503);
+  EXPECT_NE(answer.find("Retry-After: "), std::string::npos) << answer;
+  for (const char* const path : {"/healthz", "/readyz"}) {
+    const auto start = Clock::now();
+    RawClient probe(server.port());
+    probe.send(std::string("GET ") + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(probe.read_status(), 200) << path;
+    EXPECT_LT(Clock::now() - start, 1s) << path;
+  }
+}
+
 TEST_F(Http, DoesNotShareItsPort) {
   HttpServer second(bench_.routes(), {.address = "127.0.0.1", .port = port_}, short_limits());
   EXPECT_EQ(second.bind(), 0);

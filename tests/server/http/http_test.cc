@@ -184,6 +184,49 @@ TEST_F(Http, SaysContinueToAClientThatAsks) {
   EXPECT_EQ(client.read_all().find("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 422"), 0U);
 }
 
+TEST_F(Http, SkipsLineEndsBeforeTheRequest) {
+  EXPECT_EQ(status_of(ask("\r\nGET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")), 200);
+  EXPECT_EQ(status_of(ask("\r\n\r\n\r\nGET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")), 200);
+  RawClient client(port_);
+  for (const char* const piece : {"\r", "\n", "\r\n", "G", "ET /healthz HTTP/1.1\r\nHost: localhost\r\n\r", "\n"}) {
+    client.send(piece);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(status_of(client.read_all()), 200);
+}
+
+TEST_F(Http, TakesNothingButAPortAfterANameInBrackets) {
+  for (const char* const host : {"[::1]", "[::1]:8080", "[::1]:"})
+    EXPECT_EQ(status_of(ask(std::string("GET /v1/sweeps HTTP/1.1\r\nHost: ") + host + "\r\n\r\n")), 200) << host;
+  for (const char* const host :
+       {"[::1]evil.com", "[::1].evil.com", "[::1]:80evil.com", "[::1]:8080:evil.com", "localhost:evil.com",
+        "localhost:80@evil.com", "127.0.0.1:80.evil.com", "[::1", "[]"})
+    EXPECT_EQ(status_of(ask(std::string("GET /v1/sweeps HTTP/1.1\r\nHost: ") + host + "\r\n\r\n")), 403) << host;
+}
+
+TEST(HttpToken, ComesBeforeContinue) {
+  Bench bench;
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0, .token = "a-token-of-sixteen"}, short_limits());
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
+  const std::string head =
+      "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n";
+  RawClient stranger(port);
+  stranger.send(head + "\r\n");
+  EXPECT_EQ(stranger.read_status(), 401) << "a body is asked for that is not to be read";
+  RawClient client(port);
+  client.send(head + "Authorization: Bearer a-token-of-sixteen\r\n\r\n");
+  EXPECT_EQ(client.read_status(), 100);
+  client.send("{]");
+  EXPECT_NE(client.read_all().find("HTTP/1.1 400"), std::string::npos);
+  RawClient too_large(port);
+  too_large.send("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 200000\r\n"
+                 "Authorization: Bearer a-token-of-sixteen\r\n\r\n");
+  EXPECT_EQ(too_large.read_status(), 413);
+  http.stop();
+}
+
 TEST(HttpBody, IsNotAwaitedWhereNoneIsAnnounced) {
   Bench bench;
   HttpLimits limits;
