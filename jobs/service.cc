@@ -57,7 +57,10 @@ Service::Service(ServiceOptions options)
   if (options_.start == Start::kAtOnce) start();
 }
 
-Service::~Service() { stop(); }
+Service::~Service() {
+  stop();
+  store_->keep(!executors_.empty());  // one that was never started has nothing to keep
+}
 
 void Service::start() {
   if (!executors_.empty()) return;
@@ -290,8 +293,8 @@ void Service::record(const ClaimedJob& job, const RunRecord& run, const OnClaim&
 bool Service::finish_cancelling(const Cancellation& cancellation, const char* why_not) {
   if (cancellation.outcome == CancelOutcome::kMissing) return false;
   if (cancellation.outcome == CancelOutcome::kEnded && why_not != nullptr) throw WrongState(why_not);
-  for (const std::string& job : cancellation.running) {
-    for (const auto& executor : executors_) executor->stop_job(job);
+  for (const RunningJob& job : cancellation.running) {
+    for (const auto& executor : executors_) executor->stop_job(job.id, job.attempt);
   }
   wake();  // jobs of the same content may have waited
   tell_change();

@@ -36,7 +36,7 @@ class SlurmExecutor : public Executor {
   ~SlurmExecutor() override;  ///< stop()
 
   void wake() override;
-  void stop_job(const std::string&) override { wake(); }
+  void stop_job(const std::string&, std::int64_t) override { wake(); }
   void stop() override;
   [[nodiscard]] nlohmann::json status() const override;
 

@@ -66,11 +66,9 @@ void LocalPool::wake() {
   wake_.notify_all();
 }
 
-void LocalPool::stop_job(const std::string& id) {
+void LocalPool::stop_job(const std::string& id, std::int64_t attempt) {
   const std::lock_guard lock(running_mutex_);
-  for (auto& [attempt, task] : running_) {
-    if (attempt.first == id) task.stop.request_stop();
-  }
+  if (const auto found = running_.find({id, attempt}); found != running_.end()) found->second.stop.request_stop();
 }
 
 std::optional<double> LocalPool::find_part_done(const std::string& id) const {

@@ -46,7 +46,7 @@ class LocalPool : public Executor {
   ~LocalPool() override;  ///< stop()
 
   void wake() override;
-  void stop_job(const std::string& id) override;
+  void stop_job(const std::string& id, std::int64_t attempt) override;
   [[nodiscard]] std::optional<double> find_part_done(const std::string& id) const override;
   /// Stops all running jobs and gives them back to the source, too.
   void stop() override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -21,8 +22,9 @@ class Executor {
 
   /// There may be new jobs, or some that are not wanted any more.
   virtual void wake() = 0;
-  /// Stops the job if it is being computed; its record comes to nothing unless the store still wants it.
-  virtual void stop_job(const std::string& id) = 0;
+  /// Stops an attempt of a job if it is being computed; its record comes to nothing unless the store still
+  /// wants it. A later attempt, of a job that was queued again, goes on.
+  virtual void stop_job(const std::string& id, std::int64_t attempt) = 0;
   /// Part of its time that a running job has simulated; empty: not known.
   [[nodiscard]] virtual std::optional<double> find_part_done(const std::string& /*id*/) const { return {}; }
   /// Ends the executor's own threads. Returns when that is done.

@@ -112,7 +112,8 @@ void release_batches_of_other_engines(SQLite::Database& database) {
 std::optional<BatchRow> ClusterBatches::claim(const ExecutorFilter& filter, std::size_t most_jobs) {
   return core_.writer.write_often(
       Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
-        for (const std::int64_t sweep : order_of_sweeps(statements, filter, core_.served)) {
+        for (const auto& [negative_priority, served, sweep] :
+             order_of_sweeps(statements, filter, core_.served)) {
           const auto candidates = find_candidates(statements, sweep, most_jobs);
           if (candidates.empty()) continue;
           const std::int64_t now_ms = now_unix_ms();
@@ -215,6 +216,7 @@ void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint
 
 void ClusterBatches::end(std::int64_t batch) {
   core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
+    core_.writer.disturb();
     const auto release = statements.use(
         "UPDATE jobs SET state = 'queued', started_ms = NULL, batch = NULL, place = NULL WHERE batch = ?");
     release->bind(1, batch);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/store/job_queue.h"
 
+#include <iterator>
+#include <utility>
+
 #include "jobs/base/time_text.h"
 #include "jobs/store/check_quota.h"
 #include "jobs/store/store_results.h"
@@ -24,6 +27,13 @@ std::optional<ClaimedJob> find_claimable(Statements& statements, std::int64_t sw
                     .id = first->getColumn(1).getString(),
                     .attempt = first->getColumn(2).getInt64() + 1,
                     .parameters = first->getColumn(3).getString()};
+}
+
+bool has_queued_jobs(Statements& statements, std::int64_t sweep) {
+  const auto first =
+      statements.use("SELECT 1 FROM jobs WHERE state = 'queued' AND batch IS NULL AND sweep IS ?1 LIMIT 1");
+  if (sweep != kSingleJobs) first->bind(1, sweep);
+  return first->executeStep();
 }
 
 /// The content of a job; empty if the job no longer is what the worker took.
@@ -89,20 +99,38 @@ std::optional<ClaimedJob> JobQueue::record_and_claim(const ClaimedJob& job, cons
 
 std::optional<ClaimedJob> JobQueue::claim(Statements& statements, const ExecutorFilter& filter,
                                           const OnClaim& on_claim) {
-  for (const std::int64_t sweep : order_of_sweeps(statements, filter, core_.served)) {
-    auto job = find_claimable(statements, sweep);
-    if (!job) continue;
+  std::set<SweepTurn>& turns = find_turns(statements, filter);
+  for (auto turn = turns.begin(); turn != turns.end();) {
+    auto job = find_claimable(statements, turn->sweep);
+    if (!job) {
+      // What waits for the result of another job keeps its turn.
+      turn = has_queued_jobs(statements, turn->sweep) ? std::next(turn) : turns.erase(turn);
+      continue;
+    }
     const auto take = statements.use(
         "UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
     take->bind(1, job->attempt);
     take->bind(2, now_unix_ms());
     take->bind(3, job->seq);
     take->exec();
-    core_.served[sweep] = ++core_.claims;
+    core_.served[turn->sweep] = ++core_.claims;
+    auto served = turns.extract(turn);
+    served.value().served = core_.claims;
+    turns.insert(std::move(served));
     if (on_claim) on_claim(*job);
     return job;
   }
   return std::nullopt;
+}
+
+std::set<SweepTurn>& JobQueue::find_turns(Statements& statements, const ExecutorFilter& filter) {
+  SweepTurns& turns = core_.turns;
+  if (turns.disturbances != core_.writer.disturbances()) turns.of_executor.clear();
+  turns.disturbances = core_.writer.disturbances();
+  turns.default_executor = filter.default_executor;
+  const auto found = turns.of_executor.find(filter.executor);
+  if (found != turns.of_executor.end()) return found->second;
+  return turns.of_executor[filter.executor] = order_of_sweeps(statements, filter, core_.served);
 }
 
 bool JobQueue::record(Statements& statements, const ClaimedJob& job, const Outcome& outcome) {
@@ -121,6 +149,7 @@ bool JobQueue::record(Statements& statements, const ClaimedJob& job, const Outco
 
 void JobQueue::requeue(const ClaimedJob& job) {
   core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+    core_.writer.disturb();
     const auto put_back = statements.use(
         "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE seq = ? AND id = ? AND attempt = ? AND "
         "state = 'running'");

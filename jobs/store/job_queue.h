@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,15 @@ namespace jobs {
 
 enum class CancelOutcome { kMissing, kDone, kEnded };
 
+/// Job that is being computed.
+struct RunningJob {
+  std::string id;
+  std::int64_t attempt = 0;
+};
+
 struct Cancellation {
   CancelOutcome outcome = CancelOutcome::kMissing;
-  std::vector<std::string> running;  ///< jobs that were being computed
+  std::vector<RunningJob> running;  ///< those that were being computed
 };
 
 enum class DeleteOutcome { kMissing, kDone, kNotEnded, kOfStudy };
@@ -79,6 +87,8 @@ class JobQueue {
 
   [[nodiscard]] std::optional<ClaimedJob> claim(Statements& statements, const ExecutorFilter& filter,
                                                 const OnClaim& on_claim);
+  /// Scheduling order of an executor, found again if something may have queued jobs since the last claim.
+  [[nodiscard]] std::set<SweepTurn>& find_turns(Statements& statements, const ExecutorFilter& filter);
   bool record(Statements& statements, const ClaimedJob& job, const Outcome& outcome);
   /// Adds jobs to a sweep. False if there is none.
   bool add_jobs(SQLite::Database& database, const std::string& id, const std::vector<PlannedJob>& jobs,

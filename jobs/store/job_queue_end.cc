@@ -10,15 +10,17 @@
 namespace jobs {
 namespace {
 
-std::vector<std::string> find_running(SQLite::Database& database, const char* column, const std::string& id) {
+std::vector<RunningJob> find_running(SQLite::Database& database, const char* column, const std::string& id) {
   SQLite::Statement find(
       database,
       std::string(
-          "SELECT j.id FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep WHERE j.state = 'running' AND ") +
+          "SELECT j.id, j.attempt FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep WHERE j.state = 'running' "
+          "AND ") +
           column + " = ?");
   find.bind(1, id);
-  std::vector<std::string> running;
-  while (find.executeStep()) running.push_back(find.getColumn(0).getString());
+  std::vector<RunningJob> running;
+  while (find.executeStep())
+    running.push_back({.id = find.getColumn(0).getString(), .attempt = find.getColumn(1).getInt64()});
   return running;
 }
 
@@ -80,7 +82,7 @@ void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
 Cancellation JobQueue::cancel_sweep(const std::string& id) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
     if (!find_sweep_seq(database, id)) return {};
-    std::vector<std::string> running = find_running(database, "s.id", id);
+    std::vector<RunningJob> running = find_running(database, "s.id", id);
     const std::string of_sweep = "sweep = (SELECT seq FROM sweeps WHERE id = ?)";
     const bool done = cancel_where(database, of_sweep, id, ++core_.changes) > 0 ||
                       any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
@@ -91,7 +93,7 @@ Cancellation JobQueue::cancel_sweep(const std::string& id) {
 Cancellation JobQueue::cancel_job(const std::string& id) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
     if (!any_in_state(database, "id = ?", id)) return {};
-    std::vector<std::string> running = find_running(database, "j.id", id);
+    std::vector<RunningJob> running = find_running(database, "j.id", id);
     const bool done = cancel_where(database, "id = ?", id, ++core_.changes) > 0 ||
                       any_in_state(database, "state = 'cancelled' AND id = ?", id);
     return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};

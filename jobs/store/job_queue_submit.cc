@@ -37,6 +37,8 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
     const std::int64_t now_ms = now_unix_ms();
     std::string id = core_.ids.make(kSweepPrefix, now_ms);
     const std::int64_t sweep = insert_sweep(database, id, plan, request, now_ms);
+    core_.turns.add(plan.executor, {.negative_priority = -plan.priority, .sweep = sweep},
+                    core_.writer.disturbances());
     JobInserter inserter(database, core_.ids, now_ms, ++core_.changes);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
     check_queue_limit(database, max_queued);
@@ -51,6 +53,9 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
 std::string JobQueue::add_job(const PlannedJob& job, std::size_t max_queued,
                               const IdempotencyRecord<JobRow>& idempotency) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    const auto served = core_.served.find(kSingleJobs);
+    core_.turns.add("", {.served = served == core_.served.end() ? 0 : served->second},
+                    core_.writer.disturbances());
     std::string id = JobInserter(database, core_.ids, now_unix_ms(), ++core_.changes).insert(job, {});
     check_queue_limit(database, max_queued);
     if (!idempotency.key.empty())

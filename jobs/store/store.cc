@@ -15,6 +15,7 @@ Store::Store(const std::filesystem::path& file, const StoreQuota& quota) : core_
         error.code);
   }
   core_.writer.accept();
+  keep(true);
 }
 
 void Store::begin() {

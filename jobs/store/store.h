@@ -26,6 +26,11 @@ class Store {
   /// Engine for which the newest job was planned when the store was opened; this program's own in a new
   /// store.
   [[nodiscard]] const std::string& engine_before() const { return engine_before_; }
+  /// Says whether a store that was made here stays, as it does unless its start is refused.
+  void keep(bool kept) {
+    core_.writer.keep(kept);
+    core_.lock.keep(kept);
+  }
   /// Makes the file smaller by what deleting has freed, which needs room on the disk for a while. What has
   /// not been released is used again.
   void release_free_pages() { core_.writer.release_free_pages(); }

@@ -72,7 +72,8 @@ void keep_from_others(const std::string& file) {
 }
 
 /// SQLite would make the file readable for all; its log and index files copy the file's mode.
-void make_for_owner(const std::filesystem::path& store) {
+/// @returns whether there was none
+bool make_for_owner(const std::filesystem::path& store) {
   check_log_has_store(store);
   const int file = ::open(store.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kOwnerOnly);
   if (file >= 0) {
@@ -81,6 +82,7 @@ void make_for_owner(const std::filesystem::path& store) {
     throw system_error("cannot make the store " + store.string());
   }
   for (const char* suffix : {"", "-wal", "-shm"}) keep_from_others(store.string() + suffix);
+  return file >= 0;
 }
 
 SQLite::Database open_for_writing(const std::filesystem::path& store) {
@@ -165,27 +167,45 @@ Disk disk_state(const SQLite::Exception& error, const SQLite::Database* database
   return disk_state(last_error_of_log(*database));
 }
 
-StoreLock::StoreLock(const std::filesystem::path& store) {
-  // One lock for one file, whichever of its names is used.
-  const std::string path = std::filesystem::weakly_canonical(store).string() + ".lock";
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
-  if (file_ < 0) throw system_error("cannot open " + path);
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    const bool held = errno == EWOULDBLOCK;
-    const StorageError error =
-        held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY)
-             : system_error("cannot lock " + path);
-    ::close(file_);
-    throw error;
+/// Whether a name leads to the file that a descriptor has.
+static bool is_named(int file, const std::string& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
+}
+
+// One lock for one file, whichever of its names is used.
+StoreLock::StoreLock(const std::filesystem::path& store)
+    : path_(std::filesystem::weakly_canonical(store).string() + ".lock") {
+  // Again if the file was removed in between, by a start that was refused: its lock would keep nobody out.
+  for (bool locked = false; !locked;) {
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kOwnerOnly);
+    made_ = file_ >= 0;
+    if (!made_ && errno == EEXIST) file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
+    if (file_ < 0) throw system_error("cannot open " + path_);
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+      const bool held = errno == EWOULDBLOCK;
+      const StorageError error =
+          held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY)
+               : system_error("cannot lock " + path_);
+      ::close(file_);
+      throw error;
+    }
+    locked = is_named(file_, path_);
+    if (!locked) ::close(file_);
   }
   struct flock lock = lock_of_file(F_WRLCK);  // for is_locked()
   static_cast<void>(::fcntl(file_, F_OFD_SETLK, &lock));
 }
 
-StoreLock::~StoreLock() { ::close(file_); }
+StoreLock::~StoreLock() {
+  if (made_ && !kept_) ::unlink(path_.c_str());
+  ::close(file_);
+}
 
-StoreFileLock::StoreFileLock(const std::filesystem::path& store) {
-  make_for_owner(store);
+StoreFileLock::StoreFileLock(const std::filesystem::path& store)
+    : path_(store.string()), made_(make_for_owner(store)) {
   file_ = ::open(store.c_str(), O_RDWR | O_CLOEXEC);
   if (file_ < 0) return;  // SQLite tells why when it opens the file
   try {
@@ -207,6 +227,9 @@ StoreFileLock::StoreFileLock(const std::filesystem::path& store) {
 }
 
 StoreFileLock::~StoreFileLock() {
+  if (made_ && !kept_) {
+    for (const char* suffix : {"-wal", "-shm", ""}) ::unlink((path_ + suffix).c_str());
+  }
   if (file_ < 0) return;
   if (!has_content(log_)) static_cast<void>(::fremovexattr(file_, kLogMark));
   ::close(file_);

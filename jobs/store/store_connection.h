@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -22,11 +23,17 @@ class StoreLock {
  public:
   /// @throws StorageError if another process (or another store of this one) holds it
   explicit StoreLock(const std::filesystem::path& store);
-  ~StoreLock();
+  ~StoreLock();  ///< removes the file, if it was made here and is not kept
   StoreLock(const StoreLock&) = delete;
   StoreLock& operator=(const StoreLock&) = delete;
 
+  /// Says whether a file that was made here stays: a start that is refused leaves nothing behind.
+  void keep(bool kept) { kept_ = kept; }
+
  private:
+  const std::string path_;
+  bool made_ = false;
+  bool kept_ = false;
   int file_ = -1;
 };
 
@@ -39,11 +46,16 @@ class StoreFileLock {
   /// @throws StorageError if the file is in use under another name, or has several, or was not closed when it
   ///     was in use under another one, which its log lies beside
   explicit StoreFileLock(const std::filesystem::path& store);
-  ~StoreFileLock();
+  ~StoreFileLock();  ///< removes a store that was made here and is not kept
   StoreFileLock(const StoreFileLock&) = delete;
   StoreFileLock& operator=(const StoreFileLock&) = delete;
 
+  void keep(bool kept) { kept_ = kept; }
+
  private:
+  const std::string path_;
+  bool made_ = false;
+  bool kept_ = false;
   std::filesystem::path log_;
   int file_ = -1;
 };
@@ -145,26 +157,48 @@ class Writer {
   /// Runs work(database) in one transaction: all of it, or nothing if it throws.
   template <typename Work>
   auto write(Durability durability, Work&& work) {
-    return write_with(durability, std::forward<Work>(work), database_);
+    return write_with(durability, std::forward<Work>(work), database_, Disturbs::kYes);
   }
+
+  /// Number of the transactions, with the one at hand, that may have queued jobs: all but those of
+  /// write_often() that did not fail. Under the writer's lock, within work.
+  [[nodiscard]] std::uint64_t disturbances() const { return disturbances_; }
+  /// Says that the transaction at hand queues jobs. Within work of write_often().
+  void disturb() { ++disturbances_; }
 
   /// The same for work(statements), which is done often.
   template <typename Work>
   auto write_often(Durability durability, Work&& work) {
-    return write_with(durability, std::forward<Work>(work), statements_);
+    return write_with(durability, std::forward<Work>(work), statements_, Disturbs::kNo);
   }
 
   /// Says that the store has shown no damage. Until then its file is left as it is, however this ends.
   void accept();
+
+  /// Says whether a store that was made here stays.
+  void keep(bool kept) { file_lock_.keep(kept); }
 
   /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their
   /// turn.
   void release_free_pages();
 
  private:
+  enum class Disturbs { kYes, kNo };
+
+  /// Counts the transaction unless it did not fail.
+  struct FailureCount {
+    std::uint64_t& disturbances;
+    bool failed = true;
+    ~FailureCount() {
+      if (failed) ++disturbances;
+    }
+  };
+
   template <typename Work, typename With>
-  auto write_with(Durability durability, Work&& work, With& with) {
+  auto write_with(Durability durability, Work&& work, With& with, Disturbs disturbs) {
     const std::lock_guard lock(mutex_);
+    if (disturbs == Disturbs::kYes) ++disturbances_;
+    FailureCount count{.disturbances = disturbances_};
     return with_storage_errors([&] {
       roll_back_unfinished(database_);
       set_durability(durability);
@@ -172,9 +206,11 @@ class Writer {
       if constexpr (std::is_void_v<decltype(work(with))>) {
         work(with);
         transaction.commit();
+        count.failed = false;
       } else {
         auto result = work(with);
         transaction.commit();
+        count.failed = false;
         return result;
       }
     }, &database_);
@@ -188,6 +224,7 @@ class Writer {
   SQLite::Database database_;
   Statements statements_{database_};
   Durability durability_ = Durability::kSurvivesPowerLoss;
+  std::uint64_t disturbances_ = 1;
   bool accepted_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include "jobs/base/ids.h"
 #include "jobs/store/check_quota.h"
 #include "jobs/store/store_connection.h"
+#include "jobs/store/sweep_order.h"
 
 namespace jobs {
 
@@ -33,6 +34,7 @@ struct StoreCore {
   /// Number of the claim that last served a sweep; see kSingleJobs
   std::map<std::int64_t, std::uint64_t> served;
   std::uint64_t claims = 0;
+  SweepTurns turns;
   std::int64_t changes = 0;  ///< the last EndedJob::change
 };
 

@@ -178,6 +178,11 @@ void check_identity(SQLite::Database& database, const std::string& name) {
     throw StorageError(name + " is a database, but not a store of this program; it has been left as it is",
                        SQLITE_NOTADB);
   }
+  if (version < 0 || (version == 0 && !is_empty(database))) {
+    throw StorageError("the store " + name + " says that it is of form " + std::to_string(version) +
+                           ", which no program has written: it is damaged; it has been left as it is",
+                       SQLITE_CORRUPT);
+  }
   if (version > kNewestVersion) {
     throw StorageError("the store " + name + " is of a newer program (form " + std::to_string(version) +
                            ", this one knows " + std::to_string(kNewestVersion) +

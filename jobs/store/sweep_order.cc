@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/store/sweep_order.h"
 
-#include <algorithm>
-#include <utility>
+#include <vector>
 
 namespace jobs {
 namespace {
@@ -37,16 +36,16 @@ std::vector<WaitingSweep> find_waiting_sweeps(Statements& statements, const Exec
 
 }  // namespace
 
-std::vector<std::int64_t> order_of_sweeps(Statements& statements, const ExecutorFilter& filter,
-                                          const std::map<std::int64_t, std::uint64_t>& served) {
-  std::vector<WaitingSweep> sweeps = find_waiting_sweeps(statements, filter);
-  // Never served counts as longest ago; among those the oldest sweep comes first, since the sort is stable.
-  std::ranges::stable_sort(sweeps, {}, [&](const WaitingSweep& sweep) {
-    return std::pair(-sweep.priority, served.contains(sweep.seq) ? served.at(sweep.seq) : 0);
-  });
-  std::vector<std::int64_t> turns;
-  for (const WaitingSweep& sweep : sweeps) turns.push_back(sweep.seq);
-  return turns;
+std::set<SweepTurn> order_of_sweeps(Statements& statements, const ExecutorFilter& filter,
+                                    const std::map<std::int64_t, std::uint64_t>& served) {
+  std::set<SweepTurn> order;
+  for (const WaitingSweep& sweep : find_waiting_sweeps(statements, filter)) {
+    const auto found = served.find(sweep.seq);
+    order.insert({.negative_priority = -sweep.priority,
+                  .served = found == served.end() ? 0 : found->second,
+                  .sweep = sweep.seq});
+  }
+  return order;
 }
 
 }  // namespace jobs

@@ -117,8 +117,37 @@ TEST(LocalPool, ComputesTheJobThatARecordHandsOverAndCanStopIt) {
        .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
       engine.runner(), 1, [](const std::string&) {});
   handed_over.wait(false);
-  pool.stop_job("job_2");  // which may not have begun yet
+  pool.stop_job("job_2", 1);  // which may not have begun yet
   for (int seen = records; seen < 2; seen = records) records.wait(seen);
+}
+
+// A cancel commits, a retry queues the job again and its new attempt begins, and only then the cancel stops what
+// it found running.
+TEST(LocalPool, StopsTheAttemptThatWasCancelledAndNoLaterOne) {
+  FakeEngine engine;
+  engine.hold();
+  std::atomic<int> claims = 0;
+  std::atomic<bool> succeeded = false;
+  jobs::LocalPool pool(
+      {.claim =
+           [&](const jobs::OnClaim& on_claim) {
+             jobs::ClaimedJob job = numbered_job(1);
+             job.attempt = 2;
+             if (claims++ == 0) on_claim(job);
+           },
+       .record =
+           [&](const jobs::ClaimedJob&, const jobs::RunRecord& record, const jobs::OnClaim&) {
+             EXPECT_EQ(record.end, jobs::RunRecord::End::kSucceeded);
+             succeeded = true;
+             succeeded.notify_all();
+           },
+       .requeue = [](const jobs::ClaimedJob&) { ADD_FAILURE(); }},
+      engine.runner(), 1, [](const std::string&) {});
+  engine.await_running(1);
+  pool.stop_job("job_1", 1);
+  engine.release();
+  succeeded.wait(false);
+  EXPECT_EQ(engine.stopped(), 0);
 }
 
 TEST(LocalPool, OffersAResultAloneThatCouldNotBeStoredWithTheNextJob) {

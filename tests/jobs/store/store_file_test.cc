@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "jobs/base/errors.h"
+#include "jobs/service.h"
 #include "jobs/store/store.h"
 #include "tests/jobs/service_support.h"
 #include "tests/jobs/store/store_support.h"
@@ -193,6 +194,50 @@ TEST(Store, RefusesTheFormOfANewerProgramAndLeavesItAlone) {
   execute_sql(temporary.file(), "PRAGMA user_version = 1000");
   EXPECT_NE(store_refusal_of(temporary.file()).find("newer program"), std::string::npos);
   EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "1000");
+}
+
+TEST(Store, RefusesAFormThatNoProgramHasWritten) {
+  const TemporaryStore temporary;
+  { const jobs::Store store(temporary.file()); }
+  for (const char* const form : {"-1", "0"}) {
+    execute_sql(temporary.file(), std::string("PRAGMA user_version = ") + form);
+    EXPECT_NE(store_refusal_of(temporary.file()).find(std::string("of form ") + form), std::string::npos)
+        << store_refusal_of(temporary.file());
+    EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), form);
+  }
+}
+
+TEST(Store, LeavesNothingBehindWhereItsStartIsRefused) {
+  const TemporaryStore temporary;
+  const std::filesystem::path file = temporary.file();
+  const std::filesystem::path folder = file.parent_path();
+  const auto count_files = [&] {
+    return std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
+  };
+  // Another program's database gets no lock beside it.
+  { std::ofstream(file) << ""; }
+  execute_sql(file, "CREATE TABLE notes (text)");
+  EXPECT_NE(store_refusal_of(file).find("not a store of this program"), std::string::npos);
+  EXPECT_EQ(count_files(), 1);
+  std::filesystem::remove(file);
+  // A service that was never started, because its port is taken, say.
+  FakeEngine engine;
+  {
+    jobs::ServiceOptions options = options_of(temporary, engine, 1);
+    options.start = jobs::Start::kWhenTold;
+    const jobs::Service service(options);
+    EXPECT_TRUE(std::filesystem::exists(file));
+  }
+  EXPECT_EQ(count_files(), 0);
+  // A store that was there before stays, and so does one that was used.
+  { const jobs::Service service(options_of(temporary, engine, 1)); }
+  EXPECT_TRUE(std::filesystem::exists(file));
+  {
+    jobs::ServiceOptions options = options_of(temporary, engine, 1);
+    options.start = jobs::Start::kWhenTold;
+    const jobs::Service service(options);
+  }
+  EXPECT_TRUE(std::filesystem::exists(file));
 }
 
 TEST(Store, RefusesTheDatabaseOfAnotherProgramAndLeavesItAlone) {
