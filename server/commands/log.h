@@ -31,8 +31,8 @@ class LineQueue {
 };
 
 /// Log on standard error, since standard output holds the one line that scripts read, from construction to
-/// destruction. A message is one line of it, whatever text of a user it holds: see escape_for_log(). Lines that
-/// a LineQueue has no room for are counted, and the next line that finds room follows their number.
+/// destruction. A message is one line of it, whatever text of a user it holds: see escape_for_log(). Lines
+/// that a LineQueue has no room for are counted, and the next line that finds room follows their number.
 class Log {
  public:
   /// @param level  "debug", "info", "warning" or "error"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <sys/stat.h>
 
-struct stat;
+#include <string>
 
 namespace server::commands {
 
