@@ -186,7 +186,7 @@ std::uint64_t count_replicates(const json& completed, const Replicates& replicat
 ///     apart by `replicate` alone
 /// @throws InvalidRequest if there are more than max_jobs with them
 void add_jobs(const json& completed, const SweepRequest& sweep, const json& swept, std::size_t max_jobs,
-              SweepPlan& plan) {
+              PlanBudget& budget, SweepPlan& plan) {
   json replicate = completed;
   const std::uint64_t count = count_replicates(completed, sweep.replicates);
   if (count > max_jobs || plan.jobs.size() > max_jobs - count)
@@ -203,6 +203,7 @@ void add_jobs(const json& completed, const SweepRequest& sweep, const json& swep
     }
     plan.jobs.push_back(
         make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept.dump()));
+    budget.add_job(plan.jobs.back().parameters.size() + plan.jobs.back().swept.size());
   }
 }
 
@@ -233,7 +234,7 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
     json swept = json::array();
     for (const std::string& path : plan.swept)
       swept.push_back(shown.at(completed, path, position.case_index));
-    if (found.empty()) add_jobs(completed, sweep, swept, max_jobs, plan);
+    if (found.empty()) add_jobs(completed, sweep, swept, max_jobs, budget, plan);
   } while (position.advance(sweep));
   faults.throw_if_any();
   const bool replicates_some =

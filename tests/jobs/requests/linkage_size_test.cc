@@ -102,5 +102,33 @@ TEST(SweepOfLinkages, MayHaveFewerJobsTheLongerTheDescription) {
             std::string::npos);
 }
 
+// A bore of 360 sectors and some rings, in each job: 946 MB of store from a body of 97 kB, once.
+TEST(SweepOfLargeParameters, MayHaveFewerJobsTheLargerTheyAre) {
+  nlohmann::ordered_json request = request_of(
+      R"({"parameters": {"contact": "continuum", "radial_levels": 9}, "sweep": {"crank_velocity_rad_s": {"from": 1, "to": 9, "count": 5}}})");
+  request["parameters"]["wear_depth_um"] = std::vector<std::vector<double>>(9, std::vector<double>(360, 0.12345));
+  const auto refusal_with = [&](int count) -> std::string {
+    request["sweep"]["crank_velocity_rad_s"]["count"] = count;
+    try {
+      static_cast<void>(jobs::plan_sweep(request, 10'000));
+    } catch (const jobs::InvalidRequest& invalid) {
+      return invalid.faults().front().detail;
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal_with(5), "");
+  EXPECT_EQ(refusal_with(10'000).find("the parameters are too large for a sweep of 10000 jobs, each of which keeps them: at most "), 0U)
+      << refusal_with(10'000);
+  // Also where the cases that follow are the large ones.
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array();
+  for (int i = 0; i < 100; ++i)
+    cases.push_back({{"wear_depth_um", std::vector<std::vector<double>>(9, std::vector<double>(360, 0.1 + 1e-3 * i))}});
+  nlohmann::ordered_json many = request;
+  many["parameters"].erase("wear_depth_um");
+  many["cases"] = cases;
+  many["sweep"]["crank_velocity_rad_s"]["count"] = 100;
+  EXPECT_THROW(static_cast<void>(jobs::plan_sweep(many, 10'000)), jobs::InvalidRequest);
+}
+
 }  // namespace
 }  // namespace jobs_tests
