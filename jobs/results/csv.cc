@@ -74,19 +74,24 @@ std::string to_csv(const ResultTable& table) {
   return csv;
 }
 
+void append_csv_head(std::string& csv, const std::vector<engine::QuantityInfo>& channels) {
+  for (std::size_t i = 0; i < channels.size(); ++i) csv += (i > 0 ? "," : "") + text_cell(channels[i].key);
+  csv += kLineEnd;
+}
+
+void append_csv_row(std::string& csv, const std::vector<std::vector<double>>& columns, std::size_t row) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (i > 0) csv += ',';
+    append_number_cell(csv, columns[i][row]);
+  }
+  csv += kLineEnd;
+}
+
 std::string to_csv(const engine::Trajectory& trajectory) {
   std::string csv;
-  for (std::size_t i = 0; i < trajectory.channels.size(); ++i)
-    csv += (i > 0 ? "," : "") + text_cell(trajectory.channels[i].key);
-  csv += kLineEnd;
+  append_csv_head(csv, trajectory.channels);
   const std::size_t samples = trajectory.columns.empty() ? 0 : trajectory.columns.front().size();
-  for (std::size_t k = 0; k < samples; ++k) {
-    for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
-      if (i > 0) csv += ',';
-      append_number_cell(csv, trajectory.columns[i][k]);
-    }
-    csv += kLineEnd;
-  }
+  for (std::size_t k = 0; k < samples; ++k) append_csv_row(csv, trajectory.columns, k);
   return csv;
 }
 

@@ -13,4 +13,8 @@ namespace jobs {
 [[nodiscard]] std::string to_csv(const ResultTable& table);
 [[nodiscard]] std::string to_csv(const engine::Trajectory& trajectory);
 
+// The header line and one of the rows of a trajectory's CSV.
+void append_csv_head(std::string& csv, const std::vector<engine::QuantityInfo>& channels);
+void append_csv_row(std::string& csv, const std::vector<std::vector<double>>& columns, std::size_t row);
+
 }  // namespace jobs

@@ -10,9 +10,7 @@
 #include "jobs/results/resource_json.h"
 
 namespace jobs {
-namespace {
 
-/// Appends a number as JSON that reads back exactly; null for what is not finite.
 void append_json_number(std::string& text, double value) {
   if (!std::isfinite(value)) {
     text += "null";
@@ -22,6 +20,8 @@ void append_json_number(std::string& text, double value) {
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   text.append(digits, end);
 }
+
+namespace {
 
 void append_json_cell(std::string& text, const nlohmann::json& cell) {
   if (cell.is_number_float()) {
@@ -87,13 +87,18 @@ std::string to_json_lines(const ResultTable& table) {
   return table.rows.empty() ? "" : joined_rows(table, "", "\n") + "\n";
 }
 
-std::string to_json_columns(const engine::Trajectory& trajectory) {
-  std::string text = "{\"channels\":[";
-  for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
+void append_json_channels(std::string& text, const std::vector<engine::QuantityInfo>& channels) {
+  text += "{\"channels\":[";
+  for (std::size_t c = 0; c < channels.size(); ++c) {
     if (c > 0) text += ',';
-    text += text_of(trajectory.channels[c].key);
+    text += text_of(channels[c].key);
   }
   text += "],\n\"columns\":{";
+}
+
+std::string to_json_columns(const engine::Trajectory& trajectory) {
+  std::string text;
+  append_json_channels(text, trajectory.channels);
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
     text += c == 0 ? "\n" : ",\n";
     text += text_of(trajectory.channels[c].key);

@@ -18,4 +18,10 @@ namespace jobs {
 /// {"channels": [key, ...], "columns": {key: [number, ...], ...}}; null for what is not finite.
 [[nodiscard]] std::string to_json_columns(const engine::Trajectory& trajectory);
 
+/// Appends the beginning of those columns, up to the first one.
+void append_json_channels(std::string& text, const std::vector<engine::QuantityInfo>& channels);
+
+/// Appends a number as JSON that reads back exactly; null for what is not finite.
+void append_json_number(std::string& text, double value);
+
 }  // namespace jobs

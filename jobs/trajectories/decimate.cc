@@ -5,24 +5,28 @@
 #include <vector>
 
 namespace jobs {
-namespace {
-
-/// Marks the samples in [begin, end) in which a channel has its extremes. What is no number is no extreme.
-void mark_extremes(std::span<const double> column, std::size_t begin, std::size_t end,
-                   std::vector<bool>& kept) {
+void mark_extremes(std::span<const double> values, std::size_t first, std::vector<bool>& kept) {
+  const std::size_t end = values.size();
   std::size_t least = end;
   std::size_t largest = end;
-  for (std::size_t k = begin; k < end; ++k) {
-    if (column[k] != column[k]) continue;
-    if (least == end || column[k] < column[least]) least = k;
-    if (largest == end || column[k] > column[largest]) largest = k;
+  for (std::size_t k = 0; k < end; ++k) {
+    if (values[k] != values[k]) continue;
+    if (least == end || values[k] < values[least]) least = k;
+    if (largest == end || values[k] > values[largest]) largest = k;
   }
   if (least == end) return;
-  kept[least] = true;
-  kept[largest] = true;
+  kept[first + least] = true;
+  kept[first + largest] = true;
 }
 
-}  // namespace
+std::vector<Stretch> stretches_of(std::size_t samples, std::size_t channels, std::size_t points) {
+  const std::size_t count = channels == 0 ? points - 2 : (points - 2) / (2 * channels);
+  std::vector<Stretch> stretches;
+  stretches.reserve(count);
+  for (std::size_t s = 0; s < count; ++s)
+    stretches.push_back({.begin = samples * s / count, .end = samples * (s + 1) / count});
+  return stretches;
+}
 
 void decimate(std::size_t points, engine::Trajectory& trajectory) {
   if (trajectory.columns.empty() || trajectory.columns.front().size() <= points) return;
@@ -31,11 +35,9 @@ void decimate(std::size_t points, engine::Trajectory& trajectory) {
   std::vector<bool> kept(samples, false);
   kept.front() = true;
   kept.back() = true;
-  const std::size_t stretches = channels.empty() ? points - 2 : (points - 2) / (2 * channels.size());
-  for (std::size_t s = 0; s < stretches; ++s) {
-    const std::size_t begin = samples * s / stretches;
-    const std::size_t end = samples * (s + 1) / stretches;
-    for (const auto& column : channels) mark_extremes(column, begin, end, kept);
+  for (const auto& [begin, end] : stretches_of(samples, channels.size(), points)) {
+    for (const auto& column : channels)
+      mark_extremes(std::span(column).subspan(begin, end - begin), begin, kept);
     if (channels.empty()) kept[begin] = true;  // the time alone
   }
   for (auto& column : trajectory.columns) {

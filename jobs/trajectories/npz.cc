@@ -6,9 +6,12 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <zlib.h>
+
+#include "jobs/trajectories/trajectory_text.h"
 
 namespace jobs {
 namespace {
@@ -46,11 +49,9 @@ struct ArchivedFile {
   std::uint32_t offset = 0;  ///< of its local header
 };
 
-std::uint32_t crc_of(std::string_view head, std::string_view data) {
-  uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(head.data()), head.size());
+uLong add_to_crc(uLong crc, std::string_view data) {
   // A null pointer, which an empty column may be, would start it afresh.
-  if (!data.empty()) crc = crc32_z(crc, reinterpret_cast<const Bytef*>(data.data()), data.size());
-  return static_cast<std::uint32_t>(crc);
+  return data.empty() ? crc : crc32_z(crc, reinterpret_cast<const Bytef*>(data.data()), data.size());
 }
 
 /// Fields that a local header and a line of the directory have in common.
@@ -82,8 +83,8 @@ void append_directory_line(std::string& bytes, const ArchivedFile& entry) {
   bytes += entry.name;
 }
 
-void append_end(std::string& bytes, std::size_t entries, std::size_t directory_offset) {
-  const std::size_t directory_size = bytes.size() - directory_offset;
+void append_end(std::string& bytes, std::size_t entries, std::size_t directory_offset,
+                std::size_t directory_size) {
   bytes += "PK\x05\x06";
   append_u16(bytes, 0);
   append_u16(bytes, 0);
@@ -94,39 +95,122 @@ void append_end(std::string& bytes, std::size_t entries, std::size_t directory_o
   append_u16(bytes, 0);  // no comment
 }
 
-void check_size(const engine::Trajectory& trajectory) {
+void check_size(std::size_t values) {
   // The rest is for names
   constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max() - (std::size_t{1} << 20U);
-  std::size_t values = 0;
-  for (const auto& column : trajectory.columns) values += column.size();
   if (values > kLargest / sizeof(double))
     throw std::length_error("the trajectory is too large for an .npz file; take fewer channels or samples");
 }
 
+std::string_view bytes_of_doubles(std::span<const double> values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
+}
+
+/// Makes an archive, entry by entry.
+class NpzArchive {
+ public:
+  /// Appends what stands before the numbers of a channel.
+  /// @param offset  bytes of the archive so far
+  /// @param crc     of the head and the numbers
+  void append_entry(std::string& bytes, std::size_t offset, const std::string& key, const std::string& head,
+                    std::size_t data_bytes, uLong crc) {
+    entries_.push_back({.name = key + ".npy",
+                        .crc = static_cast<std::uint32_t>(crc),
+                        .size = static_cast<std::uint32_t>(head.size() + data_bytes),
+                        .offset = static_cast<std::uint32_t>(offset)});
+    bytes += "PK\x03\x04";
+    append_description(bytes, entries_.back());
+    bytes += entries_.back().name;
+    bytes += head;
+  }
+
+  void append_directory(std::string& bytes, std::size_t offset) const {
+    const std::size_t start = bytes.size();
+    for (const ArchivedFile& entry : entries_) append_directory_line(bytes, entry);
+    append_end(bytes, entries_.size(), offset, bytes.size() - start);
+  }
+
+ private:
+  std::vector<ArchivedFile> entries_;
+};
+
+/// Entries one after the other, each column read twice: its checksum stands before it.
+class NpzText final : public TrajectoryText {
+ public:
+  explicit NpzText(TrajectoryView view) : view_(std::move(view)) {
+    check_size(view_.samples() * view_.channels().size());
+  }
+
+  bool append_next(std::string& to) override {
+    if (channel_ > view_.channels().size()) return false;
+    const std::size_t before = to.size();
+    if (channel_ == view_.channels().size()) {
+      archive_.append_directory(to, offset_);
+      ++channel_;
+      return true;
+    }
+    if (!column_) begin_column(to);
+    const bool more = read(*column_);
+    to += bytes_of_doubles(values_);
+    if (!more) {
+      column_.reset();
+      ++channel_;
+    }
+    offset_ += to.size() - before;
+    return true;
+  }
+
+ private:
+  /// False after the last values.
+  bool read(ColumnCursor& column) {
+    constexpr std::size_t kValuesAtATime = 16 * 1024;
+    values_.clear();
+    column.append_next(kValuesAtATime, values_);
+    return values_.size() == kValuesAtATime;
+  }
+
+  void begin_column(std::string& to) {
+    const std::string head = npy_head(view_.samples());
+    uLong crc = add_to_crc(0, head);
+    const auto column = view_.read_column(channel_);
+    for (bool more = true; more;) {
+      more = read(*column);
+      crc = add_to_crc(crc, bytes_of_doubles(values_));
+    }
+    archive_.append_entry(to, offset_, view_.channels()[channel_].key, head,
+                          view_.samples() * sizeof(double), crc);
+    column_ = view_.read_column(channel_);
+  }
+
+  TrajectoryView view_;
+  NpzArchive archive_;
+  std::size_t offset_ = 0;  ///< bytes so far
+  std::size_t channel_ = 0;
+  std::unique_ptr<ColumnCursor> column_;  ///< of the channel; null: it has not begun
+  std::vector<double> values_;
+};
+
 }  // namespace
 
 std::string to_npz(const engine::Trajectory& trajectory) {
-  check_size(trajectory);
+  std::size_t values = 0;
+  for (const auto& column : trajectory.columns) values += column.size();
+  check_size(values);
   std::string bytes;
-  std::vector<ArchivedFile> entries;
+  NpzArchive archive;
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
-    const std::span column(trajectory.columns[c]);
-    const std::string head = npy_head(column.size());
-    const std::string_view data(reinterpret_cast<const char*>(column.data()), column.size_bytes());
-    entries.push_back({.name = trajectory.channels[c].key + ".npy",
-                       .crc = crc_of(head, data),
-                       .size = static_cast<std::uint32_t>(head.size() + data.size()),
-                       .offset = static_cast<std::uint32_t>(bytes.size())});
-    bytes += "PK\x03\x04";
-    append_description(bytes, entries.back());
-    bytes += entries.back().name;
-    bytes += head;
+    const std::string_view data = bytes_of_doubles(trajectory.columns[c]);
+    const std::string head = npy_head(trajectory.columns[c].size());
+    archive.append_entry(bytes, bytes.size(), trajectory.channels[c].key, head, data.size(),
+                         add_to_crc(add_to_crc(0, head), data));
     bytes += data;
   }
-  const std::size_t directory_offset = bytes.size();
-  for (const ArchivedFile& entry : entries) append_directory_line(bytes, entry);
-  append_end(bytes, entries.size(), directory_offset);
+  archive.append_directory(bytes, bytes.size());
   return bytes;
+}
+
+std::unique_ptr<TrajectoryText> npz_text(TrajectoryView view) {
+  return std::make_unique<NpzText>(std::move(view));
 }
 
 }  // namespace jobs

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <tuple>
 #include <utility>
 
 #include "jobs/trajectories/trajectory_codec.h"
@@ -214,31 +215,52 @@ std::string_view SinglePacker::pack(std::span<const double> column) {
   return {packed_.data(), static_cast<std::size_t>(bits_end - packed_.data())};
 }
 
-std::vector<double> unpack_singles(std::string_view packed, std::size_t samples) {
-  if (samples == 0 && packed.empty()) return {};
+SingleUnpacker::SingleUnpacker(std::string_view packed, std::size_t samples)
+    : left_(samples), place_(kBlock) {
+  static_assert(std::tuple_size_v<decltype(values_)> == kLead + kBlock);
+  if (samples == 0 && packed.empty()) return;
   const std::size_t blocks = count_blocks(samples);
   if (samples == 0 || packed.size() < kHeadSize + blocks)
     throw DamagedTrajectory("a column of the trajectory has a wrong length");
-  const auto order = static_cast<unsigned char>(packed[0]);
-  if (order >= kOrders) throw DamagedTrajectory("a column of the trajectory is packed in an unknown way");
-  std::vector<std::uint32_t> values(kLead + blocks * kBlock);
+  order_ = static_cast<unsigned char>(packed[0]);
+  if (order_ >= kOrders) throw DamagedTrajectory("a column of the trajectory is packed in an unknown way");
   std::uint32_t first = 0;
   std::memcpy(&first, packed.data() + 1, sizeof first);
-  std::fill_n(values.begin(), kLead, first);
-  std::string_view bits = packed.substr(kHeadSize + blocks);
-  Block block;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const auto width = static_cast<unsigned char>(packed[kHeadSize + b]);
-    if (width >= kWidths || bits.size() < 2U * width)
+  values_.fill(first);
+  widths_ = packed.substr(kHeadSize, blocks);
+  bits_ = packed.substr(kHeadSize + blocks);
+  std::size_t bytes = 0;
+  for (const char width : widths_) {
+    if (static_cast<unsigned char>(width) >= kWidths)
       throw DamagedTrajectory("a column of the trajectory has a wrong length");
-    kGetBits[width](bits.data(), block);
-    bits.remove_prefix(2U * width);
-    kAddUp[order](block, values.data() + kLead + b * kBlock);
+    bytes += 2U * static_cast<unsigned char>(width);
   }
-  if (!bits.empty()) throw DamagedTrajectory("a column of the trajectory has a wrong length");
-  std::vector<double> column(samples);
-  for (std::size_t k = 0; k < samples; ++k)
-    column[k] = static_cast<double>(std::bit_cast<float>(ordered(values[kLead + k])));
+  if (bytes != bits_.size()) throw DamagedTrajectory("a column of the trajectory has a wrong length");
+}
+
+void SingleUnpacker::unpack_block() {
+  std::copy_n(values_.end() - kLead, kLead, values_.begin());
+  const auto width = static_cast<unsigned char>(widths_.front());
+  Block block;
+  kGetBits[width](bits_.data(), block);
+  widths_.remove_prefix(1);
+  bits_.remove_prefix(2U * width);
+  kAddUp[order_](block, values_.data() + kLead);
+  place_ = 0;
+}
+
+void SingleUnpacker::append_next(std::size_t count, std::vector<double>& to) {
+  for (count = std::min(count, left_), left_ -= count; count > 0; --count) {
+    if (place_ == kBlock) unpack_block();
+    to.push_back(static_cast<double>(std::bit_cast<float>(ordered(values_[kLead + place_++]))));
+  }
+}
+
+std::vector<double> unpack_singles(std::string_view packed, std::size_t samples) {
+  SingleUnpacker unpacker(packed, samples);
+  std::vector<double> column;
+  column.reserve(samples);
+  unpacker.append_next(samples, column);
   return column;
 }
 

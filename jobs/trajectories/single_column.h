@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,6 +29,27 @@ class SinglePacker {
   // Room that every column needs.
   std::vector<std::uint32_t> values_;
   std::string packed_;
+};
+
+/// Unpacks a column from its beginning, some samples at a time. Holds one block of it.
+class SingleUnpacker {
+ public:
+  /// @param packed  outlives this
+  /// @throws DamagedTrajectory if the bytes are not those of a column of that many samples
+  SingleUnpacker(std::string_view packed, std::size_t samples);
+
+  /// Appends the next samples, at most so many.
+  void append_next(std::size_t count, std::vector<double>& to);
+
+ private:
+  void unpack_block();
+
+  std::string_view widths_;
+  std::string_view bits_;
+  std::size_t left_;              ///< samples that have not been appended
+  unsigned char order_ = 0;
+  std::size_t place_ = 0;         ///< of the next sample in the block; as many as a block has: the next block
+  std::array<std::uint32_t, 20> values_{};  ///< those that differences reach back to, and those of the block
 };
 
 /// @throws DamagedTrajectory if the bytes are not those of a column of that many samples

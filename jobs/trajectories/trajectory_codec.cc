@@ -2,11 +2,15 @@
 #include "jobs/trajectories/trajectory_codec.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "jobs/trajectories/byte_codec.h"
 #include "jobs/trajectories/single_column.h"
@@ -111,11 +115,16 @@ std::vector<EncodedColumn> encode_columns(const engine::Trajectory& trajectory) 
   return blocks;
 }
 
+/// Place of a zstd frame in a blob.
+struct Frame {
+  std::size_t offset = 0, size = 0;
+};
+
 /// Channel in the header.
 struct StoredChannel {
   engine::QuantityInfo info;
   Encoding encoding = Encoding::kDouble;
-  std::span<const std::byte> block;  ///< a frame; of a copy, that of its original
+  Frame frame;  ///< of a copy, that of its original
 };
 
 struct Contents {
@@ -123,8 +132,22 @@ struct Contents {
   std::vector<StoredChannel> entries;
 };
 
+/// Hands out the bytes of a blob after its header, frame by frame.
+class FrameSpace {
+ public:
+  FrameSpace(std::size_t begin, std::size_t end) : next_(begin), end_(end) {}
+  Frame take(std::size_t size) {
+    if (size > end_ - next_) throw DamagedTrajectory("the trajectory ends too early");
+    return {.offset = std::exchange(next_, next_ + size), .size = size};
+  }
+  [[nodiscard]] bool at_end() const { return next_ == end_; }
+
+ private:
+  std::size_t next_, end_;
+};
+
 /// @param before  the channels that a copy may be of
-StoredChannel read_entry(ByteReader& header, ByteReader& blob, std::span<const StoredChannel> before) {
+StoredChannel read_entry(ByteReader& header, FrameSpace& frames, std::span<const StoredChannel> before) {
   StoredChannel entry;
   entry.info.key = header.text();
   entry.info.help = header.text();
@@ -137,31 +160,47 @@ StoredChannel read_entry(ByteReader& header, ByteReader& blob, std::span<const S
   entry.encoding = static_cast<Encoding>(encoding);
   const auto number = header.number<std::uint32_t>();
   if (entry.encoding != Encoding::kCopy) {
-    entry.block = blob.take(number);
+    entry.frame = frames.take(number);
   } else if (number < before.size()) {
     entry.encoding = before[number].encoding;
-    entry.block = before[number].block;
+    entry.frame = before[number].frame;
   } else {
     throw DamagedTrajectory("the trajectory has a copy of a channel that it does not have");
   }
   return entry;
 }
 
-Contents read_contents(std::span<const std::byte> bytes) {
-  ByteReader blob(bytes);
-  const auto version = blob.number<std::uint8_t>();
+/// Version and size of the header, before it.
+constexpr std::size_t kPrefix = 1 + sizeof(std::uint32_t);
+
+/// @param prefix  first bytes of the blob @returns size of the packed header
+std::size_t read_prefix(std::span<const std::byte> prefix) {
+  ByteReader reader(prefix);
+  const auto version = reader.number<std::uint8_t>();
   if (version < kOldestVersion || version > kVersion)
     throw DamagedTrajectory("the trajectory is of an unknown version");
-  const std::string header_bytes = decompress(blob.take(blob.number<std::uint32_t>()), kLargestHeader);
+  return reader.number<std::uint32_t>();
+}
+
+/// @param packed_header  after the prefix of a blob of that size
+Contents read_header(std::span<const std::byte> packed_header, std::size_t blob_size) {
+  FrameSpace frames(kPrefix + packed_header.size(), blob_size);
+  const std::string header_bytes = decompress(packed_header, kLargestHeader);
   ByteReader header(std::as_bytes(std::span(header_bytes)));
   const auto samples = header.number<std::uint64_t>();
   if (samples > kMostSamples) throw DamagedTrajectory("the trajectory is too long");
   Contents contents{.samples = static_cast<std::size_t>(samples), .entries = {}};
   const auto channels = header.number<std::uint32_t>();
   for (std::uint32_t i = 0; i < channels; ++i)
-    contents.entries.push_back(read_entry(header, blob, contents.entries));
-  if (!blob.at_end() || !header.at_end()) throw DamagedTrajectory("the trajectory has bytes after its end");
+    contents.entries.push_back(read_entry(header, frames, contents.entries));
+  if (!frames.at_end() || !header.at_end()) throw DamagedTrajectory("the trajectory has bytes after its end");
   return contents;
+}
+
+Contents read_contents(std::span<const std::byte> blob) {
+  ByteReader reader(blob);
+  const std::size_t size = read_prefix(reader.take(kPrefix));
+  return read_header(reader.take(size), blob.size());
 }
 
 template <typename T>
@@ -174,20 +213,79 @@ std::vector<double> decode_items(std::span<const std::byte> block, std::size_t s
   return {items.begin(), items.end()};
 }
 
-std::vector<double> decode_column(const StoredChannel& entry, std::size_t samples) {
-  switch (entry.encoding) {
-    case Encoding::kSingle: return decode_items<float>(entry.block, samples);
-    case Encoding::kDouble: return decode_items<double>(entry.block, samples);
-    case Encoding::kPackedSingle:
-      return unpack_singles(decompress(entry.block, largest_packed_size(samples)), samples);
-    case Encoding::kUniformTime:
-    case Encoding::kCopy: break;  // an entry has the encoding of what it copies
-  }
-  const std::string bytes = decompress(entry.block, sizeof(UniformTime));
+UniformTime read_uniform_time(std::string_view bytes) {
   ByteReader reader(std::as_bytes(std::span(bytes)));
   const auto rate = reader.number<double>();
   const auto last = reader.number<double>();
-  return times_of({rate, last}, samples);
+  return {.rate = rate, .last = last};
+}
+
+std::vector<double> decode_column(const StoredChannel& entry, std::span<const std::byte> blob,
+                                  std::size_t samples) {
+  const std::span<const std::byte> block = blob.subspan(entry.frame.offset, entry.frame.size);
+  switch (entry.encoding) {
+    case Encoding::kSingle: return decode_items<float>(block, samples);
+    case Encoding::kDouble: return decode_items<double>(block, samples);
+    case Encoding::kPackedSingle:
+      return unpack_singles(decompress(block, largest_packed_size(samples)), samples);
+    case Encoding::kUniformTime:
+    case Encoding::kCopy: break;  // an entry has the encoding of what it copies
+  }
+  return times_of(read_uniform_time(decompress(block, sizeof(UniformTime))), samples);
+}
+
+class UniformTimeCursor final : public ColumnCursor {
+ public:
+  UniformTimeCursor(const UniformTime& time, std::size_t samples) : time_(time), samples_(samples) {}
+  void append_next(std::size_t count, std::vector<double>& to) override {
+    for (; count > 0 && next_ < samples_; --count, ++next_)
+      to.push_back(next_ + 1 == samples_ ? time_.last : static_cast<double>(next_) / time_.rate);
+  }
+
+ private:
+  UniformTime time_;
+  std::size_t samples_;
+  std::size_t next_ = 0;
+};
+
+/// Of shuffled items.
+template <typename T>
+class ItemCursor final : public ColumnCursor {
+ public:
+  ItemCursor(std::string_view shuffled, std::size_t samples) : shuffled_(shuffled), samples_(samples) {}
+  void append_next(std::size_t count, std::vector<double>& to) override {
+    for (; count > 0 && next_ < samples_; --count, ++next_) {
+      std::array<char, sizeof(T)> bytes;
+      for (std::size_t b = 0; b < bytes.size(); ++b) bytes[b] = shuffled_[b * samples_ + next_];
+      to.push_back(static_cast<double>(std::bit_cast<T>(bytes)));
+    }
+  }
+
+ private:
+  std::string_view shuffled_;
+  std::size_t samples_;
+  std::size_t next_ = 0;
+};
+
+class SingleCursor final : public ColumnCursor {
+ public:
+  SingleCursor(std::string_view packed, std::size_t samples) : unpacker_(packed, samples) {}
+  void append_next(std::size_t count, std::vector<double>& to) override { unpacker_.append_next(count, to); }
+
+ private:
+  SingleUnpacker unpacker_;
+};
+
+/// Largest size of a column before it is made a frame.
+std::size_t largest_size(Encoding encoding, std::size_t samples) {
+  switch (encoding) {
+    case Encoding::kSingle: return samples * sizeof(float);
+    case Encoding::kDouble: return samples * sizeof(double);
+    case Encoding::kPackedSingle: return largest_packed_size(samples);
+    case Encoding::kUniformTime:
+    case Encoding::kCopy: break;
+  }
+  return sizeof(UniformTime);
 }
 
 }  // namespace
@@ -249,7 +347,7 @@ engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<
   engine::Trajectory trajectory;
   const auto add = [&](const StoredChannel& entry) {
     trajectory.channels.push_back(entry.info);
-    trajectory.columns.push_back(decode_column(entry, contents.samples));
+    trajectory.columns.push_back(decode_column(entry, blob, contents.samples));
   };
   if (keys.empty()) std::ranges::for_each(contents.entries, add);
   for (const std::string& key : keys) {
@@ -264,6 +362,76 @@ std::vector<engine::QuantityInfo> decode_channels(std::span<const std::byte> blo
   std::vector<engine::QuantityInfo> channels;
   for (StoredChannel& entry : read_contents(blob).entries) channels.push_back(std::move(entry.info));
   return channels;
+}
+
+PackedTrajectory::PackedTrajectory(const StoredBytes& blob) {
+  if (blob.size < kPrefix) throw DamagedTrajectory("the trajectory ends too early");
+  const std::string prefix = blob.read(0, kPrefix);
+  const std::size_t size = read_prefix(std::as_bytes(std::span(prefix)));
+  if (size > blob.size - kPrefix) throw DamagedTrajectory("the trajectory ends too early");
+  header_ = blob.read(kPrefix, size);
+  Contents contents = read_header(std::as_bytes(std::span(header_)), blob.size);
+  samples_ = contents.samples;
+  for (StoredChannel& entry : contents.entries)
+    channels_.push_back({.info = std::move(entry.info),
+                         .encoding = static_cast<std::uint8_t>(entry.encoding),
+                         .offset = entry.frame.offset,
+                         .size = entry.frame.size});
+}
+
+std::vector<engine::QuantityInfo> PackedTrajectory::channels() const {
+  std::vector<engine::QuantityInfo> channels;
+  for (const Channel& channel : channels_) channels.push_back(channel.info);
+  return channels;
+}
+
+void PackedTrajectory::select(std::span<const std::string> keys) {
+  if (keys.empty()) return;
+  std::vector<Channel> selected;
+  for (const std::string& key : keys) {
+    const auto found = std::ranges::find(channels_, key, [](const Channel& each) { return each.info.key; });
+    if (found != channels_.end()) selected.push_back(*found);
+  }
+  channels_ = std::move(selected);
+}
+
+std::string PackedTrajectory::checksums(const StoredBytes& blob) const {
+  constexpr std::size_t kChecksum = 4;  // at the end of a frame
+  std::string sums = header_;
+  for (const Channel& channel : channels_) {
+    const std::size_t size = std::min(channel.size, kChecksum);
+    sums += blob.read(channel.offset + channel.size - size, size);
+  }
+  return sums;
+}
+
+void PackedTrajectory::load(const StoredBytes& blob) {
+  std::map<std::size_t, std::shared_ptr<const std::string>> loaded;  // by the place of the frame
+  for (Channel& channel : channels_) {
+    std::shared_ptr<const std::string>& column = loaded[channel.offset];
+    const auto encoding = static_cast<Encoding>(channel.encoding);
+    if (!column) {
+      const std::string packed = blob.read(channel.offset, channel.size);
+      column = std::make_shared<const std::string>(
+          decompress(std::as_bytes(std::span(packed)), largest_size(encoding, samples_)));
+    }
+    const bool has_fixed_size = encoding != Encoding::kPackedSingle;
+    if (has_fixed_size && column->size() != largest_size(encoding, samples_))
+      throw DamagedTrajectory("a column of the trajectory has a wrong length");
+    channel.column = column;
+  }
+}
+
+std::unique_ptr<ColumnCursor> PackedTrajectory::read_column(std::size_t channel) const {
+  const std::string& column = *channels_[channel].column;
+  switch (static_cast<Encoding>(channels_[channel].encoding)) {
+    case Encoding::kSingle: return std::make_unique<ItemCursor<float>>(column, samples_);
+    case Encoding::kDouble: return std::make_unique<ItemCursor<double>>(column, samples_);
+    case Encoding::kPackedSingle: return std::make_unique<SingleCursor>(column, samples_);
+    case Encoding::kUniformTime:
+    case Encoding::kCopy: break;
+  }
+  return std::make_unique<UniformTimeCursor>(read_uniform_time(column), samples_);
 }
 
 }  // namespace jobs

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -45,5 +48,51 @@ void check_is_table(const engine::Trajectory& trajectory);
 
 /// Contents of a blob, without its columns.
 [[nodiscard]] std::vector<engine::QuantityInfo> decode_channels(std::span<const std::byte> blob);
+
+/// Blob that is read a part at a time.
+struct StoredBytes {
+  std::size_t size = 0;
+  std::function<std::string(std::size_t offset, std::size_t size)> read;
+};
+
+/// Reads a column from its beginning, some samples at a time.
+class ColumnCursor {
+ public:
+  virtual ~ColumnCursor() = default;
+  /// Appends the next samples, at most so many.
+  virtual void append_next(std::size_t count, std::vector<double>& to) = 0;
+};
+
+/// Trajectory as it is stored: of a long one, a small part of the size of its numbers.
+class PackedTrajectory {
+ public:
+  /// Reads the header alone. @throws DamagedTrajectory
+  explicit PackedTrajectory(const StoredBytes& blob);
+
+  [[nodiscard]] std::size_t samples() const { return samples_; }
+  [[nodiscard]] std::vector<engine::QuantityInfo> channels() const;
+
+  /// Keeps the wanted channels, in that order. @param keys  empty: all. A key that is not there is left out
+  void select(std::span<const std::string> keys);
+  /// Checksums of the channels, as the blob holds them, with the header: equal for equal numbers.
+  [[nodiscard]] std::string checksums(const StoredBytes& blob) const;
+  /// Reads the columns, packed. @throws DamagedTrajectory
+  void load(const StoredBytes& blob);
+  /// After load(). Not to outlive this.
+  [[nodiscard]] std::unique_ptr<ColumnCursor> read_column(std::size_t channel) const;
+
+ private:
+  /// Channel in the header, and its column once it has been loaded, which copies share.
+  struct Channel {
+    engine::QuantityInfo info;
+    std::uint8_t encoding = 0;
+    std::size_t offset = 0, size = 0;  ///< of its frame in the blob
+    std::shared_ptr<const std::string> column{};
+  };
+
+  std::size_t samples_ = 0;
+  std::string header_;  ///< packed
+  std::vector<Channel> channels_;
+};
 
 }  // namespace jobs

@@ -13,9 +13,7 @@
 #include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs {
-namespace {
 
-/// t_s first, then the channels that are asked for, each once.
 std::vector<std::string> wanted_channels(const std::vector<std::string>& asked) {
   if (asked.empty()) return {};
   std::vector<std::string> wanted{"t_s"};
@@ -24,6 +22,8 @@ std::vector<std::string> wanted_channels(const std::vector<std::string>& asked) 
   }
   return wanted;
 }
+
+namespace {
 
 /// @param wanted  how many channels there will be, the time among them
 void check_points(std::size_t points, std::size_t wanted, std::vector<Fault>& faults) {
@@ -34,7 +34,19 @@ void check_points(std::size_t points, std::size_t wanted, std::vector<Fault>& fa
                                    " channels"});
 }
 
-void check(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>& channels) {
+/// @param trajectory  with t_s as its first column
+void cut(const TrajectoryQuery& query, engine::Trajectory& trajectory) {
+  if (trajectory.columns.empty()) return;
+  const std::vector<double>& t = trajectory.columns.front();
+  const auto begin = query.from ? std::ranges::lower_bound(t, *query.from) - t.begin() : std::ptrdiff_t{0};
+  const auto end = query.to ? std::ranges::upper_bound(t, *query.to) - t.begin() : std::ssize(t);
+  for (std::vector<double>& column : trajectory.columns)
+    column = std::vector<double>(column.begin() + begin, column.begin() + std::max(begin, end));
+}
+
+}  // namespace
+
+void check_query(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>& channels) {
   std::vector<std::string_view> known;
   for (const auto& channel : channels) known.push_back(channel.key);
   std::vector<Fault> faults;
@@ -54,20 +66,8 @@ void check(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>
   if (!faults.empty()) throw InvalidRequest(std::move(faults));
 }
 
-/// @param trajectory  with t_s as its first column
-void cut(const TrajectoryQuery& query, engine::Trajectory& trajectory) {
-  if (trajectory.columns.empty()) return;
-  const std::vector<double>& t = trajectory.columns.front();
-  const auto begin = query.from ? std::ranges::lower_bound(t, *query.from) - t.begin() : std::ptrdiff_t{0};
-  const auto end = query.to ? std::ranges::upper_bound(t, *query.to) - t.begin() : std::ssize(t);
-  for (std::vector<double>& column : trajectory.columns)
-    column = std::vector<double>(column.begin() + begin, column.begin() + std::max(begin, end));
-}
-
-}  // namespace
-
 engine::Trajectory read_trajectory(std::span<const std::byte> blob, const TrajectoryQuery& query) {
-  check(query, decode_channels(blob));
+  check_query(query, decode_channels(blob));
   engine::Trajectory trajectory = decode_trajectory(blob, wanted_channels(query.channels));
   cut(query, trajectory);
   if (query.points) decimate(*query.points, trajectory);

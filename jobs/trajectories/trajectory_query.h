@@ -18,6 +18,12 @@ struct TrajectoryQuery {
   std::optional<std::size_t> points{};  ///< at most so many samples, see decimate(); empty: all
 };
 
+/// Checks a query against the channels that there are. @throws InvalidRequest with every fault
+void check_query(const TrajectoryQuery& query, const std::vector<engine::QuantityInfo>& channels);
+
+/// t_s first, then the channels that are asked for, each once; empty for all.
+[[nodiscard]] std::vector<std::string> wanted_channels(const std::vector<std::string>& asked);
+
 /// The part of a stored trajectory that is wanted.
 /// @param blob  as encode_trajectory makes it
 /// @throws InvalidRequest with every fault of the query; DamagedTrajectory
