@@ -215,6 +215,23 @@ std::optional<engine::Trajectory> Service::find_trajectory(const std::string& jo
   }
 }
 
+std::optional<TrajectoryView> Service::find_trajectory_view(
+    const std::string& job_id, const TrajectoryQuery& query,
+    const std::function<bool(const std::string&)>& wanted) const {
+  std::optional<TrajectoryView> view;
+  try {
+    store_->reader.read_trajectory(job_id, [&](const StoredBytes& blob) {
+      view.emplace(blob, query);
+      if (wanted(view->fingerprint())) view->load(blob);
+    });
+  } catch (const DamagedTrajectory& damage) {
+    throw StorageError("the trajectory of " + job_id + " cannot be read: " + damage.what());
+  }
+  return view;
+}
+
+void Service::check_store() const { store_->reader.check(); }
+
 std::optional<SweepNews> Service::find_news(const std::string& sweep_id, std::int64_t after) const {
   const auto changes = store_->reader.find_changes(sweep_id, after);
   if (!changes) return std::nullopt;
@@ -260,13 +277,27 @@ bool Service::delete_sweep(const std::string& id, const std::string& study) {
   }
   if (outcome == DeleteOutcome::kNotEnded) throw WrongState("the sweep has not ended; cancel it first");
   if (outcome == DeleteOutcome::kMissing) return false;
+  finish_deleting("sweep " + id);
+  return true;
+}
+
+bool Service::delete_job(const std::string& id) {
+  const DeleteOutcome outcome = store_->queue.delete_job(id);
+  if (outcome == DeleteOutcome::kOfSweep)
+    throw WrongState("the job is one of a sweep, which is deleted as a whole");
+  if (outcome == DeleteOutcome::kNotEnded) throw WrongState("the job has not ended; cancel it first");
+  if (outcome == DeleteOutcome::kMissing) return false;
+  finish_deleting("job " + id);
+  return true;
+}
+
+void Service::finish_deleting(const std::string& what) {
   tell_change();
   try {
     store_->release_free_pages();
   } catch (const std::exception& error) {  // the store's errors, or no memory
-    options_.log("sweep " + id + " is deleted, but the file could not be made smaller yet: " + error.what());
+    options_.log(what + " is deleted, but the file could not be made smaller yet: " + error.what());
   }
-  return true;
 }
 
 bool Service::wait_for_sweep(const std::string& id, std::chrono::milliseconds at_most) const {

@@ -34,6 +34,7 @@
 #include "jobs/store/rows.h"
 #include "jobs/store/store_quota.h"
 #include "jobs/trajectories/trajectory_query.h"
+#include "jobs/trajectories/trajectory_view.h"
 
 namespace jobs {
 
@@ -128,6 +129,16 @@ class Service {
   [[nodiscard]] std::optional<engine::Trajectory> find_trajectory(const std::string& job_id,
                                                                   const TrajectoryQuery& query) const;
 
+  /// The same, to be read a block at a time.
+  /// @param wanted  told a name of the numbers, equal only for equal ones: false if they need not be read
+  /// @returns the part, which is loaded if it is wanted
+  [[nodiscard]] std::optional<TrajectoryView> find_trajectory_view(
+      const std::string& job_id, const TrajectoryQuery& query,
+      const std::function<bool(const std::string& fingerprint)>& wanted) const;
+
+  /// Checks that the store can be read and is in its place. @throws StorageError
+  void check_store() const;
+
   /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves.
   /// See parse_search_request() and parse_wear_request(). @param key as of submit_sweep()
   nlohmann::json submit_study(StudyKind kind, const nlohmann::ordered_json& request,
@@ -157,6 +168,9 @@ class Service {
   /// Deletes a sweep that has ended, with its jobs and the results that no other job shares. False if there
   /// is none. @throws WrongState if it has not ended, or belongs to a study
   bool delete_sweep(const std::string& id);
+
+  /// The same of a job of no sweep
+  bool delete_job(const std::string& id);
 
   /// Jobs that have ended since that change; 0: since the beginning.
   [[nodiscard]] std::optional<SweepNews> find_news(const std::string& sweep_id, std::int64_t after) const;
@@ -204,6 +218,8 @@ class Service {
   void record(const ClaimedJob& job, const RunRecord& run, const OnClaim& next);
   /// @param study  study that the sweep belongs to; empty: none
   bool delete_sweep(const std::string& id, const std::string& study);
+  /// Does the rest of a deletion.
+  void finish_deleting(const std::string& what);
   /// Does the rest of a cancellation. False if there is nothing of that id. @param why_not null if it may
   /// have ended
   bool finish_cancelling(const Cancellation& cancellation, const char* why_not);

@@ -32,7 +32,7 @@ struct Cancellation {
   std::vector<RunningJob> running;  ///< those that were being computed
 };
 
-enum class DeleteOutcome { kMissing, kDone, kNotEnded, kOfStudy };
+enum class DeleteOutcome { kMissing, kDone, kNotEnded, kOfStudy, kOfSweep };
 
 /// Queue of the jobs: adds, claims, records, cancels and deletes them. May be called from any thread. Throws
 /// StorageError.
@@ -81,6 +81,9 @@ class JobQueue {
   /// Deletes a sweep that has ended, and its study with it.
   /// @param study  id of that study; kOfStudy if the sweep has another one
   [[nodiscard]] DeleteOutcome delete_sweep(const std::string& id, const std::string& study = {});
+
+  /// Deletes a job that has ended and is of no sweep.
+  [[nodiscard]] DeleteOutcome delete_job(const std::string& id);
 
  private:
   struct Outcome;  ///< result of a run as it is stored

@@ -62,12 +62,10 @@ void run_for_each(SQLite::Database& database, const char* query, const std::vect
   }
 }
 
-void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
-  const auto contents = find_numbers(database, "SELECT DISTINCT content FROM jobs WHERE sweep = ?", sweep);
-  const auto results = find_numbers(
-      database, "SELECT seq FROM results WHERE content IN (SELECT content FROM jobs WHERE sweep = ?)", sweep);
-  run_for_each(database, "DELETE FROM jobs WHERE sweep = ?", {sweep});
-  run_for_each(database, "DELETE FROM sweeps WHERE seq = ?", {sweep});
+/// Deletes what a deletion of jobs leaves without any.
+/// @param contents, results  those that the jobs had
+void delete_unused(SQLite::Database& database, const std::vector<std::int64_t>& contents,
+                   const std::vector<std::int64_t>& results) {
   run_for_each(database,
                "DELETE FROM results WHERE seq = ?1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE result = ?1)",
                results);
@@ -75,6 +73,15 @@ void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
                "DELETE FROM contents WHERE seq = ?1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE content = ?1) "
                "AND NOT EXISTS (SELECT 1 FROM results WHERE content = ?1)",
                contents);
+}
+
+void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
+  const auto contents = find_numbers(database, "SELECT DISTINCT content FROM jobs WHERE sweep = ?", sweep);
+  const auto results = find_numbers(
+      database, "SELECT seq FROM results WHERE content IN (SELECT content FROM jobs WHERE sweep = ?)", sweep);
+  run_for_each(database, "DELETE FROM jobs WHERE sweep = ?", {sweep});
+  run_for_each(database, "DELETE FROM sweeps WHERE seq = ?", {sweep});
+  delete_unused(database, contents, results);
 }
 
 }  // namespace
@@ -153,6 +160,25 @@ bool JobQueue::move_sweep(const std::string& id, const std::string& executor) {
     release.bind(1, *sweep);
     release.exec();
     return true;
+  });
+}
+
+DeleteOutcome JobQueue::delete_job(const std::string& id) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    SQLite::Statement find(database,
+                           "SELECT seq, content, sweep IS NOT NULL, state IN ('queued', 'running') FROM jobs "
+                           "WHERE id = ?");
+    find.bind(1, id);
+    if (!find.executeStep()) return DeleteOutcome::kMissing;
+    const std::int64_t job = find.getColumn(0).getInt64();
+    const std::int64_t content = find.getColumn(1).getInt64();
+    if (find.getColumn(2).getInt() != 0) return DeleteOutcome::kOfSweep;
+    if (find.getColumn(3).getInt() != 0) return DeleteOutcome::kNotEnded;
+    find.reset();
+    const auto results = find_numbers(database, "SELECT seq FROM results WHERE content = ?", content);
+    run_for_each(database, "DELETE FROM jobs WHERE seq = ?", {job});
+    delete_unused(database, {content}, results);
+    return DeleteOutcome::kDone;
   });
 }
 

@@ -235,6 +235,14 @@ StoreFileLock::~StoreFileLock() {
   ::close(file_);
 }
 
+void StoreFileLock::check() const {
+  if (file_ < 0 || is_named(file_, path_)) return;
+  throw StorageError("the store's file " + path_ +
+                         " was removed, moved or replaced while it was in use; nothing is written until it "
+                         "is back",
+                     SQLITE_READONLY_DBMOVED);
+}
+
 void check_name_of_store(const std::filesystem::path& store) {
   const int file = ::open(store.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) throw system_error("cannot read the store " + store.string());

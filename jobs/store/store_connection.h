@@ -52,6 +52,10 @@ class StoreFileLock {
 
   void keep(bool kept) { kept_ = kept; }
 
+  /// Checks that the store's name still leads to the file that was opened, which may have been removed or
+  /// replaced: what is written to it then is lost with the process. @throws StorageError
+  void check() const;
+
  private:
   const std::string path_;
   bool made_ = false;
@@ -178,6 +182,9 @@ class Writer {
   /// Says whether a store that was made here stays.
   void keep(bool kept) { file_lock_.keep(kept); }
 
+  /// See StoreFileLock::check(). Every write checks it, too.
+  void check_file() const { file_lock_.check(); }
+
   /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their
   /// turn.
   void release_free_pages();
@@ -200,15 +207,18 @@ class Writer {
     if (disturbs == Disturbs::kYes) ++disturbances_;
     FailureCount count{.disturbances = disturbances_};
     return with_storage_errors([&] {
+      file_lock_.check();
       roll_back_unfinished(database_);
       set_durability(durability);
       Transaction transaction(database_, "BEGIN IMMEDIATE");
       if constexpr (std::is_void_v<decltype(work(with))>) {
         work(with);
+        file_lock_.check();
         transaction.commit();
         count.failed = false;
       } else {
         auto result = work(with);
+        file_lock_.check();
         transaction.commit();
         count.failed = false;
         return result;

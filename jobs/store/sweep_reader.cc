@@ -2,9 +2,11 @@
 #include "jobs/store/sweep_reader.h"
 
 #include <algorithm>
+#include <memory>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
+#include <sqlite3.h>
 
 #include "jobs/base/time_text.h"
 #include "jobs/store/read_rows.h"
@@ -277,11 +279,12 @@ std::int64_t size_or_zero(const std::filesystem::path& file) {
 /// state of jobs, however many jobs there are. Empty: every sweep.
 std::string state_condition(const std::string& state) {
   const auto has = [](const char* job_state) {
-    return "EXISTS (SELECT 1 FROM jobs j WHERE j.sweep = sweeps.seq AND j.state = '" + std::string(job_state) +
-           "')";
+    return "EXISTS (SELECT 1 FROM jobs j WHERE j.sweep = sweeps.seq AND j.state = '" +
+           std::string(job_state) + "')";
   };
   const std::string open = "(" + has("queued") + " OR " + has("running") + ")";
-  const std::string ended_some = "(" + has("succeeded") + " OR " + has("failed") + " OR " + has("cancelled") + ")";
+  const std::string ended_some =
+      "(" + has("succeeded") + " OR " + has("failed") + " OR " + has("cancelled") + ")";
   if (state.empty()) return "1";
   if (state == "queued") return has("queued") + " AND NOT " + has("running") + " AND NOT " + ended_some;
   if (state == "running") return has("running") + " OR " + has("queued") + " AND " + ended_some;
@@ -434,6 +437,37 @@ std::optional<std::string> SweepReader::find_trajectory(const std::string& job_i
     if (!find.executeStep()) return std::nullopt;
     const SQLite::Column data = find.getColumn(0);
     return std::string(static_cast<const char*>(data.getBlob()), static_cast<std::size_t>(data.getBytes()));
+  });
+}
+
+bool SweepReader::read_trajectory(const std::string& job_id,
+                                  const std::function<void(const StoredBytes&)>& use) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
+    SQLite::Statement find(
+        database, "SELECT t.result FROM jobs j JOIN trajectories t ON t.result = j.result WHERE j.id = ?");
+    find.bind(1, job_id);
+    if (!find.executeStep()) return false;
+    sqlite3_blob* opened = nullptr;
+    const int code = sqlite3_blob_open(database.getHandle(), "main", "trajectories", "data",
+                                       find.getColumn(0).getInt64(), 0, &opened);
+    const std::unique_ptr<sqlite3_blob, int (*)(sqlite3_blob*)> blob(opened, &sqlite3_blob_close);
+    if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
+    use({.size = static_cast<std::size_t>(sqlite3_blob_bytes(blob.get())),
+         .read = [&](std::size_t offset, std::size_t size) {
+           std::string bytes(size, '\0');
+           const int error = sqlite3_blob_read(blob.get(), bytes.data(), static_cast<int>(size),
+                                               static_cast<int>(offset));
+           if (error != SQLITE_OK) throw SQLite::Exception(database.getHandle(), error);
+           return bytes;
+         }});
+    return true;
+  });
+}
+
+void SweepReader::check() const {
+  core_.writer.check_file();
+  core_.readers.read_often([](Statements& statements) {
+    statements.use("SELECT 1 FROM sweeps LIMIT 1")->executeStep();
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "jobs/store/queue_stats.h"
 #include "jobs/store/rows.h"
 #include "jobs/store/store_core.h"
+#include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs {
 
@@ -40,8 +42,12 @@ class SweepReader {
                                                          std::int64_t after) const;
   /// The packed trajectory of a job that has one.
   [[nodiscard]] std::optional<std::string> find_trajectory(const std::string& job_id) const;
+  /// Calls use() with the blob of a job's trajectory, which is read part by part. False if there is none.
+  bool read_trajectory(const std::string& job_id, const std::function<void(const StoredBytes&)>& use) const;
   /// Response that is stored under an idempotency key, for a week.
   [[nodiscard]] std::optional<StoredResponse> find_response(const std::string& key) const;
+  /// @throws StorageError if the store cannot be read, or its file is not under its name any more
+  void check() const;
   [[nodiscard]] QueueStats read_queue_stats() const;
 
  private:

@@ -43,6 +43,11 @@ std::string refusal_of(const std::filesystem::path& file) {
   return "";
 }
 
+std::string stored_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 std::string refusal_of_copy(const std::filesystem::path& file) {
   try {
     jobs::check_can_be_copied(file);
@@ -131,6 +136,30 @@ TEST(Store, IsRefusedUnderAnotherNameThanItsLogs) {
   EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 2U) << "its log has come with it";
 }
 
+// Under the feet of the service: what is acknowledged must be there after the next start.
+TEST(Store, WritesNothingWhileItsFileIsNotInItsPlace) {
+  const TemporaryStore temporary;
+  const std::filesystem::path file = temporary.file();
+  const std::filesystem::path moved = file.string() + ".moved";
+  jobs::Store store(file);
+  add_sweep(store, "{}");
+  EXPECT_NO_THROW(store.reader.check());
+  std::filesystem::rename(file, moved);
+  EXPECT_THROW(add_sweep(store, "{}"), jobs::StorageError);
+  EXPECT_THROW(static_cast<void>(store.queue.claim()), jobs::StorageError);
+  EXPECT_THROW(store.reader.check(), jobs::StorageError);
+  { std::ofstream(file) << "another file"; }
+  EXPECT_THROW(add_sweep(store, "{}"), jobs::StorageError);
+  EXPECT_THROW(store.reader.check(), jobs::StorageError);
+  EXPECT_EQ(stored_text(file), "another file");
+  std::filesystem::rename(moved, file);
+  EXPECT_NO_THROW(store.reader.check());
+  add_sweep(store, "{}");
+  EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 2U);
+  std::filesystem::remove(file);
+  EXPECT_THROW(add_sweep(store, "{}"), jobs::StorageError);
+}
+
 TEST(Store, IsCopiedOnlyIfItIsOne) {
   const TemporaryStore temporary;
   const std::filesystem::path file = temporary.file();
@@ -181,11 +210,6 @@ std::string store_refusal_of(const std::filesystem::path& file) {
     return error.what();
   }
   return "accepted";
-}
-
-std::string stored_bytes(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 TEST(Store, RefusesTheFormOfANewerProgramAndLeavesItAlone) {
@@ -244,9 +268,9 @@ TEST(Store, RefusesTheDatabaseOfAnotherProgramAndLeavesItAlone) {
   const TemporaryStore temporary;
   { std::ofstream(temporary.file()) << ""; }
   execute_sql(temporary.file(), "CREATE TABLE notes (text)");
-  const std::string before = stored_bytes(temporary.file());
+  const std::string before = stored_text(temporary.file());
   EXPECT_NE(store_refusal_of(temporary.file()).find("not a store of this program"), std::string::npos);
-  EXPECT_EQ(stored_bytes(temporary.file()), before);
+  EXPECT_EQ(stored_text(temporary.file()), before);
 }
 
 TEST(Store, RefusesWhatIsNoDatabaseAndLeavesItAlone) {
@@ -254,7 +278,7 @@ TEST(Store, RefusesWhatIsNoDatabaseAndLeavesItAlone) {
   const std::string text(10'000, 'x');
   { std::ofstream(temporary.file()) << text; }
   EXPECT_NE(store_refusal_of(temporary.file()).find("left as it is"), std::string::npos);
-  EXPECT_EQ(stored_bytes(temporary.file()), text);
+  EXPECT_EQ(stored_text(temporary.file()), text);
 }
 
 TEST(Store, RefusesADamagedFileAndLeavesItAlone) {
@@ -263,12 +287,12 @@ TEST(Store, RefusesADamagedFileAndLeavesItAlone) {
     jobs::Store store(temporary.file());
     add_sweep(store, R"({"sweep": {"clearance_mm": {"from": 0, "to": 1, "count": 300}}})");
   }
-  std::string damaged = stored_bytes(temporary.file());
+  std::string damaged = stored_text(temporary.file());
   ASSERT_GT(damaged.size(), 400'000U);
   for (std::size_t i = damaged.size() / 4; i < damaged.size(); ++i) damaged[i] = static_cast<char>(i * 37);
   { std::ofstream(temporary.file(), std::ios::binary) << damaged; }
   EXPECT_NE(store_refusal_of(temporary.file()).find("damaged"), std::string::npos);
-  EXPECT_EQ(stored_bytes(temporary.file()), damaged);
+  EXPECT_EQ(stored_text(temporary.file()), damaged);
 }
 
 TEST(Store, RefusesAFileThatWasCutOff) {
@@ -296,11 +320,11 @@ TEST(Store, LeavesTheLogOfAStoreThatItRefusesAlone) {
     newer.exec("PRAGMA user_version = 1000");
     copy_files(temporary.file(), killed);
   }
-  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
+  const std::string log = stored_text(killed.string() + "-wal"), file = stored_text(killed);
   ASSERT_FALSE(log.empty());
   EXPECT_NE(store_refusal_of(killed).find("newer program"), std::string::npos);
-  EXPECT_EQ(stored_bytes(killed.string() + "-wal"), log);
-  EXPECT_EQ(stored_bytes(killed), file);
+  EXPECT_EQ(stored_text(killed.string() + "-wal"), log);
+  EXPECT_EQ(stored_text(killed), file);
 }
 
 TEST(Store, LeavesTheLogOfAStoreAloneWhoseDamageIsOnlySeenAsItIsWritten) {
@@ -324,11 +348,11 @@ TEST(Store, LeavesTheLogOfAStoreAloneWhoseDamageIsOnlySeenAsItIsWritten) {
     other.exec("UPDATE sweeps SET name = 'in the log'");
     copy_files(temporary.file(), killed);
   }
-  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
+  const std::string log = stored_text(killed.string() + "-wal"), file = stored_text(killed);
   ASSERT_FALSE(log.empty());
   EXPECT_NE(store_refusal_of(killed).find("is damaged"), std::string::npos);
-  EXPECT_TRUE(stored_bytes(killed.string() + "-wal") == log);
-  EXPECT_TRUE(stored_bytes(killed) == file);
+  EXPECT_TRUE(stored_text(killed.string() + "-wal") == log);
+  EXPECT_TRUE(stored_text(killed) == file);
 }
 
 TEST(Store, RefusesALogWhoseStoreIsGone) {
@@ -339,11 +363,11 @@ TEST(Store, RefusesALogWhoseStoreIsGone) {
     add_sweep(store, R"({"sweep": {"clearance_mm": [0.1, 0.2]}})");
     copy_files(temporary.file(), killed);
   }
-  const std::string log = stored_bytes(killed.string() + "-wal"), file = stored_bytes(killed);
+  const std::string log = stored_text(killed.string() + "-wal"), file = stored_text(killed);
   ASSERT_FALSE(log.empty());
   std::filesystem::remove(killed);
   EXPECT_NE(store_refusal_of(killed).find("its log"), std::string::npos);
-  EXPECT_EQ(stored_bytes(killed.string() + "-wal"), log);
+  EXPECT_EQ(stored_text(killed.string() + "-wal"), log);
   EXPECT_FALSE(std::filesystem::exists(killed));
   { std::ofstream(killed) << file; }
   const jobs::Store store(killed);

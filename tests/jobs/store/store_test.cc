@@ -254,6 +254,26 @@ TEST(Store, DropsTheResultOfACancelledJob) {
   EXPECT_EQ(store.queue.cancel_job("job_none").outcome, jobs::CancelOutcome::kMissing);
 }
 
+TEST(Store, DeletesAJobOfNoSweepButNotWhatAnotherShares) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const jobs::PlannedJob plan = jobs::plan_job({{"crank_velocity_rad_s", 5}});
+  const std::string first = store.queue.add_job(plan, 10);
+  EXPECT_EQ(store.queue.delete_job(first), jobs::DeleteOutcome::kNotEnded);
+  EXPECT_TRUE(store.queue.record(store.queue.claim().value(), success(5.0)));
+  const std::string second = store.queue.add_job(plan, 10);
+  EXPECT_EQ(store.reader.find_job(second)->state, "succeeded") << "the result is shared";
+  EXPECT_EQ(store.queue.delete_job(first), jobs::DeleteOutcome::kDone);
+  EXPECT_FALSE(store.reader.find_job(first).has_value());
+  EXPECT_TRUE(store.reader.find_trajectory(second).has_value());
+  EXPECT_EQ(store.queue.delete_job(second), jobs::DeleteOutcome::kDone);
+  EXPECT_EQ(store.queue.delete_job(second), jobs::DeleteOutcome::kMissing);
+  const std::string sweep = add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
+  EXPECT_EQ(store.reader.find_sweep(sweep)->counts[0], 1) << "the result is gone with its last job";
+  const auto rows = store.reader.find_results(sweep).value().rows;
+  EXPECT_EQ(store.queue.delete_job(rows[0].job_id), jobs::DeleteOutcome::kOfSweep);
+}
+
 TEST(Store, DeletesASweepButNotWhatAnotherShares) {
   const TemporaryStore temporary;
   {
