@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -68,7 +69,8 @@ bool write_all(int file, std::string_view text) {
 void write_beside(const std::string& path, const std::string& text, const struct stat* old) {
   const std::string beside = path + "." + std::to_string(::getpid()) + ".part";
   ::unlink(beside.c_str());  // of a process that was killed
-  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old == nullptr ? 0666 : 0600);
+  const mode_t mode = old == nullptr ? 0666 : 0600;
+  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (file < 0) cannot_write(path);
   bool written = write_all(file, text);
   if (old != nullptr) {
@@ -123,7 +125,7 @@ int run_guarded(const std::function<int()>& command) {
 nlohmann::ordered_json read_json(const std::string& path) {
   const std::string text = read_text(path);
   try {
-    return parse_json(text);
+    return parse_json(text, std::numeric_limits<std::size_t>::max());
   } catch (const BadJson& error) {
     throw BadInput((path == "-" ? "standard input" : path) + ": " + error.what());
   }

@@ -7,6 +7,7 @@
 #include "server/context/long_poll_limit.h"
 #include "server/context/metrics.h"
 #include "server/context/store_copy_limit.h"
+#include "server/context/work_limit.h"
 #include "server/messages/message.h"
 
 namespace server {
@@ -20,6 +21,7 @@ struct RequestContext {
   const Metrics& metrics;
   LongPollLimit& long_poll_limit;
   StoreCopyLimit& store_copy_limit;
+  WorkLimit& stream_limit;  ///< of long trajectories that are being sent
 };
 
 }  // namespace server

@@ -14,6 +14,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "server/context/work_limit.h"
 #include "server/http/access.h"
 #include "server/http/http_guard.h"
 #include "server/http/request_body.h"
@@ -49,6 +50,20 @@ void set_file(httplib::Response& to, const std::string& content_type, std::share
       });
 }
 
+/// Sends a body as it is made: in chunks, so that a client can tell a body that ends early; to HTTP/1.0,
+/// which has none, up to the end of the connection.
+void set_stream(httplib::Response& to, const std::string& version, const std::string& content_type,
+                std::shared_ptr<BodyStream> stream) {
+  auto provider = [stream = std::move(stream)](std::size_t, httplib::DataSink& sink) {
+    std::string piece;
+    if (stream->append_next(piece)) return piece.empty() || sink.write(piece.data(), piece.size());
+    sink.done();
+    return true;
+  };
+  if (version == "HTTP/1.0") to.set_content_provider(content_type, std::move(provider));
+  else to.set_chunked_content_provider(content_type, std::move(provider));
+}
+
 /// Sends the head alone; the events follow on another thread.
 void set_events(httplib::Response& to, const std::string& content_type, std::shared_ptr<EventSource> events) {
   to.set_content_provider(content_type, [](std::size_t, httplib::DataSink& sink) {
@@ -58,11 +73,13 @@ void set_events(httplib::Response& to, const std::string& content_type, std::sha
   GuardedServer::stream_events(std::move(events));
 }
 
-void copy_to(httplib::Response& to, Response from) {
+void copy_to(httplib::Response& to, Response from, const std::string& version = "HTTP/1.1") {
   to.status = from.status;
   to.body = std::move(from.body);
   if (from.file) {
     set_file(to, from.content_type, std::move(from.file));
+  } else if (from.stream) {
+    set_stream(to, version, from.content_type, std::move(from.stream));
   } else if (from.events) {
     set_events(to, from.content_type, std::move(from.events));
   } else if (!from.content_type.empty()) {
@@ -108,6 +125,12 @@ std::optional<Refusal> find_media_fault(const httplib::Request& request) {
   const std::string coding = body_form(request).coding;
   if (coding.empty() || coding == "identity" || coding == "gzip" || coding == "deflate") return std::nullopt;
   return Refusal{415, "the Content-Encoding is not supported; gzip and deflate are"};
+}
+
+/// Whether the body may be larger than a megabyte, which chunks and codings do not tell before it has come.
+bool may_be_large(const httplib::Request& request) {
+  const BodyForm form = body_form(request);
+  return form.chunked || !form.coding.empty() || form.content_length > 1024 * 1024;
 }
 
 bool has_body(const httplib::Request& request) {
@@ -230,8 +253,14 @@ class HttpServer::Impl {
 
   void route_with_body(const httplib::Request& request, httplib::Response& response) {
     std::string body;
+    std::shared_ptr<const void> permit;
     if (has_body(request)) {
       auto fault = find_media_fault(request);
+      if (!fault && may_be_large(request)) {
+        permit = large_bodies_.acquire();
+        if (!permit)
+          return copy_to(response, make_retry_later(503, "as many large bodies wait as may; try again"));
+      }
       if (!fault)
         fault = read_request_body(GuardedServer::read_body, body_form(request), limits.body_bytes, body);
       if (fault) return copy_to(response, make_problem(fault->status, fault->detail));
@@ -286,7 +315,7 @@ class HttpServer::Impl {
     if (response.events && !guard.reserve_event_stream(response.events))
       response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();
-    copy_to(to, std::move(response));
+    copy_to(to, std::move(response), from.version);
     to.set_header("X-Request-Id", request.id);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, request.path, to.status,
@@ -297,6 +326,7 @@ class HttpServer::Impl {
   OriginCheck origin_check_;
   AccessCheck access_check_;
   RequestIds request_ids_;
+  WorkLimit large_bodies_{6, 16};  // of up to 8 MiB each, read and served
 
  public:
   GuardedServer guard;  // last: its handlers use what stands above

@@ -18,13 +18,14 @@ constexpr std::array<std::string_view, 4> kNonFiniteWords{"NaN", "-Infinity", "I
 /// JSON is for the next reader to tell.
 class Bounds : public nlohmann::json_sax<Json> {
  public:
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
+  explicit Bounds(std::size_t most_values) : most_values_(most_values) {}
+  bool null() override { return count(); }
+  bool boolean(bool) override { return count(); }
+  bool number_integer(number_integer_t) override { return count(); }
+  bool number_unsigned(number_unsigned_t) override { return count(); }
+  bool number_float(number_float_t, const string_t&) override { return count(); }
+  bool string(string_t&) override { return count(); }
+  bool binary(binary_t&) override { return count(); }
   bool start_object(std::size_t) override { return open(); }
   bool end_object() override { return close(); }
   bool start_array(std::size_t) override { return open(); }
@@ -40,7 +41,13 @@ class Bounds : public nlohmann::json_sax<Json> {
   }
 
  private:
+  bool count() {
+    if (++values_ > most_values_) throw BadJson("more than " + std::to_string(most_values_) + " values");
+    return true;
+  }
+
   bool open() {
+    count();
     open_.emplace_back();
     if (open_.size() > kMaxJsonDepth)
       throw BadJson("nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
@@ -52,6 +59,8 @@ class Bounds : public nlohmann::json_sax<Json> {
     return true;
   }
 
+  const std::size_t most_values_;
+  std::size_t values_ = 0;
   std::vector<std::set<std::string>> open_;  ///< the keys met so far, of every object or array that is open
 };
 
@@ -85,10 +94,10 @@ std::string plain_message(const std::string& what) {
   return end == std::string::npos ? what : what.substr(end + 2);
 }
 
-Json parse_strictly(std::string_view text) {
+Json parse_strictly(std::string_view text, std::size_t most_values) {
   // Twice: a callback of the parser could watch it, but then the parser looks, for every object that ends, at
   // all before it in their list.
-  Bounds bounds;
+  Bounds bounds(most_values);
   Json::sax_parse(text.begin(), text.end(), &bounds);
   try {
     return Json::parse(text.begin(), text.end());
@@ -101,17 +110,17 @@ Json parse_strictly(std::string_view text) {
 
 }  // namespace
 
-nlohmann::ordered_json parse_json(std::string_view text) {
+nlohmann::ordered_json parse_json(std::string_view text, std::size_t most_values) {
   if (text.empty()) throw BadJson("there is no JSON: the text is empty");
   // The parser takes it for the end of the text, whatever comes after.
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
     throw BadJson("not JSON at byte " + std::to_string(nul + 1) + ": a NUL character");
   try {
-    return parse_strictly(text);
+    return parse_strictly(text, most_values);
   } catch (const BadJson&) {
     const std::string mended = without_non_finite_words(text);
     if (mended == text) throw;
-    return parse_strictly(mended);
+    return parse_strictly(mended, most_values);
   }
 }
 

@@ -20,14 +20,17 @@ class BadJson : public std::runtime_error {
 inline constexpr std::size_t kMaxJsonDepth = 32;
 /// Keys of one object that are read: an object that keeps its order is searched from its front.
 inline constexpr std::size_t kMaxObjectKeys = 1024;
+/// Values of a request that are read: each takes some 50 bytes, however short its text.
+inline constexpr std::size_t kMaxJsonValues = 500'000;
 
 /// Reads JSON text, keeping the order of keys (the axes of a sweep multiply in the order in which they are
 /// given). NaN and Infinity, which are no JSON but which many programs write, are read as null.
 /// @throws BadJson with the position in bytes for text that is no JSON; also for a number that no double
 /// holds,
 ///         a key that an object has twice, more than kMaxJsonDepth levels, more than kMaxObjectKeys keys in
-///         an object.
-[[nodiscard]] nlohmann::ordered_json parse_json(std::string_view text);
+///         an object, more than most_values values.
+[[nodiscard]] nlohmann::ordered_json parse_json(std::string_view text,
+                                                std::size_t most_values = kMaxJsonValues);
 
 /// JSON text of a value; bytes that are no UTF-8 become U+FFFD.
 template <typename Json>

@@ -62,6 +62,19 @@ class EventSource {
   [[nodiscard]] virtual bool has_ended() const = 0;
 };
 
+/// Body that is made as it is sent.
+class BodyStream {
+ public:
+  BodyStream() = default;
+  virtual ~BodyStream() = default;
+  BodyStream(const BodyStream&) = delete;
+  BodyStream& operator=(const BodyStream&) = delete;
+
+  /// Appends the next piece. False after the last. What it throws ends the connection, so that the client
+  /// sees that the body is not whole.
+  virtual bool append_next(std::string& to) = 0;
+};
+
 /// An answer to a request.
 struct Response {
   int status = 200;
@@ -69,6 +82,7 @@ struct Response {
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers; ///< beside Content-Type and Content-Length
   std::shared_ptr<FileBody> file{};                         ///< stands for the body, if there is one
+  std::shared_ptr<BodyStream> stream{};                     ///< the same
   std::shared_ptr<EventSource> events{};                    ///< follow the head, if there are any
 };
 

@@ -10,6 +10,7 @@ Response post_job(const RequestContext& context);
 Response get_jobs(const RequestContext& context);
 Response get_job(const RequestContext& context);
 Response cancel_job(const RequestContext& context);
+Response delete_job(const RequestContext& context);
 Response get_trajectory(const RequestContext& context);
 Response get_parameters(const RequestContext& context);
 

@@ -42,8 +42,7 @@ Response get_health(const RequestContext&) { return json_response(200, R"({"stat
 
 Response get_readiness(const RequestContext& context) {
   if (context.draining) return make_retry_later(503, "the service is shutting down");
-  // Throws if the store cannot be read.
-  static_cast<void>(context.service.list_sweeps({.state = {}, .limit = 1, .cursor = {}}));
+  context.service.check_store();
   return json_response(200, R"({"status":"ready"})");
 }
 

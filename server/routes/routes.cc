@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/routes.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -57,6 +59,19 @@ std::string address_query(const Request& request) {
   return text;
 }
 
+/// Whether a request may take much memory or time: tables and analyses of a sweep, and large bodies.
+bool is_heavy(const Route& route, const Request& request) {
+  constexpr std::size_t kLargeBody = 64 * 1024;
+  if (route.method == "POST") return request.body.size() > kLargeBody;
+  return route.pattern.find("{id}/") != std::string_view::npos && !route.pattern.ends_with("/events");
+}
+
+/// Permit of what needs none.
+std::shared_ptr<const void> idle_permit() {
+  static constexpr char kNone = 0;
+  return {std::shared_ptr<const void>(), &kNone};
+}
+
 bool changes_something(const std::string& method) { return method == "POST" || method == "DELETE"; }
 
 Response make_wrong_method(const std::string& allowed) {
@@ -90,6 +105,12 @@ Routes::Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics)
   remove_left_over_copy(service.store_file());
 }
 
+void Routes::give_memory_back() {
+  constexpr std::size_t kMuch = std::size_t{48} << 20U;
+  // Long texts leave holes that the allocator keeps.
+  if (::mallinfo2().fordblks > kMuch) ::malloc_trim(0);
+}
+
 Response Routes::answer(const Request& request) const {
   const auto start = std::chrono::steady_clock::now();
   std::string_view pattern;
@@ -118,8 +139,10 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
     if (route.method == method) {
       if (draining_ && changes_something(method))
         return make_retry_later(503, "the service is shutting down");
-      return route.handler(
-          {service_, request, std::move(*id), draining_, *metrics_, long_poll_limit_, store_copy_limit_});
+      const auto permit = is_heavy(route, request) ? heavy_limit_.acquire() : idle_permit();
+      if (!permit) return make_retry_later(503, "as many large requests wait as may; try again");
+      return route.handler({service_, request, std::move(*id), draining_, *metrics_, long_poll_limit_,
+                            store_copy_limit_, stream_limit_});
     }
     allowed +=
         (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);

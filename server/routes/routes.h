@@ -10,6 +10,7 @@
 #include "server/context/long_poll_limit.h"
 #include "server/context/metrics.h"
 #include "server/context/store_copy_limit.h"
+#include "server/context/work_limit.h"
 #include "server/messages/message.h"
 
 namespace server {
@@ -28,6 +29,8 @@ class Routes {
   void start_draining() { draining_ = true; }
 
  private:
+  /// Gives freed memory back to the system, if there is much of it.
+  static void give_memory_back();
   /// @param pattern  set to that of the route, if there is one
   [[nodiscard]] Response dispatch(const Request& request, std::string_view& pattern) const;
 
@@ -36,6 +39,9 @@ class Routes {
   std::atomic<bool> draining_ = false;
   mutable LongPollLimit long_poll_limit_;
   mutable StoreCopyLimit store_copy_limit_;
+  // Each of these may take some 40 MB.
+  mutable WorkLimit heavy_limit_{2, 22, give_memory_back};
+  mutable WorkLimit stream_limit_{4, 0, give_memory_back};
 };
 
 }  // namespace server

@@ -60,7 +60,7 @@ TEST(ParseJson, ReadsALongListOfObjects) {
   constexpr std::size_t kObjects = 1'000'000;
   std::string text = "[{}";
   for (std::size_t i = 1; i < kObjects; ++i) text += ",{}";
-  EXPECT_EQ(parse_json(text + "]").size(), kObjects);
+  EXPECT_EQ(server::parse_json(text + "]", kObjects + 1).size(), kObjects);
 }
 
 TEST(ParseJson, RefusesANumberThatNoDoubleHolds) { EXPECT_NE(message_of("[1e999]"), "accepted"); }
@@ -77,5 +77,18 @@ TEST(ParseJson, RefusesANulWhereverItStands) {
 }
 
 TEST(ParseJson, RefusesBytesThatAreNoUtf8) { EXPECT_NE(message_of("\"\xff\""), "accepted"); }
+
+TEST(ParseJson, BoundsTheValuesBeforeItKeepsThem) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < server::kMaxJsonValues; ++i) text += "1,";
+  text.back() = ']';
+  EXPECT_THROW(static_cast<void>(server::parse_json(text)), server::BadJson);  // with the list itself, one more
+  EXPECT_NO_THROW(static_cast<void>(server::parse_json(text, server::kMaxJsonValues + 1)));
+  for (const char* const value : {"\"\"", "null", "true", "1.5", "-1", "[]", "{}"}) {
+    const std::string two = std::string("[") + value + "," + value + "]";
+    EXPECT_NO_THROW(static_cast<void>(server::parse_json(two, 3))) << value;
+    EXPECT_THROW(static_cast<void>(server::parse_json(two, 2)), server::BadJson) << value;
+  }
+}
 
 }  // namespace

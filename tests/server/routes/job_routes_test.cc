@@ -66,6 +66,18 @@ TEST(CancelJob, EndsWhatRuns) {
   EXPECT_EQ(state, "cancelled");
 }
 
+TEST(DeleteJob, DeletesOneOfNoSweep) {
+  Bench bench;
+  const json sweep = json::parse(bench.call("POST", "/v1/sweeps", R"({"sweep": {"clearance_mm": [0.1]}})").body);
+  const std::string results = "/v1/sweeps/" + sweep.at("id").get<std::string>() + "/results";
+  const std::string of_sweep = json::parse(bench.call("GET", results).body).at(0).at("job_id");
+  EXPECT_EQ(bench.call("DELETE", "/v1/jobs/" + of_sweep).status, 409);
+  const std::string place = "/v1/jobs/" + run_job(bench, R"({"crank_velocity_rad_s": 7})");
+  EXPECT_EQ(bench.call("DELETE", place).status, 204);
+  EXPECT_EQ(bench.call("GET", place).status, 404);
+  EXPECT_EQ(bench.call("DELETE", place).status, 404);
+}
+
 TEST(GetTrajectory, GivesTheChannelsAndTimesAskedFor) {
   Bench bench;
   const std::string path = "/v1/jobs/" + run_job(bench, "{}") + "/trajectory";
