@@ -48,6 +48,7 @@ inline void log_raw_exchange(std::string_view sent, std::string_view received) {
   constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
   if (received.starts_with(kContinue)) received.remove_prefix(kContinue.size());
   if (!received.starts_with("HTTP/1.1 ")) return;
+  while (sent.starts_with("\r\n")) sent.remove_prefix(2);  // before a request they mean nothing
   const std::string method = word(sent, " \r\n");
   const std::string target = word(sent, " \r\n");
   const std::size_t head_end = received.find("\r\n\r\n");
