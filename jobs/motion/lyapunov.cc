@@ -43,13 +43,13 @@ double squared_distance(const Orbit& a, const Orbit& b, std::size_t sample) {
 }
 
 /// Points between which a neighbour is followed.
-struct Stretch {
+struct GrowthPhase {
   std::size_t first = 0, last = 0;
   bool resolved = false;  ///< whether its distance exceeds kFloor
   bool parted = false;    ///< whether it reaches kCeiling
 };
 
-Stretch find_stretch(const std::vector<double>& logarithms) {
+GrowthPhase find_stretch(const std::vector<double>& logarithms) {
   const auto begin = logarithms.begin(), end = logarithms.end();
   const std::size_t points = logarithms.size();
   const auto latest = begin + static_cast<std::ptrdiff_t>(std::ceil(kLatest * static_cast<double>(points)));
@@ -107,7 +107,7 @@ Estimate estimate_ratio(std::span<const BlockGrowth> blocks) {
 
 /// Neighbour with its curve of ln d.
 struct Followed {
-  Stretch stretch;
+  GrowthPhase stretch;
   const std::vector<double>* curve;
 };
 
@@ -210,9 +210,9 @@ void DivergenceMeasurement::add(const Orbit& neighbour) {
 
 Divergence DivergenceMeasurement::finish() const {
   Divergence divergence;
-  std::vector<Stretch> stretches;
+  std::vector<GrowthPhase> stretches;
   for (const auto& curve : curves_) stretches.push_back(find_stretch(curve));
-  const bool resolved = std::ranges::any_of(stretches, &Stretch::resolved);
+  const bool resolved = std::ranges::any_of(stretches, &GrowthPhase::resolved);
   std::vector<Followed> followed;
   for (std::size_t k = 0; k < curves_.size(); ++k) {
     divergence.parted += stretches[k].parted ? 1 : 0;
