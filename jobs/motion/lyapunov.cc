@@ -62,7 +62,7 @@ GrowthPhase find_stretch(const std::vector<double>& logarithms) {
           .resolved = true, .parted = reached != end};
 }
 
-/// What all neighbours together do between two blocks of time.
+/// Growth of all neighbours together between two blocks of time.
 struct BlockGrowth {
   double rise = 0.0;      ///< of the mean logarithms
   double time = 0.0;

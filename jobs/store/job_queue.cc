@@ -103,7 +103,7 @@ std::optional<ClaimedJob> JobQueue::claim(Statements& statements, const Executor
   for (auto turn = turns.begin(); turn != turns.end();) {
     auto job = find_claimable(statements, turn->sweep);
     if (!job) {
-      // What waits for the result of another job keeps its turn.
+      // Jobs that wait for the result of another job keep their turn.
       turn = has_queued_jobs(statements, turn->sweep) ? std::next(turn) : turns.erase(turn);
       continue;
     }

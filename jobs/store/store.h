@@ -26,7 +26,7 @@ class Store {
   /// Engine for which the newest job was planned when the store was opened; this program's own in a new
   /// store.
   [[nodiscard]] const std::string& engine_before() const { return engine_before_; }
-  /// Says whether a store that was made here stays, as it does unless its start is refused.
+  /// Keeps or gives up a store that was made here: a refused start gives it up.
   void keep(bool kept) {
     core_.writer.keep(kept);
     core_.lock.keep(kept);

@@ -27,7 +27,7 @@ class StoreLock {
   StoreLock(const StoreLock&) = delete;
   StoreLock& operator=(const StoreLock&) = delete;
 
-  /// Says whether a file that was made here stays: a start that is refused leaves nothing behind.
+  /// Keeps or gives up a file that was made here: a refused start leaves nothing behind.
   void keep(bool kept) { kept_ = kept; }
 
  private:
@@ -167,7 +167,7 @@ class Writer {
   /// Number of the transactions, with the one at hand, that may have queued jobs: all but those of
   /// write_often() that did not fail. Under the writer's lock, within work.
   [[nodiscard]] std::uint64_t disturbances() const { return disturbances_; }
-  /// Says that the transaction at hand queues jobs. Within work of write_often().
+  /// Marks the transaction at hand as one that queues jobs. Within work of write_often().
   void disturb() { ++disturbances_; }
 
   /// The same for work(statements), which is done often.
@@ -179,7 +179,7 @@ class Writer {
   /// Says that the store has shown no damage. Until then its file is left as it is, however this ends.
   void accept();
 
-  /// Says whether a store that was made here stays.
+  /// Keeps or gives up a store that was made here.
   void keep(bool kept) { file_lock_.keep(kept); }
 
   /// See StoreFileLock::check(). Every write checks it, too.
