@@ -267,8 +267,11 @@ void ConnectionAcceptor::close_timed_out() {
 
 void ConnectionAcceptor::close(Place place) {
   const PendingConnection& connection = place->connection;
-  // close() also removes the socket from epoll.
-  if (connection.socket >= 0) ::close(connection.socket);
+  // close() alone would leave the socket in epoll as long as a process that is being started has a copy of it.
+  if (connection.socket >= 0) {
+    ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, connection.socket, nullptr);
+    ::close(connection.socket);
+  }
   if (place->lingering) {
     lingering_.erase(place);
     return;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connections of the server: slow ones, many at once, its port and its end.
 
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -152,6 +156,25 @@ TEST(HttpCrowd, ServesOthersAtOnceBesideHundredsThatStayOpenOnceTheyAreAnswered)
   client.send(kGet);
   EXPECT_EQ(client.read_status(), 401);
   EXPECT_LT(Clock::now() - start, 1s);
+}
+
+TEST_F(Http, ForgetsConnectionsThatAProcessBeingStartedHasCopiesOf) {
+  std::list<RawClient> clients;
+  for (int i = 0; i < 50; ++i) {
+    clients.emplace_back(port_).send(kGet);
+    EXPECT_NE(clients.back().read_status(), 0) << i;
+  }
+  const pid_t copier = ::fork();
+  if (copier == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (;;) ::pause();
+  }
+  std::this_thread::sleep_for(2 * short_limits().linger_time);
+  // The server has closed its sockets; these bytes come to the copies.
+  for (RawClient& client : clients) client.send("more");
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(status_of(get("/healthz")), 200) << i;
+  ::kill(copier, SIGKILL);
+  ::waitpid(copier, nullptr, 0);
 }
 
 TEST(HttpCrowd, AnswersProbesWhileEveryThreadIsBusyAndRefusesWhatNoQueueTakes) {
