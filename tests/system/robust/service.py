@@ -72,11 +72,12 @@ class Service:
         request = urllib.request.Request(self.url + path, data=data, method=method,
                                          headers={"Content-Type": "application/json", **(headers or {})})
         try:
-            with OPENER.open(request, timeout=timeout) as answer:
+            try:
+                answer = OPENER.open(request, timeout=timeout)
+            except urllib.error.HTTPError as refusal:
+                answer = refusal
+            with answer:
                 return answer.status, answer.headers, answer.read()
-        except urllib.error.HTTPError as refused:
-            with refused:
-                return refused.code, refused.headers, refused.read()
         except (OSError, EOFError, ValueError) as error:
             raise NoAnswer(str(error)) from error
         except Exception as error:  # http.client has its own family of them
