@@ -168,12 +168,12 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
                 [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
   add_channel(joint.name + "_journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [=](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[cut].journal); });
-  const Reading force = [=](const Evaluation& at) { return at.joints[cut].load.radial_normal_sum; };
-  add_channel(joint.name + "_contact_force_n", "Sum of the radial normal forces on the journal", force);
+  const Reading force = [=](const Evaluation& at) { return at.joints[cut].load.calc_normal_sum(); };
+  add_channel(joint.name + "_contact_force_n", "Sum of the normal forces of bore and shoulders on the journal", force);
   add_channel(joint.name + "_friction_force_n", "Sum of the magnitudes of the friction forces on the journal",
               [=](const Evaluation& at) { return at.joints[cut].load.friction_sum; });
   add_load("peak_" + joint.name + "_contact_force_n",
-           "Largest sum of the radial normal forces on the journal in the whole run", 1.0, force);
+           "Largest sum of the normal forces of bore and shoulders on the journal in the whole run", 1.0, force);
   add_load("max_" + joint.name + "_penetration_um",
            "Largest radial penetration of the journal into the bore in the whole run", 1e6,
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
@@ -181,7 +181,7 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
   measured_.contacts.push_back(cut);
   add_metric(
       {.key = joint.name + "_contact_time_ratio",
-       .help = "Fraction of the whole run in which the journal touches the bore"},
+       .help = "Fraction of the whole run in which the journal touches the bore or a shoulder"},
       [=](const RunMetrics& metrics, const RunOutcome& outcome) {
         return metrics.contact_time(contact) / outcome.t;
       });
@@ -215,7 +215,7 @@ void LinkageQuantities::add_energy_channels() {
 void LinkageQuantities::add_run_metrics() {
   add_metric(
       {.key = "impact_count",
-       .help = "Number of onsets of radial contact in the whole run, counted for each ring of each journal",
+       .help = "Number of onsets of contact in the whole run, counted for each ring and each face of each journal",
        .integer = true},
       [](const RunMetrics& metrics, const auto&) { return static_cast<double>(metrics.onsets()); });
   add_metric({.key = "friction_work_j", .help = "Energy lost to friction in the joints in the whole run"},
@@ -229,7 +229,8 @@ void LinkageQuantities::add_run_metrics() {
               .help = "Largest |E − E(0) − work of the drives + losses| in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.largest_imbalance(); });
   add_metric({.key = "energy_residual",
-              .help = "Ratio of energy_imbalance_j to the work turned over; null if that is zero"},
+              .help = "Ratio of energy_imbalance_j to the work turned over or, without drives and losses, to the "
+                      "largest kinetic energy or change of potential energy; null if nothing moves"},
              [](const RunMetrics& metrics, const auto&) { return metrics.calc_energy_residual(); });
   add_metric(
       {.key = "redundant_constraints",

@@ -19,6 +19,7 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   if (!started_) {
     started_ = true;
     first_balance_ = start.energy.calc_balance();
+    first_potential_ = start.energy.potential;
     last_energy_ = start.energy;
   }
   for (std::size_t k = 0; k < accelerations_.size(); ++k)
@@ -30,7 +31,7 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   // Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a
   // step holds in all of it.
   for (std::size_t k = 0; k < contact_times_.size(); ++k)
-    if (start.joints[measured_.contacts[k]].load.max_penetration > 0.0) contact_times_[k] += end.t - start.t;
+    if (start.joints[measured_.contacts[k]].load.touches()) contact_times_[k] += end.t - start.t;
 }
 
 void RunMetrics::take_acceleration(FrameIndex i, const Evaluation& start, const Evaluation& end,
@@ -61,6 +62,8 @@ void RunMetrics::take_middle(const Evaluation& middle) {
 void RunMetrics::take_energy(const EnergyAccount& start, const EnergyAccount& end) {
   largest_imbalance_ = std::max(largest_imbalance_, std::abs(end.calc_balance() - first_balance_));
   turned_over_ += end.calc_turned_over_since(start);
+  largest_in_motion_ = std::max({largest_in_motion_, start.kinetic, end.kinetic,
+                                 std::abs(end.potential - first_potential_)});
 }
 
 double RunMetrics::calc_rms(std::size_t k) const {
@@ -69,7 +72,8 @@ double RunMetrics::calc_rms(std::size_t k) const {
 }
 
 double RunMetrics::calc_energy_residual() const {
-  return turned_over_ > 0.0 ? largest_imbalance_ / turned_over_ : std::numeric_limits<double>::quiet_NaN();
+  const double scale = turned_over_ > 0.0 ? turned_over_ : largest_in_motion_;
+  return scale > 0.0 ? largest_imbalance_ / scale : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace engine

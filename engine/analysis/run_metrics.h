@@ -43,7 +43,7 @@ class RunMetrics {
   [[nodiscard]] double calc_rms(std::size_t k) const;
   /// Largest magnitude of one of Measured::loads.
   [[nodiscard]] double largest_load(std::size_t k) const { return loads_[k].peak().magnitude; }
-  /// How long the bore of one of Measured::contacts was touched, [s]
+  /// How long bore or shoulders of one of Measured::contacts were touched, [s]
   [[nodiscard]] double contact_time(std::size_t k) const { return contact_times_[k]; }
   [[nodiscard]] long onsets() const { return onsets_; }
   [[nodiscard]] const EnergyAccount& last_energy() const { return last_energy_; }
@@ -51,7 +51,8 @@ class RunMetrics {
   [[nodiscard]] double largest_imbalance() const { return largest_imbalance_; }
   /// Work of the drives and losses, counted without sign: what an energy residual is measured against, [J].
   [[nodiscard]] double work_turned_over() const { return turned_over_; }
-  /// The one over the other; not a number if nothing was turned over.
+  /// The one over the other; without drives and losses, over the largest kinetic energy or change of potential
+  /// energy; not a number if nothing moves.
   [[nodiscard]] double calc_energy_residual() const;
 
  private:
@@ -71,6 +72,8 @@ class RunMetrics {
   double first_balance_ = 0.0;
   double largest_imbalance_ = 0.0;
   double turned_over_ = 0.0;
+  double first_potential_ = 0.0;
+  double largest_in_motion_ = 0.0;  ///< kinetic energy, or change of potential energy, [J]
   EnergyAccount last_energy_;
   bool started_ = false;
 };

@@ -29,11 +29,12 @@ AxialFaces::AxialFaces(const ClearanceParameters& joint)
   y_.resize(setback_.size());
 }
 
-bool AxialFaces::advance(const JournalMotion& start, const JournalMotion& end, double dt) {
+ContactChange AxialFaces::advance(const JournalMotion& start, const JournalMotion& end, double dt) {
   const Eigen::Vector3d axial = end.R_bj.row(2);
-  bool changed = false;
+  ContactChange change;
   for (const int face : {0, 1}) {
     int& touching = touching_[face];
+    const bool touched = touching > 0;
     if (touching == 0 &&
         calc_farthest_point(side(face), end.p_bj.z(), axial.x(), axial.y(), axial.z()) <= limit())
       continue;
@@ -44,13 +45,15 @@ bool AxialFaces::advance(const JournalMotion& start, const JournalMotion& end, d
       const double x = this->x()[k], y = this->y()[k];
       const bool touches = at_end.calc_delta(x, y) > 0.0;
       if (touches == latch.in_contact()) continue;
-      changed |=
+      change.any |=
           latch.advance({at_start.calc_delta(x, y), at_start.calc_rate(x, y)},
                         {at_end.calc_delta(x, y), at_end.calc_rate(x, y)}, dt, joint_.minimum_onset_rate);
       touching += static_cast<int>(latch.in_contact()) - static_cast<int>(!touches);
     }
+    if (!touched && touching > 0) ++change.onsets;
   }
-  return changed;
+  change.abrupt = change.any;
+  return change;
 }
 
 }  // namespace engine

@@ -42,8 +42,8 @@ class AxialFaces {
            (1.0 + 1e-12) * joint_.r_j() * std::sqrt(x_z * x_z + y_z * y_z);
   }
 
-  /// Takes note of contacts that began or ended in a step. @returns true if any did
-  bool advance(const JournalMotion& start, const JournalMotion& end, double dt);
+  /// Takes note of contacts that began or ended in a step. All changes are abrupt.
+  ContactChange advance(const JournalMotion& start, const JournalMotion& end, double dt);
 
  private:
   ClearanceParameters joint_;

@@ -46,7 +46,7 @@ ContactChange ClearanceJoint::advance(const JournalMotion& start, const JournalM
                                       double* bristles) {
   ContactChange change =
       std::visit([&](auto& radial) { return radial.advance(start, end, dt, bristles); }, radial_);
-  if (faces_.advance(start, end, dt)) change.any = change.abrupt = true;
+  change += faces_.advance(start, end, dt);
   return change;
 }
 

@@ -34,9 +34,11 @@ struct JointLoad {
   V impact_power{};                  ///< lost in the normal law, [W]
   V friction_power{};                ///< [W]
   Value radial_normal_sum{};         ///< [N]
+  Value face_normal_sum{};           ///< [N]
   Value friction_sum{};              ///< magnitudes, [N]
   Value max_penetration{};           ///< of radial contacts, [m]
   Value elastic_energy{};            ///< [J]
+  bool face_touches = false;         ///< a point of a face is beyond its shoulder
   bool out_of_range = false;         ///< a penetration is beyond what the stiffness law holds for
 
   /// Called when the load of one contact point is complete. @param bristle  index of its first bristle in the

@@ -108,6 +108,8 @@ RPSUP_INLINE void add_faces(const AxialFaces& faces, const RelativeMotion<P, V>&
     load.force.z -= side * pressed.force;
     load.moment.x -= side * (pressed.x_force * R.x.y + pressed.y_force * R.y.y + z * (pressed.force * R.z.y));
     load.moment.y += side * (pressed.x_force * R.x.x + pressed.y_force * R.y.x + z * (pressed.force * R.z.x));
+    load.face_normal_sum += value_of(pressed.force);
+    load.face_touches = load.face_touches || pressed.elastic_energy > 0.0;
     load.impact_power += pressed.impact_power;
     load.elastic_energy += pressed.elastic_energy;
   }

@@ -26,11 +26,16 @@ struct ContactLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [N m]
   double radial_normal_sum = 0.0;                    ///< [N]
+  double face_normal_sum = 0.0;                      ///< [N]
   double friction_sum = 0.0;                         ///< magnitudes, [N]
   double max_penetration = 0.0;                      ///< of radial contacts, [m]
   double elastic_energy = 0.0;                       ///< [J]
   double impact_power = 0.0;                         ///< lost in the normal law, [W]
   double friction_power = 0.0;                       ///< [W]
+  bool face_touches = false;                         ///< a point of a face is beyond its shoulder
+
+  [[nodiscard]] double calc_normal_sum() const { return radial_normal_sum + face_normal_sum; }
+  [[nodiscard]] bool touches() const { return max_penetration > 0.0 || face_touches; }
 };
 
 /// The same as the contact laws take it.
@@ -43,8 +48,16 @@ struct ContactLoad {
 /// What the contact laws give, as observers take it.
 [[nodiscard]] inline ContactLoad to_contact_load(const JointLoad<double>& load) {
   const auto vector = [](const Vec3<double>& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
-  return {vector(load.force), vector(load.moment), load.radial_normal_sum, load.friction_sum,
-          load.max_penetration, load.elastic_energy, load.impact_power, load.friction_power};
+  return {.force = vector(load.force),
+          .moment = vector(load.moment),
+          .radial_normal_sum = load.radial_normal_sum,
+          .face_normal_sum = load.face_normal_sum,
+          .friction_sum = load.friction_sum,
+          .max_penetration = load.max_penetration,
+          .elastic_energy = load.elastic_energy,
+          .impact_power = load.impact_power,
+          .friction_power = load.friction_power,
+          .face_touches = load.face_touches};
 }
 
 }  // namespace engine

@@ -14,7 +14,14 @@ struct ContactChange {
   bool any = false;     ///< some contact began or ended
   bool abrupt =
       false;  ///< and more than single elements of rings that had contact before and have some still
-  int ring_onsets = 0;  ///< rings that had no contact and now have one
+  int onsets = 0;       ///< rings and faces that had no contact and now have one
+
+  ContactChange& operator+=(const ContactChange& other) {
+    any |= other.any;
+    abrupt |= other.abrupt;
+    onsets += other.onsets;
+    return *this;
+  }
 };
 
 /// The penetration rate at the onset of a contact, kept until it ends.

@@ -24,6 +24,11 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
   allocate();
 }
 
+void MotionSystem::reload_mechanism() {
+  model_ = TreeModel(mechanism_);
+  allocate();
+}
+
 /// Allocates everything that depends on the number of bristles. Eigen's resize() would free the old entries
 /// first and, without memory for the new ones, leave the vector to free them a second time: vectors that have
 /// entries are replaced.
@@ -156,11 +161,8 @@ ContactChange MotionSystem::accept_step(const Evaluation& start, const Evaluatio
   double* bristles = y.data() + layout_.bristle();
   for (std::size_t k = 0; k < clearance_joints_.size(); ++k) {
     const std::size_t joint = clearance_joint_of_[k];
-    const ContactChange change = clearance_joints_[k].advance(
-        start.joints[joint].journal, end.joints[joint].journal, end.t - start.t, bristles);
-    sum.any |= change.any;
-    sum.abrupt |= change.abrupt;
-    sum.ring_onsets += change.ring_onsets;
+    sum += clearance_joints_[k].advance(start.joints[joint].journal, end.joints[joint].journal,
+                                        end.t - start.t, bristles);
     bristles += clearance_joints_[k].bristle_count();
   }
   if (sum.any) solved_ = false;

@@ -34,6 +34,9 @@ class MotionSystem {
   MotionSystem(const MotionSystem&) = delete;
   MotionSystem& operator=(const MotionSystem&) = delete;
 
+  /// Takes note of placements that have changed in the mechanism.
+  void reload_mechanism();
+
   /// Evaluates the drives inside this piece from now on; before the first call at any t.
   void follow_drives(const DrivePiece& piece);
 

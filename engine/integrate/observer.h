@@ -19,7 +19,7 @@ class Observer {
   /// At t = 0, at each multiple of the sample interval and at the end. Samples inside a step follow its
   /// on_step().
   virtual void on_sample(const Evaluation& at) = 0;
-  /// Rings that came into contact in the step just reported.
+  /// Rings and faces that came into contact in the step just reported.
   virtual void on_onsets(int count) = 0;
   /// Asked now and then; true ends the run.
   [[nodiscard]] virtual bool stop_requested(double t) = 0;

@@ -150,6 +150,32 @@ TEST(Linkage, AJournalMayMoveInItsClearanceFromTheStart) {
   EXPECT_NEAR(run.last("x_m"), 2e-4, 1e-12);  // of the 0.25 mm that it has
 }
 
+/// A journal that falls along its bearing's axis onto an elastic shoulder, and rebounds. With the force K_a delta, the
+/// speed v = sqrt(2 g c_a) at contact and w = sqrt(K_a / m), a contact lasts 2 (pi - atan(v w / g)) / w and a flight
+/// 2 v / g. The largest force is m g (1 + sqrt(1 + (v w / g)^2)).
+TEST(Linkage, AFaceThatHitsAShoulderCountsAsContact) {
+  constexpr double m = 2.0, g = 9.81;
+  ClearanceParameters bearing;
+  bearing.c_a = 1e-3;
+  bearing.K_a = 1e6;
+  bearing.chi = 0.0;
+  Linkage linkage;
+  linkage.gravity_W = {0.0, 0.0, -g};
+  linkage.bodies = {make_body("journal", m, {0.0, 0.0, 0.0}, {0.01, 0.01, 0.01})};
+  linkage.joints = {{.name = "fall", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "journal", .placement = {},
+                     .freedoms = {{.name = "z"}}},
+                    {.name = "bearing", .from = kGroundName, .to = "journal", .placement = {}, .cut = true, .clearance = bearing}};
+  const double v = std::sqrt(2.0 * g * bearing.c_a), w = std::sqrt(bearing.K_a / m), fall = v / g;
+  const double contact = 2.0 * (std::numbers::pi - std::atan(v * w / g)) / w;
+  constexpr int kHits = 5;
+  const double duration = kHits * (contact + 2.0 * fall);  // to the top of the last rebound
+  const LinkageRun run(linkage, accurate(duration));
+  EXPECT_EQ(run.metric("impact_count"), kHits);
+  EXPECT_NEAR(run.metric("bearing_contact_time_ratio"), kHits * contact / duration, 1e-3 * contact / duration);
+  const double peak = m * g * (1.0 + std::sqrt(1.0 + std::pow(v * w / g, 2)));
+  EXPECT_NEAR(run.metric("peak_bearing_contact_force_n"), peak, 1e-4 * peak);
+}
+
 TEST(Linkage, AWeldedBodyIsPartOfWhatCarriesIt) {
   Linkage whole;
   whole.gravity_W = {0.0, -9.81, 0.0};

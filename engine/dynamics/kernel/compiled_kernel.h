@@ -41,11 +41,13 @@ inline void read_out_joint(const CutJointMotion<double, double>& from, JointStat
   copy(from.load.force, to.load.force.data());
   copy(from.load.moment, to.load.moment.data());
   to.load.radial_normal_sum = from.load.radial_normal_sum;
+  to.load.face_normal_sum = from.load.face_normal_sum;
   to.load.friction_sum = from.load.friction_sum;
   to.load.max_penetration = from.load.max_penetration;
   to.load.elastic_energy = from.load.elastic_energy;
   to.load.impact_power = from.load.impact_power;
   to.load.friction_power = from.load.friction_power;
+  to.load.face_touches = from.load.face_touches;
 }
 
 /// The dynamics kernel of a topology: state vectors in and out, around ForwardDynamics, LinearisedDynamics
