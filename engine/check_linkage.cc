@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -10,6 +11,8 @@
 #include "engine/dynamics/motion_system.h"
 #include "engine/dynamics/spring_motion.h"
 #include "engine/errors.h"
+#include "engine/integrate/kinematic_run.h"
+#include "engine/integrate/spherical_charts.h"
 #include "engine/simulate_linkage.h"
 
 namespace engine {
@@ -67,43 +70,43 @@ std::string owner_of(const Linkage& linkage, const BuiltLinkage& built, FrameInd
   return "";
 }
 
-/// Motions that must move mass: of each coordinate alone, or of their combinations as well.
-enum class MassCheck { kEachAlone, kCombinations };
-
-/// Mass matrix of some coordinates, from the kinetic energies of unit speeds, alone and by twos; for
-/// kEachAlone its diagonal.
+/// Mass matrix of some coordinates, from the kinetic energies of unit speeds, alone and by twos.
+/// @param alone  only its diagonal
 Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled,
-                                 const std::vector<FrameIndex>& coordinates, MassCheck check) {
+                                 const std::vector<FrameIndex>& coordinates, bool alone) {
   Eigen::VectorXd qd = Eigen::VectorXd::Zero(assembled.q.size());
   const Eigen::VectorXd qdd = qd;
   std::vector<FrameMotion> frames(m.coordinates.size());
   const auto n = static_cast<Eigen::Index>(coordinates.size());
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index k = check == MassCheck::kEachAlone ? i : 0; k <= i; ++k) {
+    for (Eigen::Index k = alone ? i : 0; k <= i; ++k) {
       qd.setZero();
       qd[coordinates[static_cast<std::size_t>(i)]] = 1.0;
       qd[coordinates[static_cast<std::size_t>(k)]] = 1.0;
       calc_frame_motions(m, assembled.q, qd, qdd, frames);
       M(i, k) = M(k, i) = calc_kinetic_energy(m, frames);
     }
-  const Eigen::VectorXd alone = M.diagonal();
-  M.colwise() -= alone;
-  M.rowwise() -= alone.transpose();
-  M.diagonal() = 2.0 * alone;
+  const Eigen::VectorXd energies = M.diagonal();
+  M.colwise() -= energies;
+  M.rowwise() -= energies.transpose();
+  M.diagonal() = 2.0 * energies;
   return M;
 }
 
 /// No free coordinate may move nothing that has mass, nor may several together.
 void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled,
-                  const std::vector<FrameIndex>& free, MassCheck check) {
+                  const std::vector<FrameIndex>& free) {
   constexpr double kNothing = 1e-15;     // [kg m^2] or [kg], of what the heaviest freedom moves
   // Least eigenvalue of the matrix with its diagonal scaled to 1: rounding.
   constexpr double kNoneOfThem = 1e-13;
   constexpr std::size_t kMany = 60;      // whose matrix would take long
   if (free.empty()) return;
-  if (free.size() > kMany) check = MassCheck::kEachAlone;
-  const Eigen::MatrixXd M = calc_mass_matrix(built.mechanism, assembled, free, check);
+  const bool alone = free.size() > kMany;
+  Mechanism mechanism = built.mechanism;
+  Evaluation at = assembled;
+  SphericalCharts(mechanism).update(mechanism, at.q, at.qd);
+  const Eigen::MatrixXd M = calc_mass_matrix(mechanism, at, free, alone);
   const Eigen::VectorXd moved = M.diagonal();
   for (std::size_t k = 0; k < free.size(); ++k)
     if (!(moved[static_cast<Eigen::Index>(k)] > kNothing * moved.maxCoeff()))
@@ -112,7 +115,7 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
           "is free to move by its coordinate " +
               built.mechanism.coordinates[static_cast<std::size_t>(free[k])].name +
               ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
-  if (check == MassCheck::kEachAlone) return;
+  if (alone) return;
   const Eigen::VectorXd scale = moved.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
   if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
@@ -122,6 +125,13 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
                        "are free to move together in a way in which nothing that they move has mass (one "
                        "behind the other about the same "
                        "axis, say): give the bodies that they carry some, or drive them");
+}
+
+/// The linkage's joint that is one of the mechanism's cut joints.
+std::string name_of_cut(const Linkage& linkage, const BuiltLinkage& built, int cut) {
+  const auto found =
+      std::ranges::find_if(built.joints, [cut](const BuiltJoint& joint) { return joint.cut == cut; });
+  return linkage.joints[static_cast<std::size_t>(found - built.joints.begin())].name;
 }
 
 /// The cut joint whose parts stand furthest apart.
@@ -147,13 +157,17 @@ std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const 
 
 }  // namespace
 
-BuiltLinkage check_linkage(const Linkage& linkage) {
+BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
   for (const LinkageBody& body : linkage.bodies) check_body(body);
   BuiltLinkage built = build_linkage(linkage);
   const MotionSystem system(built.mechanism);
   LoopClosure closure(built.mechanism);
   Evaluation assembled = system.make_evaluation();
   if (!closure.assemble(0.0, assembled)) {
+    if (closure.turned_over_joint() >= 0)
+      throw InvalidInput("joints." + name_of_cut(linkage, built, closure.turned_over_joint()),
+                         "closes at t = 0 only with its second body turned over by a half turn; a guess or start "
+                         "of a coordinate nearer to the right position, or other axes, may help");
     const std::string joint = widest_gap(linkage, built, assembled);
     if (!closure.rates_fit())
       throw InvalidInput(
@@ -169,10 +183,10 @@ BuiltLinkage check_linkage(const Linkage& linkage) {
                        "cannot follow their drives: these move against each other, or against joints that "
                        "close loops; let one of the "
                        "drives go, or a joint that closes a loop allow the motion");
-  // The drives decide the motion, whatever has mass.
-  const bool solved = closure.is_determined() && closure.redundant() == 0;
-  check_masses(linkage, built, assembled, system.free_coordinates(),
-               solved ? MassCheck::kEachAlone : MassCheck::kCombinations);
+  // If the drives determine the motion, masses need not.
+  if (!allows_kinematics(built.mechanism, integrator) ||
+      closure.find_determinacy(assembled) == LoopClosure::Determinacy::kFree)
+    check_masses(linkage, built, assembled, system.free_coordinates());
   settle_springs(linkage, built, assembled);
   return built;
 }

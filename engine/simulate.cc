@@ -14,6 +14,7 @@ std::string_view status_name(RunStatus status) {
     case RunStatus::kSucceeded: return "succeeded";
     case RunStatus::kAssembly: return "assembly";
     case RunStatus::kLockUp: return "lock_up";
+    case RunStatus::kSingular: return "singular";
     case RunStatus::kContactRange: return "contact_range";
     case RunStatus::kNonFinite: return "non_finite";
     case RunStatus::kStepUnderflow: return "step_underflow";
@@ -23,26 +24,51 @@ std::string_view status_name(RunStatus status) {
   return "unknown";
 }
 
-RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer) {
-  LoopClosure closure(mechanism);
-  Evaluation assembled = MotionSystem(mechanism).make_evaluation();
-  if (!closure.assemble(0.0, assembled)) {
-    RunOutcome outcome;
-    outcome.status = RunStatus::kAssembly;
-    outcome.detail = closure.rates_fit()
-                     ? "the loop cannot be closed at t = 0: the nearest position found leaves a gap of " +
-                           std::to_string(closure.residual()) + " m"
-                     : "the velocities given for t = 0 would tear the loop apart";
-    return outcome;
-  }
-  bool ideal = mechanism.drive_rows == DriveRows::kEliminated && options.integrator != Integrator::kRk4;
-  for (const CutJoint& joint : mechanism.cut_joints) ideal = ideal && !joint.clearance;
-  if (ideal && closure.is_determined() && closure.redundant() == 0)
-    return run_kinematics(mechanism, closure, options, observer, assembled);
-  if (closure.redundant() == 0) return Integration(mechanism, options, observer).run(assembled);
+namespace {
+
+std::string describe_assembly_fault(const LoopClosure& closure) {
+  if (closure.turned_over_joint() >= 0) return "the loop closes at t = 0 only with a joint turned over";
+  if (!closure.rates_fit()) return "the velocities given for t = 0 would tear the loop apart";
+  return "the loop cannot be closed at t = 0: the nearest position found leaves a gap of " +
+         std::to_string(closure.residual()) + " m";
+}
+
+RunOutcome integrate(const Mechanism& mechanism, const RunOptions& options, Observer& observer,
+                     const Evaluation& assembled, Eigen::Index redundant) {
+  if (redundant == 0) return Integration(mechanism, options, observer).run(assembled);
   Mechanism dependent = mechanism;
   dependent.minimum_norm_multipliers = true;
-  RunOutcome outcome = Integration(dependent, options, observer).run(assembled);
+  return Integration(dependent, options, observer).run(assembled);
+}
+
+}  // namespace
+
+RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Observer& observer) {
+  using Determinacy = LoopClosure::Determinacy;
+  LoopClosure closure(mechanism);
+  Evaluation assembled = MotionSystem(mechanism).make_evaluation();
+  if (!closure.assemble(0.0, assembled))
+    return {.status = RunStatus::kAssembly, .detail = describe_assembly_fault(closure)};
+  const Determinacy determinacy = allows_kinematics(mechanism, options.integrator)
+                                      ? closure.find_determinacy(assembled)
+                                      : Determinacy::kFree;
+  if (determinacy == Determinacy::kSingularStart)
+    return {.status = RunStatus::kSingular,
+            .detail = describe_change_point(mechanism, assembled) +
+                      "; start beside it, or give another coordinate its start and start rate"};
+  if (determinacy == Determinacy::kFree) {
+    const LoopClosure::Start start = closure.find_start(assembled);
+    if (start == LoopClosure::Start::kChangePoint)
+      return {.status = RunStatus::kSingular,
+              .detail = describe_change_point(mechanism, assembled) +
+                        "; start beside it, or with rates along one of the ways"};
+    if (start == LoopClosure::Start::kContradiction)
+      return {.status = RunStatus::kLockUp,
+              .detail = "no accelerations satisfy the joints and the drives at t = 0"};
+  }
+  RunOutcome outcome = determinacy == Determinacy::kDetermined
+                           ? run_kinematics(mechanism, closure, options, observer, assembled)
+                           : integrate(mechanism, options, observer, assembled, closure.redundant());
   outcome.redundant_constraints = static_cast<int>(closure.redundant());
   return outcome;
 }

@@ -15,7 +15,7 @@ LinkageTables linkage_tables(const Linkage& linkage) {
 
 RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, double steady_from,
                            const StopQuery& stop_requested) {
-  const BuiltLinkage built = check_linkage(linkage);
+  const BuiltLinkage built = check_linkage(linkage, options.integrator);
   LinkageQuantities quantities(linkage, built, steady_from);
   RunObserver observer(RunMetrics(quantities.measured()),
                        RunChannels(quantities.channels(), built.mechanism.links, quantities.prepare()),

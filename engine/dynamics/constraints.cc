@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/dynamics/constraints.h"
 
+#include <Eigen/Geometry>
+
 #include "engine/kinematics/plain_frame.h"
 
 namespace engine {
@@ -14,6 +16,30 @@ RPSUP_INLINE Frame<double, double> calc_end(const Mechanism& mechanism, FrameInd
       to_frame(frame == kGround ? ground_motion(mechanism) : frames[static_cast<std::size_t>(frame)]);
   move_to(placement, end);
   return end;
+}
+
+Eigen::Matrix3d calc_relative_rotation(const Frame<double, double>& b, const Frame<double, double>& j) {
+  const auto matrix = [](const Mat3<double>& R) {
+    Eigen::Matrix3d columns;
+    columns << to_eigen(R.x), to_eigen(R.y), to_eigen(R.z);
+    return columns;
+  };
+  return matrix(b.R).transpose() * matrix(j.R);
+}
+
+/// Replaces the residuals of axes: see AxisResiduals::kRotationVectors.
+void measure_by_rotation_vector(const CutRows& rows, const Frame<double, double>& b,
+                                const Frame<double, double>& j, JointResidual<double, double>& residual) {
+  if (rows.axes < 2) return;
+  const Eigen::Matrix3d R = calc_relative_rotation(b, j);
+  const Eigen::AngleAxisd rotation =
+      rows.axes == 3 ? Eigen::AngleAxisd(R)
+                     : Eigen::AngleAxisd(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), R.col(2)));
+  const Vec3<double>* const along[] = {&b.R.x, &b.R.y, &b.R.z};
+  for (int k = 0; k < rows.axes; ++k) {
+    residual.Phi[rows.positions + k] = rotation.angle() * rotation.axis()[k];
+    residual.moment_axis[k] = *along[k];
+  }
 }
 
 }  // namespace
@@ -41,7 +67,8 @@ RPSUP_INLINE void Constraints::each_joint(const std::vector<FrameMotion>& frames
   }
 }
 
-void Constraints::calc_positions(const Eigen::VectorXd& q, const std::vector<FrameMotion>& frames) {
+void Constraints::calc_positions(const Eigen::VectorXd& q, const std::vector<FrameMotion>& frames,
+                                 AxisResiduals axes) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames_[i].p = to_vec3(frames[i].p);  // Phi_q takes no more of a frame
     axes_[i].axis[0] = to_vec3(frames[i].axis);
@@ -49,7 +76,9 @@ void Constraints::calc_positions(const Eigen::VectorXd& q, const std::vector<Fra
   each_joint(frames,
              [&](std::size_t, const TreeCutJoint& joint, const auto& b, const auto& j) RPSUP_INLINE_LAMBDA {
                // Velocities may be those of another instant: Phi_d and Phi_dd are not used.
-               const JointResidual<double, double> residual = calc_joint_residual(joint.rows, b, j);
+               JointResidual<double, double> residual = calc_joint_residual(joint.rows, b, j);
+               if (axes == AxisResiduals::kRotationVectors)
+                 measure_by_rotation_vector(joint.rows, b, j, residual);
                for (int r = 0; r < joint.rows.count(); ++r)
                  rows_.Phi[static_cast<std::size_t>(joint.first_row + r)] = residual.Phi[r];
                calc_joint_jacobian(model_, joint, frames_.data(), axes_.data(), b, j, residual, jacobian_);
@@ -57,6 +86,16 @@ void Constraints::calc_positions(const Eigen::VectorXd& q, const std::vector<Fra
   for (std::size_t k = 0; k < model_.couplings.size(); ++k)
     rows_.Phi[static_cast<std::size_t>(model_.first_coupling_row) + k] =
         calc_coupling_residual(model_.couplings[k], q.data());
+}
+
+int Constraints::find_turned_over(const std::vector<FrameMotion>& frames) const {
+  int found = -1;
+  each_joint(frames, [&](std::size_t k, const TreeCutJoint& joint, const auto& b, const auto& j) {
+    const Eigen::Matrix3d R = calc_relative_rotation(b, j);
+    const bool turned_over = joint.rows.axes >= 2 && (R(2, 2) < 0.0 || (joint.rows.axes == 3 && R(0, 0) < 0.0));
+    if (turned_over && found < 0) found = static_cast<int>(k);
+  });
+  return found;
 }
 
 void Constraints::calc_rates(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,

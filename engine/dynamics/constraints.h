@@ -14,6 +14,13 @@
 
 namespace engine {
 
+/// How the rows of axes measure by how much bearing and journal are turned.
+enum class AxisResiduals {
+  kProducts,         ///< scalar products of axes, as ConstraintResiduals says: zero for a half turn as well
+  kRotationVectors,  ///< components, along the bearing's axes, of the rotation that would turn the journal into
+                     ///< place: zero there alone. Phi_q is exact there only
+};
+
 /// Residuals and Jacobian of the rows of all ideal cut joints and couplings, of given coordinates and frames:
 /// see ConstraintResiduals.
 class Constraints {
@@ -37,7 +44,12 @@ class Constraints {
   [[nodiscard]] Eigen::Index count() const { return Phi.size(); }
 
   /// Computes Phi and Phi_q from the coordinates and the frames' poses.
-  void calc_positions(const Eigen::VectorXd& q, const std::vector<FrameMotion>& frames);
+  void calc_positions(const Eigen::VectorXd& q, const std::vector<FrameMotion>& frames,
+                      AxisResiduals axes = AxisResiduals::kProducts);
+
+  /// The first cut joint whose journal is turned over: rather by a half turn than by none about an axis about
+  /// which it may not turn. -1: none is.
+  [[nodiscard]] int find_turned_over(const std::vector<FrameMotion>& frames) const;
 
   /// Computes all but Phi_q from the frames' motions. The bias is the second derivative of Phi with the
   /// accelerations given.

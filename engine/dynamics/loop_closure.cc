@@ -5,12 +5,14 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include <Eigen/QR>
 
+#include "engine/clearance/clearance_joint.h"
 #include "engine/kinematics/plain_frame.h"
 #include "engine/math/quintic.h"
 
@@ -19,6 +21,7 @@ namespace engine {
 namespace {
 
 constexpr double kClosed = 1e-13;  // of Phi, [m] and [1]: rounding of positions near 1 m
+constexpr double kPerturbation = 0.01, kSmallDisplacement = 1e-4;  // [rad] or [m]
 constexpr int kMaxIterations = 100;
 constexpr double kMaxStep = 0.5;  // of a Newton step, [rad] or [m]; a full one from afar may leave the branch
 
@@ -45,11 +48,16 @@ bool is_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !
 bool is_rate_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !c.start_rate; }
 bool is_any(const Coordinate&) { return true; }
 
+constexpr double kDependent = 1e-9;  // of the largest pivot
+// Rows nearer to dependence bind so weakly that DelassusMatrix takes them for redundant ones: its e is the square.
+constexpr double kBindsWeakly = 3e-5;
+
 /// Complete orthogonal decomposition: J need not have full rank, and in a flat mechanism has not.
-Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::MatrixXd& J) {
-  constexpr double kDependent = 1e-9;  // of the largest pivot
+/// @param dependent  of the largest pivot: smaller ones count as zero
+Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::MatrixXd& J,
+                                                                  double dependent = kDependent) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(kDependent);
+  decomposition.setThreshold(dependent);
   decomposition.compute(J);
   return decomposition;
 }
@@ -57,7 +65,6 @@ Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(const Eigen::M
 /// Displacement of the driven coordinates when the first of them has moved by a small amount; zero if none
 /// moves soon.
 Eigen::VectorXd calc_drive_displacement(const Mechanism& mechanism) {
-  constexpr double kSmallDisplacement = 1e-4;   // [rad] or [m]
   constexpr double kFirst = 1e-9, kSoon = 0.2;  // [s]; a drive that starts later finds the linkage elsewhere
   Eigen::VectorXd displacement =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.coordinates.size()));
@@ -68,6 +75,27 @@ Eigen::VectorXd calc_drive_displacement(const Mechanism& mechanism) {
     if (displacement.cwiseAbs().maxCoeff() >= kSmallDisplacement) return displacement;
   }
   return Eigen::VectorXd::Zero(displacement.size());
+}
+
+/// Whether a journal is in its bore and between its shoulders; it may rest there, pressed in a little.
+bool is_in_bore(const CutJoint& joint, const std::vector<FrameMotion>& frames) {
+  constexpr double kPressed = 0.1;  // of the radial clearance
+  const FrameMotion b = motion_of(joint.bearing_frame, frames), j = motion_of(joint.journal_frame, frames);
+  const Eigen::Matrix3d R_b = b.R * joint.bearing.R;
+  JournalMotion journal;
+  journal.R_bj = R_b.transpose() * j.R * joint.journal.R;
+  journal.p_bj = R_b.transpose() * (j.p + j.R * joint.journal.p - b.p - b.R * joint.bearing.p);
+  const ClearanceJoint clearance(*joint.clearance);
+  const AxialFaces& faces = clearance.faces();
+  std::vector<Penetration> rings;
+  clearance.add_penetrations(journal, rings);
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const Penetration& ring : rings) deepest = std::max(deepest, ring.delta);
+  const Eigen::Vector3d axial = journal.R_bj.row(2);
+  for (const int face : {0, 1})
+    deepest = std::max(deepest, faces.calc_farthest_point(AxialFaces::side(face), journal.p_bj.z(), axial.x(),
+                                                          axial.y(), axial.z()) - faces.limit());
+  return deepest <= kPressed * joint.clearance->c_r;
 }
 
 /// Numerical rank of J.
@@ -82,20 +110,132 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
       inverse_dynamics_(ideal_),
       J_(unknown_.size()) {
   Eigen::Index row = 0;
-  for (const CutJoint& joint : mechanism.cut_joints)
-    for (const Eigen::Index end = row + rows_of(joint.kind).count(); row < end; ++row)
-      if (!joint.clearance) rigid_rows_.push_back(row);
-  for (; row < constraints_.count(); ++row) rigid_rows_.push_back(row);
+  for (const CutJoint& joint : mechanism.cut_joints) {
+    const CutRows rows = rows_of(joint.kind);
+    for (int k = 0; k < rows.count(); ++k, ++row) {
+      if (joint.clearance) continue;
+      rigid_rows_.push_back(row);
+      blocks_.push_back(row - k + (k < rows.positions ? 0 : rows.positions));
+    }
+  }
+  std::ranges::copy_if(mechanism.cut_joints, std::back_inserter(clearance_joints_),
+                       [](const CutJoint& joint) { return joint.clearance.has_value(); });
+  for (; row < constraints_.count(); ++row) {
+    rigid_rows_.push_back(row);
+    blocks_.push_back(row);
+  }
+  all_rows_.resize(static_cast<std::size_t>(constraints_.count()));
+  std::iota(all_rows_.begin(), all_rows_.end(), Eigen::Index{0});
   J_.resize(unknown_.size());
   step_.setZero(static_cast<Eigen::Index>(unknown_.size()));
+  lambda_.setZero(constraints_.count());
+  find_active_rows();
 }
 
-bool LoopClosure::is_determined() const {
+/// Rows that no coordinate moves, those out of the plane of a planar linkage say, have no entries in any
+/// position: two positions tell.
+void LoopClosure::find_active_rows() {
+  constexpr double kInactive = 1e-10;  // of a row's entries, [m/rad] or [1]
+  const auto n = static_cast<Eigen::Index>(ideal_.coordinates.size());
+  Evaluation at;
+  at.frames.resize(ideal_.coordinates.size());
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(constraints_.count());
+  for (const double irregular : {0.7, 1.9}) {
+    at.q = Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index i) {
+      return std::sin(irregular * static_cast<double>(i + 1));
+    });
+    calc_positions(at);
+    if (n > 0) largest = largest.cwiseMax(constraints_.Phi_q.cwiseAbs().rowwise().maxCoeff());
+  }
+  for (Eigen::Index r = 0; r < constraints_.count(); ++r)
+    if (largest[r] > kInactive) active_rows_.push_back(r);
+}
+
+/// Whether nothing but drives and constraints moves the mechanism.
+bool LoopClosure::is_left_to_drives() const {
   const auto at_rest = [](const Coordinate& c) { return c.stiffness == 0.0 && c.damping == 0.0; };
   return ideal_.springs.empty() &&
          std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
-         constraints_.count() == static_cast<Eigen::Index>(unknown_.size()) &&
          unknown_.size() + ideal_.drives.size() == ideal_.coordinates.size();
+}
+
+/// Numerical rank of Phi_q of the unknown coordinates.
+Eigen::Index LoopClosure::calc_rank() const { return rank_of(calc_columns(unknown_)); }
+
+LoopClosure::Determinacy LoopClosure::find_determinacy(const Evaluation& assembled) {
+  if (!is_left_to_drives() || active_rows_.size() < unknown_.size()) return Determinacy::kFree;
+  Evaluation at = assembled;
+  calc_positions(at);
+  const auto unknown = static_cast<Eigen::Index>(unknown_.size());
+  const bool is_solvable = calc_rank() == unknown;
+  if (is_solvable && active_rows_.size() != unknown_.size()) return Determinacy::kFree;
+  // A linkage at rest has no rates that tell the branches apart next to a change point.
+  const bool at_rest = assembled.qd.isZero(0.0);
+  if (is_solvable && !(at_rest && calc_binding_rank() < unknown)) return Determinacy::kDetermined;
+  const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
+  const bool determined_elsewhere = !displacement.isZero(0.0) &&
+                                    closes_from_perturbed(assembled.q + displacement, kPerturbation) &&
+                                    calc_rank() == unknown;
+  if (determined_elsewhere) return Determinacy::kSingularStart;
+  return is_solvable ? Determinacy::kDetermined : Determinacy::kFree;
+}
+
+LoopClosure::Start LoopClosure::find_start(const Evaluation& assembled) {
+  if (rigid_rows_.empty()) return Start::kRegular;
+  const bool can_start = can_accelerate(assembled);
+  if (can_start && !assembled.qd.isZero(0.0)) return Start::kRegular;
+  const Eigen::Index rank_here = calc_binding_rank();
+  const Eigen::VectorXd displacement = calc_drive_displacement(ideal_) / kSmallDisplacement;
+  // The links may differ in length by orders of magnitude: rows bind farther away only.
+  for (const double perturbation : {kPerturbation, 30.0 * kPerturbation})
+    if (closes_from_perturbed(assembled.q + perturbation * displacement, perturbation) &&
+        calc_binding_rank() > rank_here)
+      return Start::kChangePoint;
+  return can_start ? Start::kRegular : Start::kContradiction;
+}
+
+/// Rigid rows of Phi_q, of all coordinates that are not driven.
+Eigen::MatrixXd LoopClosure::calc_rigid_rows() const {
+  return calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all);
+}
+
+/// Weights that make the largest entry among the rows of a joint's position, or of its axes, one: ranks then do
+/// not depend on the lengths of links.
+Eigen::VectorXd LoopClosure::calc_row_weights() const {
+  const Eigen::MatrixXd J = calc_rigid_rows();
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(J.rows());
+  if (J.cols() == 0) return weights;
+  const Eigen::VectorXd largest = J.cwiseAbs().rowwise().maxCoeff();
+  for (Eigen::Index r = 0; r < largest.size(); ++r) {
+    double of_block = 0.0;
+    for (Eigen::Index s = 0; s < largest.size(); ++s)
+      if (blocks_[static_cast<std::size_t>(s)] == blocks_[static_cast<std::size_t>(r)])
+        of_block = std::max(of_block, largest[s]);
+    if (of_block > 0.0) weights[r] = 1.0 / of_block;
+  }
+  return weights;
+}
+
+/// Number of rigid rows that bind more than weakly.
+Eigen::Index LoopClosure::calc_binding_rank() const {
+  const Eigen::MatrixXd J = calc_rigid_rows();
+  return J.size() == 0 ? 0 : decompose(calc_row_weights().asDiagonal() * J, kBindsWeakly).rank();
+}
+
+/// Whether accelerations exist that keep the rigid joints closed, with the accelerations of the drives: where
+/// rows of Phi_q are dependent, the velocities may leave none.
+bool LoopClosure::can_accelerate(const Evaluation& assembled) {
+  constexpr double kFits = 1e-3, kRounding = 1e-9;  // of the bias; of the squares of the rates
+  Evaluation at = assembled;
+  set_drives(at.t, at);
+  for (const FrameIndex i : find_coordinates(ideal_, is_any)) at.qdd[i] = 0.0;
+  calc_positions(at);
+  calc_rates(at);
+  const Eigen::VectorXd weights = calc_row_weights();
+  const Eigen::VectorXd bias = weights.cwiseProduct(constraints_.bias(rigid_rows_));
+  const Eigen::MatrixXd J = weights.asDiagonal() * calc_rigid_rows();
+  const Eigen::VectorXd left = J.size() == 0 ? bias : bias - J * decompose(J, kBindsWeakly).solve(bias);
+  return left.norm() <= kFits * bias.norm() + kRounding * at.qd.squaredNorm();
 }
 
 void LoopClosure::set_drives(double t, Evaluation& at) const {
@@ -108,9 +248,9 @@ void LoopClosure::set_drives(double t, Evaluation& at) const {
   }
 }
 
-void LoopClosure::calc_positions(Evaluation& at) {
+void LoopClosure::calc_positions(Evaluation& at, AxisResiduals axes) {
   calc_frame_poses(ideal_, at.q, at.frames);
-  constraints_.calc_positions(at.q, at.frames);
+  constraints_.calc_positions(at.q, at.frames, axes);
 }
 
 void LoopClosure::calc_rates(Evaluation& at) {
@@ -119,6 +259,19 @@ void LoopClosure::calc_rates(Evaluation& at) {
 }
 
 bool LoopClosure::assemble(double t, Evaluation& at) {
+  if (close_from_guess(t, at) && turned_over_ < 0) return assemble_rates(at);
+  const Evaluation found = at;
+  if (turned_over_ >= 0) {
+    if (close_upright(t, at) && turned_over_ < 0) return assemble_rates(at);
+    at = found;
+    calc_positions(at);
+    turned_over_ = constraints_.find_turned_over(at.frames);
+    return false;
+  }
+  return close_within_clearances(at) && assemble_rates(at);
+}
+
+void LoopClosure::set_guess(double t, Evaluation& at) const {
   at.q.setZero();
   at.qd.setZero();
   at.qdd.setZero();
@@ -128,11 +281,44 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
     at.qd[static_cast<Eigen::Index>(i)] = c.start_rate.value_or(0.0);
   }
   set_drives(t, at);
+}
+
+bool LoopClosure::close_from_guess(double t, Evaluation& at) {
+  set_guess(t, at);
+  const bool closed = close(at, AxisResiduals::kProducts, kClosed, all_rows_);
+  turned_over_ = closed ? constraints_.find_turned_over(at.frames) : -1;
+  return closed;
+}
+
+/// From the guess as well, with residuals that tell a half turn.
+bool LoopClosure::close_upright(double t, Evaluation& at) {
+  constexpr double kNearlyClosed = 1e-6;  // of Phi, [m] and [1]
+  set_guess(t, at);
+  const bool closed = close(at, AxisResiduals::kRotationVectors, kNearlyClosed, all_rows_) &&
+                      close(at, AxisResiduals::kProducts, kClosed, all_rows_);
+  turned_over_ = constraints_.find_turned_over(at.frames);
+  return closed;
+}
+
+/// From a position in which given coordinates keep journals off the centres of their bearings: closes the
+/// joints without clearance, in the nearest position. False unless every journal is then in its bore.
+bool LoopClosure::close_within_clearances(Evaluation& at) {
+  if (clearance_joints_.empty() || !close(at, AxisResiduals::kProducts, kClosed, rigid_rows_)) return false;
+  turned_over_ = constraints_.find_turned_over(at.frames);
+  return turned_over_ < 0 && std::ranges::all_of(clearance_joints_, [&](const CutJoint& joint) {
+           return is_in_bore(joint, at.frames);
+         });
+}
+
+/// Newton's method from the position that `at` holds, for some of the rows.
+bool LoopClosure::close(Evaluation& at, AxisResiduals axes, double tolerance,
+                        const std::vector<Eigen::Index>& rows) {
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    calc_positions(at);
-    if (residual() < kClosed) return assemble_rates(at);
+    calc_positions(at, axes);
+    const Eigen::VectorXd gaps = constraints_.Phi(rows);
+    if (gaps.size() == 0 || gaps.cwiseAbs().maxCoeff() < tolerance) return true;
     if (unknown_.empty()) return false;
-    Eigen::VectorXd step = -decompose(calc_columns(unknown_)).solve(constraints_.Phi);
+    Eigen::VectorXd step = -decompose(calc_columns(unknown_)(rows, Eigen::all)).solve(gaps);
     step *= std::min(1.0, kMaxStep / step.cwiseAbs().maxCoeff());
     for (std::size_t k = 0; k < unknown_.size(); ++k) at.q[unknown_[k]] += step[static_cast<Eigen::Index>(k)];
   }
@@ -144,10 +330,8 @@ bool LoopClosure::assemble_rates(Evaluation& at) {
   if (constraints_.count() == 0) return true;
   const auto rigid = static_cast<Eigen::Index>(rigid_rows_.size());
   redundant_ = rigid - rank_of(calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all));
-  std::vector<Eigen::Index> all_rows(static_cast<std::size_t>(constraints_.count()));
-  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
   // A journal that has clearance may also move in its bearing from the start.
-  rates_fit_ = find_rates(all_rows, at) || find_rates(rigid_rows_, at);
+  rates_fit_ = find_rates(all_rows_, at) || find_rates(rigid_rows_, at);
   return rates_fit_;
 }
 
@@ -173,7 +357,7 @@ bool LoopClosure::drives_can_start(const Evaluation& assembled) {
   const bool at_rest = assembled.qd.isZero(0.0);  // if not, assemble() has checked the velocities
   if (rigid_rows_.empty() || ideal_.drives.empty() || !at_rest) return true;
   const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
-  return is_free(displacement) || closes_from_perturbed(assembled.q + displacement);
+  return is_free(displacement) || closes_from_perturbed(assembled.q + displacement, kPerturbation);
 }
 
 /// Whether the other coordinates can follow a small displacement of the drives, to first order.
@@ -189,14 +373,13 @@ bool LoopClosure::is_free(const Eigen::VectorXd& displacement) const {
 
 /// Whether the loops close, with the drives fixed, from a perturbed position. In a dead position no
 /// displacement is free to first order, but the linkage may still move.
-bool LoopClosure::closes_from_perturbed(const Eigen::VectorXd& q) {
-  constexpr double kPerturbation = 0.01;  // [rad] or [m]
+/// @param perturbation  of each coordinate, [rad] or [m]
+bool LoopClosure::closes_from_perturbed(const Eigen::VectorXd& q, double perturbation) {
   constexpr double kMeets = 1e-9;   // [m] and [1]
   Evaluation at;
   at.q = q;
   at.qd = at.qdd = Eigen::VectorXd::Zero(q.size());
   at.frames.resize(ideal_.coordinates.size());
-  double perturbation = kPerturbation;
   for (const FrameIndex i : find_coordinates(ideal_, is_any))
     at.q[i] += std::exchange(perturbation, -perturbation);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -254,13 +437,13 @@ bool LoopClosure::solve(double t, Evaluation& at) {
 }
 
 bool LoopClosure::solve_motion(double t, Evaluation& at) {
-  assert(constraints_.count() == step_.size());
+  assert(active_rows_.size() == unknown_.size());
   predict(t, at);
   set_drives(t, at);
   if (!close_position(at)) return false;
   solve_rates(at);
   calc_rates(at);
-  step_ = constraints_.bias;
+  take_active(constraints_.bias);
   apply_newton_step(at.qdd);
   return at.qdd.allFinite();
 }
@@ -272,6 +455,12 @@ void LoopClosure::predict(double t, Evaluation& at) const {
     at.q[i] += dt * (at.qd[i] + 0.5 * dt * at.qdd[i]);
     at.qdd[i] = 0.0;
   }
+}
+
+/// step_ <- the entries of the active rows
+void LoopClosure::take_active(const Eigen::Ref<const Eigen::VectorXd>& rows) {
+  for (std::size_t r = 0; r < active_rows_.size(); ++r)
+    step_[static_cast<Eigen::Index>(r)] = rows[active_rows_[r]];
 }
 
 /// Newton step: solves J step = residual, which step_ holds, and subtracts the step from the unknown
@@ -288,12 +477,13 @@ bool LoopClosure::close_position(Evaluation& at) {
   constexpr int kMaxNear = 12;
   constexpr double kContraction = 0.25;
   constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();  // of the largest coordinate
+  constexpr double kNearSingular = 1e-2;  // a small residual leaves a large error then: one more step
   double last = kMaxStep;
   for (int iteration = 0; iteration < kMaxNear; ++iteration) {
     calc_positions(at);
     if (!factor()) return false;
-    if (residual() < kClosed) return true;
-    step_ = constraints_.Phi;
+    if (residual() < kClosed && (iteration > 0 || J_.pivot_ratio() > kNearSingular)) return true;
+    take_active(constraints_.Phi);
     apply_newton_step(at.q);
     const double size = step_.cwiseAbs().maxCoeff();
     if (size <= kRounding * at.q.cwiseAbs().maxCoeff()) {
@@ -310,14 +500,15 @@ bool LoopClosure::close_position(Evaluation& at) {
 bool LoopClosure::factor() {
   for (std::size_t r = 0; r < J_.size(); ++r)
     for (std::size_t k = 0; k < J_.size(); ++k)
-      J_(r, k) = constraints_.Phi_q(static_cast<Eigen::Index>(r), unknown_[k]);
+      J_(r, k) = constraints_.Phi_q(active_rows_[r], unknown_[k]);
   return J_.factor();
 }
 
 /// Solves Phi_q qd = 0 for the unknown rates; those of the drives are given.
 void LoopClosure::solve_rates(Evaluation& at) {
   for (const FrameIndex i : unknown_) at.qd[i] = 0.0;
-  step_.noalias() = constraints_.Phi_q * at.qd;
+  for (std::size_t r = 0; r < active_rows_.size(); ++r)
+    step_[static_cast<Eigen::Index>(r)] = constraints_.Phi_q.row(active_rows_[r]).dot(at.qd);
   apply_newton_step(at.qd);
 }
 
@@ -326,18 +517,46 @@ void LoopClosure::solve_rates(Evaluation& at) {
 void LoopClosure::solve_forces(Evaluation& at) {
   calc_frame_rates(ideal_, at.qd, at.qdd, at.frames);
   const Eigen::VectorXd& forces = inverse_dynamics_.calc(at.frames);
-  Eigen::VectorXd& lambda = step_;
   for (std::size_t k = 0; k < unknown_.size(); ++k)
-    lambda[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
-  J_.solve_transposed_in_place(lambda.data());
+    step_[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
+  J_.solve_transposed_in_place(step_.data());
+  for (std::size_t r = 0; r < active_rows_.size(); ++r)
+    lambda_[active_rows_[r]] = step_[static_cast<Eigen::Index>(r)];
   for (std::size_t k = 0; k < at.joints.size(); ++k) {
-    const auto [force, moment] = constraints_.calc_reaction(k, lambda, at.frames);
+    const auto [force, moment] = constraints_.calc_reaction(k, lambda_, at.frames);
     at.joints[k].reaction_W = to_eigen(force);
     at.joints[k].moment_W = to_eigen(moment);
   }
   for (std::size_t k = 0; k < ideal_.drives.size(); ++k) {
     const FrameIndex d = ideal_.drives[k].coordinate;
-    at.drive_force[static_cast<Eigen::Index>(k)] = forces[d] - constraints_.Phi_q.col(d).dot(lambda);
+    at.drive_force[static_cast<Eigen::Index>(k)] = forces[d] - constraints_.Phi_q.col(d).dot(lambda_);
+  }
+}
+
+void LoopClosure::interpolate(double t, const Evaluation& before, const Evaluation& after,
+                              Evaluation& at) const {
+  const double interval = after.t - before.t, since = t - before.t, s = since / interval;
+  for (const FrameIndex i : unknown_) {
+    if (!(interval > 0.0)) {
+      at.q[i] = before.q[i] + since * (before.qd[i] + 0.5 * since * before.qdd[i]);
+      at.qd[i] = before.qd[i] + since * before.qdd[i];
+      at.qdd[i] = before.qdd[i];
+      continue;
+    }
+    const Quintic q(interval, before.q[i], before.qd[i], before.qdd[i], after.q[i], after.qd[i], after.qdd[i]);
+    at.q[i] = q.value(s);
+    at.qd[i] = q.rate(s);
+    at.qdd[i] = q.acceleration(s);
+  }
+  set_drives(t, at);
+  calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
+  const auto mix = [w = interval > 0.0 ? s : 0.0](const auto& from, const auto& to, auto& mixed) {
+    mixed = (1.0 - w) * from + w * to;
+  };
+  mix(before.drive_force, after.drive_force, at.drive_force);
+  for (std::size_t k = 0; k < at.joints.size(); ++k) {
+    mix(before.joints[k].reaction_W, after.joints[k].reaction_W, at.joints[k].reaction_W);
+    mix(before.joints[k].moment_W, after.joints[k].moment_W, at.joints[k].moment_W);
   }
 }
 

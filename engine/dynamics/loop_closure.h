@@ -21,9 +21,21 @@ class LoopClosure {
  public:
   explicit LoopClosure(const Mechanism& mechanism);
 
-  /// True if the drives alone determine the motion: as many constraint rows as unknown coordinates, and no
-  /// spring.
-  [[nodiscard]] bool is_determined() const;
+  /// How far the drives determine the motion.
+  enum class Determinacy {
+    kFree,           ///< coordinates or springs are left to dynamics, or constraints are redundant
+    kDetermined,     ///< as many constraint rows that move as unknown coordinates, and no spring
+    kSingularStart,  ///< the drives determine the motion elsewhere, but start in a change point
+  };
+  [[nodiscard]] Determinacy find_determinacy(const Evaluation& assembled);
+
+  /// How a mechanism that the drives do not determine can start, as far as its rigid joints say.
+  enum class Start {
+    kRegular,
+    kContradiction,  ///< no accelerations satisfy constraints and drives
+    kChangePoint,    ///< the same, or rest, where constraints that bind elsewhere do not
+  };
+  [[nodiscard]] Start find_start(const Evaluation& assembled);
 
   /// Evaluates the drives inside this piece from now on; before the first call at any t.
   void follow_drives(const DrivePiece& piece) { piece_ = piece; }
@@ -33,10 +45,14 @@ class LoopClosure {
 
   /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, or with the
   /// coordinate fixed at its start, and solves for the velocities that are not given.
-  /// @returns false if the loops do not close (residual() says by how much), or if the given velocities
-  /// violate the constraints (see rates_fit())
+  /// Joints with clearance are closed at the centres of their bearings, unless given coordinates keep them off:
+  /// anywhere in the bore then.
+  /// @returns false if the loops do not close (residual() says by how much), if they close only with a joint
+  /// turned over (see turned_over_joint()), or if the given velocities violate the constraints (see rates_fit())
   [[nodiscard]] bool assemble(double t, Evaluation& at);
 
+  /// After assemble(): the cut joint that closes only a half turn off; -1: none.
+  [[nodiscard]] int turned_over_joint() const { return turned_over_; }
   /// After assemble(): whether the velocities given for the start satisfy the constraints.
   [[nodiscard]] bool rates_fit() const { return rates_fit_; }
   /// Just after assemble(): whether drives that soon move from rest can start. They cannot if they move
@@ -65,6 +81,11 @@ class LoopClosure {
   /// nothing.
   void solve_forces(Evaluation& at);
 
+  /// Motion and forces at time t by those of two instants around it: the quintic of extrapolate(), and a
+  /// straight line for forces; by the Taylor series if both are the same instant before t. For change points,
+  /// where Phi_q is singular.
+  void interpolate(double t, const Evaluation& before, const Evaluation& after, Evaluation& at) const;
+
   /// Determinant of Phi_q of the unknown coordinates at the last position of solve_motion, see keeps_branch.
   [[nodiscard]] double determinant() const { return J_.determinant(); }
 
@@ -74,18 +95,32 @@ class LoopClosure {
   }
 
  private:
+  void find_active_rows();
+  void set_guess(double t, Evaluation& at) const;
+  [[nodiscard]] bool close_from_guess(double t, Evaluation& at);
+  [[nodiscard]] bool close_upright(double t, Evaluation& at);
+  [[nodiscard]] bool close_within_clearances(Evaluation& at);
+  [[nodiscard]] bool close(Evaluation& at, AxisResiduals axes, double tolerance,
+                           const std::vector<Eigen::Index>& rows);
+  [[nodiscard]] bool is_left_to_drives() const;
+  [[nodiscard]] Eigen::Index calc_rank() const;
+  [[nodiscard]] Eigen::MatrixXd calc_rigid_rows() const;
+  [[nodiscard]] Eigen::VectorXd calc_row_weights() const;
+  [[nodiscard]] Eigen::Index calc_binding_rank() const;
+  [[nodiscard]] bool can_accelerate(const Evaluation& assembled);
   [[nodiscard]] bool assemble_rates(Evaluation& at);
   [[nodiscard]] bool find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at);
   [[nodiscard]] bool is_free(const Eigen::VectorXd& displacement) const;
-  [[nodiscard]] bool closes_from_perturbed(const Eigen::VectorXd& q);
+  [[nodiscard]] bool closes_from_perturbed(const Eigen::VectorXd& q, double perturbation);
   [[nodiscard]] Eigen::VectorXd minimum_norm_correction(const Eigen::VectorXd& gaps) const;
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;
-  void calc_positions(Evaluation& at);
+  void calc_positions(Evaluation& at, AxisResiduals axes = AxisResiduals::kProducts);
   void calc_rates(Evaluation& at);
   [[nodiscard]] bool close_position(Evaluation& at);
   void solve_rates(Evaluation& at);
+  void take_active(const Eigen::Ref<const Eigen::VectorXd>& rows);
   void apply_newton_step(Eigen::VectorXd& coordinates);
   [[nodiscard]] bool factor();
 
@@ -94,11 +129,18 @@ class LoopClosure {
   Constraints constraints_;
   InverseDynamics inverse_dynamics_;
   DrivePiece piece_;
+  std::vector<CutJoint> clearance_joints_;
+  std::vector<Eigen::Index> all_rows_;    ///< all constraint rows
   std::vector<Eigen::Index> rigid_rows_;  ///< constraint rows of joints without clearance, and of couplings
+  std::vector<Eigen::Index> blocks_;  ///< of each rigid row: rows of one joint's position, or of its axes
+  std::vector<Eigen::Index> active_rows_;  ///< constraint rows that some coordinate moves
   Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;
-  DenseMatrix<double> J_;  ///< of a determined mechanism: Phi_q of the unknown coordinates, factored
-  Eigen::VectorXd step_;  ///< residual of the rows, then the Newton step of the unknown coordinates
+  int turned_over_ = -1;
+  // Of a determined mechanism:
+  DenseMatrix<double> J_;   ///< Phi_q of the active rows and the unknown coordinates, factored
+  Eigen::VectorXd step_;    ///< residual of the active rows, then the Newton step of the unknown coordinates
+  Eigen::VectorXd lambda_;  ///< multipliers of all rows
 };
 
 /// True if a step between positions with these determinants of Phi_q stays on one assembly branch. Two

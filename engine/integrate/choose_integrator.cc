@@ -65,6 +65,13 @@ bool has_clearance(const Mechanism& mechanism) {
   return has_any(mechanism, [](const ClearanceParameters&) { return true; });
 }
 
+bool is_rigid(const Mechanism& mechanism) {
+  constexpr auto is_damped = [](const auto& spring) { return spring.damping > 0.0; };
+  return !has_clearance(mechanism) && !has_elastic_links(mechanism) &&
+         std::ranges::none_of(mechanism.coordinates, is_damped) &&
+         std::ranges::none_of(mechanism.springs, is_damped);
+}
+
 Integrator choose_integrator(const Mechanism& mechanism, Integrator requested) {
   if (requested != Integrator::kAuto) return requested;
   return has_any(mechanism, has_friction_without_bristles) && !has_elastic_links(mechanism)

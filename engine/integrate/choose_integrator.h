@@ -11,6 +11,9 @@ namespace engine {
 /// Whether any joint of the mechanism has clearance.
 [[nodiscard]] bool has_clearance(const Mechanism& mechanism);
 
+/// Whether joints are ideal and there are no springs and dampers: nothing that would be stiff.
+[[nodiscard]] bool is_rigid(const Mechanism& mechanism);
+
 /// The integrator that is used: the requested one; for kAuto radau5. With radau5 at the tolerance of
 /// choose_tolerance() nearly all converging peaks are right to 0.1 %; no other method was as right for
 /// clearly less work. Exception: friction without bristles between rigid links asks for tolerances at which

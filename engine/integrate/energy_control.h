@@ -15,9 +15,16 @@ namespace engine {
 /// mean power with which drives, losses and motion have exchanged energy so far, times its length.
 class EnergyControl {
  public:
-  explicit EnergyControl(const RunOptions& options)
-      : relative_(kPart * std::max(options.relative_tolerance, kFinest)),
-        absolute_(kPart * std::max(options.absolute_tolerance, kFinest)) {}
+  /// @param rigid_mass  mass of a mechanism in which no contact and no damper makes all errors of one sign: a step
+  /// may then err by a part of its own exchange, too, and by the errors of Newton's iterations, which no shorter
+  /// step makes less. Its absolute tolerance is one for each kilogram. 0: another mechanism. [kg]
+  EnergyControl(const RunOptions& options, double rigid_mass)
+      : rigid_(rigid_mass > 0.0),
+        relative_(kPart * std::max(options.relative_tolerance, kFinest)),
+        absolute_(kPart * std::max(options.absolute_tolerance, kFinest) * (rigid_ ? rigid_mass : 1.0)) {}
+
+  /// Lets the absolute part follow the energies of slow motions. @param factor  of their speeds
+  void follow_speed(double factor) { scale_ = factor * factor; }
 
   /// Imbalance of a step that starts at t0, in units of the allowed one.
   [[nodiscard]] double measure(const EnergyAccount& start, const EnergyAccount& end, double t0,
@@ -25,17 +32,23 @@ class EnergyControl {
 
   /// The step from start to end is part of the run.
   void accept(const EnergyAccount& start, const EnergyAccount& end) {
-    exchanged_ += end.calc_turned_over_since(start) + std::abs(end.kinetic - start.kinetic);
+    exchanged_ += calc_exchange(start, end);
   }
 
  private:
+  [[nodiscard]] static double calc_exchange(const EnergyAccount& start, const EnergyAccount& end) {
+    return end.calc_turned_over_since(start) + std::abs(end.kinetic - start.kinetic);
+  }
+
   // Part of the tolerance: makes peaks and account of a run about equally good.
   static constexpr double kPart = 0.25;
   // Below this tolerance steps resolve all motion, and the imbalance is rounding.
   static constexpr double kFinest = 1e-7;
 
+  bool rigid_;
   double relative_;           ///< of the mean power
   double absolute_;           ///< [W]
+  double scale_ = 1.0;        ///< of the absolute part
   double exchanged_ = 0.0;    ///< [J]
 };
 

@@ -16,6 +16,8 @@ namespace {
 constexpr double kFirstStep = 1e-6;     // [s]; the step control finds its own within some steps
 // A longer step without bristles may have overshot: a shorter one is tried first.
 constexpr double kWidenBelow = 1e-5;  // [s]
+constexpr double kHopeless = 1e-11;       // [s]
+constexpr int kMaxHopelessSteps = 100;   // in a row: a short step by itself grows again
 constexpr int kMaxLandings = 6;         // tries to end a step on an event
 constexpr long kStepsBetweenQueries = 256;
 
@@ -35,15 +37,24 @@ double sliver_of(const RunOptions& options) {
   return options.integrator == Integrator::kRk4 ? 1e-9 * options.step : 0.0;
 }
 
+double calc_mass(const Mechanism& mechanism) {
+  double mass = 0.0;
+  for (const Coordinate& body : mechanism.coordinates) mass += body.mass;
+  return mass;
+}
+
 }  // namespace
 
 Integration::Integration(const Mechanism& mechanism, const RunOptions& options, Observer& observer)
     : mechanism_(mechanism),
+      charts_(mechanism),
+      given_chart_observer_(observer, charts_),
       options_(with_integrator(mechanism, options)),
-      observer_(observer),
-      system_(mechanism),
+      observer_(charts_.empty() ? observer : given_chart_observer_),
+      system_(mechanism_),
       tolerance_(options_.relative_tolerance, options_.absolute_tolerance),
-      energy_control_(options_),
+      energy_control_(options_, is_rigid(mechanism) ? calc_mass(mechanism) : 0.0),
+      follows_speed_(!has_clearance(mechanism)),
       stepper_(make_stepper(mechanism, options_.integrator, tolerance_)),
       control_(stepper_->error_exponent()),
       samples_(options.output_rate, options.duration),
@@ -78,6 +89,10 @@ RunOutcome Integration::run(const Evaluation& assembled) {
 bool Integration::start(const Evaluation& assembled) {
   start_.y = system_.make_state(assembled.q, assembled.qd);
   start_.at = system_.make_evaluation();
+  given_chart_observer_.start(assembled);
+  start_.at.q = assembled.q;
+  start_.at.qd = assembled.qd;
+  (void)begin_charts();
   end_ = sample_ = start_;
   start_.f = end_.f = sample_.f = Eigen::VectorXd::Zero(start_.y.size());
   ++outcome_.evaluations;
@@ -91,8 +106,52 @@ bool Integration::start(const Evaluation& assembled) {
     tolerance_.set_radii(mechanism_, system_.free_coordinates(), start_.at.frames);
   system_.calc_energies(start_.at);
   system_.add_penetrations(start_.at, rings_start_);
+  follow_speed();
   dt_ = kFirstStep;
   return true;
+}
+
+/// Begins new charts of spherical joints whose angles come near to a singularity. @returns whether any is new;
+/// the state is to be evaluated again then
+bool Integration::begin_charts() {
+  if (!charts_.update(mechanism_, start_.at.q, start_.at.qd)) return false;
+  system_.reload_mechanism();
+  const Eigen::Index motion = 2 * system_.free_count();
+  start_.y.head(motion) = system_.make_state(start_.at.q, start_.at.qd).head(motion);
+  return true;
+}
+
+/// Largest speed of the drives in the whole run, [m/s], from samples; rotations by the radius of gyration of
+/// the bodies that they carry.
+double Integration::calc_drive_speed() const {
+  constexpr int kSamples = 64;
+  double largest = 0.0;
+  for (const Drive& drive : mechanism_.drives) {
+    const bool turns =
+        mechanism_.coordinates[static_cast<std::size_t>(drive.coordinate)].motion == Motion::kRotation;
+    const double radius =
+        turns ? calc_gyration_radius(mechanism_, drive.coordinate, start_.at.frames) : 1.0;
+    for (int k = 0; k <= kSamples; ++k)
+      largest = std::max(
+          largest, radius * std::abs(calc_driven_motion(drive.law, k * options_.duration / kSamples).qd));
+  }
+  return largest;
+}
+
+/// Lets absolute tolerances follow the scale of the motion: the largest speed so far, at first with the speed
+/// that the accelerations make of rest, and with that of the drives.
+void Integration::follow_speed() {
+  constexpr double kSoon = 1e-3;  // [s]
+  if (!follows_speed_) return;
+  const int n = system_.layout().free, v = system_.layout().v();
+  double speed = tolerance_.calc_speed(start_.y.segment(v, n));
+  if (start_.t == 0.0)
+    speed = std::max({speed, kSoon * tolerance_.calc_speed(start_.f.segment(v, n)), calc_drive_speed()});
+  if (!(speed > speed_)) return;
+  speed_ = speed;
+  const double factor = tolerance_.follow_speed(speed_);
+  // The energies of a drive that begins at rest are small at first only.
+  if (mechanism_.drives.empty()) energy_control_.follow_speed(factor);
 }
 
 /// Enters the next drive piece and evaluates the state again, with the accelerations after the jump.
@@ -184,7 +243,11 @@ bool Integration::try_controlled_step() {
   const Trial trial = try_step(dt);
   if (!accept_or_shrink(trial, dt)) return false;
   dt_ = dt * control_.accept(trial.error);
-  if (!land_on_event(dt)) return false;
+  hopeless_steps_ = dt_ < kHopeless ? hopeless_steps_ + 1 : 0;
+  if (hopeless_steps_ == kMaxHopelessSteps)
+    fail(RunStatus::kStepUnderflow,
+         "the motion asks for steps below 1e-11 s: a linkage that jams does, and very light bodies in loops");
+  if (failed_ || !land_on_event(dt)) return false;
   if (dt == remaining && end_.t - start_.t == dt) end_.t = stop;
   return true;
 }
@@ -244,7 +307,7 @@ void Integration::accept() {
   take_samples();
   stepper_->accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
-  if (change.ring_onsets > 0) observer_.on_onsets(change.ring_onsets);
+  if (change.onsets > 0) observer_.on_onsets(change.onsets);
   // One element more or less in a lasting contact changes the Jacobian and the state's polynomial little;
   // Newton's iterations correct the difference.
   if (change.abrupt)
@@ -254,6 +317,11 @@ void Integration::accept() {
   if (change.any) evaluate_again(end_);
   std::swap(start_, end_);
   std::swap(rings_start_, rings_end_);
+  follow_speed();
+  if (begin_charts()) {
+    stepper_->invalidate();
+    evaluate_again(start_);
+  }
 }
 
 /// Takes the samples up to the end of the step, with the contacts of the step.

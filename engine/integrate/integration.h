@@ -9,6 +9,7 @@
 #include "engine/integrate/observer.h"
 #include "engine/integrate/run_outcome.h"
 #include "engine/integrate/sample_times.h"
+#include "engine/integrate/spherical_charts.h"
 #include "engine/integrate/step_control.h"
 #include "engine/integrate/stepper.h"
 #include "engine/integrate/unstable_mode_limiter.h"
@@ -37,6 +38,9 @@ class Integration {
   void accept();
   void take_samples();
   [[nodiscard]] EvaluationStatus evaluate_inside(double t);
+  [[nodiscard]] bool begin_charts();
+  [[nodiscard]] double calc_drive_speed() const;
+  void follow_speed();
   void jump();
   void cross_jumps(double t_end);
   void prepare(double dt);
@@ -45,13 +49,16 @@ class Integration {
   void fail(EvaluationStatus status);
   void fail(RunStatus status, std::string detail);
 
-  const Mechanism& mechanism_;
+  Mechanism mechanism_;  ///< with the placements of the present charts
+  SphericalCharts charts_;
+  GivenChartObserver given_chart_observer_;
   DrivePiece piece_;
   const RunOptions options_;  ///< with an integrator chosen
   Observer& observer_;
   MotionSystem system_;
   Tolerance tolerance_;
   EnergyControl energy_control_;
+  bool follows_speed_;    ///< where clearances set no scale, the motion does
   std::unique_ptr<Stepper> stepper_;
   StepControl control_;
   SampleTimes samples_;
@@ -62,6 +69,8 @@ class Integration {
   std::vector<Penetration> rings_start_, rings_end_;  ///< at both ends of a controlled step
   UnstableModeLimiter unstable_mode_limiter_;
   double dt_ = 0.0;                               ///< of the next controlled step
+  double speed_ = 0.0;                            ///< largest so far, of drives in the whole run, [m/s]
+  int hopeless_steps_ = 0;                        ///< in a row
   long fixed_steps_ = 0;
   bool crosses_ = false;                          ///< the last fixed step went across a jump
   RunOutcome outcome_;

@@ -5,11 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/dynamics/energies.h"
+#include "engine/integrate/choose_integrator.h"
 #include "engine/integrate/quartic.h"
 #include "engine/integrate/sample_times.h"
 
@@ -45,6 +50,8 @@ class KinematicRun {
         observer_(observer),
         samples_(options.output_rate, options.duration),
         extra_{assembled, assembled},
+        predicted_(assembled),
+        beside_{assembled, assembled},
         sample_(assembled),
         powers_(mechanism.drives.size()),
         accelerations_(closure.unknown_coordinates().size()),
@@ -59,8 +66,10 @@ class KinematicRun {
       fail(RunStatus::kLockUp, kLocked);
       return outcome_;
     }
-    determinant_ = closure_.determinant();
-    take_samples(nodes_[0], nodes_[0]);
+    block_determinant_ = determinant_;
+    largest_determinant_ = std::abs(determinant_);
+    largest_rate_ = calc_largest_rate();
+    take_samples(nodes_[0], nodes_[0], true);
     next_step_ = kFirstOfLongest * calc_longest();
     for (long block = 0; nodes_[0].t < options_.duration && outcome_.status == RunStatus::kSucceeded;
          ++block) {
@@ -70,11 +79,10 @@ class KinematicRun {
         fail(RunStatus::kStepLimit,
              "the run needs more than " + std::to_string(options_.step_limit) + " steps");
       } else if (!solve_block()) {
-        fail(RunStatus::kLockUp, kLocked);
+        fail_at_end();
       } else {
         report_block();
-        if (piece_.is_over(nodes_[0].t) && nodes_[0].t < options_.duration && !jump())
-          fail(RunStatus::kLockUp, kLocked);
+        if (piece_.is_over(nodes_[0].t) && nodes_[0].t < options_.duration && !jump()) fail_at_end();
       }
     }
     outcome_.t = nodes_[0].t;
@@ -89,6 +97,26 @@ class KinematicRun {
     outcome_.detail = std::move(detail);
   }
 
+  /// The motion leads no further. Rates are bounded in a change point, and grow without bound before a position
+  /// beyond reach.
+  void fail_at_end() {
+    constexpr double kNear = 0.05;       // of the largest determinant
+    constexpr double kUnbounded = 30.0;  // of the largest rate elsewhere
+    if (std::abs(block_determinant_) < kNear * largest_determinant_ &&
+        calc_largest_rate() < kUnbounded * largest_rate_)
+      fail(RunStatus::kSingular, describe_change_point(mechanism_, nodes_[0]));
+    else
+      fail(RunStatus::kLockUp, kLocked);
+  }
+
+  /// Largest rate of an unknown coordinate at the block's start.
+  [[nodiscard]] double calc_largest_rate() const {
+    double largest = 0.0;
+    for (const FrameIndex i : closure_.unknown_coordinates())
+      largest = std::max(largest, std::abs(nodes_[0].qd[i]));
+    return largest;
+  }
+
   /// Enters the next drive piece and solves the instant again, with the accelerations after the jump.
   [[nodiscard]] bool jump() {
     piece_.advance();
@@ -97,13 +125,56 @@ class KinematicRun {
     return solve(nodes_[0].t, nodes_[0], nodes_[0], nodes_[0]);
   }
 
-  /// Solves for everything at time t, from the motion at two instants: see LoopClosure::extrapolate.
+  /// Solves for everything at time t, from the motion at two instants: see LoopClosure::extrapolate. False in
+  /// and next to a change point.
   [[nodiscard]] bool solve(double t, const Evaluation& before, const Evaluation& nearby, Evaluation& at) {
+    constexpr double kSingular = 1e-9;  // of the largest determinant: the solution loses as many digits
     closure_.extrapolate(t, before, nearby, at);
     if (!closure_.solve(t, at)) return false;
+    determinant_ = closure_.determinant();
+    if (!(std::abs(determinant_) > kSingular * largest_determinant_)) return false;
+    calc_energies(at);
+    return true;
+  }
+
+  /// The same in a change point: by the motion shortly before and, inside a drive's piece, after.
+  [[nodiscard]] bool solve_beside(double t, const Evaluation& before, const Evaluation& nearby,
+                                  Evaluation& at) {
+    constexpr double kBeside = 0.4;  // of a step
+    const double apart = kBeside * step_;
+    auto& [left, right] = beside_;
+    if (!solve(t - apart, before, nearby, left) || !is_continued(t - apart, before, nearby, left)) return false;
+    right = left;
+    if (!piece_.is_over(t) && !(solve(t + apart, before, nearby, right) &&
+                                is_continued(t + apart, before, nearby, right)))
+      return false;
+    interpolate(t, left, right, at);
+    return true;
+  }
+
+  void interpolate(double t, const Evaluation& before, const Evaluation& after, Evaluation& at) const {
+    closure_.interpolate(t, before, after, at);
+    calc_energies(at);
+  }
+
+  /// Whether the motion goes on as predicted, on the branch on which it was: another one would differ by about
+  /// the motion since the change point.
+  [[nodiscard]] bool is_continued(double t, const Evaluation& before, const Evaluation& nearby,
+                                  const Evaluation& at) {
+    constexpr double kPredicted = 1e-3;  // of the motion between the two instants
+    if (!(nearby.t > before.t)) return false;
+    closure_.extrapolate(t, before, nearby, predicted_);
+    double error = 0.0, motion = 0.0;
+    for (const FrameIndex i : closure_.unknown_coordinates()) {
+      error = std::max(error, std::abs(at.q[i] - predicted_.q[i]));
+      motion = std::max(motion, std::abs(nearby.q[i] - before.q[i]));
+    }
+    return error <= kPredicted * motion;
+  }
+
+  void calc_energies(Evaluation& at) const {
     at.energy.kinetic = calc_kinetic_energy(mechanism_, at.frames);
     at.energy.potential = calc_potential_energy(mechanism_, at.frames, at.q);
-    return true;
   }
 
   [[nodiscard]] double calc_longest() const {
@@ -122,9 +193,15 @@ class KinematicRun {
     const double longest = std::min(allowed, 2.0 * (limit - nodes_[0].t));
     const double first = std::min(next_step_, longest);
     const double shortest = std::max(kShortest * longest, kSameInstant * nodes_[0].t);
+    double last_error = std::numeric_limits<double>::infinity();
     for (double step = first; step >= shortest; step *= 0.5) {
       place_nodes(limit, step);
-      if (!solve_nodes() || !(is_resolved() || step < kShortResolved * allowed)) continue;
+      if (!solve_nodes()) continue;
+      // Rounding, which grows next to change points, does not fall with the step.
+      const bool rounding = !is_resolved() && interpolation_error_ > 0.5 * last_error;
+      last_error = interpolation_error_;
+      if (!is_power_bounded()) continue;
+      if (!(interpolation_error_ <= kResolved || rounding || step < kShortResolved * allowed)) continue;
       if (step < first) next_step_ = step;
       if (interpolation_error_ < kEasy * kResolved) next_step_ = std::max(next_step_, 2.0 * step);
       return true;
@@ -177,26 +254,49 @@ class KinematicRun {
   }
 
   [[nodiscard]] bool solve_nodes() {
-    end_determinant_ = determinant_;
+    double last = block_determinant_;
     outcome_.evaluations += kSteps;
+    step_ = times_[1] - times_[0];
     for (std::size_t k = 1; k <= kSteps; ++k) {
       const Evaluation& before = nodes_[k == 1 ? kSteps - 1 : k - 2];  // for k = 1 in the block before
-      if (!solve(times_[k], before, nodes_[k - 1], nodes_[k]) ||
-          !keeps_branch(end_determinant_, closure_.determinant()))
-        return false;
-      end_determinant_ = closure_.determinant();
+      const std::optional<bool> far = solve_node(times_[k], last, before, nodes_[k - 1], nodes_[k]);
+      if (!far) return false;
+      is_far_[k] = *far;
+      last = determinant_;
     }
+    end_determinant_ = last;
     return true;
+  }
+
+  /// @param last  determinant of the node before
+  /// @returns empty if the motion leads to no such node, else whether it is far from change points
+  [[nodiscard]] std::optional<bool> solve_node(double t, double last, const Evaluation& before,
+                                               const Evaluation& nearby, Evaluation& at) {
+    constexpr double kApart = 0.25;  // of a step: nearer to a change point, rounding grows, and branches are
+                                     // too close for is_continued() to tell
+    if (solve(t, before, nearby, at)) {
+      if (keeps_branch(last, determinant_)) return true;
+      if (std::abs(determinant_) > kApart * std::abs(determinant_ - last) &&
+          is_continued(t, before, nearby, at))
+        return false;
+    }
+    return solve_beside(t, before, nearby, at) ? std::optional(false) : std::nullopt;
   }
 
   /// Computes the interpolants of the block just solved.
   /// @returns whether they resolve the motion inside the block. The error of accelerations is relative to
   /// those near by, since the next extremum may be as high and as narrow as the last; the error of powers to
   /// the largest of the run, since their sum counts.
-  [[nodiscard]] bool is_resolved() {
+  bool is_resolved() {
+    constexpr double kUniform = 0.3;  // of the rates' squares: smaller accelerations of a uniform motion do not
+                                      // count, which are rounding next to a change point
     const std::vector<FrameIndex>& unknown = closure_.unknown_coordinates();
     double of_accelerations = 0.0;
-    acceleration_scale_ = std::max(0.5 * acceleration_scale_, kNegligibleRate);
+    double fastest = 0.0;
+    for (const FrameIndex i : unknown)
+      for (const Evaluation& node : nodes_) fastest = std::max(fastest, std::abs(node.qd[i]));
+    acceleration_scale_ =
+        std::max({0.5 * acceleration_scale_, kNegligibleRate, kUniform * fastest * fastest});
     for (std::size_t j = 0; j < unknown.size(); ++j) {
       const double largest =
           interpolate(accelerations_[j], [i = unknown[j]](const Evaluation& at) { return at.qdd[i]; });
@@ -205,14 +305,23 @@ class KinematicRun {
           std::max(of_accelerations, std::abs(accelerations_[j].interpolant.fourth_difference()));
     }
     double of_powers = 0.0;
+    block_power_ = 0.0;
     for (std::size_t k = 0; k < powers_.size(); ++k) {
-      power_scale_ =
-          std::max(power_scale_,
-                   interpolate(powers_[k], [this, k](const Evaluation& at) { return calc_power(at, k); }));
+      block_power_ = std::max(
+          block_power_, interpolate(powers_[k], [this, k](const Evaluation& at) { return calc_power(at, k); }));
+      power_scale_ = std::max(power_scale_, block_power_);
       of_powers = std::max(of_powers, std::abs(powers_[k].interpolant.fourth_difference()));
     }
+    power_error_ = of_powers;
     interpolation_error_ = std::max(of_accelerations / acceleration_scale_, of_powers / power_scale_);
     return interpolation_error_ <= kResolved;
+  }
+
+  /// Whether the powers of the drives go on next to a change point as they came. Where a drive works against
+  /// what its linkage cannot do, its force has no bound, and the motion ends.
+  [[nodiscard]] bool is_power_bounded() const {
+    constexpr double kBounded = 1e-3;  // of the largest power before
+    return std::ranges::all_of(is_far_, std::identity()) || power_error_ <= kBounded * passed_power_;
   }
 
   /// @returns the largest magnitude in the block
@@ -232,6 +341,9 @@ class KinematicRun {
     return at.drive_force[static_cast<Eigen::Index>(drive)] * at.qd[mechanism_.drives[drive].coordinate];
   }
 
+  /// Whether the k-th step of the block is far from change points: extrema are sought there only.
+  [[nodiscard]] bool is_far(std::size_t k) const { return is_far_[k] && is_far_[k + 1]; }
+
   void report_block() {
     collect_split_instants();
     for (std::size_t k = 1; k <= kSteps; ++k) set_work(nodes_[k]);
@@ -240,19 +352,24 @@ class KinematicRun {
       const Evaluation* from = &nodes_[k];
       const double apart = 0.1 * kExtremumStep * (nodes_[k + 1].t - nodes_[k].t);
       for (std::size_t i = 0; split != splits_.end() && *split < nodes_[k + 1].t; ++split) {
-        if (*split < from->t + apart || *split > nodes_[k + 1].t - apart) continue;
+        if (*split < from->t + apart || *split > nodes_[k + 1].t - apart || !is_far(k)) continue;
         Evaluation& at = extra_[i];
         ++outcome_.evaluations;
         if (!solve(*split, nodes_[k], nodes_[k + 1], at)) continue;
         set_work(at);
-        accept(*from, at);
+        accept(*from, at, true);
         from = &at;
         i = 1 - i;
       }
-      accept(*from, nodes_[k + 1]);
+      accept(*from, nodes_[k + 1], is_far(k));
     }
-    determinant_ = end_determinant_;
+    passed_power_ = std::max(passed_power_, block_power_);
+    block_determinant_ = end_determinant_;
+    largest_determinant_ = std::max(largest_determinant_, std::abs(end_determinant_));
     std::swap(nodes_[0], nodes_[kSteps]);
+    is_far_[0] = is_far_[kSteps];
+    if (std::abs(block_determinant_) > 0.5 * largest_determinant_)
+      largest_rate_ = std::max(largest_rate_, calc_largest_rate());
   }
 
   /// Instants of the block at which a step is to end, in order.
@@ -320,19 +437,23 @@ class KinematicRun {
     }
   }
 
-  void accept(const Evaluation& from, const Evaluation& to) {
+  void accept(const Evaluation& from, const Evaluation& to, bool far) {
     ++outcome_.steps;
     observer_.on_step(from, to);
-    take_samples(from, to);
+    take_samples(from, to, far);
   }
 
-  /// Samples up to the end of a step, those inside solved each at its own instant.
-  void take_samples(const Evaluation& from, const Evaluation& to) {
+  /// Samples up to the end of a step, those inside solved each at its own instant; next to a change point
+  /// interpolated.
+  void take_samples(const Evaluation& from, const Evaluation& to, bool far) {
     while (!samples_.all_taken() && samples_.next() <= to.t) {
       if (samples_.next() == to.t) {
         observer_.on_sample(to);
       } else {
-        if (!solve(samples_.next(), from, to, sample_)) return fail(RunStatus::kLockUp, kLocked);
+        if (!far)
+          interpolate(samples_.next(), from, to, sample_);
+        else if (!solve(samples_.next(), from, to, sample_))
+          return fail_at_end();
         set_work(sample_);
         observer_.on_sample(sample_);
       }
@@ -348,14 +469,24 @@ class KinematicRun {
   SampleTimes samples_;
   std::array<Evaluation, kSteps + 1> nodes_;  ///< of the block; the first is solved already
   std::array<double, kSteps + 1> times_{};    ///< their instants, [s]
+  std::array<bool, kSteps + 1> is_far_{true, true, true, true, true};  ///< of each node, from change points
   std::array<Evaluation, 2> extra_;           ///< at split instants, alternately
+  Evaluation predicted_;                      ///< coordinates by extrapolation
+  std::array<Evaluation, 2> beside_;          ///< shortly before and after a change point
   Evaluation sample_;
+  double step_ = 0.0;                         ///< of the block, [s]
   double next_step_ = 0.0;                    ///< the next step, [s]
-  double determinant_ = 0.0, end_determinant_ = 0.0;  ///< of the block's first and last instant
+  double determinant_ = 0.0;                  ///< of the instant solved last
+  double block_determinant_ = 0.0, end_determinant_ = 0.0;  ///< of the block's first and last instant
+  double largest_determinant_ = 0.0;          ///< magnitude in the run so far
+  double largest_rate_ = 0.0;                 ///< of an unknown coordinate, far from singular positions
   std::vector<TrackedQuantity> powers_;       ///< one a drive
   double acceleration_scale_ = 0.0;           ///< of the accelerations near by
   double interpolation_error_ = 0.0;          ///< fourth difference of the block, relative, see kResolved
   double power_scale_ = kNegligibleRate;      ///< of the run so far
+  double block_power_ = 0.0;                  ///< largest power in the block, [W]
+  double power_error_ = 0.0;                  ///< fourth difference of the powers in the block, [W]
+  double passed_power_ = kNegligibleRate;     ///< largest power of the blocks before, [W]
   std::vector<TrackedQuantity> accelerations_;  ///< one an unknown coordinate
   std::vector<TrackedQuantity> loads_;        ///< one a drive, then one a cut joint
   std::vector<double> splits_;                ///< instants inside the block at which a step ends as well
@@ -364,8 +495,26 @@ class KinematicRun {
 
 }  // namespace
 
+bool allows_kinematics(const Mechanism& mechanism, Integrator integrator) {
+  return mechanism.drive_rows == DriveRows::kEliminated && integrator != Integrator::kRk4 &&
+         !has_clearance(mechanism);
+}
+
+std::string describe_change_point(const Mechanism& mechanism, const Evaluation& at) {
+  std::ostringstream text;
+  text << "the linkage is in a change point, from which it can follow its drives in more than one way: at t = "
+       << at.t << " s, with ";
+  for (std::size_t k = 0; k < mechanism.drives.size(); ++k) {
+    const FrameIndex d = mechanism.drives[k].coordinate;
+    const Coordinate& driven = mechanism.coordinates[static_cast<std::size_t>(d)];
+    text << (k > 0 ? ", " : "") << driven.name << " at " << at.q[d]
+         << (driven.motion == Motion::kRotation ? " rad" : " m");
+  }
+  return text.str();
+}
+
 RunOutcome run_kinematics(const Mechanism& mechanism, LoopClosure& closure, const RunOptions& options,
-                      Observer& observer, const Evaluation& assembled) {
+                          Observer& observer, const Evaluation& assembled) {
   return KinematicRun(mechanism, closure, options, observer, assembled).run();
 }
 

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "engine/dynamics/loop_closure.h"
 #include "engine/integrate/observer.h"
 #include "engine/integrate/run_outcome.h"
 #include "engine/model/run_options.h"
 
 namespace engine {
+
+/// Whether a mechanism may be run by run_kinematics() if its drives determine the motion: joints are ideal,
+/// driven coordinates are substituted, and no fixed step is asked for.
+[[nodiscard]] bool allows_kinematics(const Mechanism& mechanism, Integrator integrator);
+
+/// The place of a change point, for the user: the instant and the driven coordinates.
+[[nodiscard]] std::string describe_change_point(const Mechanism& mechanism, const Evaluation& at);
 
 /// Runs a mechanism whose motion the drives determine alone: positions, velocities, accelerations and forces
 /// are solved for at each instant; nothing is integrated.
@@ -20,8 +29,12 @@ namespace engine {
 /// drive's force, of a reaction's magnitude. So the extrema of all of them are ends of steps. An acceleration
 /// gets a short step around its extremum, so that the quadratic by which observers read steps finds the
 /// extremum and its instant.
+///
+/// Change points, where two branches of the motion cross, are passed on the smooth branch: the step may be any
+/// length in which the motion continues as predicted. In the change point itself constraints do not determine
+/// the motion, but shortly before and after they do. A linkage that comes to rest there ends as kSingular.
 [[nodiscard]] RunOutcome run_kinematics(const Mechanism& mechanism, LoopClosure& closure,
-                                    const RunOptions& options, Observer& observer,
-                                    const Evaluation& assembled);
+                                        const RunOptions& options, Observer& observer,
+                                        const Evaluation& assembled);
 
 }  // namespace engine

@@ -18,8 +18,10 @@ bool carries(const Mechanism& mechanism, FrameIndex carrier, FrameIndex frame) {
   return frame == carrier;
 }
 
-/// Radius of gyration, about a rotation's axis, of the bodies that it carries; 1 if they have no mass.
-double calc_radius(const Mechanism& mechanism, FrameIndex rotation, const std::vector<FrameMotion>& frames) {
+}  // namespace
+
+double calc_gyration_radius(const Mechanism& mechanism, FrameIndex rotation,
+                            const std::vector<FrameMotion>& frames) {
   const FrameMotion& joint = frames[static_cast<std::size_t>(rotation)];
   double mass = 0.0;
   double moment = 0.0;
@@ -38,14 +40,25 @@ double calc_radius(const Mechanism& mechanism, FrameIndex rotation, const std::v
   return mass > 0.0 ? std::sqrt(moment / mass) : 1.0;
 }
 
-}  // namespace
-
 void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free,
                           const std::vector<FrameMotion>& frames) {
   radii_.setOnes(static_cast<Eigen::Index>(free.size()));
   for (std::size_t k = 0; k < free.size(); ++k)
     if (mechanism.coordinates[static_cast<std::size_t>(free[k])].motion == Motion::kRotation)
-      radii_[static_cast<Eigen::Index>(k)] = calc_radius(mechanism, free[k], frames);
+      radii_[static_cast<Eigen::Index>(k)] = calc_gyration_radius(mechanism, free[k], frames);
+}
+
+double Tolerance::follow_speed(double speed) {
+  const double factor = speed > kRest && speed < kSlow ? speed / kOrdinarySpeed : 1.0;
+  if (factor > 0.0) absolute_ = factor * requested_absolute_;
+  return factor;
+}
+
+double Tolerance::calc_speed(const Eigen::Ref<const Eigen::VectorXd>& rates) const {
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < rates.size(); ++k)
+    largest = std::max(largest, std::abs(rates[k]) * (radii_.size() > 0 ? radii_[k] : 1.0));
+  return largest;
 }
 
 double Tolerance::measure(const Eigen::VectorXd& error, const Eigen::VectorXd& y0, const Eigen::VectorXd& y1,

@@ -10,6 +10,10 @@
 
 namespace engine {
 
+/// Radius of gyration, about a rotation's axis, of the bodies that it carries, [m]; 1 if they have no mass.
+[[nodiscard]] double calc_gyration_radius(const Mechanism& mechanism, FrameIndex rotation,
+                                          const std::vector<FrameMotion>& frames);
+
 /// Weighted root-mean-square norm of local errors (SUNDIALS: WRMS). With radii set, errors of coordinates and
 /// rates are measured in metres and metres per second: a rotation's by the radius of gyration, about its
 /// axis, of the bodies that it carries. Without radii the spin of a thin link about itself, which moves
@@ -24,6 +28,14 @@ class Tolerance {
   void set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free,
                  const std::vector<FrameMotion>& frames);
 
+  /// Lets the absolute tolerance follow motions slower than kSlow: as much of it as their speed is of
+  /// kOrdinarySpeed.
+  /// @param speed  the largest so far, [m/s]  @returns the factor
+  double follow_speed(double speed);
+  /// Largest speed among the free coordinates, [m/s]; without radii, rotations count in [rad/s].
+  /// @param rates  one a free coordinate
+  [[nodiscard]] double calc_speed(const Eigen::Ref<const Eigen::VectorXd>& rates) const;
+
   /// Norm of an error of the state, over the entries under error control, each in units of its tolerance; 0
   /// without entries.
   /// @param error_weights  of these entries; their squares sum to 1: see MotionSystem::error_weights()
@@ -35,7 +47,10 @@ class Tolerance {
                     Eigen::VectorXd& weights) const;
 
  private:
+  static constexpr double kRest = 1e-8, kSlow = 0.01, kOrdinarySpeed = 0.1;  ///< [m/s]; at rest there is rounding
+
   double relative_, absolute_;
+  double requested_absolute_ = absolute_;
   Eigen::VectorXd radii_;  ///< one a free coordinate, [m]; 1 for those that slide
 };
 

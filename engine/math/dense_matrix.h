@@ -72,6 +72,17 @@ class DenseMatrix {
     for (std::size_t k = n_; k-- > 0;) std::swap(x[k], x[order_[k]]);
   }
 
+  /// Least pivot over the largest one, after factor(): how far the matrix is from a singular one.
+  [[nodiscard]] auto pivot_ratio() const {
+    auto least = size_of(Scalar{1.0}), largest = least;
+    for (std::size_t k = 0; k < n_; ++k) {
+      const auto pivot = size_of((*this)(k, k));
+      least = k == 0 || pivot < least ? pivot : least;
+      largest = k == 0 || pivot > largest ? pivot : largest;
+    }
+    return least / largest;
+  }
+
   /// After factor().
   [[nodiscard]] Scalar determinant() const {
     Scalar product{1.0};

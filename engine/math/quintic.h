@@ -25,6 +25,9 @@ class Quintic {
   [[nodiscard]] double rate(double s) const {
     return (v0_ + s * (a0_ + s * (3.0 * c3_ + s * (4.0 * c4_ + s * 5.0 * c5_)))) / dt_;
   }
+  [[nodiscard]] double acceleration(double s) const {
+    return (a0_ + s * (6.0 * c3_ + s * (12.0 * c4_ + s * 20.0 * c5_))) / (dt_ * dt_);
+  }
 
  private:
   double dt_;

@@ -31,6 +31,7 @@ enum class RunStatus {
   kSucceeded,
   kAssembly,       ///< the loop cannot be closed at t = 0
   kLockUp,         ///< the loop cannot follow its drives any further
+  kSingular,       ///< a change point: the loop may follow its drives in more than one way
   kContactRange,   ///< a penetration beyond what the contact's stiffness law holds for
   kNonFinite,      ///< the state is no longer a number
   kStepUnderflow,  ///< error control asks for steps below the resolution of time

@@ -155,7 +155,7 @@ void add_key_fault(const engine::Linkage& linkage, std::vector<Fault>& faults) {
 void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
   try {
     if (spec.linkage) {
-      (void)engine::check_linkage(*spec.linkage);
+      (void)engine::check_linkage(*spec.linkage, spec.options.integrator);
       return;
     }
     engine::check_parameters(spec.parameters, spec.options);

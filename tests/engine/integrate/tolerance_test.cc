@@ -64,7 +64,7 @@ EnergyAccount account(double kinetic, double work) {
 
 TEST(EnergyControl, AllowsAStepAPartOfTheMeanPower) {
   const RunOptions options{.relative_tolerance = 1e-3, .absolute_tolerance = 1e-6};
-  EnergyControl control(options);
+  EnergyControl control(options, 0.0);
   control.accept(account(0.0, 0.0), account(5.0, 5.0));  // 10 J exchanged in 2 s
   const double imbalance = 1e-5;
   const double allowed = 0.25 * (1e-6 + 1e-3 * 5.0);  // [W]

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/integrate/spherical_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "engine/kinematics/frame_motion.h"
+
+namespace engine {
+
+namespace {
+
+bool is_held(const Mechanism& mechanism, FrameIndex i) {
+  const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
+  return c.stiffness != 0.0 || c.damping != 0.0 ||
+         std::ranges::any_of(mechanism.drives, [i](const Drive& d) { return d.coordinate == i; }) ||
+         std::ranges::any_of(mechanism.couplings, [i](const Coupling& coupling) {
+           return coupling.coordinate == i || coupling.follows == i;
+         });
+}
+
+bool is_free_rotation(const Mechanism& mechanism, FrameIndex i, Axis axis) {
+  const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
+  return c.motion == Motion::kRotation && c.axis == axis && !is_held(mechanism, i);
+}
+
+bool begins_spherical_joint(const Mechanism& mechanism, FrameIndex psi) {
+  if (!is_free_rotation(mechanism, psi, Axis::kZ) || !is_free_rotation(mechanism, psi + 1, Axis::kY) ||
+      !is_free_rotation(mechanism, psi + 2, Axis::kX))
+    return false;
+  for (const FrameIndex inner : {psi + 1, psi + 2}) {
+    const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(inner)];
+    const Coordinate& carrier = mechanism.coordinates[static_cast<std::size_t>(inner - 1)];
+    if (c.parent != inner - 1 || !is_inside_joint(c) || !is_unrotated(c.placement) || carrier.mass != 0.0)
+      return false;
+  }
+  return true;
+}
+
+Eigen::Matrix3d calc_rotation(const Eigen::Vector3d& angles) {
+  return (Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+/// Angular velocity in the body's frame, of the rates of (psi, theta, phi). By time:
+///
+///     w = (phi' - psi' sin theta,
+///          theta' cos phi + psi' cos theta sin phi,
+///          -theta' sin phi + psi' cos theta cos phi)
+Eigen::Vector3d calc_velocity(const Eigen::Vector3d& q, const Eigen::Vector3d& qd) {
+  const double s = std::sin(q[2]), c = std::cos(q[2]), across = qd[0] * std::cos(q[1]);
+  return {qd[2] - qd[0] * std::sin(q[1]), qd[1] * c + across * s, -qd[1] * s + across * c};
+}
+
+/// What calc_velocity() gives for given rates, solved for the rates.
+Eigen::Vector3d calc_rates(const Eigen::Vector3d& q, const Eigen::Vector3d& w) {
+  const double s = std::sin(q[2]), c = std::cos(q[2]);
+  const double psi = (w.y() * s + w.z() * c) / std::cos(q[1]);
+  return {psi, w.y() * c - w.z() * s, w.x() + psi * std::sin(q[1])};
+}
+
+/// The part of the derivative of calc_velocity() that second derivatives of the angles have no part in.
+Eigen::Vector3d calc_bias(const Eigen::Vector3d& q, const Eigen::Vector3d& qd) {
+  const double s = std::sin(q[2]), c = std::cos(q[2]);
+  const double across = qd[0] * std::cos(q[1]), across_d = -qd[0] * qd[1] * std::sin(q[1]);
+  return {-qd[1] * across, -qd[1] * qd[2] * s + across_d * s + across * qd[2] * c,
+          -qd[1] * qd[2] * c + across_d * c - across * qd[2] * s};
+}
+
+/// Angles of a rotation, those nearest to others.
+Eigen::Vector3d find_angles(const Eigen::Matrix3d& R, const Eigen::Vector3d& near) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const Eigen::Vector3d first(std::atan2(R(1, 0), R(0, 0)), std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
+                              std::atan2(R(2, 1), R(2, 2)));
+  const Eigen::Vector3d second(first[0] + std::numbers::pi, std::numbers::pi - first[1],
+                               first[2] + std::numbers::pi);
+  const auto unwrap = [&](const Eigen::Vector3d& angles) -> Eigen::Vector3d {
+    return angles + kTurn * ((near - angles) / kTurn).array().round().matrix();
+  };
+  const Eigen::Vector3d a = unwrap(first), b = unwrap(second);
+  return (a - near).squaredNorm() <= (b - near).squaredNorm() ? a : b;
+}
+
+}  // namespace
+
+SphericalCharts::SphericalCharts(const Mechanism& mechanism) : given_(mechanism) {
+  for (FrameIndex i = 0; i + 2 < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i)
+    if (begins_spherical_joint(mechanism, i)) joints_.push_back({.psi = i});
+}
+
+bool SphericalCharts::update(Mechanism& mechanism, Eigen::VectorXd& q, Eigen::VectorXd& qd) {
+  constexpr double kFar = 0.36;  // cos theta, some 20 degrees before the singularity
+  bool any = false;
+  for (Joint& joint : joints_) {
+    const Eigen::Vector3d angles = q.segment<3>(joint.psi);
+    if (std::abs(std::cos(angles[1])) > kFar) continue;
+    any = any_moved_ = true;
+    joint.C = joint.C * calc_rotation(angles);
+    const auto psi = static_cast<std::size_t>(joint.psi);
+    mechanism.coordinates[psi].placement.R = given_.coordinates[psi].placement.R * joint.C;
+    qd.segment<3>(joint.psi) = calc_velocity(angles, qd.segment<3>(joint.psi)).reverse().eval();
+    q.segment<3>(joint.psi).setZero();
+  }
+  return any;
+}
+
+SphericalCharts::Angles SphericalCharts::angles_of(const Eigen::VectorXd& q) const {
+  Angles angles;
+  for (const Joint& joint : joints_) angles.emplace_back(q.segment<3>(joint.psi));
+  return angles;
+}
+
+void SphericalCharts::restore_given(const Angles& near, Evaluation& at) const {
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    const auto [psi, C] = joints_[k];
+    const Eigen::Vector3d q = at.q.segment<3>(psi), qd = at.qd.segment<3>(psi), qdd = at.qdd.segment<3>(psi);
+    const Eigen::Vector3d w = calc_velocity(q, qd), wd = calc_velocity(q, qdd) + calc_bias(q, qd);
+    const Eigen::Vector3d given = find_angles(C * calc_rotation(q), near[k]);
+    const Eigen::Vector3d rates = calc_rates(given, w);
+    at.q.segment<3>(psi) = given;
+    at.qd.segment<3>(psi) = rates;
+    at.qdd.segment<3>(psi) = calc_rates(given, wd - calc_bias(given, rates));
+  }
+  calc_frame_motions(given_, at.q, at.qd, at.qdd, at.frames);
+}
+
+const Evaluation& GivenChartObserver::restore(const Evaluation& at, Evaluation& restored) const {
+  if (!charts_.any_moved()) return at;
+  restored = at;
+  charts_.restore_given(last_, restored);
+  return restored;
+}
+
+void GivenChartObserver::on_step(const Evaluation& start, const Evaluation& end) {
+  const Evaluation& from = restore(start, start_);
+  const Evaluation& to = restore(end, end_);
+  last_ = charts_.angles_of(to.q);
+  observer_.on_step(from, to);
+}
+
+}  // namespace engine

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/dynamics/evaluation.h"
+#include "engine/integrate/observer.h"
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// Charts of spherical joints: of three rotations in a row about z, y and x of one point, free of springs,
+/// drives and couplings.
+///
+/// At theta = +-90 degrees two of the three axes coincide, and rates of the angles grow without bound (gimbal
+/// lock). Before that, the angles begin anew from zero:
+///
+///     R = C R_z(psi) R_y(theta) R_x(phi),  C the rotation at the beginning of the chart
+///
+/// C becomes part of the joint's placement. Source of the singularity: A. A. Shabana, Dynamics of Multibody
+/// Systems (2020), section 2.6.
+class SphericalCharts {
+ public:
+  explicit SphericalCharts(const Mechanism& mechanism);
+
+  [[nodiscard]] bool empty() const { return joints_.empty(); }
+  /// Whether any angle is that of another chart than the given one.
+  [[nodiscard]] bool any_moved() const { return any_moved_; }
+
+  /// Begins a new chart of each joint whose theta has gone far.
+  /// @param mechanism  gets the placements  @param q, qd  get the angles and their rates
+  /// @returns whether any chart is new
+  bool update(Mechanism& mechanism, Eigen::VectorXd& q, Eigen::VectorXd& qd);
+
+  /// psi, theta and phi of each joint.
+  using Angles = std::vector<Eigen::Vector3d>;
+  [[nodiscard]] Angles angles_of(const Eigen::VectorXd& q) const;
+
+  /// Gives the evaluation the angles of the given chart. Of the many that are the same rotation, those nearest
+  /// to `near` are taken. In the singular position itself rates are not finite.
+  void restore_given(const Angles& near, Evaluation& at) const;
+
+ private:
+  struct Joint {
+    FrameIndex psi = 0;  ///< coordinate; theta and phi follow
+    Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
+  };
+
+  Mechanism given_;
+  std::vector<Joint> joints_;
+  bool any_moved_ = false;
+};
+
+/// Passes evaluations on with the angles of the given charts.
+class GivenChartObserver : public Observer {
+ public:
+  GivenChartObserver(Observer& observer, const SphericalCharts& charts)
+      : observer_(observer), charts_(charts) {}
+
+  /// @param at  at the start of the run
+  void start(const Evaluation& at) { last_ = charts_.angles_of(at.q); }
+
+  void on_step(const Evaluation& start, const Evaluation& end) override;
+  [[nodiscard]] bool wants_middle() override { return observer_.wants_middle(); }
+  void on_middle(const Evaluation& at) override { observer_.on_middle(restore(at, inside_)); }
+  void on_sample(const Evaluation& at) override { observer_.on_sample(restore(at, inside_)); }
+  void on_onsets(int count) override { observer_.on_onsets(count); }
+  [[nodiscard]] bool stop_requested(double t) override { return observer_.stop_requested(t); }
+
+ private:
+  const Evaluation& restore(const Evaluation& at, Evaluation& restored) const;
+
+  Observer& observer_;
+  const SphericalCharts& charts_;
+  SphericalCharts::Angles last_;  ///< at the end of the last step
+  Evaluation start_, end_, inside_;
+};
+
+}  // namespace engine
