@@ -7,17 +7,16 @@ again; the process grows by no more than 300 MB at its largest, and gives most o
 """
 
 import argparse
-import json
 import re
 import threading
 import time
 from collections import Counter
 
+from loads import post_values
 from service import NoAnswer, Service, check, temporary_folder
 
 CLIENTS = 64
 GROWTH_MB = 300
-VALUES = b'{"x":[' + b'"",' * 2_700_000 + b'""]}'  # 8 MB, 130 MB once it is parsed
 
 
 def memory_mb(service, key):
@@ -44,19 +43,6 @@ def at_once(service, ask):
     return statuses, sorted(health)
 
 
-def post(service):
-    import http.client
-    from urllib.parse import urlsplit
-    connection = http.client.HTTPConnection(urlsplit(service.url).netloc, timeout=60)
-    try:
-        connection.request("POST", "/v1/sweeps", VALUES, {"Content-Type": "application/json"})
-        return connection.getresponse().status
-    except OSError:  # refused while it was sent
-        return 503
-    finally:
-        connection.close()
-
-
 def read(service, path):
     try:
         return service.ask("GET", path, timeout=60)[0]
@@ -78,7 +64,7 @@ def main():
     idle = memory_mb(service, "VmRSS")
     beyond = []
     rows = f"/v1/sweeps/{sweep_id}/results?order_by=-clearance_mm&format="
-    for what, ask, allowed in (("bodies of 8 MB", lambda: post(service), {400, 503}),
+    for what, ask, allowed in (("bodies of 8 MB", lambda: post_values(service.url), {400, 503}),
                                ("sorted tables as JSON", lambda: read(service, rows + "json"), {200, 503}),
                                ("sorted tables as CSV", lambda: read(service, rows + "csv"), {200, 503})):
         reset_peak(service)

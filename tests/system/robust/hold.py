@@ -9,55 +9,12 @@ theirs, and a probe asks for health. Everybody is answered, and the service ends
 import argparse
 import os
 import resource
-import selectors
 import socket
-import threading
 import time
 from urllib.parse import urlsplit
 
+from loads import TOKEN, Holders
 from service import Service, check, temporary_folder
-
-TOKEN = "0123456789abcdef0123456789abcdef"
-ASK = b"GET /v1/sweeps HTTP/1.1\r\nHost: localhost\r\n"
-
-
-class Holders:
-    def __init__(self, address, count):
-        self.address, self.count, self.begun = address, count, 0
-        self.stop = threading.Event()
-        self.thread = threading.Thread(target=self.run, daemon=True)
-        self.thread.start()
-
-    def open(self, selector):
-        connection = socket.create_connection(self.address, timeout=20)
-        connection.sendall(ASK + b"\r\n")
-        selector.register(connection, selectors.EVENT_READ)
-        self.begun += 1
-
-    def run(self):
-        selector = selectors.EpollSelector()
-        for _ in range(self.count):
-            self.open(selector)
-        while not self.stop.is_set():
-            for key, _ in selector.select(0.1):
-                try:
-                    # The end of the service's side comes with the answer; the connection stays open until it is reset.
-                    if key.fileobj.recv(65536):
-                        continue
-                except OSError:
-                    pass
-                selector.unregister(key.fileobj)
-                self.held.append(key.fileobj)
-            while len(self.held) > self.count // 2:
-                self.held.pop(0).close()
-                self.open(selector)
-
-    held = []
-
-    def end(self):
-        self.stop.set()
-        self.thread.join()
-
 
 def ask(address, source, path, headers=b""):
     started = time.monotonic()
