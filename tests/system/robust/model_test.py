@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Random legal requests of many clients against a model of what the service may answer: model_test.py PROGRAM [--seconds N] [--seed N] [--clients N]
+"""Random legal requests of many clients against a model of what the service may answer: model_test.py PROGRAM [OPTION...]
 
 Clients submit sweeps, jobs and studies, read, list, follow, cancel, retry, extend and delete them, all at once. Whoever changes one of them
 has it for itself meanwhile, so that each answer can be predicted but for how far the computing is. In the end everything is read once more,
@@ -11,11 +11,14 @@ import csv
 import io
 import itertools
 import json
+import sys
 import threading
 import time
 import traceback
 import zipfile
+from pathlib import Path
 
+from faulty_service import FAULTS
 from model import ENDED, METRIC, Model, Reader, Thing, must_fail, random_parameters, random_search, random_sweep, random_wear
 from service import Service, check, check_integrity, temporary_folder
 
@@ -487,9 +490,11 @@ def main():
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--clients", type=int, default=8)
+    parser.add_argument("--fault", choices=FAULTS, help="a fault of the answers, which has to be found")
     options = parser.parse_args()
     store = temporary_folder() / "store.db"
-    service, model = Service(options.program, store, *OPTIONS), Model()
+    wrapper = (sys.executable, Path(__file__).with_name("faulty_service.py"), options.fault) if options.fault else ()
+    service, model = Service(options.program, store, *OPTIONS, wrapper=wrapper), Model()
     print(f"seed {options.seed}, {options.clients} clients, {options.seconds:.0f} s")
     failures = run_clients(service, model, options.seed, options.clients, options.seconds)
     print_done(model)
@@ -500,7 +505,7 @@ def main():
     code, _ = service.terminate()
     check(code == 0, f"exit code {code}")
     check_integrity(store)
-    client.service = Service(options.program, store, *OPTIONS)
+    client.service = Service(options.program, store, *OPTIONS, wrapper=wrapper)
     check_all(client, model)  # among others: whatever had an ETag has the same one
     print(f"{len(model.ever)} sweeps, jobs and studies acknowledged, {len(model.deleted)} of them deleted; the same before and after a new start")
 
