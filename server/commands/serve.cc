@@ -8,8 +8,10 @@
 #include <atomic>
 #include <cctype>
 #include <csignal>
+#include <cstddef>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -18,6 +20,7 @@
 #include "jobs/service.h"
 #include "server/commands/command.h"
 #include "server/commands/log.h"
+#include "server/commands/memory_limit.h"
 #include "server/commands/service_token.h"
 #include "server/commands/signals.h"
 #include "server/context/metrics.h"
@@ -29,6 +32,8 @@
 namespace server::commands {
 
 namespace {
+
+constexpr long kMegabyte = 1'000'000;
 
 /// Without a token, whoever reaches the port may fill the disk and use the processors.
 std::string checked_address(const std::string& host, const std::string& token) {
@@ -117,15 +122,23 @@ class Serving {
   std::jthread thread_;
 };
 
+std::size_t find_job_memory(const ServeOptions& options) {
+  if (options.job_memory_mb) return static_cast<std::size_t>(*options.job_memory_mb * kMegabyte);
+  const std::optional<std::size_t> limit = find_memory_limit("/");
+  const std::size_t chosen = choose_job_memory(limit, options.threads);
+  if (limit)
+    spdlog::info("memory is limited to {} MB: a job may take {} MB", *limit / 1'000'000, chosen / 1'000'000);
+  return chosen;
+}
+
 jobs::ServiceOptions make_service_options(const ServeOptions& options, const jobs::cluster::Site& site,
                                           const std::shared_ptr<Metrics>& metrics) {
-  constexpr long kMegabyte = 1'000'000;
   jobs::ServiceOptions made;
   made.store = options.store;
   made.threads = options.threads;
   made.job_limits = {.wall_time_s = options.job_time_s,
                      .steps = options.job_steps,
-                     .memory_bytes = static_cast<std::size_t>(options.job_memory_mb * kMegabyte)};
+                     .memory_bytes = find_job_memory(options)};
   made.store_quota = {.most_bytes = options.store_limit_mb * kMegabyte,
                       .reserve_bytes = options.disk_reserve_mb * kMegabyte};
   made.site = site;

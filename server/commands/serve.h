@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct ServeOptions {
                            ///< there is one
   double job_time_s = 3600.0;             ///< most that a job may take; 0: no limit, as below
   long job_steps = 100'000'000;
-  long job_memory_mb = 1024;
+  std::optional<long> job_memory_mb;      ///< empty: as much as the memory limit leaves, at most 1024
   long store_limit_mb = 0;
   long disk_reserve_mb = 100;
   std::string executor = "local";         ///< of sweeps that name none

@@ -33,7 +33,6 @@ from service import NoAnswer, Service, check, check_integrity, skip, temporary_f
 MEGABYTE = 1 << 20
 ACCESS = {"Authorization": f"Bearer {TOKEN}"}
 LONG_RUN = {"coupler": "rigid", "run_up_s": 0.02, "output_rate_hz": 10000, "clearance_mm": 0}
-JOB_MEMORY_MB = 64  # of each of two jobs: what is left of 512 MB is for the clients
 ENVIRONMENT = {"RPSUP_TOKEN": TOKEN}
 HOLDERS, READERS, DOWNLOADERS, SENDERS, SUBMITTERS = 4000, 16, 8, 16, 2
 
@@ -331,8 +330,7 @@ def main():
     prepared = prepare(options.program, store, options.run_s, options.jobs)
     if options.store:
         shutil.copyfile(store, options.store)
-    service = Service(options.program, store, "--threads", "2", "--job-memory-mb", str(JOB_MEMORY_MB), environment=ENVIRONMENT,
-                      wrapper=group.wrapper, preexec=group.preexec)
+    service = Service(options.program, store, "--threads", "2", environment=ENVIRONMENT, wrapper=group.wrapper, preexec=group.preexec)
     beyond = try_all(service, options, prepared)
     check_integrity(store)
     check(not (options.judge and beyond), beyond)
