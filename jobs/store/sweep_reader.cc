@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -453,12 +454,10 @@ bool SweepReader::read_trajectory(const std::string& job_id,
     const std::unique_ptr<sqlite3_blob, int (*)(sqlite3_blob*)> blob(opened, &sqlite3_blob_close);
     if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
     use({.size = static_cast<std::size_t>(sqlite3_blob_bytes(blob.get())),
-         .read = [&](std::size_t offset, std::size_t size) {
-           std::string bytes(size, '\0');
-           const int error = sqlite3_blob_read(blob.get(), bytes.data(), static_cast<int>(size),
+         .read_to = [&](std::size_t offset, std::span<char> to) {
+           const int error = sqlite3_blob_read(blob.get(), to.data(), static_cast<int>(to.size()),
                                                static_cast<int>(offset));
            if (error != SQLITE_OK) throw SQLite::Exception(database.getHandle(), error);
-           return bytes;
          }});
     return true;
   });

@@ -50,14 +50,22 @@ std::size_t Compressor::append_frame(std::string_view bytes, Effort effort, std:
   return size;
 }
 
-std::string decompress(std::span<const std::byte> frame, std::size_t at_most) {
-  const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
+std::size_t decompressed_size(std::span<const std::byte> head, std::size_t at_most) {
+  const unsigned long long size = ZSTD_getFrameContentSize(head.data(), head.size());
   // The two error codes are the largest numbers there are.
   if (size > at_most) throw DamagedTrajectory("a block of the trajectory has a wrong size");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  const std::size_t done = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
-  if (ZSTD_isError(done) != 0 || done != bytes.size())
+  return static_cast<std::size_t>(size);
+}
+
+void decompress_to(std::span<const std::byte> frame, std::span<char> to) {
+  const std::size_t done = ZSTD_decompress(to.data(), to.size(), frame.data(), frame.size());
+  if (ZSTD_isError(done) != 0 || done != to.size())
     throw DamagedTrajectory("a block of the trajectory is damaged");
+}
+
+std::string decompress(std::span<const std::byte> frame, std::size_t at_most) {
+  std::string bytes(decompressed_size(frame, at_most), '\0');
+  decompress_to(frame, bytes);
   return bytes;
 }
 

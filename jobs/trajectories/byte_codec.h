@@ -70,6 +70,13 @@ class Compressor {
 /// @param at_most  bytes that the frame may hold; one that says more is damaged
 [[nodiscard]] std::string decompress(std::span<const std::byte> frame, std::size_t at_most);
 
+/// The most bytes that the head of a frame takes.
+inline constexpr std::size_t kLargestFrameHead = 18;
+/// Size of what a frame holds, as its head says. @param at_most  as decompress() has it
+[[nodiscard]] std::size_t decompressed_size(std::span<const std::byte> head, std::size_t at_most);
+/// @param to  of that size
+void decompress_to(std::span<const std::byte> frame, std::span<char> to);
+
 /// All first bytes of the items, then all second bytes, ...
 [[nodiscard]] std::string shuffle(std::string_view bytes, std::size_t item_size);
 [[nodiscard]] std::string unshuffle(std::string_view bytes, std::size_t item_size);

@@ -406,24 +406,41 @@ std::string PackedTrajectory::checksums(const StoredBytes& blob) const {
 }
 
 void PackedTrajectory::load(const StoredBytes& blob) {
-  std::map<std::size_t, std::shared_ptr<const std::string>> loaded;  // by the place of the frame
-  for (Channel& channel : channels_) {
-    std::shared_ptr<const std::string>& column = loaded[channel.offset];
+  struct Frame {
+    std::size_t size = 0, place = 0, decompressed = 0;
+  };
+  std::map<std::size_t, Frame> frames;  // by their offset
+  std::size_t total = 0, largest = 0;
+  for (const Channel& channel : channels_) {
+    const auto [frame, is_new] = frames.try_emplace(channel.offset, Frame{.size = channel.size, .place = total});
+    if (!is_new) continue;
+    const std::string head = blob.read(channel.offset, std::min(channel.size, kLargestFrameHead));
     const auto encoding = static_cast<Encoding>(channel.encoding);
-    if (!column) {
-      const std::string packed = blob.read(channel.offset, channel.size);
-      column = std::make_shared<const std::string>(
-          decompress(std::as_bytes(std::span(packed)), largest_size(encoding, samples_)));
-    }
-    const bool has_fixed_size = encoding != Encoding::kPackedSingle;
-    if (has_fixed_size && column->size() != largest_size(encoding, samples_))
+    const std::size_t size =
+        decompressed_size(std::as_bytes(std::span(head)), largest_size(encoding, samples_));
+    if (encoding != Encoding::kPackedSingle && size != largest_size(encoding, samples_))
       throw DamagedTrajectory("a column of the trajectory has a wrong length");
-    channel.column = column;
+    frame->second.decompressed = size;
+    total += size;
+    largest = std::max(largest, channel.size);
   }
+  const auto columns = std::make_shared<LargeBuffer>(total);
+  LargeBuffer packed(largest);
+  for (const auto& [offset, frame] : frames) {
+    const auto bytes = packed.bytes().first(frame.size);
+    blob.read_to(offset, bytes);
+    decompress_to(std::as_bytes(bytes), columns->bytes().subspan(frame.place, frame.decompressed));
+  }
+  for (Channel& channel : channels_) {
+    const Frame& frame = frames.at(channel.offset);
+    const auto column = columns->bytes().subspan(frame.place, frame.decompressed);
+    channel.column = {column.data(), column.size()};
+  }
+  columns_ = columns;
 }
 
 std::unique_ptr<ColumnCursor> PackedTrajectory::read_column(std::size_t channel) const {
-  const std::string& column = *channels_[channel].column;
+  const std::string_view column = channels_[channel].column;
   switch (static_cast<Encoding>(channels_[channel].encoding)) {
     case Encoding::kSingle: return std::make_unique<ItemCursor<float>>(column, samples_);
     case Encoding::kDouble: return std::make_unique<ItemCursor<double>>(column, samples_);

@@ -8,9 +8,11 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/analysis/quantities.h"
+#include "jobs/base/large_buffer.h"
 
 namespace jobs {
 
@@ -52,7 +54,13 @@ void check_is_table(const engine::Trajectory& trajectory);
 /// Blob that is read a part at a time.
 struct StoredBytes {
   std::size_t size = 0;
-  std::function<std::string(std::size_t offset, std::size_t size)> read;
+  std::function<void(std::size_t offset, std::span<char> to)> read_to;
+
+  [[nodiscard]] std::string read(std::size_t offset, std::size_t length) const {
+    std::string bytes(length, '\0');
+    read_to(offset, bytes);
+    return bytes;
+  }
 };
 
 /// Reads a column from its beginning, some samples at a time.
@@ -82,17 +90,18 @@ class PackedTrajectory {
   [[nodiscard]] std::unique_ptr<ColumnCursor> read_column(std::size_t channel) const;
 
  private:
-  /// Channel in the header, and its column once it has been loaded, which copies share.
+  /// Channel in the header, and its column in columns_ once it has been loaded, which copies share.
   struct Channel {
     engine::QuantityInfo info;
     std::uint8_t encoding = 0;
     std::size_t offset = 0, size = 0;  ///< of its frame in the blob
-    std::shared_ptr<const std::string> column{};
+    std::string_view column{};
   };
 
   std::size_t samples_ = 0;
   std::string header_;  ///< packed
   std::vector<Channel> channels_;
+  std::shared_ptr<const LargeBuffer> columns_;
 };
 
 }  // namespace jobs

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trajectories by blocks: the numbers and the bytes of those that are read at once.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -41,7 +43,10 @@ engine::Trajectory long_run(std::size_t samples) {
 
 jobs::StoredBytes stored(const std::string& blob) {
   return {.size = blob.size(),
-          .read = [&blob](std::size_t offset, std::size_t size) { return blob.substr(offset, size); }};
+          .read_to = [&blob](std::size_t offset, std::span<char> to) {
+            ASSERT_LE(offset + to.size(), blob.size());
+            std::ranges::copy(std::string_view(blob).substr(offset, to.size()), to.begin());
+          }};
 }
 
 std::string all_of(std::unique_ptr<jobs::TrajectoryText> text) {
