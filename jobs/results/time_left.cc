@@ -43,9 +43,10 @@ struct Work {
   double expected_s = 0.0, variance_s2 = 0.0;
   double longest_s = 0.0;   ///< of its jobs
 
-  void add(const Work& other) {
-    expected_s += other.expected_s;
-    variance_s2 += other.variance_s2;
+  /// @param weight  number of the like of it
+  void add(const Work& other, double weight) {
+    expected_s += weight * other.expected_s;
+    variance_s2 += weight * other.variance_s2;
   }
 };
 
@@ -103,7 +104,7 @@ std::optional<TimeLeft> estimate_time_left(const SweepRow& row, int threads,
     const auto before =
         calc_work(rival.costs, part_before(row, rival), rival.unit_s, row.usual_rates);
     if (!before) return std::nullopt;
-    work->add(*before);
+    work->add(*before, rival.weight);
   }
   const double spread_s = 2.0 * std::sqrt(work->variance_s2) / threads;
   const double expected_s = std::max(work->longest_s, work->expected_s / threads);

@@ -44,7 +44,7 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
     check_queue_limit(database, max_queued);
     if (!idempotency.key.empty())
       store_response(database, idempotency.key, idempotency.fingerprint,
-                     idempotency.make_response(read_sweep(database, id).value()));
+                     idempotency.make_response(read_sweep(database, id, core_.active).value()));
     core_.check_quota(database);
     return id;
   });

@@ -55,6 +55,7 @@ struct RivalSweep {
   std::string executor{};    ///< empty: it named none
   double unit_s = 1.0;       ///< what CostOfKind counts as 1 s, [s]
   Costs costs{};
+  double weight = 1.0;       ///< number of sweeps that it stands for
 };
 
 struct SweepRow {
@@ -72,7 +73,7 @@ struct SweepRow {
   // The rest only of sweeps that have not ended:
   Costs costs;
   double unit_s = 1.0;                               ///< as RivalSweep's
-  std::vector<RivalSweep> rivals;                    ///< others that have not ended
+  std::vector<RivalSweep> rivals;                    ///< others that have not ended, or a sample
   /// Wall time a simulated second by kind, of the store's last results; empty if nothing needs it
   std::map<std::string, double> usual_rates;
 };

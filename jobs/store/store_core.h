@@ -6,6 +6,7 @@
 #include <map>
 
 #include "jobs/base/ids.h"
+#include "jobs/store/active_sweeps.h"
 #include "jobs/store/check_quota.h"
 #include "jobs/store/store_connection.h"
 #include "jobs/store/sweep_order.h"
@@ -30,6 +31,7 @@ struct StoreCore {
   Writer writer;
   ReaderPool readers;
   IdMaker ids;
+  ActiveSweepCache active;
   // The rest is guarded by the writer's lock.
   /// Number of the claim that last served a sweep; see kSingleJobs
   std::map<std::int64_t, std::uint64_t> served;

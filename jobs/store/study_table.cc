@@ -51,7 +51,8 @@ std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, cons
       store_response(database, idempotency.key, idempotency.fingerprint,
                      idempotency.make_response(
                          {.study = read_study(database, id).value(),
-                          .results = read_results(database, sweep_id, RowParameters::kNone).value()}));
+                          .results = read_results(database, sweep_id, RowParameters::kNone, core_.active)
+                                         .value()}));
     }
     core_.check_quota(database);
     return id;

@@ -6,23 +6,15 @@
 #include <span>
 #include <system_error>
 
-#include <nlohmann/json.hpp>
 #include <sqlite3.h>
 
-#include "jobs/base/time_text.h"
+#include "jobs/store/active_sweeps.h"
 #include "jobs/store/read_rows.h"
 #include "jobs/store/store_insert.h"
-#include "jobs/store/sweep_order.h"
 
 namespace jobs {
 namespace {
 
-std::optional<std::int64_t> optional_int(const SQLite::Column& column) {
-  return column.isNull() ? std::nullopt : std::optional(column.getInt64());
-}
-std::optional<double> optional_double(const SQLite::Column& column) {
-  return column.isNull() ? std::nullopt : std::optional(column.getDouble());
-}
 std::optional<std::string> optional_text(const SQLite::Column& column) {
   return column.isNull() ? std::nullopt : std::optional(column.getString());
 }
@@ -49,133 +41,6 @@ void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow&
   if (!has_ended(row.counts)) row.ended_ms.reset();
 }
 
-constexpr const char* kUnit = "1.0";
-/// SQL of the time that a job simulates, whatever sweep it is of.
-constexpr const char* kOwnTime =
-    "(SELECT json_extract(c.parameters, '$.duration_s') FROM contents c WHERE c.seq = j.content)";
-
-/// SQL of the time that a job simulates, if the sweep varies it; else 1.
-std::string simulated_time(const std::string& swept) {
-  const auto paths = nlohmann::json::parse(swept, nullptr, false);
-  if (!paths.is_array()) return kUnit;
-  const auto found = std::ranges::find(paths, "duration_s");
-  if (found == paths.end()) return kUnit;
-  return "coalesce(json_extract(j.swept, '$[" + std::to_string(found - paths.begin()) + "]'), 1.0)";
-}
-
-void read_running_costs(const SQLite::Database& database, std::int64_t sweep, const std::string& time,
-                        Costs& costs) {
-  SQLite::Statement running(database, "SELECT j.kind, " + time +
-                                          ", j.started_ms, j.id FROM jobs j WHERE j.sweep IS ? AND j.state = "
-                                          "'running'");
-  if (sweep != kSingleJobs) running.bind(1, sweep);
-  const std::int64_t now_ms = now_unix_ms();
-  while (running.executeStep()) {
-    const std::int64_t started_ms = optional_int(running.getColumn(2)).value_or(now_ms);
-    costs[running.getColumn(0).getString()].running.push_back(
-        {.simulated_s = running.getColumn(1).getDouble(),
-         .elapsed_s = std::max(0.0, static_cast<double>(now_ms - started_ms) / 1000.0),
-         .id = running.getColumn(3).getString()});
-  }
-}
-
-/// @param sweep  kSingleJobs: those that wait or run; of these, the cost of what has ended is not looked at
-Costs read_costs(const SQLite::Database& database, std::int64_t sweep, const std::string& time) {
-  Costs costs;
-  SQLite::Statement cost(
-      database,
-      "SELECT kind, sum(state = 'queued'), total(t) FILTER (WHERE state = 'queued'), "
-      "total(t * t) FILTER (WHERE state = 'queued'), coalesce(max(t) FILTER (WHERE state = 'queued'), 0.0), "
-      "count(cost), total(t) FILTER (WHERE cost IS NOT NULL), total(cost), total(cost / t), "
-      "total(cost * cost / (t * t)) FROM (SELECT j.kind AS kind, j.state AS state, " +
-          time +
-          " AS t, r.wall_time_s AS cost FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
-          "WHERE j.sweep IS ?" +
-          (sweep == kSingleJobs ? " AND j.state = 'queued'" : "") + ") GROUP BY kind");
-  if (sweep != kSingleJobs) cost.bind(1, sweep);
-  while (cost.executeStep()) {
-    costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(),
-                                            .queued_s = cost.getColumn(2).getDouble(),
-                                            .queued_squares_s2 = cost.getColumn(3).getDouble(),
-                                            .longest_queued_s = cost.getColumn(4).getDouble(),
-                                            .computed = cost.getColumn(5).getInt64(),
-                                            .computed_s = cost.getColumn(6).getDouble(),
-                                            .wall_time_s = cost.getColumn(7).getDouble(),
-                                            .rates = cost.getColumn(8).getDouble(),
-                                            .rate_squares = cost.getColumn(9).getDouble()};
-  }
-  read_running_costs(database, sweep, time, costs);
-  return costs;
-}
-
-/// The simulated time of every job of a sweep that does not vary it.
-double read_unit(const SQLite::Database& database, std::int64_t sweep, const std::string& time) {
-  if (time != kUnit) return 1.0;
-  SQLite::Statement first(database,
-                          "SELECT json_extract(c.parameters, '$.duration_s') FROM jobs j JOIN contents c ON "
-                          "c.seq = j.content WHERE j.sweep = ? LIMIT 1");
-  first.bind(1, sweep);
-  return first.executeStep() ? optional_double(first.getColumn(0)).value_or(1.0) : 1.0;
-}
-
-/// The sweeps that have not ended, with what is left of them, read when it is first asked for.
-class ActiveSweeps {
- public:
-  explicit ActiveSweeps(const SQLite::Database& database) : database_(database) {}
-
-  /// All but one, which has not ended.
-  [[nodiscard]] std::vector<RivalSweep> rivals_of(std::int64_t sweep) {
-    if (!is_read_) read();
-    std::vector<RivalSweep> rivals;
-    for (const auto& [seq, active] : active_)
-      if (seq != sweep) rivals.push_back(active);
-    return rivals;
-  }
-
- private:
-  void read() {
-    is_read_ = true;
-    SQLite::Statement list(
-        database_,
-        "SELECT seq, swept, priority, coalesce(executor, '') FROM sweeps s WHERE "
-        "EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'queued') OR "
-        "EXISTS (SELECT 1 FROM jobs WHERE sweep = s.seq AND state = 'running') "
-        "UNION ALL SELECT 0, '', 0, '' WHERE "
-        "EXISTS (SELECT 1 FROM jobs WHERE sweep IS NULL AND state IN ('queued', 'running'))");
-    while (list.executeStep()) {
-      const std::int64_t seq = list.getColumn(0).getInt64();
-      const std::string time = seq == kSingleJobs ? kOwnTime : simulated_time(list.getColumn(1).getString());
-      active_.emplace(seq, RivalSweep{.priority = list.getColumn(2).getInt64(),
-                                      .executor = list.getColumn(3).getString(),
-                                      .unit_s = seq == kSingleJobs ? 1.0 : read_unit(database_, seq, time),
-                                      .costs = read_costs(database_, seq, time)});
-    }
-  }
-
-  const SQLite::Database& database_;
-  bool is_read_ = false;
-  std::map<std::int64_t, RivalSweep> active_;
-};
-
-bool lacks_rate(const Costs& costs) {
-  return std::ranges::any_of(costs, [](const auto& of_kind) {
-    const CostOfKind& cost = of_kind.second;
-    return cost.computed == 0 && (cost.queued > 0 || !cost.running.empty());
-  });
-}
-
-/// What is left of a sweep, and of those that it shares the threads with.
-void read_what_is_left(const SQLite::Database& database, std::int64_t seq, ActiveSweeps& active,
-                       SweepRow& row) {
-  const std::string time = simulated_time(row.swept);
-  row.costs = read_costs(database, seq, time);
-  row.unit_s = read_unit(database, seq, time);
-  row.rivals = active.rivals_of(seq);
-  if (lacks_rate(row.costs) ||
-      std::ranges::any_of(row.rivals, [](const RivalSweep& rival) { return lacks_rate(rival.costs); }))
-    row.usual_rates = read_cost_rates(database);
-}
-
 /// @param request  SQL of what stands in its column
 std::string sweep_columns(const std::string& request) {
   return "SELECT seq, id, name, " + request +
@@ -196,15 +61,15 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found, A
   row.executor = found.getColumn(8).getString();
   row.study_id = optional_text(found.getColumn(9));
   read_counts(database, seq, row);
-  if (!has_ended(row.counts)) read_what_is_left(database, seq, active, row);
+  if (!has_ended(row.counts)) active.read_what_is_left(seq, row);
   return row;
 }
 
 std::optional<SweepRow> read_sweep_with(const SQLite::Database& database, const std::string& id,
-                                        const std::string& request) {
+                                        const std::string& request, ActiveSweepCache& cache) {
   SQLite::Statement find(database, sweep_columns(request) + " WHERE id = ?");
   find.bind(1, id);
-  ActiveSweeps active(database);
+  ActiveSweeps active(database, cache);
   return find.executeStep() ? std::optional(sweep_row(database, find, active)) : std::nullopt;
 }
 
@@ -296,20 +161,9 @@ std::string state_condition(const std::string& state) {
 
 }  // namespace
 
-std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id) {
-  return read_sweep_with(database, id, "request");
-}
-
-std::map<std::string, double> read_cost_rates(const SQLite::Database& database) {
-  SQLite::Statement list(database,
-                         "SELECT j.kind, avg(r.wall_time_s / json_extract(c.parameters, '$.duration_s')) "
-                         "FROM (SELECT seq, content, wall_time_s FROM results WHERE error_reason IS NULL "
-                         "ORDER BY seq DESC LIMIT 500) r "
-                         "JOIN contents c ON c.seq = r.content JOIN jobs j ON j.result = r.seq AND "
-                         "j.reused = 0 GROUP BY j.kind");
-  std::map<std::string, double> rates;
-  while (list.executeStep()) rates.emplace(list.getColumn(0).getString(), list.getColumn(1).getDouble());
-  return rates;
+std::optional<SweepRow> read_sweep(const SQLite::Database& database, const std::string& id,
+                                   ActiveSweepCache& cache) {
+  return read_sweep_with(database, id, "request", cache);
 }
 
 std::optional<JobRow> read_job(const SQLite::Database& database, const std::string& id) {
@@ -319,7 +173,8 @@ std::optional<JobRow> read_job(const SQLite::Database& database, const std::stri
 }
 
 std::optional<SweepRow> SweepReader::find_sweep(const std::string& id) const {
-  return core_.readers.read([&](const SQLite::Database& database) { return read_sweep(database, id); });
+  return core_.readers.read(
+      [&](const SQLite::Database& database) { return read_sweep(database, id, core_.active); });
 }
 
 std::optional<bool> SweepReader::has_sweep_ended(const std::string& id) const {
@@ -340,7 +195,7 @@ std::vector<SweepRow> SweepReader::list_sweeps(const std::string& state, const s
                                          state_condition(state) + ") ORDER BY id DESC");
     list.bind(1, before);
     std::vector<SweepRow> rows;
-    ActiveSweeps active(database);
+    ActiveSweeps active(database, core_.active);
     while (rows.size() < limit && list.executeStep()) rows.push_back(sweep_row(database, list, active));
     return rows;
   });
@@ -375,8 +230,8 @@ std::vector<JobRow> SweepReader::list_jobs(const std::string& state, const std::
 }
 
 std::optional<SweepResults> read_results(const SQLite::Database& database, const std::string& sweep_id,
-                                         RowParameters parameters) {
-  auto sweep = read_sweep(database, sweep_id);
+                                         RowParameters parameters, ActiveSweepCache& cache) {
+  auto sweep = read_sweep(database, sweep_id, cache);
   if (!sweep) return std::nullopt;
   SweepResults results{.sweep = std::move(*sweep), .rows = {}};
   const bool all = parameters == RowParameters::kAll;
@@ -390,8 +245,9 @@ std::optional<SweepResults> read_results(const SQLite::Database& database, const
 
 std::optional<SweepResults> SweepReader::find_results(const std::string& sweep_id,
                                                       RowParameters parameters) const {
-  return core_.readers.read(
-      [&](const SQLite::Database& database) { return read_results(database, sweep_id, parameters); });
+  return core_.readers.read([&](const SQLite::Database& database) {
+    return read_results(database, sweep_id, parameters, core_.active);
+  });
 }
 
 std::vector<ResultRow> SweepReader::find_ended(const std::string& sweep_id, std::int64_t after) const {
@@ -408,7 +264,7 @@ std::vector<ResultRow> SweepReader::find_ended(const std::string& sweep_id, std:
 
 std::optional<SweepChanges> SweepReader::find_changes(const std::string& sweep_id, std::int64_t after) const {
   return core_.readers.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
-    auto sweep = read_sweep_with(database, sweep_id, "''");
+    auto sweep = read_sweep_with(database, sweep_id, "''", core_.active);
     if (!sweep) return std::nullopt;
     SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
     SQLite::Statement list(database,

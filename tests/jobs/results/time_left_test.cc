@@ -113,6 +113,18 @@ TEST(TimeLeft, CountsTheSweepsThatComeBefore) {
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 1, "local")->expected_s, 2.0) << "its last job has begun";
 }
 
+TEST(TimeLeft, CountsARivalThatStandsForOthersAsAllOfThem) {
+  jobs::SweepRow row;
+  row.counts = {10, 0, 5, 0, 0};
+  row.costs = waiting(10, 3.0);
+  row.rivals = {30, {.costs = waiting(4, 2.0)}};
+  const auto each = jobs::estimate_time_left(row, 2).value();
+  row.rivals = {3, {.costs = waiting(4, 2.0), .weight = 10.0}};
+  const auto sample = jobs::estimate_time_left(row, 2).value();
+  EXPECT_DOUBLE_EQ(sample.expected_s, each.expected_s);
+  EXPECT_DOUBLE_EQ(sample.high_s, each.high_s);
+}
+
 // A sweep of which nothing has been computed, behind one of another simulated time.
 TEST(TimeLeft, TakesTheUsualCostOfAKindBeforeItIsKnown) {
   jobs::SweepRow row;

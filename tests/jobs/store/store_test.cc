@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "jobs/results/resource_json.h"
 #include "jobs/store/store.h"
@@ -165,8 +168,9 @@ TEST(Store, RefusesMoreThanMayWaitAndStoresNoneOfThem) {
 }
 
 /// Store with many sweeps of one job each. The requests are one text: what differs is made here.
-void add_sweeps(jobs::Store& store, int count) {
+void add_sweeps(jobs::Store& store, int count, std::int64_t priority = 0) {
   jobs::SweepPlan plan = stored_plan_of(R"({"sweep": {"clearance_mm": [0.1]}})");
+  plan.priority = priority;
   const jobs::PlannedJob job = plan.jobs.at(0);
   for (int k = 0; k < count; ++k) {
     plan.jobs[0].content_id = job.content_id + std::to_string(k);
@@ -201,6 +205,74 @@ TEST(Store, ClaimsAndListsSoonBesideTenThousandSweeps) {
   EXPECT_LT(claim_ms, 3.0);
   EXPECT_LT(list_ms, 100.0);
 #endif
+}
+
+/// Counts the statements that connections run which are opened while it lives.
+class StatementCount {
+ public:
+  StatementCount() {
+    count_ = 0;
+    sqlite3_auto_extension(reinterpret_cast<void (*)()>(&watch));
+  }
+  ~StatementCount() { sqlite3_cancel_auto_extension(reinterpret_cast<void (*)()>(&watch)); }
+  StatementCount(const StatementCount&) = delete;
+  StatementCount& operator=(const StatementCount&) = delete;
+
+  template <typename Work>
+  long of(const Work& work) const {
+    const long before = count_;
+    work();
+    return count_ - before;
+  }
+
+ private:
+  static int watch(sqlite3* database, char** /*error*/, const struct sqlite3_api_routines* /*api*/) {
+    return sqlite3_trace_v2(
+        database, SQLITE_TRACE_STMT,
+        [](unsigned /*event*/, void* /*context*/, void* /*statement*/, void* /*text*/) {
+          ++count_;
+          return 0;
+        },
+        nullptr);
+  }
+
+  static inline std::atomic<long> count_ = 0;
+};
+
+// Each has the time left, for which all others count.
+TEST(Store, ReadsSweepsByAsManyStatementsHoweverManyOthersWait) {
+  const TemporaryStore temporary;
+  const StatementCount statements;
+  jobs::Store store(temporary.file());
+  constexpr int kSweeps = 300;
+  add_sweeps(store, kSweeps);
+  const std::string sweep = store.reader.list_sweeps("", "", 1).at(0).id;
+  const auto ask = [&] {
+    static_cast<void>(store.reader.find_sweep(sweep));
+    EXPECT_EQ(store.reader.list_sweeps("", "", 50).size(), 50U);
+  };
+  const long beside_some = statements.of(ask);
+  add_sweeps(store, 4 * kSweeps);
+  const long beside_many = statements.of(ask);
+  EXPECT_GT(beside_some, 50) << "nothing has been counted";
+  EXPECT_LT(beside_many, beside_some + 3 * 128 + 20) << "the sample has been read anew, at the most";
+}
+
+TEST(Store, SamplesManySweepsOfEachPriority) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string first = add_sweep(store, R"({"priority": 7, "sweep": {"clearance_mm": [0.1]}})");
+  static_cast<void>(store.queue.claim());  // the one that runs is a stratum of its own
+  add_sweeps(store, 500);
+  add_sweeps(store, 3, 5);
+  const std::string last = add_sweep(store, R"({"sweep": {"clearance_mm": [0.2]}})");
+  const jobs::SweepRow row = store.reader.find_sweep(last).value();
+  EXPECT_LE(row.rivals.size(), 128U);
+  std::map<std::int64_t, double> of_priority;
+  for (const jobs::RivalSweep& rival : row.rivals) of_priority[rival.priority] += rival.weight;
+  EXPECT_EQ(of_priority[7], 1.0);
+  EXPECT_EQ(of_priority[5], 3.0);
+  EXPECT_NEAR(of_priority[0], 500.0, 13.0);  // less one of the sample, if the sweep itself is in it
 }
 
 TEST(Store, ListsByStateTheSweepsWhoseJobsAreInIt) {
