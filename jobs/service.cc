@@ -52,6 +52,11 @@ Service::Service(ServiceOptions options)
     options_.log("the store's results are of the engine " + store_->engine_before() + ", this program's is " +
                  engine_version() + ": jobs that are asked for again are computed again");
   }
+  try {
+    check_room();
+  } catch (const StorageError& error) {
+    options_.log(std::string("the store is open for reading, cancelling and deleting only: ") + error.what());
+  }
   // OpenSSL that finds no memory when it is first used does not work any more
   static_cast<void>(sha256_hex(""));
   if (options_.start == Start::kAtOnce) start();
@@ -231,6 +236,8 @@ std::optional<TrajectoryView> Service::find_trajectory_view(
 }
 
 void Service::check_store() const { store_->reader.check(); }
+
+void Service::check_room() const { store_->check_room(); }
 
 std::optional<SweepNews> Service::find_news(const std::string& sweep_id, std::int64_t after) const {
   const auto changes = store_->reader.find_changes(sweep_id, after);

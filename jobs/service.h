@@ -138,6 +138,8 @@ class Service {
 
   /// Checks that the store can be read and is in its place. @throws StorageError
   void check_store() const;
+  /// Checks that the store's disk is not full. @throws StorageError, full
+  void check_room() const;
 
   /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves.
   /// See parse_search_request() and parse_wear_request(). @param key as of submit_sweep()

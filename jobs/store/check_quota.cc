@@ -2,6 +2,7 @@
 #include "jobs/store/check_quota.h"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include <sys/statvfs.h>
@@ -21,18 +22,21 @@ void check_store(SQLite::Statement& used, std::int64_t most_bytes) {
                           " and has no room for this; delete sweeps that are not needed any more");
 }
 
-void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes) {
+}  // namespace
+
+std::int64_t find_bytes_left(const std::filesystem::path& file) {
   struct statvfs disk {};
-  // A disk that does not tell has no reserve; writing finds out what it has
-  if (::statvfs(file.c_str(), &disk) != 0) return;
-  const auto left = static_cast<std::int64_t>(disk.f_bavail * disk.f_frsize);
+  if (::statvfs(file.c_str(), &disk) != 0) return std::numeric_limits<std::int64_t>::max();
+  return static_cast<std::int64_t>(disk.f_bavail * disk.f_frsize);
+}
+
+void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes) {
+  const std::int64_t left = find_bytes_left(file);
   if (left >= reserve_bytes) return;
   throw StoreLimitReached(
       "the disk that holds the store has " + megabytes(left) + " left, and " + megabytes(reserve_bytes) +
       " of it are kept free; make room on it, or delete sweeps that are not needed any more");
 }
-
-}  // namespace
 
 void check_quota(SQLite::Statement& used, const StoreQuota& quota, const std::filesystem::path& file) {
   if (quota.most_bytes > 0) check_store(used, quota.most_bytes);

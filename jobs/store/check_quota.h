@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -19,5 +20,12 @@ inline constexpr const char* kUsedBytesQuery =
 /// @param file  of the store
 /// @throws StoreLimitReached if it may not
 void check_quota(SQLite::Statement& used, const StoreQuota& quota, const std::filesystem::path& file);
+
+/// Bytes that the disk of a file has left; of a disk that does not tell, the largest number: writing finds
+/// out what there is.
+[[nodiscard]] std::int64_t find_bytes_left(const std::filesystem::path& file);
+
+/// Checks that the disk has so much left. @throws StoreLimitReached
+void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes);
 
 }  // namespace jobs

@@ -6,7 +6,6 @@
 
 #include "jobs/base/time_text.h"
 #include "jobs/store/store_insert.h"
-#include "jobs/store/check_quota.h"
 #include "jobs/store/read_rows.h"
 #include "jobs/store/store_results.h"
 #include "jobs/store/sweep_order.h"
@@ -110,6 +109,7 @@ void release_batches_of_other_engines(SQLite::Database& database) {
 }
 
 std::optional<BatchRow> ClusterBatches::claim(const ExecutorFilter& filter, std::size_t most_jobs) {
+  core_.begin();
   return core_.writer.write_often(
       Durability::kSurvivesPowerLoss, [&](Statements& statements) -> std::optional<BatchRow> {
         for (const auto& [negative_priority, served, sweep] :
@@ -186,7 +186,7 @@ std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provena
       if (succeeded) complete_duplicates(statements, found->content, result, now_ms, core_.changes);
       ++stored;
     }
-    check_quota(*statements.use(kUsedBytesQuery).operator->(), core_.quota, core_.file);
+    core_.check_quota(*statements.use(kUsedBytesQuery).operator->());
     return stored;
   });
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "jobs/base/time_text.h"
-#include "jobs/store/check_quota.h"
 #include "jobs/store/store_results.h"
 #include "jobs/store/sweep_order.h"
 #include "jobs/trajectories/trajectory_codec.h"
@@ -76,6 +75,7 @@ struct JobQueue::Outcome {
 };
 
 std::optional<ClaimedJob> JobQueue::claim(const ExecutorFilter& filter, const OnClaim& on_claim) {
+  core_.begin();
   return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
     return claim(statements, filter, on_claim);
   });
@@ -143,7 +143,7 @@ bool JobQueue::record(Statements& statements, const ClaimedJob& job, const Outco
   end_job(statements, job, outcome.succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms,
           ++core_.changes);
   if (outcome.succeeded) complete_duplicates(statements, *content, result, now_ms, core_.changes);
-  check_quota(*statements.use(kUsedBytesQuery).operator->(), core_.quota, core_.file);
+  core_.check_quota(*statements.use(kUsedBytesQuery).operator->());
   return true;
 }
 

@@ -87,7 +87,7 @@ void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
 }  // namespace
 
 Cancellation JobQueue::cancel_sweep(const std::string& id) {
-  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
+  return core_.write_in_held_room([&](SQLite::Database& database) -> Cancellation {
     if (!find_sweep_seq(database, id)) return {};
     std::vector<RunningJob> running = find_running(database, "s.id", id);
     const std::string of_sweep = "sweep = (SELECT seq FROM sweeps WHERE id = ?)";
@@ -98,7 +98,7 @@ Cancellation JobQueue::cancel_sweep(const std::string& id) {
 }
 
 Cancellation JobQueue::cancel_job(const std::string& id) {
-  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) -> Cancellation {
+  return core_.write_in_held_room([&](SQLite::Database& database) -> Cancellation {
     if (!any_in_state(database, "id = ?", id)) return {};
     std::vector<RunningJob> running = find_running(database, "j.id", id);
     const bool done = cancel_where(database, "id = ?", id, ++core_.changes) > 0 ||
@@ -164,7 +164,7 @@ bool JobQueue::move_sweep(const std::string& id, const std::string& executor) {
 }
 
 DeleteOutcome JobQueue::delete_job(const std::string& id) {
-  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+  return core_.write_in_held_room([&](SQLite::Database& database) {
     SQLite::Statement find(database,
                            "SELECT seq, content, sweep IS NOT NULL, state IN ('queued', 'running') FROM jobs "
                            "WHERE id = ?");
@@ -183,7 +183,7 @@ DeleteOutcome JobQueue::delete_job(const std::string& id) {
 }
 
 DeleteOutcome JobQueue::delete_sweep(const std::string& id, const std::string& study) {
-  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+  return core_.write_in_held_room([&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return DeleteOutcome::kMissing;
     SQLite::Statement of_study(database, "SELECT 1 FROM searches WHERE sweep = ? AND id <> ?");

@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/store/store.h"
 
+#include <cstdint>
+
+#include <sqlite3.h>
+
 #include "jobs/store/store_insert.h"
 
 namespace jobs {
+namespace {
+
+[[noreturn]] void throw_disk_full() {
+  throw StoreLimitReached(
+      "the disk that holds the store is full; make room on it, or delete sweeps that are not needed any "
+      "more");
+}
+
+}  // namespace
 
 Store::Store(const std::filesystem::path& file, const StoreQuota& quota) : core_(file, quota) {
   try {
-    begin();
+    open();
   } catch (const StorageError& error) {
     if (!is_damage(error.code)) throw;
     throw StorageError(
@@ -16,20 +29,70 @@ Store::Store(const std::filesystem::path& file, const StoreQuota& quota) : core_
   }
   core_.writer.accept();
   keep(true);
+  core_.lock.hold_room();
 }
 
-void Store::begin() {
-  core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+void Store::open() {
+  core_.readers.read([&](const SQLite::Database& database) {
     SQLite::Statement newest(database, "SELECT engine_version FROM contents ORDER BY seq DESC LIMIT 1");
     if (newest.executeStep()) engine_before_ = newest.getColumn(0).getString();
+    SQLite::Statement last(database,
+                           "SELECT coalesce(max(abs(change)), 0) FROM jobs WHERE change IS NOT NULL");
+    last.executeStep();
+    core_.changes = last.getColumn(0).getInt64();
+  });
+  try {
+    core_.with_held_room([&] { core_.begin(); });
+  } catch (const StorageError& error) {
+    if (!error.full) throw;
+  }
+}
+
+void Store::release_free_pages() {
+  try {
+    if (core_.lock.has_room()) return core_.writer.release_free_pages(Disk::kHasRoom);
+  } catch (const StorageError& error) {
+    if (!error.full) throw;
+    core_.writer.empty_log();
+    core_.lock.release_room();
+  }
+  core_.writer.release_free_pages(Disk::kFull);
+  core_.lock.hold_room();
+}
+
+void Store::check_room() {
+  constexpr std::int64_t kLeast_bytes = 1 << 18;  // one write takes some
+  if (find_bytes_left(core_.file) < kLeast_bytes) throw_disk_full();
+  core_.check_room();
+  core_.begin();
+  check_disk(core_.file, core_.quota.reserve_bytes);
+}
+
+Writer StoreCore::open(const std::filesystem::path& path, StoreLock& lock) {
+  try {
+    return Writer(path);
+  } catch (const StorageError& error) {
+    // SQLite does not tell why it could not make its index
+    const bool may_be_full = error.full || (error.code & 0xff) == SQLITE_IOERR;
+    if (!may_be_full || !lock.release_room()) throw;
+  }
+  return Writer(path);
+}
+
+void StoreCore::check_room() {
+  if (!lock.hold_room()) throw_disk_full();
+}
+
+void StoreCore::begin() {
+  if (begun_) return;
+  writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    if (begun_) return;
     database.exec(
         "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
     release_batches_of_other_engines(database);
     rekey_queued_jobs(database);
-    core_.changes =
-        database.execAndGet("SELECT coalesce(max(abs(change)), 0) FROM jobs WHERE change IS NOT NULL")
-            .getInt64();
   });
+  begun_ = true;
 }
 
 }  // namespace jobs

@@ -33,11 +33,15 @@ class Store {
   }
   /// Makes the file smaller by what deleting has freed, which needs room on the disk for a while. What has
   /// not been released is used again.
-  void release_free_pages() { core_.writer.release_free_pages(); }
+  void release_free_pages();
+
+  /// Checks that the disk is not full. A store on a full disk is opened for reading, cancelling and deleting,
+  /// and can be added to as soon as there is room. @throws StorageError, full
+  void check_room();
 
  private:
-  /// Queues again what was running when the process ended.
-  void begin();
+  /// Reads what is kept in memory, and begins unless the disk is full.
+  void open();
 
   StoreCore core_;
   std::string engine_before_ = engine_version();

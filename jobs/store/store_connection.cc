@@ -204,6 +204,28 @@ StoreLock::~StoreLock() {
   ::close(file_);
 }
 
+bool StoreLock::hold_room() {
+  constexpr off_t kRoom = 2 << 20;
+  const std::lock_guard lock(room_mutex_);
+  if (has_room_) return true;
+  // A file system that cannot set room aside is no full one.
+  has_room_ = disk_state(::posix_fallocate(file_, 0, kRoom)) != Disk::kFull;
+  if (!has_room_) static_cast<void>(::ftruncate(file_, 0));
+  return has_room_;
+}
+
+bool StoreLock::has_room() {
+  const std::lock_guard lock(room_mutex_);
+  return has_room_;
+}
+
+bool StoreLock::release_room() {
+  const std::lock_guard lock(room_mutex_);
+  has_room_ = false;
+  struct stat status {};
+  return ::fstat(file_, &status) == 0 && status.st_blocks > 0 && ::ftruncate(file_, 0) == 0;
+}
+
 StoreFileLock::StoreFileLock(const std::filesystem::path& store)
     : path_(store.string()), made_(make_for_owner(store)) {
   file_ = ::open(store.c_str(), O_RDWR | O_CLOEXEC);
@@ -303,13 +325,21 @@ void Writer::set_durability(Durability durability) {
   durability_ = durability;
 }
 
-void Writer::release_free_pages() {
+void Writer::empty_log() {
+  const std::lock_guard lock(mutex_);
+  if (accepted_) database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+void Writer::release_free_pages(Disk disk) {
+  const char* const release =
+      disk == Disk::kFull ? "PRAGMA incremental_vacuum(32)" : "PRAGMA incremental_vacuum(2048)";
   int before = std::numeric_limits<int>::max();
   for (int now = before - 1; now > 0 && now < before;) {
     const std::lock_guard lock(mutex_);
     with_storage_errors([&] {
-      database_.exec("PRAGMA incremental_vacuum(2048)");
+      database_.exec(release);
       before = std::exchange(now, database_.execAndGet("PRAGMA freelist_count").getInt());
+      if (disk == Disk::kFull) database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
     }, &database_);
   }
 }

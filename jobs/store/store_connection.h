@@ -18,7 +18,8 @@
 namespace jobs {
 
 /// The lock that a process holds as long as it has a store open: <store>.lock. The kernel drops it when the
-/// process dies.
+/// process dies. The file also holds room on the disk, so that a store can be opened and made smaller when
+/// the disk is full.
 class StoreLock {
  public:
   /// @throws StorageError if another process (or another store of this one) holds it
@@ -30,11 +31,19 @@ class StoreLock {
   /// Keeps or gives up a file that was made here: a refused start leaves nothing behind.
   void keep(bool kept) { kept_ = kept; }
 
+  /// Takes the room, unless the file has it. False if the disk is full.
+  bool hold_room();
+  [[nodiscard]] bool has_room();
+  /// Gives the room to whoever writes next. False if the file had none.
+  bool release_room();
+
  private:
   const std::string path_;
   bool made_ = false;
   bool kept_ = false;
   int file_ = -1;
+  std::mutex room_mutex_;  // guards has_room_
+  bool has_room_ = false;
 };
 
 /// Lock of the store's file itself, whatever its name: a hard link and a bind mount are the same file, but
@@ -185,9 +194,13 @@ class Writer {
   /// See StoreFileLock::check(). Every write checks it, too.
   void check_file() const { file_lock_.check(); }
 
-  /// Gives pages that deletions have freed back to the file system, a few at a time so that others get their
+  /// Gives pages that deletions have freed back to the file system, some at a time so that others get their
   /// turn.
-  void release_free_pages();
+  /// @param disk  kFull: few at a time, which the log has room for, and it is emptied each time
+  void release_free_pages(Disk disk);
+
+  /// Moves the log into the file and gives its room back, as far as that is possible now.
+  void empty_log();
 
  private:
   enum class Disturbs { kYes, kNo };

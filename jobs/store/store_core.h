@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "jobs/base/ids.h"
 #include "jobs/store/active_sweeps.h"
@@ -16,13 +18,42 @@ namespace jobs {
 /// Parts that the interfaces of a store share.
 struct StoreCore {
   StoreCore(const std::filesystem::path& path, const StoreQuota& limits)
-      : file(path), quota(limits), lock(path), writer(path), readers(path) {}
+      : file(path), quota(limits), lock(path), writer(open(path, lock)), readers(path) {}
 
   /// Checks, inside a transaction that has added something, that it may stay. @throws StoreLimitReached
-  void check_quota(SQLite::Database& database) const {
+  void check_quota(SQLite::Database& database) {
     SQLite::Statement used(database, kUsedBytesQuery);
+    check_quota(used);
+  }
+  /// @param used  kUsedBytesQuery, prepared
+  void check_quota(SQLite::Statement& used) {
+    check_room();
     jobs::check_quota(used, quota, file);
   }
+
+  /// Checks that the disk has the room that deletions may need. @throws StoreLimitReached
+  void check_room();
+
+  /// Runs a write that makes the store smaller, on a full disk once more with the room that is held for it.
+  template <typename Write>
+  auto with_held_room(Write&& write) {
+    try {
+      return write();
+    } catch (const StorageError& error) {
+      if (!error.full) throw;
+    }
+    writer.empty_log();
+    lock.release_room();
+    return write();
+  }
+  template <typename Work>
+  auto write_in_held_room(Work&& work) {
+    return with_held_room([&] { return writer.write(Durability::kSurvivesPowerLoss, work); });
+  }
+
+  /// Queues again what was running when the last process ended, and gives queued jobs the content ids of this
+  /// program, unless that is done. On a full disk it is tried again before each claim. @throws StorageError
+  void begin();
 
   const std::filesystem::path file;
   const StoreQuota quota;
@@ -38,6 +69,12 @@ struct StoreCore {
   std::uint64_t claims = 0;
   SweepTurns turns;
   std::int64_t changes = 0;  ///< the last EndedJob::change
+
+ private:
+  /// On a full disk with the room that is held for it.
+  static Writer open(const std::filesystem::path& path, StoreLock& lock);
+
+  std::atomic<bool> begun_ = false;
 };
 
 }  // namespace jobs

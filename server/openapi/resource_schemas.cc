@@ -197,7 +197,8 @@ Json make_resource_schemas() {
           {"Trajectory", make_trajectory()},
           {"JsonSchema", {{"type", "object"}, {"required", {"$schema", "properties"}}}},
           {"OpenApi", {{"type", "object"}, {"required", {"openapi", "info", "paths"}}}},
-          {"Status", object_of({{"status", kText}})},
+          {"Status", object_of({{"status", kText}, {"reason", described(kText, "Of the status full")}},
+                               {"reason"})},
           {"Text", kText},
           {"Binary", Json::object()}};
   schemas.update(make_search_schemas());

@@ -43,6 +43,13 @@ Response get_health(const RequestContext&) { return json_response(200, R"({"stat
 Response get_readiness(const RequestContext& context) {
   if (context.draining) return make_retry_later(503, "the service is shutting down");
   context.service.check_store();
+  try {
+    context.service.check_room();
+  } catch (const jobs::StorageError& error) {
+    if (!error.full) throw;
+    // What there is can be read and deleted
+    return json_response(200, nlohmann::json{{"status", "full"}, {"reason", error.what()}}.dump());
+  }
   return json_response(200, R"({"status":"ready"})");
 }
 

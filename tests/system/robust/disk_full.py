@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes the room on the disk away while jobs run, and gives it back: disk_full.py PROGRAM tmpfs|enospc|quota|size_limit
+"""Takes the room on the disk away while jobs run, and gives it back: disk_full.py PROGRAM tmpfs|enospc|quota|size_limit|start
 
-tmpfs       a file system of 3 MiB of its own, filled by another file; needs the right to mount one
+tmpfs       a file system of 8 MiB of its own, filled by another file; needs the right to mount one
 enospc      every write to the store fails as on a full disk; needs Debian's fiu-utils
 quota       the same as beyond a user's quota
 size_limit  no file may grow beyond what it is (RLIMIT_FSIZE, as systemd's LimitFSIZE)
 
-While it lasts: new sweeps are refused with a 507 problem document, deleting a sweep is done or refused so, reads are
-answered as before, no job fails. Afterwards, without a new start: everything is computed, byte for byte as if nothing had been.
+While it lasts: new sweeps are refused with a 507 problem document, deleting a sweep is done, or refused so where every write
+fails, reads are answered as before, no job fails. Afterwards, without a new start: everything is computed, byte for byte as
+if nothing had been.
+
+start       a file system of its own that is full when the service starts, after an orderly end and after a kill: a new store
+            is refused, one that is there is read and made smaller, readiness says why, and once there is room all is computed
 """
 
+import atexit
 import errno
+import json
 import os
 import resource
 import subprocess
@@ -29,7 +35,7 @@ class Tmpfs:
         inside = folder / "small"
         inside.mkdir()
         namespace = ["unshare", "--mount", "--"] if os.geteuid() == 0 else ["unshare", "--map-root-user", "--mount", "--"]
-        mount = ["sh", "-c", f"mount -t tmpfs -o size=5m none '{inside}' && exec \"$@\"", "sh"]
+        mount = ["sh", "-c", f"mount -t tmpfs -o size=8m none '{inside}' && exec \"$@\"", "sh"]
         if subprocess.run([*namespace, *mount, "true"], capture_output=True, check=False).returncode != 0:
             skip("this user may not mount a file system")
         self.service = Service(program, folder / "small/store.db", "--threads", "2", "--disk-reserve-mb", "0", wrapper=[*namespace, *mount], log=folder / "log")
@@ -111,17 +117,97 @@ def check_reads(service, sweep_id, table):
         check(service.ask("GET", path)[0] == 200, f"{path} while the disk is full")
 
 
-def check_deleting(service, sweep_id):
+def check_deleting(service, sweep_id, allowed):
     """Returns whether it is gone."""
     status = service.ask("DELETE", f"/v1/sweeps/{sweep_id}")[0]
-    check(status in (204, 507), f"deleting on a full disk: {status}")
+    check(status in allowed, f"deleting on a full disk: {status}")
     left = service.ask("GET", f"/v1/sweeps/{sweep_id}")[0]
     check(left == (404 if status == 204 else 200), f"deleting was answered with {status}, and the sweep with {left}")
     return status == 204
 
 
+class FullDisk:
+    """A small file system, mounted in this process's own namespace, which services are started on."""
+
+    def __init__(self, folder):
+        self.folder = folder / "small"
+        self.folder.mkdir()
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "none", self.folder], check=True)
+        atexit.register(subprocess.run, ["umount", "--lazy", self.folder], check=False)
+        self.ballast = self.folder / "ballast"
+
+    def fill(self):
+        with open(self.ballast, "ab", buffering=0) as file:
+            try:
+                while True:
+                    file.write(bytes(4096))
+            except OSError:
+                pass
+
+    def free(self):
+        self.ballast.unlink()
+
+
+def check_full(service, folder):
+    state = service.get("/readyz")
+    check(state["status"] == "full" and "disk" in state["reason"], f"readiness: {state}")
+    check("reading, cancelling and deleting only" in (folder / "log").read_text(), "the log does not tell")
+
+
+def check_start(program):
+    """As root of a namespace of its own."""
+    folder = temporary_folder()
+    disk = FullDisk(folder)
+    store = disk.folder / "store.db"
+
+    def start(name=store):
+        return Service(program, name, "--threads", "2", "--disk-reserve-mb", "0", log=folder / "log")
+
+    service = start()
+    done = [service.submit({**small_sweep(k), "reuse": False}) for k in range(3)]
+    check([service.wait_for_end(i) for i in done] == ["succeeded"] * 3, "the first sweeps")
+    single = json.loads(service.ask("POST", "/v1/jobs", {"duration_s": 0.05})[2])["id"]
+    service.wait_until_idle()
+    table = service.results(done[0])
+    for end in ("orderly", "killed"):
+        busy = service.submit({**busy_sweep(1), "name": end})
+        if end == "orderly":
+            check(service.terminate()[0] == 0, "the end")
+        else:
+            service.kill()
+        disk.fill()
+        refused = subprocess.run([program, "serve", "--db", disk.folder / "new.db", "--port", "0"], capture_output=True, text=True, timeout=20, check=False)
+        check(refused.returncode == 3 and "disk is full" in refused.stderr, f"a new store on a full disk: {refused}")
+        check(not (disk.folder / "new.db").exists(), "a refused store is left over")
+        service = start()
+        check_full(service, folder)
+        check(service.ask("POST", "/v1/sweeps", small_sweep(9))[0] == 507, "a sweep on a full disk")
+        check_reads(service, done[0], table)
+        gone = done.pop()
+        check(check_deleting(service, gone, (204,)), "deleting")
+        if end == "orderly":
+            check(service.ask("DELETE", f"/v1/jobs/{single}")[0] == 204, "deleting a single job")
+        check(service.get(f"/v1/sweeps/{busy}")["counts"]["failed"] == 0, "a job has failed")
+        disk.free()
+        check(service.get("/readyz") == {"status": "ready"}, "readiness with room")
+        after = service.submit({**small_sweep(9), "name": end, "reuse": False})
+        check([service.wait_for_end(i) for i in (busy, after)] == ["succeeded"] * 2, "the sweeps after the full disk")
+    check(service.terminate()[0] == 0, "the end")
+    check_integrity(store)
+    print("start: opened, read and made smaller on a full disk; a new store refused")
+
+
 def main():
     program, way = sys.argv[1:]
+    if way == "start":
+        if os.environ.get("RPSUP_IN_NAMESPACE"):
+            check_start(program)
+            return
+        namespace = ["unshare", "--mount", "--"] if os.geteuid() == 0 else ["unshare", "--map-root-user", "--mount", "--"]
+        if subprocess.run([*namespace, "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True, check=False).returncode != 0:
+            skip("this user may not mount a file system")
+        os.environ["RPSUP_IN_NAMESPACE"] = "1"
+        os.execvp(namespace[0], [*namespace, sys.executable, *sys.argv])
     folder = temporary_folder()
     disk = DISKS[way]()
     service = disk.start(program, folder)
@@ -144,7 +230,7 @@ def main():
     check(headers["Content-Type"] == "application/problem+json", "the form of the refusal")
     time.sleep(1.2)  # jobs end meanwhile and cannot be stored
     check_reads(service, done, table)
-    gone = check_deleting(service, old)
+    gone = check_deleting(service, old, (204, 507) if way in ("enospc", "quota") else (204,))
     row = service.get(f"/v1/sweeps/{busy}")
     check(row["counts"]["failed"] == 0, "a job has failed")
     check(row["state"] in ("queued", "running"), "the disk was not full while jobs ran")
