@@ -11,6 +11,6 @@ while IFS='|' read -r _ row _ names _; do
     pattern=$(sed 's/[.]/[.]/g; s/[*]/.*/g' <<<"$name")
     grep -qxE "$pattern" <<<"$tests" || { echo "$row names a test that is not there: $name"; bad=1; }
   done
-done < <(grep -E '^\| ([RS][0-9]+|`[^|]*|every document) \|' "$1/tests/README.md")
-[ "$rows" -eq 47 ] || { echo "the tables have $rows rows instead of 47"; bad=1; }
+done < <(grep -E '^\| ([PRS][0-9]+|`[^|]*|every document) \|' "$1/tests/README.md")
+[ "$rows" -eq 50 ] || { echo "the tables have $rows rows instead of 50"; bad=1; }
 exit "$bad"
