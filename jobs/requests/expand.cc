@@ -180,6 +180,16 @@ std::uint64_t count_replicates(const json& completed, const Replicates& replicat
   return replicates.count;
 }
 
+/// Gives a replicate the tolerances of the point times the factor. @throws InvalidRequest if one is too small
+void tighten(const json& completed, double factor, json& replicate) {
+  for (const char* const key : {"relative_tolerance", "absolute_tolerance"}) {
+    replicate[key] = factor * completed.at(key).get<double>();
+    if (const std::string detail = describe_fault(*find_parameter(key), replicate[key]); !detail.empty())
+      throw InvalidRequest(std::vector<Fault>{
+          {"/replicates/tolerance_factor", std::string("moves ") + key + " out of its range: it " + detail}});
+  }
+}
+
 /// Adds a point's job, or its replicates. Contact stiffness is in no rule with another parameter, so the
 /// point's checks hold for them.
 /// @param swept  the point's values in all of them, the stiffness too where it is swept: their rows are told
@@ -201,6 +211,7 @@ void add_jobs(const json& completed, const SweepRequest& sweep, const json& swep
       throw InvalidRequest(std::vector<Fault>{
           {"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
     }
+    if (k == 1) tighten(completed, sweep.replicates.tolerance_factor, replicate);
     plan.jobs.push_back(
         make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept.dump()));
     budget.add_job(plan.jobs.back().parameters.size() + plan.jobs.back().swept.size());

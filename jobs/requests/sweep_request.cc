@@ -109,8 +109,9 @@ class SweepParser {
     if (!request_.contains("replicates")) return;
     const json replicates = request_.at("replicates");
     if (!replicates.is_object())
-      return fault("/replicates", "must be an object of count, perturbation, seed and only");
-    constexpr std::array<std::string_view, 4> kKeys{"count", "perturbation", "seed", "only"};
+      return fault("/replicates", "must be an object of count, perturbation, seed, only and tolerance_factor");
+    constexpr std::array<std::string_view, 5> kKeys{"count", "perturbation", "seed", "only",
+                                                    "tolerance_factor"};
     const std::size_t before = faults_.size();
     for (const auto& [key, value] : replicates.items()) {
       const std::string detail = key == "count" ? describe_integer_fault(kCountRange, value)
@@ -118,6 +119,8 @@ class SweepParser {
                                      ? describe_number_fault(kPerturbationRange, "", value)
                                  : key == "seed" ? describe_integer_fault(kSeedRange, value)
                                  : key == "only" ? check_replicated_values(value)
+                                 : key == "tolerance_factor"
+                                     ? describe_number_fault(kToleranceFactorRange, "", value)
                                                  : describe_unknown_key(key, kKeys);
       if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
     }
@@ -127,7 +130,9 @@ class SweepParser {
                          .count = replicates.at("count").get<std::uint64_t>(),
                          .only = replicates.value("only", json::object()),
                          .perturbation = replicates.value("perturbation", Replicates{}.perturbation),
-                         .seed = replicates.value("seed", Replicates{}.seed)};
+                         .seed = replicates.value("seed", Replicates{}.seed),
+                         .tolerance_factor =
+                             replicates.value("tolerance_factor", Replicates{}.tolerance_factor)};
   }
 
   /// The lists of values of which points are replicated. @returns a fault of their object

@@ -21,9 +21,11 @@ inline constexpr std::array<std::string_view, 9> kSweepRequestKeys{
 
 inline constexpr std::size_t kLongestName = 200;  ///< bytes
 inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
+inline constexpr Range kToleranceFactorRange{.minimum = 0.0, .maximum = 1.0, .lower = Bound::kExclusive};
 inline constexpr Range kPriorityRange{.minimum = -100, .maximum = 100};
 
-/// Replicates of each point of a sweep, with slightly different contact stiffness.
+/// Replicates of each point of a sweep, with slightly different contact stiffness, and tighter tolerances if
+/// asked for.
 struct Replicates {
   bool requested = false;       ///< whether rows carry `replicate`
   std::uint64_t count = 1;
@@ -31,6 +33,7 @@ struct Replicates {
   nlohmann::json only = nlohmann::json::object();
   double perturbation = 1e-6;   ///< relative, of contact_stiffness_scale
   std::uint64_t seed = 1;
+  double tolerance_factor = 1.0;  ///< of both tolerances, in all but the first
 };
 
 /// A sweep as it was asked for, checked as far as that can be done value by value.

@@ -112,10 +112,16 @@ Json make_replicates() {
          {"maximum", perturbation.maximum},
          {"default", defaults.perturbation}}},
        {"seed", std::move(seed)},
+       {"tolerance_factor",
+        described({{"type", "number"},
+                   {"exclusiveMinimum", jobs::kToleranceFactorRange.minimum},
+                   {"maximum", jobs::kToleranceFactorRange.maximum},
+                   {"default", defaults.tolerance_factor}},
+                  "factor of both tolerances in all replicates but the first")},
        {"only",
         described({{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}},
                   "lists of values by parameter: sets without one of them are run once")}},
-      {"perturbation", "seed", "only"});
+      {"perturbation", "seed", "only", "tolerance_factor"});
   replicates["description"] = "each set again with its contact stiffness changed by that relative amount";
   return replicates;
 }

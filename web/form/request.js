@@ -6,8 +6,8 @@ export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", coun
 
 const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
 
-/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed,
-/// only}, entries: {path: entry}}
+/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed, only,
+/// tolerance_factor}, entries: {path: entry}}
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
   const problems = [];
@@ -26,9 +26,10 @@ export function buildRequest(fields, state) {
   addJson("cases", state.cases, request, problems);
   addJson("design", state.design, request, problems);
   if (Number(state.replicates.count) > 1) {
-    const { count, perturbation, seed, only } = state.replicates;
+    const { count, perturbation, seed, only, tolerance_factor: factor } = state.replicates;
     // undefined: every set
     request.replicates = { count: Number(count), perturbation: Number(perturbation), seed: Number(seed), only };
+    if (Number(factor) !== 1) request.replicates.tolerance_factor = Number(factor);
   }
   if (Number(state.priority) !== 0) request.priority = Number(state.priority);
   if (!state.reuse) request.reuse = false;
@@ -120,7 +121,7 @@ export function readRequest(fields, request = {}) {
     name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
     cases: request.cases ? JSON.stringify(request.cases, null, 1) : "",
     design: request.design ? JSON.stringify(request.design, null, 1) : "",
-    replicates: { count: 1, perturbation: 1e-6, seed: 1, ...request.replicates } };
+    replicates: { count: 1, perturbation: 1e-6, seed: 1, tolerance_factor: 1, ...request.replicates } };
 }
 
 function entryOf(field, values, mode) {

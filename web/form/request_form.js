@@ -139,6 +139,7 @@ export class RequestForm {
     const { replicates } = this.state;
     return [this.text("Replicates", replicates, "count", { type: "number", min: 1 }),
       this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
+      this.text("Factor of both tolerances in all but the first", replicates, "tolerance_factor"),
       this.text("Seed", replicates, "seed", { type: "number" })];
   }
 

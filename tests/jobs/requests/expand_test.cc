@@ -234,6 +234,18 @@ TEST(PlanSweep, RunsReplicatesOfEachPointInnermost) {
                 .content_id);
 }
 
+TEST(PlanSweep, RunsAllReplicatesButTheFirstWithTighterTolerances) {
+  const auto plan = expanded_plan_of(
+      R"({"parameters": {"relative_tolerance": 1e-4, "absolute_tolerance": 1e-6},
+         "replicates": {"count": 3, "tolerance_factor": 0.5}})");
+  ASSERT_EQ(plan.jobs.size(), 3U);
+  for (const std::size_t k : {0U, 1U, 2U}) {
+    const json parameters = json::parse(plan.jobs[k].parameters);
+    EXPECT_EQ(parameters.at("relative_tolerance"), k == 0 ? 1e-4 : 0.5e-4) << k;
+    EXPECT_EQ(parameters.at("absolute_tolerance"), k == 0 ? 1e-6 : 0.5e-6) << k;
+  }
+}
+
 // Rows are grouped by what is swept: the perturbation must not make a group of every row, not even where
 // stiffness is swept.
 TEST(PlanSweep, GivesReplicatesTheSweptValuesOfTheirPoint) {
