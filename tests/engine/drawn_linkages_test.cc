@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -14,23 +13,11 @@
 #include "engine/errors.h"
 #include "engine/kinematics/frame_motion.h"
 #include "engine/simulate_linkage.h"
+#include "tests/engine/draw.h"
 #include "tests/engine/linkage_cases.h"
 
 namespace engine {
 namespace {
-
-class Draw {
- public:
-  explicit Draw(unsigned seed) : generator_(seed) {}
-
-  double within(double least, double most) { return least + (most - least) * static_cast<double>(generator_()) / 4294967296.0; }
-  std::size_t below(std::size_t count) { return static_cast<std::size_t>(within(0.0, static_cast<double>(count))); }
-  bool happens(double probability) { return within(0.0, 1.0) < probability; }
-  Eigen::Vector3d point(double reach) { return {within(-reach, reach), within(-reach, reach), within(-reach, reach)}; }
-
- private:
-  std::mt19937 generator_;
-};
 
 /// Flat linkages, and joints whose axes meet, are as likely as others.
 Eigen::Matrix3d draw_turn(Draw& draw, bool flat) {
