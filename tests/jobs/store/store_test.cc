@@ -244,15 +244,15 @@ TEST(Store, ReadsSweepsByAsManyStatementsHoweverManyOthersWait) {
   const TemporaryStore temporary;
   const StatementCount statements;
   jobs::Store store(temporary.file());
-  constexpr int kSweeps = 300;
-  add_sweeps(store, kSweeps);
+  constexpr int kWaiting = 300;
+  add_sweeps(store, kWaiting);
   const std::string sweep = store.reader.list_sweeps("", "", 1).at(0).id;
   const auto ask = [&] {
     static_cast<void>(store.reader.find_sweep(sweep));
     EXPECT_EQ(store.reader.list_sweeps("", "", 50).size(), 50U);
   };
   const long beside_some = statements.of(ask);
-  add_sweeps(store, 4 * kSweeps);
+  add_sweeps(store, 4 * kWaiting);
   const long beside_many = statements.of(ask);
   EXPECT_GT(beside_some, 50) << "nothing has been counted";
   EXPECT_LT(beside_many, beside_some + 3 * 128 + 20) << "the sample has been read anew, at the most";
