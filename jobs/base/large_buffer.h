@@ -6,8 +6,8 @@
 
 namespace jobs {
 
-/// Bytes that come from the system at once, in large pages where it has them, and go back to it at once. Small
-/// pages take longer to get than many megabytes take to decode.
+/// Bytes that come from the system at once, in large pages where it has them, and go back to it at once.
+/// Small pages take longer to get than many megabytes take to decode.
 class LargeBuffer {
  public:
   /// @throws std::bad_alloc

@@ -75,13 +75,28 @@ void delete_unused(SQLite::Database& database, const std::vector<std::int64_t>& 
                contents);
 }
 
-void delete_sweep_rows(SQLite::Database& database, std::int64_t sweep) {
-  const auto contents = find_numbers(database, "SELECT DISTINCT content FROM jobs WHERE sweep = ?", sweep);
+/// @param jobs  SQL of the numbers of the jobs, with one parameter, their sweep
+void delete_jobs(SQLite::Database& database, const std::string& jobs, std::int64_t sweep) {
+  const auto numbers = find_numbers(database, jobs.c_str(), sweep);
+  const std::string of_jobs = " FROM jobs WHERE seq IN (" + jobs + ")";
+  const auto contents = find_numbers(database, ("SELECT DISTINCT content" + of_jobs).c_str(), sweep);
   const auto results = find_numbers(
-      database, "SELECT seq FROM results WHERE content IN (SELECT content FROM jobs WHERE sweep = ?)", sweep);
-  run_for_each(database, "DELETE FROM jobs WHERE sweep = ?", {sweep});
-  run_for_each(database, "DELETE FROM sweeps WHERE seq = ?", {sweep});
+      database, ("SELECT seq FROM results WHERE content IN (SELECT content" + of_jobs + ")").c_str(), sweep);
+  run_for_each(database, "DELETE FROM jobs WHERE seq = ?", numbers);
   delete_unused(database, contents, results);
+}
+
+/// Whether a sweep can be deleted: kDone, or why not. @param sweep  its number
+DeleteOutcome find_delete_outcome(SQLite::Database& database, std::int64_t sweep, const std::string& id,
+                                  const std::string& study) {
+  SQLite::Statement of_study(database, "SELECT 1 FROM searches WHERE sweep = ? AND id <> ?");
+  of_study.bind(1, sweep);
+  of_study.bind(2, study);
+  if (of_study.executeStep()) return DeleteOutcome::kOfStudy;
+  if (any_in_state(database,
+                   "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id))
+    return DeleteOutcome::kNotEnded;
+  return DeleteOutcome::kDone;
 }
 
 }  // namespace
@@ -183,19 +198,42 @@ DeleteOutcome JobQueue::delete_job(const std::string& id) {
 }
 
 DeleteOutcome JobQueue::delete_sweep(const std::string& id, const std::string& study) {
-  return core_.write_in_held_room([&](SQLite::Database& database) {
+  const auto delete_rest = [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return DeleteOutcome::kMissing;
-    SQLite::Statement of_study(database, "SELECT 1 FROM searches WHERE sweep = ? AND id <> ?");
-    of_study.bind(1, *sweep);
-    of_study.bind(2, study);
-    if (of_study.executeStep()) return DeleteOutcome::kOfStudy;
-    if (any_in_state(database,
-                     "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id))
-      return DeleteOutcome::kNotEnded;
-    delete_sweep_rows(database, *sweep);
+    const DeleteOutcome outcome = find_delete_outcome(database, *sweep, id, study);
+    if (outcome != DeleteOutcome::kDone) return outcome;
+    delete_jobs(database, "SELECT seq FROM jobs WHERE sweep = ?1", *sweep);
+    run_for_each(database, "DELETE FROM sweeps WHERE seq = ?", {*sweep});
     core_.served.erase(*sweep);
     return DeleteOutcome::kDone;
+  };
+  try {
+    return core_.writer.write(Durability::kSurvivesPowerLoss, delete_rest);
+  } catch (const StorageError& error) {
+    if (!error.full) throw;
+  }
+  // In the log a deletion takes more room than it frees. The room that is held is enough for some jobs at a
+  // time, and the sweep has fewer jobs if the rest fails.
+  core_.lock.release_room();
+  core_.writer.empty_log();
+  while (delete_some_jobs(id, study)) core_.writer.empty_log();
+  core_.writer.empty_log();
+  return core_.writer.write(Durability::kSurvivesPowerLoss, delete_rest);
+}
+
+bool JobQueue::delete_some_jobs(const std::string& id, const std::string& study) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    const auto sweep = find_sweep_seq(database, id);
+    if (!sweep || find_delete_outcome(database, *sweep, id, study) != DeleteOutcome::kDone) return false;
+    // The first one goes with the sweep, which would not be one without jobs.
+    delete_jobs(database,
+                "SELECT seq FROM (SELECT seq FROM jobs WHERE sweep = ?1 AND seq > (SELECT min(seq) FROM jobs "
+                "WHERE sweep = ?1) ORDER BY seq DESC LIMIT 8)",
+                *sweep);
+    SQLite::Statement left(database, "SELECT 1 FROM jobs WHERE sweep = ? LIMIT 1 OFFSET 1");
+    left.bind(1, *sweep);
+    return left.executeStep();
   });
 }
 

@@ -132,7 +132,7 @@ class FullDisk:
     def __init__(self, folder):
         self.folder = folder / "small"
         self.folder.mkdir()
-        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "none", self.folder], check=True)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=40m", "none", self.folder], check=True)
         atexit.register(subprocess.run, ["umount", "--lazy", self.folder], check=False)
         self.ballast = self.folder / "ballast"
 
@@ -167,6 +167,8 @@ def check_start(program):
     done = [service.submit({**small_sweep(k), "reuse": False}) for k in range(3)]
     check([service.wait_for_end(i) for i in done] == ["succeeded"] * 3, "the first sweeps")
     single = json.loads(service.ask("POST", "/v1/jobs", {"duration_s": 0.05})[2])["id"]
+    # Its deletion takes several times the room that is held for it.
+    large = service.submit({"parameters": {"duration_s": 0.02}, "reuse": False, "sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 500}}})
     service.wait_until_idle()
     table = service.results(done[0])
     for end in ("orderly", "killed"):
@@ -187,6 +189,9 @@ def check_start(program):
         check(check_deleting(service, gone, (204,)), "deleting")
         if end == "orderly":
             check(service.ask("DELETE", f"/v1/jobs/{single}")[0] == 204, "deleting a single job")
+            before = store.stat().st_size
+            check(check_deleting(service, large, (204,)), "deleting a large sweep")
+            check(store.stat().st_size < before - 1_000_000, f"the store has not become smaller: {before}, {store.stat().st_size}")
         check(service.get(f"/v1/sweeps/{busy}")["counts"]["failed"] == 0, "a job has failed")
         disk.free()
         check(service.get("/readyz") == {"status": "ready"}, "readiness with room")
