@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -92,6 +94,32 @@ Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled
   M.rowwise() -= energies.transpose();
   M.diagonal() = 2.0 * energies;
   return M;
+}
+
+/// Whether the mechanism has joints that close loops without clearance.
+bool closes_loops(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance; });
+}
+
+/// Where loops are solved with masses, no free coordinate may carry next to nothing beside the others: rounding of
+/// the heavy bodies' motion would move the light ones.
+void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built, const std::vector<FrameIndex>& free) {
+  constexpr double kLeast = 5e-9;  // below, steps shrink to nothing
+  const std::vector<Coordinate>& coordinates = built.mechanism.coordinates;
+  std::vector<double> carried(coordinates.size());
+  for (std::size_t i = coordinates.size(); i-- > 0;) {
+    carried[i] += coordinates[i].mass;
+    if (coordinates[i].parent != kGround) carried[static_cast<std::size_t>(coordinates[i].parent)] += carried[i];
+  }
+  const double most = *std::ranges::max_element(carried);
+  for (const FrameIndex i : free)
+    if (const double ratio = carried[static_cast<std::size_t>(i)] / most; ratio < kLeast) {
+      std::ostringstream detail;
+      detail << "carries, by its coordinate " << coordinates[static_cast<std::size_t>(i)].name << ", only " << ratio
+             << " of the largest mass that a coordinate carries; in loops that the drives do not determine, at "
+                "least " << kLeast << " can be computed: give the bodies that it carries more, or drive the linkage";
+      throw InvalidInput(owner_of(linkage, built, i), detail.str());
+    }
 }
 
 /// No free coordinate may move nothing that has mass, nor may several together.
@@ -185,8 +213,10 @@ BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
                        "drives go, or a joint that closes a loop allow the motion");
   // If the drives determine the motion, masses need not.
   if (!allows_kinematics(built.mechanism, integrator) ||
-      closure.find_determinacy(assembled) == LoopClosure::Determinacy::kFree)
+      closure.find_determinacy(assembled) == LoopClosure::Determinacy::kFree) {
     check_masses(linkage, built, assembled, system.free_coordinates());
+    if (closes_loops(built.mechanism)) check_mass_ratios(linkage, built, system.free_coordinates());
+  }
   settle_springs(linkage, built, assembled);
   return built;
 }

@@ -9,7 +9,7 @@ namespace engine {
 
 namespace {
 
-double contact_force(const Evaluation& at) { return at.joints[0].load.calc_normal_sum(); }
+double radial_force(const Evaluation& at) { return at.joints[0].load.radial_normal_sum; }
 double penetration(const Evaluation& at) { return at.joints[0].load.max_penetration; }
 double friction_force(const Evaluation& at) { return at.joints[0].load.friction_sum; }
 double crank_torque(const Evaluation& at) { return at.drive_force[0]; }
@@ -97,8 +97,8 @@ void add_joint_channels(bool clearance, std::vector<Channel>& channels) {
   add_reading(channels, "journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[0].journal); });
   add_reading(channels, "contact_force_n",
-              "Sum of the normal forces of bore and shoulders on the journal; null without clearance",
-              clearance ? &contact_force : &none, "Σ f_n");
+              "Sum of the radial normal forces on the journal; null without clearance",
+              clearance ? &radial_force : &none, "Σ f_n");
   add_reading(channels, "friction_force_n",
               "Sum of the magnitudes of the friction forces on the journal; null without clearance",
               clearance ? &friction_force : &none, "Σ |f_t|");
@@ -171,17 +171,17 @@ std::span<const QuantityInfo> metric_table() {
        .help = "Ratio of peak_slider_acceleration_m_s2 to ideal_peak_slider_acceleration_m_s2"},
       {.key = "peak_contact_force_n",
        .help =
-           "Largest sum of the normal forces of bore and shoulders on the journal in the whole run; null without clearance",
+           "Largest sum of the radial normal forces on the journal in the whole run; null without clearance",
        .symbol = "max Σ f_n"},
       {.key = "max_penetration_um",
        .help =
            "Largest radial penetration of the journal into the bore in the whole run; null without clearance",
        .symbol = "max Δ"},
       {.key = "impact_count",
-       .help = "Number of onsets of contact in the whole run, counted for each ring and each face of the journal",
+       .help = "Number of onsets of radial contact in the whole run, counted for each ring of the journal",
        .integer = true},
       {.key = "contact_time_ratio",
-       .help = "Fraction of the whole run in which the journal touches the bore or a shoulder; null without clearance"},
+       .help = "Fraction of the whole run in which the journal touches the bore; null without clearance"},
       {.key = "peak_crank_torque_n_m",
        .help = "Largest magnitude of the crank's driving torque in the whole run"},
       {.key = "peak_rod_force_n",
@@ -235,8 +235,9 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
 
 Measured rpsup_measured(const RpsupParameters& parameters, const RpsupLayout& layout) {
   return {.accelerations = {layout.slider},
-          .loads = {contact_force, penetration, crank_torque, rod_force, reaction},
+          .loads = {radial_force, penetration, crank_torque, rod_force, reaction},
           .contacts = {0},
+          .counts_faces = false,
           .steady_from = parameters.run_up};
 }
 

@@ -30,8 +30,11 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   last_energy_ = end.energy;
   // Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a
   // step holds in all of it.
-  for (std::size_t k = 0; k < contact_times_.size(); ++k)
-    if (start.joints[measured_.contacts[k]].load.touches()) contact_times_[k] += end.t - start.t;
+  for (std::size_t k = 0; k < contact_times_.size(); ++k) {
+    const ContactLoad& load = start.joints[measured_.contacts[k]].load;
+    const bool touches = load.max_penetration > 0.0 || (measured_.counts_faces && load.face_touches);
+    if (touches) contact_times_[k] += end.t - start.t;
+  }
 }
 
 void RunMetrics::take_acceleration(FrameIndex i, const Evaluation& start, const Evaluation& end,

@@ -16,6 +16,7 @@ struct Measured {
   std::vector<FrameIndex> accelerations;  ///< coordinates whose acceleration is
   std::vector<Reading> loads;             ///< of which the largest magnitude counts
   std::vector<std::size_t> contacts;      ///< cut joints with clearance
+  bool counts_faces = true;               ///< whether a face that touches its shoulder is a contact, too
   double steady_from = 0.0;               ///< where the steady window begins, [s]
   Preparation prepare = {};
 };
@@ -29,7 +30,7 @@ class RunMetrics {
   /// Whether the last step may hold a larger load than its ends show: its middle should be taken.
   [[nodiscard]] bool wants_middle() const { return wants_middle_; }
   void take_middle(const Evaluation& middle);
-  void take_onsets(int count) { onsets_ += count; }
+  void take_onsets(int rings, int faces) { onsets_ += rings + (measured_.counts_faces ? faces : 0); }
 
   /// One of Measured::accelerations.
   struct Acceleration {
@@ -43,7 +44,7 @@ class RunMetrics {
   [[nodiscard]] double calc_rms(std::size_t k) const;
   /// Largest magnitude of one of Measured::loads.
   [[nodiscard]] double largest_load(std::size_t k) const { return loads_[k].peak().magnitude; }
-  /// How long bore or shoulders of one of Measured::contacts were touched, [s]
+  /// How long one of Measured::contacts was touched, [s]
   [[nodiscard]] double contact_time(std::size_t k) const { return contact_times_[k]; }
   [[nodiscard]] long onsets() const { return onsets_; }
   [[nodiscard]] const EnergyAccount& last_energy() const { return last_energy_; }

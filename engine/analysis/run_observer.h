@@ -21,7 +21,7 @@ class RunObserver : public Observer {
   [[nodiscard]] bool wants_middle() override { return metrics.wants_middle(); }
   void on_middle(const Evaluation& at) override { metrics.take_middle(at); }
   void on_sample(const Evaluation& at) override { channels.take_sample(at); }
-  void on_onsets(int count) override { metrics.take_onsets(count); }
+  void on_onsets(int rings, int faces) override { metrics.take_onsets(rings, faces); }
   [[nodiscard]] bool stop_requested(double t) override { return stop_requested_ && stop_requested_(t); }
 
   RunMetrics metrics;

@@ -50,7 +50,7 @@ ContactChange AxialFaces::advance(const JournalMotion& start, const JournalMotio
                         {at_end.calc_delta(x, y), at_end.calc_rate(x, y)}, dt, joint_.minimum_onset_rate);
       touching += static_cast<int>(latch.in_contact()) - static_cast<int>(!touches);
     }
-    if (!touched && touching > 0) ++change.onsets;
+    if (!touched && touching > 0) ++change.face_onsets;
   }
   change.abrupt = change.any;
   return change;

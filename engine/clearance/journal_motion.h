@@ -35,7 +35,6 @@ struct ContactLoad {
   bool face_touches = false;                         ///< a point of a face is beyond its shoulder
 
   [[nodiscard]] double calc_normal_sum() const { return radial_normal_sum + face_normal_sum; }
-  [[nodiscard]] bool touches() const { return max_penetration > 0.0 || face_touches; }
 };
 
 /// The same as the contact laws take it.

@@ -14,12 +14,13 @@ struct ContactChange {
   bool any = false;     ///< some contact began or ended
   bool abrupt =
       false;  ///< and more than single elements of rings that had contact before and have some still
-  int onsets = 0;       ///< rings and faces that had no contact and now have one
+  int ring_onsets = 0, face_onsets = 0;  ///< rings and faces that had no contact and now have one
 
   ContactChange& operator+=(const ContactChange& other) {
     any |= other.any;
     abrupt |= other.abrupt;
-    onsets += other.onsets;
+    ring_onsets += other.ring_onsets;
+    face_onsets += other.face_onsets;
     return *this;
   }
 };

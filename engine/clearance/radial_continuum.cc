@@ -46,7 +46,7 @@ ContactChange RadialContinuum::advance(const JournalMotion& start, const Journal
       change.any |= latch.advance(calc_penetration(to_relative_motion(start), i), at_end, dt,
                                   joint_.minimum_onset_rate);
       change.abrupt = change.any;
-      change.onsets += latch.in_contact() ? 1 : 0;
+      change.ring_onsets += latch.in_contact() ? 1 : 0;
     }
     if (!latch.in_contact()) bristles[2 * i] = bristles[2 * i + 1] = 0.0;
   }

@@ -92,7 +92,7 @@ ContactChange RadialElements::advance(const JournalMotion& start, const JournalM
       from_low = from_low + 1 < joint_.n_ce ? from_low + 1 : 0;
     }
     change.abrupt |= is_on != was_on;
-    change.onsets += is_on && !was_on ? 1 : 0;
+    change.ring_onsets += is_on && !was_on ? 1 : 0;
   }
   return change;
 }

@@ -307,7 +307,8 @@ void Integration::accept() {
   take_samples();
   stepper_->accept();
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
-  if (change.onsets > 0) observer_.on_onsets(change.onsets);
+  if (change.ring_onsets + change.face_onsets > 0)
+    observer_.on_onsets(change.ring_onsets, change.face_onsets);
   // One element more or less in a lasting contact changes the Jacobian and the state's polynomial little;
   // Newton's iterations correct the difference.
   if (change.abrupt)

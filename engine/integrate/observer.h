@@ -20,7 +20,7 @@ class Observer {
   /// on_step().
   virtual void on_sample(const Evaluation& at) = 0;
   /// Rings and faces that came into contact in the step just reported.
-  virtual void on_onsets(int count) = 0;
+  virtual void on_onsets(int rings, int faces) = 0;
   /// Asked now and then; true ends the run.
   [[nodiscard]] virtual bool stop_requested(double t) = 0;
 };

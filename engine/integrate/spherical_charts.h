@@ -66,7 +66,7 @@ class GivenChartObserver : public Observer {
   [[nodiscard]] bool wants_middle() override { return observer_.wants_middle(); }
   void on_middle(const Evaluation& at) override { observer_.on_middle(restore(at, inside_)); }
   void on_sample(const Evaluation& at) override { observer_.on_sample(restore(at, inside_)); }
-  void on_onsets(int count) override { observer_.on_onsets(count); }
+  void on_onsets(int rings, int faces) override { observer_.on_onsets(rings, faces); }
   [[nodiscard]] bool stop_requested(double t) override { return observer_.stop_requested(t); }
 
  private:

@@ -31,7 +31,7 @@ class Course : public Observer {
     samples.push_back(at);
     imbalance = std::max(imbalance, std::abs(at.energy.calc_balance() - samples.front().energy.calc_balance()));
   }
-  void on_onsets(int) override {}
+  void on_onsets(int, int) override {}
   bool stop_requested(double) override { return false; }
 
   std::vector<Evaluation> samples;

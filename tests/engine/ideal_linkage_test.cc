@@ -231,7 +231,7 @@ class NoObserver : public Observer {
  public:
   void on_step(const Evaluation&, const Evaluation&) override {}
   void on_sample(const Evaluation&) override {}
-  void on_onsets(int) override {}
+  void on_onsets(int, int) override {}
   bool stop_requested(double) override { return false; }
 };
 

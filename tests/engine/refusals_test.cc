@@ -86,7 +86,7 @@ class IgnoringObserver : public Observer {
  public:
   void on_step(const Evaluation&, const Evaluation& end) override { last_t = end.t; }
   void on_sample(const Evaluation&) override { ++samples; }
-  void on_onsets(int) override {}
+  void on_onsets(int, int) override {}
   bool stop_requested(double t) override { return t > stop_at; }
   double last_t = 0.0;
   int samples = 0;

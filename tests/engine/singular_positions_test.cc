@@ -133,6 +133,21 @@ TEST(LightBody, FollowsTheLoopDownToNoMass) {
   EXPECT_NEAR(none.metric("peak_crank_drive_n_m"), 2.0 * 9.81 * 0.1 * std::cos(0.4), 1e-9);
 }
 
+// Nothing drives the linkage, so that loops are solved with masses.
+TEST(LightBody, IsRefusedWithItsRatioWhereMassesDecide) {
+  Linkage linkage = make_parallelogram(Polynomial{{0.4, 1.0}}, 0.4);
+  linkage.joints[0].freedoms[0] = {.name = "crank", .start = 0.4, .start_rate = 1.0};
+  EXPECT_EQ(run(with_rod(linkage, 1e-7), 0.5).status, RunStatus::kSucceeded);
+  for (const double mass : {1e-9, 1e-12, 0.0}) {
+    try {
+      static_cast<void>(run(with_rod(linkage, mass), 0.5));
+      ADD_FAILURE() << mass;
+    } catch (const InvalidInput& refused) {
+      EXPECT_EQ(refused.field(), "joints.pin") << mass;
+    }
+  }
+}
+
 /// A body on a joint with three turning freedoms, near theta = 90 degrees soon.
 Linkage make_tumbling_body(JointKind kind) {
   Linkage linkage;

@@ -11,7 +11,7 @@ class QuietObserver : public Observer {
  public:
   void on_step(const Evaluation& /*start*/, const Evaluation& /*end*/) override {}
   void on_sample(const Evaluation& /*at*/) override {}
-  void on_onsets(int /*count*/) override {}
+  void on_onsets(int /*rings*/, int /*faces*/) override {}
   [[nodiscard]] bool stop_requested(double /*t*/) override { return false; }
 };
 

@@ -230,10 +230,10 @@ TEST(ClearanceJoint, TellsElementsOfALastingContactFromAbruptChanges) {
     (void)joint.follow(next, 0.0, bristles.data());
     return joint.advance(std::exchange(last, next), next, 1e-5, bristles.data());
   };
-  const auto expect = [](const ContactChange& change, bool any, bool abrupt, int onsets) {
+  const auto expect = [](const ContactChange& change, bool any, bool abrupt, int ring_onsets) {
     EXPECT_EQ(change.any, any);
     EXPECT_EQ(change.abrupt, abrupt);
-    EXPECT_EQ(change.onsets, onsets);
+    EXPECT_EQ(change.ring_onsets, ring_onsets);
   };
   expect(move_to(journal_at(c_r - 1e-6, 0.0)), false, false, 0);
   expect(move_to(journal_at(c_r + 2e-6, 0.0)), true, true, parameters.n_r);

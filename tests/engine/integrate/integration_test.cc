@@ -26,7 +26,7 @@ class LastState : public Observer {
     sampled_q.push_back(at.q[0]);
     balance.push_back(at.energy.calc_balance());
   }
-  void on_onsets(int) override {}
+  void on_onsets(int, int) override {}
   bool stop_requested(double) override { return false; }
   Eigen::VectorXd q;
   std::vector<double> times, sampled_q, balance;
