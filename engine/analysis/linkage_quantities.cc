@@ -168,23 +168,34 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
                 [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
   add_channel(joint.name + "_journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [=](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[cut].journal); });
-  const Reading force = [=](const Evaluation& at) { return at.joints[cut].load.calc_normal_sum(); };
-  add_channel(joint.name + "_contact_force_n", "Sum of the normal forces of bore and shoulders on the journal", force);
+  const Reading force = [=](const Evaluation& at) { return at.joints[cut].load.radial_normal_sum; };
+  add_channel(joint.name + "_contact_force_n", "Sum of the radial normal forces on the journal", force);
   add_channel(joint.name + "_friction_force_n", "Sum of the magnitudes of the friction forces on the journal",
               [=](const Evaluation& at) { return at.joints[cut].load.friction_sum; });
   add_load("peak_" + joint.name + "_contact_force_n",
-           "Largest sum of the normal forces of bore and shoulders on the journal in the whole run", 1.0, force);
+           "Largest sum of the radial normal forces on the journal in the whole run", 1.0, force);
   add_load("max_" + joint.name + "_penetration_um",
            "Largest radial penetration of the journal into the bore in the whole run", 1e6,
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
-  const std::size_t contact = measured_.contacts.size();
-  measured_.contacts.push_back(cut);
-  add_metric(
-      {.key = joint.name + "_contact_time_ratio",
-       .help = "Fraction of the whole run in which the journal touches the bore or a shoulder"},
-      [=](const RunMetrics& metrics, const RunOutcome& outcome) {
-        return metrics.contact_time(contact) / outcome.t;
-      });
+  add_contact_time(joint.name + "_contact_time_ratio",
+                   "Fraction of the whole run in which the journal touches the bore", {.joint = cut});
+  const Reading face_force = [=](const Evaluation& at) { return at.joints[cut].load.face_normal_sum; };
+  add_channel(joint.name + "_face_force_n", "Sum of the normal forces of the shoulders on the journal's faces",
+              face_force);
+  add_load("peak_" + joint.name + "_face_force_n",
+           "Largest sum of the normal forces of the shoulders on the journal's faces in the whole run", 1.0,
+           face_force);
+  add_contact_time(joint.name + "_face_contact_time_ratio",
+                   "Fraction of the whole run in which a face of the journal touches its shoulder",
+                   {.joint = cut, .of_faces = true});
+}
+
+void LinkageQuantities::add_contact_time(const std::string& key, const char* help, Measured::Contact contact) {
+  const std::size_t index = measured_.contacts.size();
+  measured_.contacts.push_back(contact);
+  add_metric({.key = key, .help = help}, [=](const RunMetrics& metrics, const RunOutcome& outcome) {
+    return metrics.contact_time(index) / outcome.t;
+  });
 }
 
 void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t index) {
@@ -215,9 +226,13 @@ void LinkageQuantities::add_energy_channels() {
 void LinkageQuantities::add_run_metrics() {
   add_metric(
       {.key = "impact_count",
-       .help = "Number of onsets of contact in the whole run, counted for each ring and each face of each journal",
+       .help = "Number of onsets of radial contact in the whole run, counted for each ring of each journal",
        .integer = true},
       [](const RunMetrics& metrics, const auto&) { return static_cast<double>(metrics.onsets()); });
+  add_metric({.key = "face_impact_count",
+              .help = "Number of onsets of contact of a journal's face with its shoulder in the whole run",
+              .integer = true},
+             [](const RunMetrics& metrics, const auto&) { return static_cast<double>(metrics.face_onsets()); });
   add_metric({.key = "friction_work_j", .help = "Energy lost to friction in the joints in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().friction_loss; });
   add_metric({.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},

@@ -46,6 +46,7 @@ class LinkageQuantities {
   void add_joint(const LinkageJoint& joint, const BuiltJoint& built);
   void add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench);
   void add_clearance(const LinkageJoint& joint, std::size_t cut);
+  void add_contact_time(const std::string& key, const char* help, Measured::Contact contact);
   void add_spring(const LinkageSpring& spring, std::size_t index);
   void add_energy_channels();
   void add_run_metrics();

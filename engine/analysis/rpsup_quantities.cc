@@ -236,8 +236,7 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
 Measured rpsup_measured(const RpsupParameters& parameters, const RpsupLayout& layout) {
   return {.accelerations = {layout.slider},
           .loads = {radial_force, penetration, crank_torque, rod_force, reaction},
-          .contacts = {0},
-          .counts_faces = false,
+          .contacts = {{.joint = 0}},
           .steady_from = parameters.run_up};
 }
 

@@ -31,9 +31,9 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   // Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a
   // step holds in all of it.
   for (std::size_t k = 0; k < contact_times_.size(); ++k) {
-    const ContactLoad& load = start.joints[measured_.contacts[k]].load;
-    const bool touches = load.max_penetration > 0.0 || (measured_.counts_faces && load.face_touches);
-    if (touches) contact_times_[k] += end.t - start.t;
+    const ContactLoad& load = start.joints[measured_.contacts[k].joint].load;
+    if (measured_.contacts[k].of_faces ? load.face_touches : load.max_penetration > 0.0)
+      contact_times_[k] += end.t - start.t;
   }
 }
 

@@ -15,8 +15,12 @@ namespace engine {
 struct Measured {
   std::vector<FrameIndex> accelerations;  ///< coordinates whose acceleration is
   std::vector<Reading> loads;             ///< of which the largest magnitude counts
-  std::vector<std::size_t> contacts;      ///< cut joints with clearance
-  bool counts_faces = true;               ///< whether a face that touches its shoulder is a contact, too
+  /// Contact of a journal with its bore, or of its faces with the shoulders.
+  struct Contact {
+    std::size_t joint;                    ///< cut joint with clearance
+    bool of_faces = false;
+  };
+  std::vector<Contact> contacts;          ///< whose times count
   double steady_from = 0.0;               ///< where the steady window begins, [s]
   Preparation prepare = {};
 };
@@ -30,7 +34,10 @@ class RunMetrics {
   /// Whether the last step may hold a larger load than its ends show: its middle should be taken.
   [[nodiscard]] bool wants_middle() const { return wants_middle_; }
   void take_middle(const Evaluation& middle);
-  void take_onsets(int rings, int faces) { onsets_ += rings + (measured_.counts_faces ? faces : 0); }
+  void take_onsets(int rings, int faces) {
+    onsets_ += rings;
+    face_onsets_ += faces;
+  }
 
   /// One of Measured::accelerations.
   struct Acceleration {
@@ -46,7 +53,9 @@ class RunMetrics {
   [[nodiscard]] double largest_load(std::size_t k) const { return loads_[k].peak().magnitude; }
   /// How long one of Measured::contacts was touched, [s]
   [[nodiscard]] double contact_time(std::size_t k) const { return contact_times_[k]; }
+  /// Onsets of radial contact, of each ring.
   [[nodiscard]] long onsets() const { return onsets_; }
+  [[nodiscard]] long face_onsets() const { return face_onsets_; }
   [[nodiscard]] const EnergyAccount& last_energy() const { return last_energy_; }
   /// Largest |E - E(0) - work of the drives + losses|, [J]
   [[nodiscard]] double largest_imbalance() const { return largest_imbalance_; }
@@ -69,7 +78,7 @@ class RunMetrics {
   std::vector<double> contact_times_;
   double steady_time_ = 0.0;
   bool wants_middle_ = false;
-  long onsets_ = 0;
+  long onsets_ = 0, face_onsets_ = 0;
   double first_balance_ = 0.0;
   double largest_imbalance_ = 0.0;
   double turned_over_ = 0.0;

@@ -33,8 +33,6 @@ struct ContactLoad {
   double impact_power = 0.0;                         ///< lost in the normal law, [W]
   double friction_power = 0.0;                       ///< [W]
   bool face_touches = false;                         ///< a point of a face is beyond its shoulder
-
-  [[nodiscard]] double calc_normal_sum() const { return radial_normal_sum + face_normal_sum; }
 };
 
 /// The same as the contact laws take it.

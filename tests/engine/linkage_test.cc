@@ -153,7 +153,7 @@ TEST(Linkage, AJournalMayMoveInItsClearanceFromTheStart) {
 /// A journal that falls along its bearing's axis onto an elastic shoulder, and rebounds. With the force K_a delta, the
 /// speed v = sqrt(2 g c_a) at contact and w = sqrt(K_a / m), a contact lasts 2 (pi - atan(v w / g)) / w and a flight
 /// 2 v / g. The largest force is m g (1 + sqrt(1 + (v w / g)^2)).
-TEST(Linkage, AFaceThatHitsAShoulderCountsAsContact) {
+TEST(Linkage, CountsAFaceThatHitsAShoulder) {
   constexpr double m = 2.0, g = 9.81;
   ClearanceParameters bearing;
   bearing.c_a = 1e-3;
@@ -170,10 +170,10 @@ TEST(Linkage, AFaceThatHitsAShoulderCountsAsContact) {
   constexpr int kHits = 5;
   const double duration = kHits * (contact + 2.0 * fall);  // to the top of the last rebound
   const LinkageRun run(linkage, accurate(duration));
-  EXPECT_EQ(run.metric("impact_count"), kHits);
-  EXPECT_NEAR(run.metric("bearing_contact_time_ratio"), kHits * contact / duration, 1e-3 * contact / duration);
+  EXPECT_EQ(run.metric("face_impact_count"), kHits);
+  EXPECT_NEAR(run.metric("bearing_face_contact_time_ratio"), kHits * contact / duration, 1e-3 * contact / duration);
   const double peak = m * g * (1.0 + std::sqrt(1.0 + std::pow(v * w / g, 2)));
-  EXPECT_NEAR(run.metric("peak_bearing_contact_force_n"), peak, 1e-4 * peak);
+  EXPECT_NEAR(run.metric("peak_bearing_face_force_n"), peak, 1e-4 * peak);
 }
 
 TEST(Linkage, AWeldedBodyIsPartOfWhatCarriesIt) {
