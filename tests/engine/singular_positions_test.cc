@@ -290,6 +290,19 @@ TEST(MassScaling, ChangesNoStep) {
   }
 }
 
+TEST(Tolerance, CostsNoMoreIfItIsLooser) {
+  for (const JointKind cut : {JointKind::kSpherical, JointKind::kUniversal, JointKind::kPrismatic}) {
+    std::vector<double> steps;
+    for (const double factor : {1.0, 0.1, 0.01, 5e-4}) {
+      RunOptions options{.duration = 1.0};
+      options.relative_tolerance *= factor;
+      options.absolute_tolerance *= factor;
+      steps.push_back(LinkageRun(make_spatial_slider_crank(cut), options).metric("steps"));
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(steps)) << steps[0] << ' ' << steps[1] << ' ' << steps[2];
+  }
+}
+
 /// A journal on a planar joint, in a bearing on the ground.
 Linkage make_journal(double x) {
   Linkage linkage;
