@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <Eigen/QR>
@@ -49,7 +51,7 @@ bool is_rate_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c)
 bool is_any(const Coordinate&) { return true; }
 
 constexpr double kDependent = 1e-9;  // of the largest pivot
-// Rows nearer to dependence bind so weakly that DelassusMatrix takes them for redundant ones: its e is the square.
+// Rows nearer to dependence bind so weakly that DelassusMatrix takes them for redundant: its e is the square.
 constexpr double kBindsWeakly = 3e-5;
 
 /// Complete orthogonal decomposition: J need not have full rank, and in a flat mechanism has not.
@@ -75,6 +77,19 @@ Eigen::VectorXd calc_drive_displacement(const Mechanism& mechanism) {
     if (displacement.cwiseAbs().maxCoeff() >= kSmallDisplacement) return displacement;
   }
   return Eigen::VectorXd::Zero(displacement.size());
+}
+
+// Pattern of perturb() in which signs alternate.
+constexpr double kAlternating = std::numbers::pi;
+
+/// Moves each coordinate that is not driven off its position, by +-size or less.
+Eigen::VectorXd perturb(const Mechanism& mechanism, Eigen::VectorXd q, double size, double pattern) {
+  double phase = 0.0;
+  for (const FrameIndex i : find_coordinates(mechanism, is_any)) {
+    q[i] += size * std::cos(phase);
+    phase += pattern;
+  }
+  return q;
 }
 
 /// Whether a journal is in its bore and between its shoulders; it may rest there, pressed in a little.
@@ -173,25 +188,37 @@ LoopClosure::Determinacy LoopClosure::find_determinacy(const Evaluation& assembl
   const bool at_rest = assembled.qd.isZero(0.0);
   if (is_solvable && !(at_rest && calc_binding_rank() < unknown)) return Determinacy::kDetermined;
   const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
-  const bool determined_elsewhere = !displacement.isZero(0.0) &&
-                                    closes_from_perturbed(assembled.q + displacement, kPerturbation) &&
-                                    calc_rank() == unknown;
+  const Eigen::VectorXd moved = perturb(ideal_, assembled.q + displacement, kPerturbation, kAlternating);
+  const bool determined_elsewhere =
+      !displacement.isZero(0.0) && close_from_perturbed(moved) && calc_rank() == unknown;
   if (determined_elsewhere) return Determinacy::kSingularStart;
   return is_solvable ? Determinacy::kDetermined : Determinacy::kFree;
 }
 
 LoopClosure::Start LoopClosure::find_start(const Evaluation& assembled) {
+  constexpr double kMoved = 0.05;  // of the perturbation: more than what a taut chain yields
   if (rigid_rows_.empty()) return Start::kRegular;
   const bool can_start = can_accelerate(assembled);
   if (can_start && !assembled.qd.isZero(0.0)) return Start::kRegular;
   const Eigen::Index rank_here = calc_binding_rank();
   const Eigen::VectorXd displacement = calc_drive_displacement(ideal_) / kSmallDisplacement;
+  bool moves = false;
   // The links may differ in length by orders of magnitude: rows bind farther away only.
-  for (const double perturbation : {kPerturbation, 30.0 * kPerturbation})
-    if (closes_from_perturbed(assembled.q + perturbation * displacement, perturbation) &&
-        calc_binding_rank() > rank_here)
-      return Start::kChangePoint;
-  return can_start ? Start::kRegular : Start::kContradiction;
+  for (const double size : {kPerturbation, 30.0 * kPerturbation})
+    for (const double pattern : {kAlternating, 1.7}) {
+      const Eigen::VectorXd displaced = assembled.q + size * displacement;
+      const std::optional<Eigen::VectorXd> closed =
+          close_from_perturbed(perturb(ideal_, displaced, size, pattern));
+      if (!closed) continue;
+      if (calc_binding_rank() > rank_here) return Start::kChangePoint;
+      moves |= (*closed - displaced).cwiseAbs().maxCoeff() > kMoved * size;
+    }
+  if (!can_start) return Start::kContradiction;
+  const auto moving = static_cast<Eigen::Index>(find_coordinates(ideal_, is_any).size());
+  const auto rigid = std::ranges::count_if(
+      rigid_rows_, [&](Eigen::Index row) { return std::ranges::binary_search(active_rows_, row); });
+  const bool binds_less = rank_here < std::min<Eigen::Index>(rigid, moving);
+  return binds_less && !moves ? Start::kImmovable : Start::kRegular;
 }
 
 /// Rigid rows of Phi_q, of all coordinates that are not driven.
@@ -357,7 +384,8 @@ bool LoopClosure::drives_can_start(const Evaluation& assembled) {
   const bool at_rest = assembled.qd.isZero(0.0);  // if not, assemble() has checked the velocities
   if (rigid_rows_.empty() || ideal_.drives.empty() || !at_rest) return true;
   const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
-  return is_free(displacement) || closes_from_perturbed(assembled.q + displacement, kPerturbation);
+  const Eigen::VectorXd start = perturb(ideal_, assembled.q + displacement, kPerturbation, kAlternating);
+  return is_free(displacement) || close_from_perturbed(start).has_value();
 }
 
 /// Whether the other coordinates can follow a small displacement of the drives, to first order.
@@ -373,25 +401,23 @@ bool LoopClosure::is_free(const Eigen::VectorXd& displacement) const {
 
 /// Whether the loops close, with the drives fixed, from a perturbed position. In a dead position no
 /// displacement is free to first order, but the linkage may still move.
-/// @param perturbation  of each coordinate, [rad] or [m]
-bool LoopClosure::closes_from_perturbed(const Eigen::VectorXd& q, double perturbation) {
+/// @returns the position in which they close; empty: they do not
+std::optional<Eigen::VectorXd> LoopClosure::close_from_perturbed(Eigen::VectorXd q) {
   constexpr double kMeets = 1e-9;   // [m] and [1]
   Evaluation at;
-  at.q = q;
   at.qd = at.qdd = Eigen::VectorXd::Zero(q.size());
+  at.q = std::move(q);
   at.frames.resize(ideal_.coordinates.size());
-  for (const FrameIndex i : find_coordinates(ideal_, is_any))
-    at.q[i] += std::exchange(perturbation, -perturbation);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     calc_positions(at);
     const Eigen::VectorXd gaps = constraints_.Phi(rigid_rows_);
-    if (gaps.cwiseAbs().maxCoeff() < kMeets) return true;
+    if (gaps.cwiseAbs().maxCoeff() < kMeets) return at.q;
     const Eigen::VectorXd step = minimum_norm_correction(gaps);
     const double size = step.cwiseAbs().maxCoeff();
-    if (size == 0.0) return false;
+    if (size == 0.0) return std::nullopt;
     at.q += std::min(1.0, kMaxStep / size) * step;
   }
-  return false;
+  return std::nullopt;
 }
 
 /// Minimum-norm change of the coordinates that are not driven, to first order, that closes gaps in the rigid

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,6 +35,7 @@ class LoopClosure {
     kRegular,
     kContradiction,  ///< no accelerations satisfy constraints and drives
     kChangePoint,    ///< the same, or rest, where constraints that bind elsewhere do not
+    kImmovable,      ///< rest where constraints leave velocities, but no motion: a chain stretched taut, say
   };
   [[nodiscard]] Start find_start(const Evaluation& assembled);
 
@@ -111,7 +113,7 @@ class LoopClosure {
   [[nodiscard]] bool assemble_rates(Evaluation& at);
   [[nodiscard]] bool find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at);
   [[nodiscard]] bool is_free(const Eigen::VectorXd& displacement) const;
-  [[nodiscard]] bool closes_from_perturbed(const Eigen::VectorXd& q, double perturbation);
+  [[nodiscard]] std::optional<Eigen::VectorXd> close_from_perturbed(Eigen::VectorXd q);
   [[nodiscard]] Eigen::VectorXd minimum_norm_correction(const Eigen::VectorXd& gaps) const;
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;

@@ -85,7 +85,7 @@ TEST(RandomLoops, EndSoonOrSayWhyNot) {
     }
   }
   EXPECT_GE(succeeded, loops / 3);
-  EXPECT_LE(unfinished, loops / 10);  // torn by their drives, with powers that grow without bound
+  EXPECT_LE(unfinished, 1 + loops / 25);  // torn by their drives, with powers that grow without bound
 }
 
 }  // namespace

@@ -101,6 +101,34 @@ TEST(ChangePoint, IsNoStartFromRest) {
   EXPECT_EQ(run(linkage, 0.1).status, RunStatus::kSingular);
 }
 
+/// Three rods of 1 m in a row, from one pin on the ground to another.
+Linkage make_chain(double pins_apart) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -9.81, 0.0};
+  std::string from = kGroundName;
+  for (const char* const name : {"a", "b", "c"}) {
+    linkage.bodies.push_back(make_body(name, 1.0, {0.5, 0.0, 0.0}, {1e-3, 0.1, 0.1}));
+    linkage.joints.push_back({.name = name, .from = from, .to = name,
+                              .placement = {.p = {from == kGroundName ? 0.0 : 1.0, 0.0, 0.0}},
+                              .freedoms = {{.name = name, .guess = std::string(name) == "a" ? 0.1 : 0.0}}});
+    from = name;
+  }
+  linkage.joints.push_back({.name = "pin", .from = kGroundName, .to = "c", .placement = {.p = {pins_apart, 0.0, 0.0}},
+                            .cut = true, .to_placement = {.p = {1.0, 0.0, 0.0}}});
+  return linkage;
+}
+
+// Where the pins are as far apart as the chain is long, no other position closes the loop.
+TEST(TautChain, CannotMove) {
+  Linkage taut = make_chain(3.0);
+  for (LinkageJoint& joint : taut.joints)
+    if (!joint.cut) joint.freedoms[0].start = 0.0;
+  const RunResult stands = run(taut, 0.1);
+  EXPECT_EQ(stands.status, RunStatus::kLockUp);
+  EXPECT_EQ(stands.t_end, 0.0);
+  EXPECT_EQ(run(make_chain(2.9), 0.1).status, RunStatus::kSucceeded);
+}
+
 TEST(Drives, EndAtOnceIfNoAccelerationSatisfiesThem) {
   Linkage linkage = make_parallelogram(Polynomial{{0.4, 1.0}}, 0.4);
   linkage.joints[2].freedoms[0] = {.name = "rocker", .drive = Polynomial{{0.4, 1.0, 1.0}}};
