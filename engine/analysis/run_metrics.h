@@ -51,7 +51,7 @@ class RunMetrics {
   [[nodiscard]] double calc_rms(std::size_t k) const;
   /// Largest magnitude of one of Measured::loads.
   [[nodiscard]] double largest_load(std::size_t k) const { return loads_[k].peak().magnitude; }
-  /// How long one of Measured::contacts was touched, [s]
+  /// Time in which one of Measured::contacts touched, [s]
   [[nodiscard]] double contact_time(std::size_t k) const { return contact_times_[k]; }
   /// Onsets of radial contact, of each ring.
   [[nodiscard]] long onsets() const { return onsets_; }

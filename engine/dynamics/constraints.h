@@ -14,7 +14,7 @@
 
 namespace engine {
 
-/// How the rows of axes measure by how much bearing and journal are turned.
+/// Measure, in the rows of axes, of the rotation between bearing and journal.
 enum class AxisResiduals {
   kProducts,         ///< scalar products of axes, as ConstraintResiduals says: zero for a half turn as well
   kRotationVectors,  ///< components, along the bearing's axes, of the rotation that would turn the journal into

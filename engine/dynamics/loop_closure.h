@@ -22,7 +22,7 @@ class LoopClosure {
  public:
   explicit LoopClosure(const Mechanism& mechanism);
 
-  /// How far the drives determine the motion.
+  /// Part of the motion that the drives determine.
   enum class Determinacy {
     kFree,           ///< coordinates or springs are left to dynamics, or constraints are redundant
     kDetermined,     ///< as many constraint rows that move as unknown coordinates, and no spring
@@ -30,7 +30,7 @@ class LoopClosure {
   };
   [[nodiscard]] Determinacy find_determinacy(const Evaluation& assembled);
 
-  /// How a mechanism that the drives do not determine can start, as far as its rigid joints say.
+  /// Start of a mechanism that the drives do not determine, by its rigid joints.
   enum class Start {
     kRegular,
     kContradiction,  ///< no accelerations satisfy constraints and drives
@@ -139,7 +139,7 @@ class LoopClosure {
   Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;
   int turned_over_ = -1;
-  // Of a determined mechanism:
+  // Solver of a determined mechanism:
   DenseMatrix<double> J_;   ///< Phi_q of the active rows and the unknown coordinates, factored
   Eigen::VectorXd step_;    ///< residual of the active rows, then the Newton step of the unknown coordinates
   Eigen::VectorXd lambda_;  ///< multipliers of all rows

@@ -58,7 +58,7 @@ Eigen::Vector3d calc_velocity(const Eigen::Vector3d& q, const Eigen::Vector3d& q
   return {qd[2] - qd[0] * std::sin(q[1]), qd[1] * c + across * s, -qd[1] * s + across * c};
 }
 
-/// What calc_velocity() gives for given rates, solved for the rates.
+/// Rates of the angles for a given angular velocity: the inverse of calc_velocity().
 Eigen::Vector3d calc_rates(const Eigen::Vector3d& q, const Eigen::Vector3d& w) {
   const double s = std::sin(q[2]), c = std::cos(q[2]);
   const double psi = (w.y() * s + w.z() * c) / std::cos(q[1]);
