@@ -166,9 +166,8 @@ bool comes_before(const json& a, const json& b, bool descending) {
   return descending ? b < a : a < b;
 }
 
-/// The rows that pass, in their new order.
-std::vector<std::size_t> choose_rows(const ResultTable& table, const std::vector<Condition>& conditions,
-                                     const std::vector<std::pair<std::size_t, bool>>& order) {
+/// The rows that pass.
+std::vector<std::size_t> choose_rows(const ResultTable& table, const std::vector<Condition>& conditions) {
   std::vector<std::size_t> chosen;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     if (std::ranges::all_of(conditions, [&](const Condition& condition) {
@@ -176,17 +175,23 @@ std::vector<std::size_t> choose_rows(const ResultTable& table, const std::vector
         }))
       chosen.push_back(r);
   }
-  if (order.empty()) return chosen;
-  std::ranges::stable_sort(chosen, [&](std::size_t a, std::size_t b) {
+  return chosen;
+}
+
+/// Puts the first `count` of the chosen rows into their new order, and the rest behind them. Rows alike keep
+/// the order they had.
+void sort_rows(const ResultTable& table, const std::vector<std::pair<std::size_t, bool>>& order,
+               std::size_t count, std::vector<std::size_t>& chosen) {
+  const auto middle = chosen.begin() + static_cast<std::ptrdiff_t>(count);
+  std::ranges::partial_sort(chosen, middle, [&](std::size_t a, std::size_t b) {
     for (const auto& [column, descending] : order) {
       const json& left = table.rows[a][column];
       const json& right = table.rows[b][column];
       if (comes_before(left, right, descending)) return true;
       if (comes_before(right, left, descending)) return false;
     }
-    return false;
+    return a < b;
   });
-  return chosen;
 }
 
 void take_rows(const std::vector<std::size_t>& chosen, ResultTable& table) {
@@ -247,8 +252,10 @@ void apply(const ResultQuery& query, ResultTable& table, std::string_view listed
   const auto wanted = query.fields.empty() ? std::vector<std::size_t>{}
                                            : reader.fields(query.fields, !table.replicates.empty());
   reader.check();
-  auto chosen = choose_rows(table, conditions, order);
-  if (query.limit && chosen.size() > *query.limit) chosen.resize(*query.limit);
+  auto chosen = choose_rows(table, conditions);
+  const std::size_t count = std::min(chosen.size(), query.limit.value_or(chosen.size()));
+  if (!order.empty()) sort_rows(table, order, count, chosen);
+  chosen.resize(count);
   take_rows(chosen, table);
   if (!wanted.empty()) take_columns(wanted, table);
 }

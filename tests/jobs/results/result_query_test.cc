@@ -88,6 +88,30 @@ TEST(ResultQuery, OrdersByColumnsNullLast) {
             (Strings{"b", "d"}));
 }
 
+TEST(ResultQuery, OrdersTheFirstRowsAsItOrdersAll) {
+  jobs::ResultTable many = table();
+  many.rows.clear();
+  for (int k = 0; k < 300; ++k) {
+    many.rows.push_back({std::to_string(k), "succeeded", k % 3 == 0 ? "rigid" : "flexible", 0.1 * (k * 7 % 5),
+                         k % 11 == 0 ? json(nullptr) : json(k * 37 % 13)});
+  }
+  const auto ordered = [&](std::optional<std::size_t> limit) {
+    auto result = many;
+    jobs::apply({.fields = {}, .filters = {}, .order_by = "-peak,coupler", .limit = limit}, result,
+                jobs::kSweepColumns);
+    return ids(result);
+  };
+  const Strings all = ordered({});
+  for (std::size_t k = 1; k < all.size(); ++k) {  // rows alike keep their order
+    const auto& [before, row] = std::pair(many.rows[std::stoul(all[k - 1])], many.rows[std::stoul(all[k])]);
+    if (before[4] == row[4] && before[2] == row[2]) {
+      EXPECT_LT(std::stoi(all[k - 1]), std::stoi(all[k]));
+    }
+  }
+  for (const std::size_t limit : {0, 1, 7, 150, 299, 300, 1000})
+    EXPECT_EQ(ordered(limit), Strings(all.begin(), all.begin() + static_cast<int>(std::min(limit, all.size()))));
+}
+
 TEST(ResultQuery, TakesColumnsInTheOrderInWhichTheyAreWanted) {
   const auto result =
       applied({.fields = "peak,links.1,3.mass_kg,job_id", .filters = {}, .order_by = {}, .limit = {}});
