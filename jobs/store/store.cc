@@ -69,14 +69,16 @@ void Store::check_room() {
 }
 
 Writer StoreCore::open(const std::filesystem::path& path, StoreLock& lock) {
-  try {
-    return Writer(path);
-  } catch (const StorageError& error) {
-    // SQLite does not tell why it could not make its index
-    const bool may_be_full = error.full || (error.code & 0xff) == SQLITE_IOERR;
-    if (!may_be_full || !lock.release_room()) throw;
+  for (const bool with_held_room : {false, true}) {
+    if (with_held_room && !lock.release_room()) break;
+    try {
+      return Writer(path, LogIndex::kFile);
+    } catch (const StorageError& error) {
+      // SQLite does not tell why it could not make its index.
+      if (!error.full && (error.code & 0xff) != SQLITE_IOERR) throw;
+    }
   }
-  return Writer(path);
+  return Writer(path, LogIndex::kMemory);
 }
 
 void StoreCore::check_room() {

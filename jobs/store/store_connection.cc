@@ -85,9 +85,14 @@ bool make_for_owner(const std::filesystem::path& store) {
   return file >= 0;
 }
 
-SQLite::Database open_for_writing(const std::filesystem::path& store) {
-  return with_storage_errors(
-      [&] { return SQLite::Database(store.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms); });
+/// @param flags  SQLite::OPEN_READWRITE or SQLite::OPEN_READONLY
+SQLite::Database open_database(const std::filesystem::path& store, int flags, LogIndex index) {
+  return SQLite::Database(store.string(), flags, kBusyTimeout_ms,
+                          index == LogIndex::kMemory ? "unix-excl" : "");
+}
+
+SQLite::Database open_for_writing(const std::filesystem::path& store, LogIndex index) {
+  return with_storage_errors([&] { return open_database(store, SQLite::OPEN_READWRITE, index); });
 }
 
 /// One byte far beyond those that SQLite locks, from 2^30 on.
@@ -291,8 +296,8 @@ void roll_back_unfinished(SQLite::Database& database) noexcept {
   if (sqlite3_get_autocommit(database.getHandle()) == 0) database.tryExec("ROLLBACK");
 }
 
-Writer::Writer(const std::filesystem::path& store)
-    : file_lock_(store), database_(open_for_writing(store)) {
+Writer::Writer(const std::filesystem::path& store, LogIndex index)
+    : file_lock_(store), index_(index), database_(open_for_writing(store, index)) {
   with_storage_errors([&] {
     harden(database_);
     // A store that is refused stays as it is: nothing is added to its log before all is known to go well, and
@@ -344,8 +349,8 @@ void Writer::release_free_pages(Disk disk) {
   }
 }
 
-ReaderPool::Connection::Connection(const std::filesystem::path& store)
-    : database(store.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms) {
+ReaderPool::Connection::Connection(const std::filesystem::path& store, LogIndex index)
+    : database(open_database(store, SQLite::OPEN_READONLY, index)) {
   harden(database);
   database.exec("PRAGMA query_only = ON");
 }
@@ -359,7 +364,7 @@ std::unique_ptr<ReaderPool::Connection> ReaderPool::take() {
       return connection;
     }
   }
-  return std::make_unique<Connection>(store_);
+  return std::make_unique<Connection>(store_, index_);
 }
 
 void ReaderPool::put_back(std::unique_ptr<Connection> connection) {

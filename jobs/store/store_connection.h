@@ -157,12 +157,18 @@ class Transaction {
   SQLite::Database& database_;
 };
 
+/// Place of the index of a store's log, which all of a store's connections share.
+enum class LogIndex {
+  kFile,    ///< <store>-shm, for other processes as well
+  kMemory,  ///< of this process, which keeps all others out: for a disk that has no room for the file
+};
+
 /// The one connection that writes, and that moves the log into the file (checkpoints): with SQLite before
 /// 3.51.3 a checkpoint beside another connection's commit can damage a store, so no second connection may do
 /// either.
 class Writer {
  public:
-  explicit Writer(const std::filesystem::path& store);
+  explicit Writer(const std::filesystem::path& store, LogIndex index);
   ~Writer();  ///< moves the log into the file, if accept() was called
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -190,6 +196,8 @@ class Writer {
 
   /// Keeps or gives up a store that was made here.
   void keep(bool kept) { file_lock_.keep(kept); }
+
+  [[nodiscard]] LogIndex log_index() const { return index_; }
 
   /// See StoreFileLock::check(). Every write checks it, too.
   void check_file() const { file_lock_.check(); }
@@ -243,6 +251,7 @@ class Writer {
 
   /// Closed last: closing any descriptor of the file takes away SQLite's own locks on it.
   StoreFileLock file_lock_;
+  const LogIndex index_;
   std::mutex mutex_;  // guards the rest
   SQLite::Database database_;
   Statements statements_{database_};
@@ -254,7 +263,7 @@ class Writer {
 /// Read-only connections, kept for the next who needs one.
 class ReaderPool {
  public:
-  explicit ReaderPool(std::filesystem::path store) : store_(std::move(store)) {}
+  ReaderPool(std::filesystem::path store, LogIndex index) : store_(std::move(store)), index_(index) {}
 
   /// Runs work(database) on one consistent snapshot of the store.
   template <typename Work>
@@ -278,7 +287,7 @@ class ReaderPool {
 
  private:
   struct Connection {
-    explicit Connection(const std::filesystem::path& store);
+    Connection(const std::filesystem::path& store, LogIndex index);
 
     SQLite::Database database;
     Statements statements{database};
@@ -297,6 +306,7 @@ class ReaderPool {
   void put_back(std::unique_ptr<Connection> connection);
 
   const std::filesystem::path store_;
+  const LogIndex index_;
   std::mutex mutex_;  // guards idle_
   std::vector<std::unique_ptr<Connection>> idle_;
 };

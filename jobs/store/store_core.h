@@ -18,7 +18,7 @@ namespace jobs {
 /// Parts that the interfaces of a store share.
 struct StoreCore {
   StoreCore(const std::filesystem::path& path, const StoreQuota& limits)
-      : file(path), quota(limits), lock(path), writer(open(path, lock)), readers(path) {}
+      : file(path), quota(limits), lock(path), writer(open(path, lock)), readers(path, writer.log_index()) {}
 
   /// Checks, inside a transaction that has added something, that it may stay. @throws StoreLimitReached
   void check_quota(SQLite::Database& database) {
@@ -71,7 +71,7 @@ struct StoreCore {
   std::int64_t changes = 0;  ///< the last EndedJob::change
 
  private:
-  /// On a full disk with the room that is held for it.
+  /// On a full disk with the room that is held for it, or with what can be done without room.
   static Writer open(const std::filesystem::path& path, StoreLock& lock);
 
   std::atomic<bool> begun_ = false;

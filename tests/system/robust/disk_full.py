@@ -11,7 +11,8 @@ fails, reads are answered as before, no job fails. Afterwards, without a new sta
 if nothing had been.
 
 start       a file system of its own that is full when the service starts, after an orderly end and after a kill: a new store
-            is refused, one that is there is read and made smaller, readiness says why, and once there is room all is computed
+            is refused, one that is there is read and made smaller, readiness says why, and once there is room all is computed;
+            a store that holds no room, as a copy, is read, and made smaller once there is a little room
 """
 
 import atexit
@@ -154,6 +155,15 @@ def check_full(service, folder):
     check("reading, cancelling and deleting only" in (folder / "log").read_text(), "the log does not tell")
 
 
+def check_store_without_room(service, sweeps, table):
+    """What there is to read is read, and what would be written is refused until there is room for it."""
+    check(service.ask("POST", "/v1/sweeps", small_sweep(9))[0] == 507, "a sweep on a full disk")
+    check_reads(service, sweeps[0], table)
+    for sweep in sweeps:
+        check_deleting(service, sweep, (507,))
+    check(service.terminate()[0] == 0, "the end of a service that could not write")
+
+
 def check_start(program):
     """As root of a namespace of its own."""
     folder = temporary_folder()
@@ -197,9 +207,26 @@ def check_start(program):
         check(service.get("/readyz") == {"status": "ready"}, "readiness with room")
         after = service.submit({**small_sweep(9), "name": end, "reuse": False})
         check([service.wait_for_end(i) for i in (busy, after)] == ["succeeded"] * 2, "the sweeps after the full disk")
+    # A copy, and a store of a process that was killed; neither holds room.
+    service.kill()
+    copy = copy_store(store, disk.folder)
+    store.with_name("store.db.lock").unlink()
+    disk.fill()
+    for without_room in (copy, store):
+        service = start(without_room)
+        check_full(service, folder)
+        check_store_without_room(service, done, table)
+    service = start(copy)
+    disk.free()
+    check(service.get("/readyz") == {"status": "ready"}, "readiness of the copy with room")
+    check(check_deleting(service, done[0], (204,)), "deleting of the copy with room")
+    after = service.submit({**small_sweep(10), "reuse": False})
+    check(service.wait_for_end(after) == "succeeded", "a sweep of the copy with room")
+    check(service.ask("GET", "/v1/store")[2][:16] == b"SQLite format 3\0", "a copy of the copy")
     check(service.terminate()[0] == 0, "the end")
-    check_integrity(store)
-    print("start: opened, read and made smaller on a full disk; a new store refused")
+    for name in (copy, store):
+        check_integrity(name)
+    print("start: opened, read and made smaller on a full disk; without held room read; a new store refused")
 
 
 def main():
