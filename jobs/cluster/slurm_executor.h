@@ -20,6 +20,7 @@
 #include "jobs/runs/executor.h"
 #include "jobs/runs/job_limits.h"
 #include "jobs/store/cluster_batches.h"
+#include "jobs/store/store_lock.h"
 
 namespace jobs::cluster {
 

@@ -8,6 +8,7 @@
 
 #include "jobs/store/store.h"
 #include "jobs/store/store_connection.h"
+#include "jobs/store/store_lock.h"
 #include "jobs/store/store_schema.h"
 
 namespace jobs {

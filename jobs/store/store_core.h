@@ -11,6 +11,7 @@
 #include "jobs/store/active_sweeps.h"
 #include "jobs/store/check_quota.h"
 #include "jobs/store/store_connection.h"
+#include "jobs/store/store_lock.h"
 #include "jobs/store/sweep_order.h"
 
 namespace jobs {
