@@ -134,7 +134,10 @@ class ConstraintSolver {
       for (int k = std::max<int>(column, 0); k < count; ++k)
         delassus_.set(k, column, residual_[delassus_.active_row(k)]);
     });
-    return delassus_.factor();
+    if constexpr (Topology::is_static)
+      return delassus_.factor();
+    else
+      return delassus_.factor(dynamic_rows.jacobian, model_.free);
   }
 
   /// residual_ <- Phi_q M^-1 Phi_q^T of a pack of columns. The pack that begins with kUnconstrained brings

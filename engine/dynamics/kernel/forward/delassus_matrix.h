@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/dynamics/constraint_rows.h"
+#include "engine/dynamics/kernel/forward/cholesky.h"
 #include "engine/math/buffer.h"
 #include "engine/math/lanes.h"
 
@@ -18,49 +19,6 @@ constexpr double kSingularPivot = 1e-12;
 /// The column before the first one of the matrix: the unconstrained motion, which ConstraintSolver solves for
 /// together with the columns.
 constexpr int kUnconstrained = -1;
-
-/// Cholesky factorisation A = L L^T in place, in the lower triangle; the diagonal of L is stored inverted.
-/// False if a pivot is below `singular` times its diagonal entry. The loops are unrolled where n is a
-/// constant.
-/// @param stride  from row to row
-[[nodiscard]] RPSUP_INLINE bool factor_cholesky(int n, int stride, double singular, double* A) {
-#pragma GCC unroll 8
-  for (int c = 0; c < n; ++c) {
-    double* row_c = A + c * stride;
-    double pivot = row_c[c];
-#pragma GCC unroll 8
-    for (int k = 0; k < c; ++k) pivot -= row_c[k] * row_c[k];
-    if (!(pivot > singular * row_c[c])) return false;
-    const double inverse = 1.0 / std::sqrt(pivot);
-    row_c[c] = inverse;  
-#pragma GCC unroll 8
-    for (int r = c + 1; r < n; ++r) {
-      double* row = A + r * stride;
-      double sum = row[c];
-#pragma GCC unroll 8
-      for (int k = 0; k < c; ++k) sum -= row[k] * row_c[k];
-      row[c] = sum * inverse;
-    }
-  }
-  return true;
-}
-
-/// x <- (L L^T)^-1 x. @tparam T  a number, or a pack
-template <typename T>
-RPSUP_INLINE void solve_cholesky(int n, int stride, const double* L, T* x) {
-#pragma GCC unroll 8
-  for (int r = 0; r < n; ++r) {
-#pragma GCC unroll 8
-    for (int k = 0; k < r; ++k) x[r] -= L[r * stride + k] * x[k];
-    x[r] = L[r * stride + r] * x[r];
-  }
-#pragma GCC unroll 8
-  for (int r = n - 1; r >= 0; --r) {
-#pragma GCC unroll 8
-    for (int k = r + 1; k < n; ++k) x[r] -= L[k * stride + r] * x[k];
-    x[r] = L[r * stride + r] * x[r];
-  }
-}
 
 /// Delassus matrix of n independent constraints, n a compile-time constant: factored by Cholesky.
 template <int n>
@@ -114,7 +72,7 @@ class FullRankDelassus {
 /// alone is Tikhonov's solution, whose limit for e -> 0 is the minimum-norm one. A mechanism so passes
 /// positions in which it gains a freedom for an instant: there rows of a joint, all with one weight, fade
 /// together. Inactive rows, which no coordinate moves (those out of the plane of a flat mechanism), are left
-/// out.
+/// out, and where the rest is independent, S is factored as it is.
 class DelassusMatrix {
  public:
   explicit DelassusMatrix(const TreeModel& model)
@@ -124,7 +82,9 @@ class DelassusMatrix {
         active_(count_),
         A_(count_ * count_),
         S_(redundant_ ? count_ * count_ : 0),
+        G_(S_.size()),
         weight_(redundant_ ? count_ : 0),
+        weight_of_G_(weight_.size()),
         block_(count_),
         largest_(count_) {
     for (int r = 0; r < count_; ++r) active_[r] = block_[r] = r;
@@ -172,9 +132,16 @@ class DelassusMatrix {
   }
 
   /// False if the matrix of constraints that should be independent is singular.
-  [[nodiscard]] RPSUP_INLINE bool factor() {
-    if (redundant_) regularise();
-    return factor_cholesky(active_count_, active_count_, redundant_ ? 0.0 : kSingularPivot, A_.data());
+  /// @param jacobian  of redundant constraints
+  [[nodiscard]] RPSUP_INLINE bool factor(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
+    const int n = active_count_;
+    if (!redundant_) return factor_cholesky(n, n, kSingularPivot, A_.data());
+    weigh(A_, weight_);
+    for (int k = 0; k < n; ++k)
+      for (int l = 0; l <= k; ++l) S_[k * n + l] = S_[l * n + k] = entry(k, l);
+    regularised_ = !are_independent(jacobian, free);
+    for (int k = 0; k < n; ++k) entry(k, k) += regularised_ ? kEpsilon : 0.0;
+    return factor_cholesky(n, n, 0.0, A_.data());
   }
 
   /// x <- A^-1 x, or the minimum-norm solution. @tparam T  a number, or a pack
@@ -182,19 +149,25 @@ class DelassusMatrix {
   RPSUP_INLINE void solve(T* x, Workspace<T>& work) const {
     if (!redundant_) return solve_cholesky(count_, count_, A_.data(), x);
     const int n = active_count_;
-    T* rhs = work.rhs.data();
-    const T* solution = work.solution.data();
-    for (int k = 0; k < n; ++k) rhs[k] = weight_[k] * x[active_row(k)];
-    // (K14): S times a first solution is the projection of the right-hand side on the range of S. The part
-    // outside, if only by rounding, would be amplified by 1 / e.
-    refine_regularised(work);
-    multiply(solution, rhs);
-    refine_regularised(work);
+    T* scaled = work.rhs.data();
+    for (int k = 0; k < n; ++k) scaled[k] = weight_[k] * x[active_row(k)];
+    if (regularised_) {
+      // (K14): S times a first solution is the projection of the right-hand side on the range of S. The part
+      // outside, if only by rounding, would be amplified by 1 / e.
+      refine_regularised(work);
+      multiply(work.solution.data(), scaled);
+      refine_regularised(work);
+      for (int k = 0; k < n; ++k) scaled[k] = work.solution[k];
+    } else {
+      solve_cholesky(n, n, A_.data(), scaled);
+    }
     for (int r = 0; r < count_; ++r) x[r] = {};
-    for (int k = 0; k < n; ++k) x[active_row(k)] = weight_[k] * solution[k];
+    for (int k = 0; k < n; ++k) x[active_row(k)] = weight_[k] * scaled[k];
   }
 
  private:
+  static constexpr double kEpsilon = 1e-9;  ///< e
+
   /// work.solution <- S^+ work.rhs, of least norm, by the iteration (K13).
   template <typename T>
   RPSUP_INLINE void refine_regularised(Workspace<T>& work) const {
@@ -228,31 +201,57 @@ class DelassusMatrix {
   /// Entry of the k-th and l-th active rows, l <= k.
   [[nodiscard]] RPSUP_INLINE double& entry(int k, int l) { return A_[k * active_count_ + l]; }
 
-  /// Computes the weights and S. A <- S + e 1, the lower triangle.
-  RPSUP_INLINE void regularise() {
-    constexpr double kEpsilon = 1e-9;  // e
+  /// Weighs the rows of a symmetric matrix so that the largest diagonal entry of each block becomes one.
+  RPSUP_INLINE void weigh(Buffer<double>& matrix, Buffer<double>& weight) {
     const int n = active_count_;
     largest_.fill(0.0);
     for (int k = 0; k < n; ++k) {
       double& largest = largest_[block_[active_row(k)]];
-      largest = std::max(largest, entry(k, k));
+      largest = std::max(largest, matrix[k * n + k]);
     }
+    for (int k = 0; k < n; ++k) weight[k] = 1.0 / std::sqrt(largest_[block_[active_row(k)]]);
     for (int k = 0; k < n; ++k)
-      weight_[k] = 1.0 / std::sqrt(largest_[block_[active_row(k)]]);
-    for (int k = 0; k < n; ++k)
-      for (int l = 0; l <= k; ++l) {
-        const double scaled = weight_[k] * weight_[l] * entry(k, l);
-        S_[k * n + l] = S_[l * n + k] = scaled;
-        entry(k, l) = scaled + (k == l ? kEpsilon : 0.0);
-      }
+      for (int l = 0; l <= k; ++l) matrix[k * n + l] *= weight[k] * weight[l];
+  }
+
+  /// G_ <- Phi_q D Phi_q^T, weighed: the Delassus matrix of a mechanism whose coordinates all weigh the same,
+  /// for a motion of a row by one.
+  RPSUP_INLINE void calc_geometry(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
+    const int n = active_count_;
+    G_.fill(0.0);
+    for (const int i : free) {
+      double largest = 0.0;
+      for (int k = 0; k < n; ++k) largest = std::max(largest, std::abs(jacobian.row(active_row(k))[i]));
+      if (largest == 0.0) continue;
+      for (int k = 0; k < n; ++k)
+        for (int l = 0; l <= k; ++l)
+          G_[k * n + l] +=
+              jacobian.row(active_row(k))[i] * jacobian.row(active_row(l))[i] / (largest * largest);
+    }
+    weigh(G_, weight_of_G_);
+  }
+
+  /// Whether the active rows are independent, far from a change point. That is one of the geometry, G: light
+  /// links among heavy ones give S small eigenvalues in any position.
+  RPSUP_INLINE bool are_independent(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
+    const int n = active_count_;
+    // In a chain of loops the least eigenvalue is less than the least pivot, by the square of their number.
+    const double least = 1e-7 * n * n;
+    std::copy_n(S_.data(), n * n, G_.data());
+    const double pivot_of_S = calc_least_pivot(n, G_.data());
+    if (pivot_of_S > least) return true;
+    calc_geometry(jacobian, free);
+    return pivot_of_S > 0.0 && calc_least_pivot(n, G_.data()) > least;
   }
 
   int count_;
   bool redundant_;
+  bool regularised_ = false;         ///< here
   int active_count_;
   Buffer<int> active_;
   Buffer<double> A_;                 ///< row by row; then its Cholesky factor, or that of S + e 1
-  Buffer<double> S_, weight_;
+  Buffer<double> S_, G_;             ///< G_ is workspace of calc_least_pivot() as well
+  Buffer<double> weight_, weight_of_G_;
   Buffer<int> block_;                ///< of each row: the first row of the same joint and kind
   Buffer<double> largest_;           ///< diagonal entry of each block of rows
 };
