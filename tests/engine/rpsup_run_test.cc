@@ -235,6 +235,23 @@ TEST(Elements, WithoutFrictionFollowTheContinuumAtFirst) {
   EXPECT_NEAR(metric(elements, "peak_contact_force_n"), metric(continuum, "peak_contact_force_n"), 0.02 * metric(continuum, "peak_contact_force_n"));
 }
 
+TEST(Elements, LoadsAtTheDefaultToleranceAreThoseOfTightRuns) {
+  for (const Coupler coupler : {Coupler::kRigid, Coupler::kFlexible}) {
+    RpsupParameters parameters = validation::across_rpsup();
+    parameters.coupler = coupler;
+    parameters.contact = ContactForm::kElements;
+    parameters.run_up = 0.2;
+    const RunResult by_default = simulate_rpsup(parameters, {.duration = 0.6}, {});
+    const RunResult tight =
+        simulate_rpsup(parameters, {.duration = 0.6, .relative_tolerance = 1e-8, .absolute_tolerance = 1e-8}, {});
+    ASSERT_EQ(by_default.status, RunStatus::kSucceeded) << by_default.detail;
+    ASSERT_EQ(tight.status, RunStatus::kSucceeded) << tight.detail;
+    for (const char* load : {"peak_contact_force_n", "max_penetration_um", "peak_crank_torque_n_m", "peak_rod_force_n",
+                             "peak_joint_reaction_n", "peak_slider_acceleration_m_s2"})
+      EXPECT_NEAR(metric(by_default, load), metric(tight, load), 1e-3 * metric(tight, load)) << load;
+  }
+}
+
 // A wide clearance under a strong pull: impacts so deep that the elements' bristles outgrow their first place.
 TEST(Elements, GoOnWhereMoreOfThemTouchThanExpected) {
   RpsupParameters parameters = validation::across_rpsup();
