@@ -101,23 +101,26 @@ bool closes_loops(const Mechanism& mechanism) {
   return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance; });
 }
 
-/// Where loops are solved with masses, no free coordinate may carry next to nothing beside the others: rounding of
-/// the heavy bodies' motion would move the light ones.
-void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built, const std::vector<FrameIndex>& free) {
+/// Where loops are solved with masses, no free coordinate may carry next to nothing beside the others:
+/// rounding of the heavy bodies' motion would move the light ones.
+void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built,
+                       const std::vector<FrameIndex>& free) {
   constexpr double kLeast = 5e-9;  // below, steps shrink to nothing
   const std::vector<Coordinate>& coordinates = built.mechanism.coordinates;
   std::vector<double> carried(coordinates.size());
   for (std::size_t i = coordinates.size(); i-- > 0;) {
     carried[i] += coordinates[i].mass;
-    if (coordinates[i].parent != kGround) carried[static_cast<std::size_t>(coordinates[i].parent)] += carried[i];
+    if (coordinates[i].parent != kGround)
+      carried[static_cast<std::size_t>(coordinates[i].parent)] += carried[i];
   }
   const double most = *std::ranges::max_element(carried);
   for (const FrameIndex i : free)
     if (const double ratio = carried[static_cast<std::size_t>(i)] / most; ratio < kLeast) {
       std::ostringstream detail;
-      detail << "carries, by its coordinate " << coordinates[static_cast<std::size_t>(i)].name << ", only " << ratio
-             << " of the largest mass that a coordinate carries; in loops that the drives do not determine, at "
-                "least " << kLeast << " can be computed: give the bodies that it carries more, or drive the linkage";
+      detail << "carries, by its coordinate " << coordinates[static_cast<std::size_t>(i)].name << ", only "
+             << ratio << " of the largest mass that a coordinate carries; in loops that the drives do not "
+             << "determine, at least " << kLeast
+             << " can be computed: give the bodies that it carries more, or drive the linkage";
       throw InvalidInput(owner_of(linkage, built, i), detail.str());
     }
 }
@@ -194,8 +197,8 @@ BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
   if (!closure.assemble(0.0, assembled)) {
     if (closure.turned_over_joint() >= 0)
       throw InvalidInput("joints." + name_of_cut(linkage, built, closure.turned_over_joint()),
-                         "closes at t = 0 only with its second body turned over by a half turn; a guess or start "
-                         "of a coordinate nearer to the right position, or other axes, may help");
+                         "closes at t = 0 only with its second body turned over by a half turn; a guess or "
+                         "start of a coordinate nearer to the right position, or other axes, may help");
     const std::string joint = widest_gap(linkage, built, assembled);
     if (!closure.rates_fit())
       throw InvalidInput(

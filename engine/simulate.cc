@@ -64,8 +64,8 @@ RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Obser
                         "; start beside it, or with rates along one of the ways"};
     if (start == LoopClosure::Start::kImmovable)
       return {.status = RunStatus::kLockUp,
-              .detail = "the linkage cannot move from its start, though velocities could be given: its links are "
-                        "stretched into one line, say"};
+              .detail = "the linkage cannot move from its start, though velocities could be given: its links "
+                        "are stretched into one line, say"};
     if (start == LoopClosure::Start::kContradiction)
       return {.status = RunStatus::kLockUp,
               .detail = "no accelerations satisfy the joints and the drives at t = 0"};

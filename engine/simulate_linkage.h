@@ -18,7 +18,8 @@ struct LinkageTables {
 /// weighs, loops that do not close at t = 0 or do not let the drives begin, a spring without a direction
 /// then. Bodies and joints must fit together as build_linkage() asks, and beams, springs and clearances be
 /// within the bounds that their structures name: neither is looked at.
-/// @param integrator  kRk4 integrates even where the drives determine the motion: every freedom needs mass then
+/// @param integrator  kRk4 integrates even where the drives determine the motion: every freedom needs mass
+///     then
 /// @returns it built, the springs of no given free length unloaded in the assembled position
 /// @throws InvalidInput for the first fault; its field is "bodies.NAME.mass" and the like, "joints.NAME" for
 /// a loop or a freedom, "joints" for several of them together, "springs.NAME".

@@ -124,8 +124,8 @@ void add_limit_options(CLI::App& command, ServeOptions& options) {
       "Maximum number of steps of a job, after which it fails; 0: 100,000,000, the limit of every job",
       "RPSUP_JOB_STEPS");
   add("--job-memory-mb", options.job_memory_mb, 1e9,
-      "Maximum memory of a job's trajectory, in MB; 0: no limit. Default: 1024, or less if the memory limit of "
-      "the service's control group leaves less for each of its threads", "RPSUP_JOB_MEMORY_MB");
+      "Maximum memory of a job's trajectory, in MB; 0: no limit. Default: 1024, or less if the memory limit "
+      "of the service's control group leaves less for each of its threads", "RPSUP_JOB_MEMORY_MB");
   add("--store-limit-mb", options.store_limit_mb, 1e9,
       "Maximum size of the store without its log, which takes up to 67 MB, in MB; 0: the space on its disk",
       "RPSUP_STORE_LIMIT_MB");

@@ -180,8 +180,8 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
   add_contact_time(joint.name + "_contact_time_ratio",
                    "Fraction of the whole run in which the journal touches the bore", {.joint = cut});
   const Reading face_force = [=](const Evaluation& at) { return at.joints[cut].load.face_normal_sum; };
-  add_channel(joint.name + "_face_force_n", "Sum of the normal forces of the shoulders on the journal's faces",
-              face_force);
+  add_channel(joint.name + "_face_force_n",
+              "Sum of the normal forces of the shoulders on the journal's faces", face_force);
   add_load("peak_" + joint.name + "_face_force_n",
            "Largest sum of the normal forces of the shoulders on the journal's faces in the whole run", 1.0,
            face_force);
@@ -190,7 +190,8 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
                    {.joint = cut, .of_faces = true});
 }
 
-void LinkageQuantities::add_contact_time(const std::string& key, const char* help, Measured::Contact contact) {
+void LinkageQuantities::add_contact_time(const std::string& key, const char* help,
+                                         Measured::Contact contact) {
   const std::size_t index = measured_.contacts.size();
   measured_.contacts.push_back(contact);
   add_metric({.key = key, .help = help}, [=](const RunMetrics& metrics, const RunOutcome& outcome) {
@@ -232,7 +233,9 @@ void LinkageQuantities::add_run_metrics() {
   add_metric({.key = "face_impact_count",
               .help = "Number of onsets of contact of a journal's face with its shoulder in the whole run",
               .integer = true},
-             [](const RunMetrics& metrics, const auto&) { return static_cast<double>(metrics.face_onsets()); });
+             [](const RunMetrics& metrics, const auto&) {
+               return static_cast<double>(metrics.face_onsets());
+             });
   add_metric({.key = "friction_work_j", .help = "Energy lost to friction in the joints in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().friction_loss; });
   add_metric({.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
@@ -244,8 +247,8 @@ void LinkageQuantities::add_run_metrics() {
               .help = "Largest |E − E(0) − work of the drives + losses| in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.largest_imbalance(); });
   add_metric({.key = "energy_residual",
-              .help = "Ratio of energy_imbalance_j to the work turned over or, without drives and losses, to the "
-                      "largest kinetic energy or change of potential energy; null if nothing moves"},
+              .help = "Ratio of energy_imbalance_j to the work turned over or, without drives and losses, to "
+                      "the largest kinetic energy or change of potential energy; null if nothing moves"},
              [](const RunMetrics& metrics, const auto&) { return metrics.calc_energy_residual(); });
   add_metric(
       {.key = "redundant_constraints",

@@ -61,8 +61,8 @@ class RunMetrics {
   [[nodiscard]] double largest_imbalance() const { return largest_imbalance_; }
   /// Work of the drives and losses, counted without sign: what an energy residual is measured against, [J].
   [[nodiscard]] double work_turned_over() const { return turned_over_; }
-  /// The one over the other; without drives and losses, over the largest kinetic energy or change of potential
-  /// energy; not a number if nothing moves.
+  /// The one over the other; without drives and losses, over the largest kinetic energy or change of
+  /// potential energy; not a number if nothing moves.
   [[nodiscard]] double calc_energy_residual() const;
 
  private:

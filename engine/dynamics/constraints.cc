@@ -33,8 +33,9 @@ void measure_by_rotation_vector(const CutRows& rows, const Frame<double, double>
   if (rows.axes < 2) return;
   const Eigen::Matrix3d R = calc_relative_rotation(b, j);
   const Eigen::AngleAxisd rotation =
-      rows.axes == 3 ? Eigen::AngleAxisd(R)
-                     : Eigen::AngleAxisd(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), R.col(2)));
+      rows.axes == 3
+          ? Eigen::AngleAxisd(R)
+          : Eigen::AngleAxisd(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), R.col(2)));
   const Vec3<double>* const along[] = {&b.R.x, &b.R.y, &b.R.z};
   for (int k = 0; k < rows.axes; ++k) {
     residual.Phi[rows.positions + k] = rotation.angle() * rotation.axis()[k];
@@ -92,7 +93,8 @@ int Constraints::find_turned_over(const std::vector<FrameMotion>& frames) const 
   int found = -1;
   each_joint(frames, [&](std::size_t k, const TreeCutJoint& joint, const auto& b, const auto& j) {
     const Eigen::Matrix3d R = calc_relative_rotation(b, j);
-    const bool turned_over = joint.rows.axes >= 2 && (R(2, 2) < 0.0 || (joint.rows.axes == 3 && R(0, 0) < 0.0));
+    const bool turned_over =
+        joint.rows.axes >= 2 && (R(2, 2) < 0.0 || (joint.rows.axes == 3 && R(0, 0) < 0.0));
     if (turned_over && found < 0) found = static_cast<int>(k);
   });
   return found;

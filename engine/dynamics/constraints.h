@@ -17,8 +17,8 @@ namespace engine {
 /// Measure, in the rows of axes, of the rotation between bearing and journal.
 enum class AxisResiduals {
   kProducts,         ///< scalar products of axes, as ConstraintResiduals says: zero for a half turn as well
-  kRotationVectors,  ///< components, along the bearing's axes, of the rotation that would turn the journal into
-                     ///< place: zero there alone. Phi_q is exact there only
+  kRotationVectors,  ///< components, along the bearing's axes, of the rotation that would turn the journal
+                     ///< into place: zero there alone. Phi_q is exact there only
 };
 
 /// Residuals and Jacobian of the rows of all ideal cut joints and couplings, of given coordinates and frames:

@@ -226,8 +226,8 @@ Eigen::MatrixXd LoopClosure::calc_rigid_rows() const {
   return calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all);
 }
 
-/// Weights that make the largest entry among the rows of a joint's position, or of its axes, one: ranks then do
-/// not depend on the lengths of links.
+/// Weights that make the largest entry among the rows of a joint's position, or of its axes, one: ranks then
+/// do not depend on the lengths of links.
 Eigen::VectorXd LoopClosure::calc_row_weights() const {
   const Eigen::MatrixXd J = calc_rigid_rows();
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(J.rows());
@@ -569,7 +569,8 @@ void LoopClosure::interpolate(double t, const Evaluation& before, const Evaluati
       at.qdd[i] = before.qdd[i];
       continue;
     }
-    const Quintic q(interval, before.q[i], before.qd[i], before.qdd[i], after.q[i], after.qd[i], after.qdd[i]);
+    const Quintic q(interval, before.q[i], before.qd[i], before.qdd[i], after.q[i], after.qd[i],
+                    after.qdd[i]);
     at.q[i] = q.value(s);
     at.qd[i] = q.rate(s);
     at.qdd[i] = q.acceleration(s);

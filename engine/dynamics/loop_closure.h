@@ -47,10 +47,11 @@ class LoopClosure {
 
   /// Closes the loops at time t by Newton's method from each coordinate's assembly_guess, or with the
   /// coordinate fixed at its start, and solves for the velocities that are not given.
-  /// Joints with clearance are closed at the centres of their bearings, unless given coordinates keep them off:
-  /// anywhere in the bore then.
+  /// Joints with clearance are closed at the centres of their bearings, unless given coordinates keep them
+  /// off: anywhere in the bore then.
   /// @returns false if the loops do not close (residual() says by how much), if they close only with a joint
-  /// turned over (see turned_over_joint()), or if the given velocities violate the constraints (see rates_fit())
+  /// turned over (see turned_over_joint()), or if the given velocities violate the constraints (see
+  /// rates_fit())
   [[nodiscard]] bool assemble(double t, Evaluation& at);
 
   /// After assemble(): the cut joint that closes only a half turn off; -1: none.

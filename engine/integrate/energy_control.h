@@ -15,9 +15,10 @@ namespace engine {
 /// mean power with which drives, losses and motion have exchanged energy so far, times its length.
 class EnergyControl {
  public:
-  /// @param rigid_mass  mass of a mechanism without contacts and dampers, [kg]; 0: another mechanism. Errors of a
-  /// rigid mechanism have both signs. Its steps may also err by a part of their own exchange, and by the errors
-  /// of Newton's iterations, which no shorter step makes less. Its absolute tolerance is for each kilogram.
+  /// @param rigid_mass  mass of a mechanism without contacts and dampers, [kg]; 0: another mechanism. Errors
+  /// of a rigid mechanism have both signs. Its steps may also err by a part of their own exchange, and by the
+  /// errors of Newton's iterations, which no shorter step makes less. Its absolute tolerance is for each
+  /// kilogram.
   EnergyControl(const RunOptions& options, double rigid_mass)
       : rigid_(rigid_mass > 0.0),
         relative_(kPart * std::max(options.relative_tolerance, kFinest)),

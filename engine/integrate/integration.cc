@@ -111,8 +111,8 @@ bool Integration::start(const Evaluation& assembled) {
   return true;
 }
 
-/// Begins new charts of spherical joints whose angles come near to a singularity. @returns whether any is new;
-/// the state is to be evaluated again then
+/// Begins new charts of spherical joints whose angles come near to a singularity. @returns whether any is
+/// new; the state is to be evaluated again then
 bool Integration::begin_charts() {
   if (!charts_.update(mechanism_, start_.at.q, start_.at.qd)) return false;
   system_.reload_mechanism();

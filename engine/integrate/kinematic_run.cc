@@ -97,8 +97,8 @@ class KinematicRun {
     outcome_.detail = std::move(detail);
   }
 
-  /// The motion leads no further. Rates are bounded in a change point, and grow without bound before a position
-  /// beyond reach.
+  /// The motion leads no further. Rates are bounded in a change point, and grow without bound before a
+  /// position beyond reach.
   void fail_at_end() {
     constexpr double kNear = 0.05;       // of the largest determinant
     constexpr double kUnbounded = 30.0;  // of the largest rate elsewhere
@@ -143,7 +143,8 @@ class KinematicRun {
     constexpr double kBeside = 0.4;  // of a step
     const double apart = kBeside * step_;
     auto& [left, right] = beside_;
-    if (!solve(t - apart, before, nearby, left) || !is_continued(t - apart, before, nearby, left)) return false;
+    if (!solve(t - apart, before, nearby, left) || !is_continued(t - apart, before, nearby, left))
+      return false;
     right = left;
     if (!piece_.is_over(t) && !(solve(t + apart, before, nearby, right) &&
                                 is_continued(t + apart, before, nearby, right)))
@@ -157,8 +158,8 @@ class KinematicRun {
     calc_energies(at);
   }
 
-  /// Whether the motion goes on as predicted, on the branch on which it was: another one would differ by about
-  /// the motion since the change point.
+  /// Whether the motion goes on as predicted, on the branch on which it was: another one would differ by
+  /// about the motion since the change point.
   [[nodiscard]] bool is_continued(double t, const Evaluation& before, const Evaluation& nearby,
                                   const Evaluation& at) {
     constexpr double kPredicted = 1e-3;  // of the motion between the two instants
@@ -288,8 +289,9 @@ class KinematicRun {
   /// those near by, since the next extremum may be as high and as narrow as the last; the error of powers to
   /// the largest of the run, since their sum counts.
   bool is_resolved() {
-    constexpr double kUniform = 0.3;  // of the rates' squares: smaller accelerations of a uniform motion do not
-                                      // count, which are rounding next to a change point
+    // Of the rates' squares. Smaller accelerations of a uniform motion do not count: next to a change point
+    // they are rounding.
+    constexpr double kUniform = 0.3;
     const std::vector<FrameIndex>& unknown = closure_.unknown_coordinates();
     double of_accelerations = 0.0;
     double fastest = 0.0;
@@ -307,8 +309,8 @@ class KinematicRun {
     double of_powers = 0.0;
     block_power_ = 0.0;
     for (std::size_t k = 0; k < powers_.size(); ++k) {
-      block_power_ = std::max(
-          block_power_, interpolate(powers_[k], [this, k](const Evaluation& at) { return calc_power(at, k); }));
+      const auto power = [this, k](const Evaluation& at) { return calc_power(at, k); };
+      block_power_ = std::max(block_power_, interpolate(powers_[k], power));
       power_scale_ = std::max(power_scale_, block_power_);
       of_powers = std::max(of_powers, std::abs(powers_[k].interpolant.fourth_difference()));
     }
@@ -502,8 +504,8 @@ bool allows_kinematics(const Mechanism& mechanism, Integrator integrator) {
 
 std::string describe_change_point(const Mechanism& mechanism, const Evaluation& at) {
   std::ostringstream text;
-  text << "the linkage is in a change point, from which it can follow its drives in more than one way: at t = "
-       << at.t << " s, with ";
+  text << "the linkage is in a change point, from which it can follow its drives in more than one way: "
+       << "at t = " << at.t << " s, with ";
   for (std::size_t k = 0; k < mechanism.drives.size(); ++k) {
     const FrameIndex d = mechanism.drives[k].coordinate;
     const Coordinate& driven = mechanism.coordinates[static_cast<std::size_t>(d)];

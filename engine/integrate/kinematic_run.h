@@ -30,9 +30,10 @@ namespace engine {
 /// gets a short step around its extremum, so that the quadratic by which observers read steps finds the
 /// extremum and its instant.
 ///
-/// Change points, where two branches of the motion cross, are passed on the smooth branch: the step may be any
-/// length in which the motion continues as predicted. In the change point itself constraints do not determine
-/// the motion, but shortly before and after they do. A linkage that comes to rest there ends as kSingular.
+/// Change points, where two branches of the motion cross, are passed on the smooth branch: the step may be
+/// any length in which the motion continues as predicted. In the change point itself constraints do not
+/// determine the motion, but shortly before and after they do. A linkage that comes to rest there ends as
+/// kSingular.
 [[nodiscard]] RunOutcome run_kinematics(const Mechanism& mechanism, LoopClosure& closure,
                                         const RunOptions& options, Observer& observer,
                                         const Evaluation& assembled);

@@ -76,7 +76,8 @@ Eigen::Vector3d calc_bias(const Eigen::Vector3d& q, const Eigen::Vector3d& qd) {
 /// Angles of a rotation, those nearest to others.
 Eigen::Vector3d find_angles(const Eigen::Matrix3d& R, const Eigen::Vector3d& near) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
-  const Eigen::Vector3d first(std::atan2(R(1, 0), R(0, 0)), std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
+  const Eigen::Vector3d first(std::atan2(R(1, 0), R(0, 0)),
+                              std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
                               std::atan2(R(2, 1), R(2, 2)));
   const Eigen::Vector3d second(first[0] + std::numbers::pi, std::numbers::pi - first[1],
                                first[2] + std::numbers::pi);

@@ -38,8 +38,8 @@ class SphericalCharts {
   using Angles = std::vector<Eigen::Vector3d>;
   [[nodiscard]] Angles angles_of(const Eigen::VectorXd& q) const;
 
-  /// Gives the evaluation the angles of the given chart. Of the many that are the same rotation, those nearest
-  /// to `near` are taken. In the singular position itself rates are not finite.
+  /// Gives the evaluation the angles of the given chart. Of the many that are the same rotation, those
+  /// nearest to `near` are taken. In the singular position itself rates are not finite.
   void restore_given(const Angles& near, Evaluation& at) const;
 
  private:

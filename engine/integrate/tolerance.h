@@ -47,7 +47,8 @@ class Tolerance {
                     Eigen::VectorXd& weights) const;
 
  private:
-  static constexpr double kRest = 1e-8, kSlow = 0.01, kOrdinarySpeed = 0.1;  ///< [m/s]; at rest there is rounding
+  /// [m/s]; at rest there is rounding.
+  static constexpr double kRest = 1e-8, kSlow = 0.01, kOrdinarySpeed = 0.1;
 
   double relative_, absolute_;
   double requested_absolute_ = absolute_;

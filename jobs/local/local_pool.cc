@@ -68,7 +68,8 @@ void LocalPool::wake() {
 
 void LocalPool::stop_job(const std::string& id, std::int64_t attempt) {
   const std::lock_guard lock(running_mutex_);
-  if (const auto found = running_.find({id, attempt}); found != running_.end()) found->second.stop.request_stop();
+  const auto found = running_.find({id, attempt});
+  if (found != running_.end()) found->second.stop.request_stop();
 }
 
 std::optional<double> LocalPool::find_part_done(const std::string& id) const {

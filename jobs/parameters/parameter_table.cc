@@ -44,7 +44,8 @@ ParameterInfo row(const About& about, ParameterKind kind) {
           .range = {}, .choices = {}, .help = about.help, .read = {}, .write = {}};
 }
 
-/// @param per_si  how many of the key's unit make one SI unit. Dividing by it (instead of multiplying by its inverse)
+/// @param per_si  how many of the key's unit make one SI unit. Dividing by it (instead of multiplying by its
+///     inverse)
 ///                turns 0.25 mm into exactly the double nearest to 0.00025.
 template <typename Member>
 ParameterInfo number(const About& about, Range range, Member member, double per_si = 1.0) {
@@ -245,7 +246,8 @@ void add_body_rows(Rows& rows) {
       {{"x", Direction::kX}, {"-x", Direction::kMinusX}, {"y", Direction::kY}, {"-y", Direction::kMinusY}, {"z", Direction::kZ}, {"-z", Direction::kMinusZ}}));
 }
 
-/// Everything that is said of a round link but its length, in this order: its model, diameters, elements and damping.
+/// Everything that is said of a round link but its length, in this order: its model, diameters, elements and
+/// damping.
 void add_link_rows(engine::RoundLink P::*link, const std::array<About, 5>& about, Rows& rows) {
   using engine::LinkModel;
   using engine::RoundLink;
@@ -285,7 +287,8 @@ void add_round_link_rows(Rows& rows) {
                         between(0, 10'000), &P::cross_length, kMmPerM));
 }
 
-/// The scope of parameters that are not of joints. What is said of the RPSUP linkage's own bodies and drives is for it alone.
+/// The scope of parameters that are not of joints. What is said of the RPSUP linkage's own bodies and drives
+/// is for it alone.
 ParameterScope scope_of(std::string_view key) {
   constexpr std::array<std::string_view, 11> kOfAnyRun{"duration_s", "output_rate_hz", "integrator", "step_s", "relative_tolerance", "absolute_tolerance",
                                                        "run_up_s", "drive", "baumgarte_alpha_1_s", "baumgarte_beta_1_s", "gravity_m_s2"};

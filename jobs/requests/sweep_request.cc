@@ -109,7 +109,8 @@ class SweepParser {
     if (!request_.contains("replicates")) return;
     const json replicates = request_.at("replicates");
     if (!replicates.is_object())
-      return fault("/replicates", "must be an object of count, perturbation, seed, only and tolerance_factor");
+      return fault("/replicates",
+                   "must be an object of count, perturbation, seed, only and tolerance_factor");
     constexpr std::array<std::string_view, 5> kKeys{"count", "perturbation", "seed", "only",
                                                     "tolerance_factor"};
     const std::size_t before = faults_.size();

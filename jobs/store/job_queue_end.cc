@@ -14,8 +14,8 @@ std::vector<RunningJob> find_running(SQLite::Database& database, const char* col
   SQLite::Statement find(
       database,
       std::string(
-          "SELECT j.id, j.attempt FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep WHERE j.state = 'running' "
-          "AND ") +
+          "SELECT j.id, j.attempt FROM jobs j LEFT JOIN sweeps s ON s.seq = j.sweep "
+          "WHERE j.state = 'running' AND ") +
           column + " = ?");
   find.bind(1, id);
   std::vector<RunningJob> running;

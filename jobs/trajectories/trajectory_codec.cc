@@ -412,7 +412,8 @@ void PackedTrajectory::load(const StoredBytes& blob) {
   std::map<std::size_t, Frame> frames;  // by their offset
   std::size_t total = 0, largest = 0;
   for (const Channel& channel : channels_) {
-    const auto [frame, is_new] = frames.try_emplace(channel.offset, Frame{.size = channel.size, .place = total});
+    const auto [frame, is_new] =
+        frames.try_emplace(channel.offset, Frame{.size = channel.size, .place = total});
     if (!is_new) continue;
     const std::string head = blob.read(channel.offset, std::min(channel.size, kLargestFrameHead));
     const auto encoding = static_cast<Encoding>(channel.encoding);

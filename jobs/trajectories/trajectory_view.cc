@@ -28,7 +28,8 @@ void visit(ColumnCursor& column, const Use& use) {
 class PartCursor final : public ColumnCursor {
  public:
   /// @param kept  of the samples from `begin` on; empty: all. Outlives this
-  PartCursor(std::unique_ptr<ColumnCursor> all, std::size_t begin, std::size_t end, const std::vector<bool>& kept)
+  PartCursor(std::unique_ptr<ColumnCursor> all, std::size_t begin, std::size_t end,
+             const std::vector<bool>& kept)
       : all_(std::move(all)), skip_(begin), end_(end - begin), kept_(kept) {}
 
   void append_next(std::size_t count, std::vector<double>& to) override {

@@ -11,8 +11,8 @@
 
 namespace jobs {
 
-/// Part of a stored trajectory that a query wants, decoded a block of samples at a time: memory is that of the
-/// packed channels, however large the numbers are. Gives the samples of read_trajectory().
+/// Part of a stored trajectory that a query wants, decoded a block of samples at a time: memory is that of
+/// the packed channels, however large the numbers are. Gives the samples of read_trajectory().
 class TrajectoryView {
  public:
   /// Reads the header alone.

@@ -124,7 +124,8 @@ void RemoteService::check(const HttpClient::Answer& answer) const {
   const auto problem = find_problem(answer);
   // Not of this service but of what stands in front of it.
   if (answer.status == kUnauthorized || (answer.status == kForbidden && !problem)) {
-    throw BadInput(url_ + " refuses the request (" + status + "): give the right token by --token-file or RPSUP_TOKEN");
+    throw BadInput(url_ + " refuses the request (" + status +
+                   "): give the right token by --token-file or RPSUP_TOKEN");
   }
   if (!problem)
     throw std::runtime_error(url_ + " answers " + status + ", but not as this service does. Is --url right?");

@@ -21,7 +21,8 @@ class WorkLimit {
       : free_(at_a_time), at_a_time_(at_a_time), most_waiting_(most_waiting), on_idle_(std::move(on_idle)) {}
 
   /// Waits for a permit. Not to outlive this.
-  /// @returns a permit, which is given back by its destruction; null if too many wait, or one waits for too long
+  /// @returns a permit, which is given back by its destruction; null if too many wait, or one waits for too
+  ///     long
   [[nodiscard]] std::shared_ptr<const void> acquire() {
     constexpr std::chrono::seconds kPatience{20};
     std::unique_lock lock(mutex_);

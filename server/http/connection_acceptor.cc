@@ -267,7 +267,8 @@ void ConnectionAcceptor::close_timed_out() {
 
 void ConnectionAcceptor::close(Place place) {
   const PendingConnection& connection = place->connection;
-  // close() alone would leave the socket in epoll as long as a process that is being started has a copy of it.
+  // close() alone would leave the socket in epoll as long as a process that is being started has a copy of
+  // it.
   if (connection.socket >= 0) {
     ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, connection.socket, nullptr);
     ::close(connection.socket);

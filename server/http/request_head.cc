@@ -170,8 +170,8 @@ std::string_view read_request_line(std::string_view line, RequestHead& result) {
   return parts.host;
 }
 
-/// The name in a Host header: no port, no brackets, no dot at its end, in lower case. Empty where anything but
-/// a port follows the name.
+/// The name in a Host header: no port, no brackets, no dot at its end, in lower case. Empty where anything
+/// but a port follows the name.
 std::string bare_host(const std::string& host) {
   std::string name = lower(host);
   const bool bracketed = name.starts_with('[');
