@@ -55,7 +55,11 @@ Service::Service(ServiceOptions options)
   try {
     check_room();
   } catch (const StorageError& error) {
-    options_.log(std::string("the store is open for reading, cancelling and deleting only: ") + error.what());
+    const std::string open_for =
+        store_->log_index() == LogIndex::kFile
+            ? "the store is open for reading, cancelling and deleting only: "
+            : "the store is open for reading only, and to no other process until the next start: ";
+    options_.log(open_for + error.what());
   }
   // OpenSSL that finds no memory when it is first used does not work any more
   static_cast<void>(sha256_hex(""));

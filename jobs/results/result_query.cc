@@ -182,8 +182,7 @@ std::vector<std::size_t> choose_rows(const ResultTable& table, const std::vector
 /// the order they had.
 void sort_rows(const ResultTable& table, const std::vector<std::pair<std::size_t, bool>>& order,
                std::size_t count, std::vector<std::size_t>& chosen) {
-  const auto middle = chosen.begin() + static_cast<std::ptrdiff_t>(count);
-  std::ranges::partial_sort(chosen, middle, [&](std::size_t a, std::size_t b) {
+  const auto comes_first = [&](std::size_t a, std::size_t b) {
     for (const auto& [column, descending] : order) {
       const json& left = table.rows[a][column];
       const json& right = table.rows[b][column];
@@ -191,7 +190,11 @@ void sort_rows(const ResultTable& table, const std::vector<std::pair<std::size_t
       if (comes_before(right, left, descending)) return false;
     }
     return a < b;
-  });
+  };
+  if (count == chosen.size())
+    std::ranges::sort(chosen, comes_first);
+  else
+    std::ranges::partial_sort(chosen, chosen.begin() + static_cast<std::ptrdiff_t>(count), comes_first);
 }
 
 void take_rows(const std::vector<std::size_t>& chosen, ResultTable& table) {

@@ -69,14 +69,17 @@ void Store::check_room() {
 }
 
 Writer StoreCore::open(const std::filesystem::path& path, StoreLock& lock) {
-  for (const bool with_held_room : {false, true}) {
-    if (with_held_room && !lock.release_room()) break;
-    try {
-      return Writer(path, LogIndex::kFile);
-    } catch (const StorageError& error) {
-      // SQLite does not tell why it could not make its index.
-      if (!error.full && (error.code & 0xff) != SQLITE_IOERR) throw;
-    }
+  try {
+    return Writer(path, LogIndex::kFile);
+  } catch (const StorageError& error) {
+    // SQLite does not tell why it could not make its index.
+    if (!error.full && (error.code & 0xff) != SQLITE_IOERR) throw;
+    static_cast<void>(lock.release_room());
+  }
+  try {
+    return Writer(path, LogIndex::kFile);
+  } catch (const StorageError& error) {
+    if (!error.full && error.code != SQLITE_IOERR_SHMSIZE) throw;
   }
   return Writer(path, LogIndex::kMemory);
 }

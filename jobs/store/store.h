@@ -38,6 +38,8 @@ class Store {
   /// Checks that the disk is not full. A store on a full disk is opened for reading, cancelling and deleting,
   /// and can be added to as soon as there is room. @throws StorageError, full
   void check_room();
+  /// In memory: the disk was full, and no room was held for opening the store.
+  [[nodiscard]] LogIndex log_index() const { return core_.writer.log_index(); }
 
  private:
   /// Reads what is kept in memory, and begins unless the disk is full.

@@ -18,8 +18,8 @@
 
 namespace jobs {
 
-/// As disk_state() of a system call's error, of one of SQLite, whose codes know the disk's limit only: the
-/// system call tells of others.
+/// Whether SQLite failed because the disk, or the share of this user or process, is full. SQLite's codes know
+/// the disk only; the error of its last system call tells of the others.
 /// @param database  that failed; null: unknown
 [[nodiscard]] Disk disk_state(const SQLite::Exception& error, const SQLite::Database* database);
 

@@ -47,7 +47,8 @@ bool copy_store(const std::filesystem::path& store, const std::filesystem::path&
   make_empty_file(file);
   try {
     return with_storage_errors([&] {
-      // A read-only connection of its own: it holds one snapshot of the store, while the others go on.
+      // A read-only connection of its own: it holds one snapshot of the store, while the others go on. Those
+      // of one process share the log's index, wherever it is.
       SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kCopyBusyTimeout_ms);
       auto question = stop;
       sqlite3_progress_handler(database.getHandle(), kStepsBetweenQuestions, ask_whether_to_stop, &question);

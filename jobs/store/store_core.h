@@ -72,7 +72,7 @@ struct StoreCore {
   std::int64_t changes = 0;  ///< the last EndedJob::change
 
  private:
-  /// On a full disk with the room that is held for it, or with what can be done without room.
+  /// Opens the store; on a full disk in the room that is held for it, else with the log's index in memory.
   static Writer open(const std::filesystem::path& path, StoreLock& lock);
 
   std::atomic<bool> begun_ = false;

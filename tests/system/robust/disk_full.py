@@ -149,10 +149,10 @@ class FullDisk:
         self.ballast.unlink()
 
 
-def check_full(service, folder):
+def check_full(service, folder, open_for="reading, cancelling and deleting only"):
     state = service.get("/readyz")
     check(state["status"] == "full" and "disk" in state["reason"], f"readiness: {state}")
-    check("reading, cancelling and deleting only" in (folder / "log").read_text(), "the log does not tell")
+    check(f"open for {open_for}" in (folder / "log").read_text(), "the log does not tell")
 
 
 def check_store_without_room(service, sweeps, table):
@@ -171,6 +171,7 @@ def check_start(program):
     store = disk.folder / "store.db"
 
     def start(name=store):
+        (folder / "log").unlink(missing_ok=True)
         return Service(program, name, "--threads", "2", "--disk-reserve-mb", "0", log=folder / "log")
 
     service = start()
@@ -212,9 +213,13 @@ def check_start(program):
     copy = copy_store(store, disk.folder)
     store.with_name("store.db.lock").unlink()
     disk.fill()
-    for without_room in (copy, store):
+    # The process that was killed left the index of its log.
+    for without_room, open_for in ((copy, "reading only"), (store, "reading, cancelling and deleting only")):
         service = start(without_room)
-        check_full(service, folder)
+        check_full(service, folder, open_for)
+        if without_room == copy:
+            exported = subprocess.run([program, "export", "--db", copy, folder / "export.db"], capture_output=True, text=True, timeout=20, check=False)
+            check(exported.returncode == 3 and "locked" in exported.stderr and not (folder / "export.db").exists(), f"a copy by another process: {exported}")
         check_store_without_room(service, done, table)
     service = start(copy)
     disk.free()
