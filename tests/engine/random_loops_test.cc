@@ -70,7 +70,7 @@ Linkage draw_loop(Draw& draw) {
 double energy_residual(const Linkage& linkage, const RunResult& run) {
   const std::vector<QuantityInfo> metrics = linkage_tables(linkage).metrics;
   const auto found = std::ranges::find(metrics, "energy_residual", &QuantityInfo::key);
-  return run.metrics[static_cast<std::size_t>(found - metrics.begin())];
+  return run.metrics.at(static_cast<std::size_t>(found - metrics.begin()));
 }
 
 int number_of_loops() {

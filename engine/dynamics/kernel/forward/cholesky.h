@@ -52,7 +52,8 @@ RPSUP_INLINE void solve_cholesky(int n, int stride, const double* L, T* x) {
   }
 }
 
-/// Least pivot of a symmetric semidefinite matrix of entries up to one, whose lower triangle is lost.
+/// Least pivot of A = L D L^T, a positive semidefinite matrix with diagonal entries up to one, or the first
+/// pivot that is not positive. Overwrites the lower triangle.
 [[nodiscard]] RPSUP_INLINE double calc_least_pivot(int n, double* A) {
   double least = 1.0;
   for (int c = 0; c < n; ++c) {

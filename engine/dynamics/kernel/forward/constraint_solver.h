@@ -51,7 +51,7 @@ struct UnconstrainedMotion {
 /// of row r causes: the articulated-body algorithm computes as many columns at once as a pack has lanes.
 /// Phi_q itself is not needed: a joint's rows map multipliers to forces on two bodies,
 /// calc_joint_reaction(), and accelerations of two bodies into Phi_q qdd, subtract_joint_acceleration(). (It
-/// is computed to find the active ones among redundant rows only, see DelassusMatrix::find_active_rows.)
+/// is computed only where rows may be redundant, to find active rows and change points: see DelassusMatrix.)
 /// Source of the name: J. Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of constrained
 /// dynamic equations (2021).
 /// @tparam Topology  DynamicTopology or a StaticTopology

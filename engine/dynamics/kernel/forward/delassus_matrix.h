@@ -214,8 +214,8 @@ class DelassusMatrix {
       for (int l = 0; l <= k; ++l) matrix[k * n + l] *= weight[k] * weight[l];
   }
 
-  /// G_ <- Phi_q D Phi_q^T, weighed: the Delassus matrix of a mechanism whose coordinates all weigh the same,
-  /// for a motion of a row by one.
+  /// G_ <- Phi_q D Phi_q^T, weighed as S, where D divides each column by its largest entry: the Delassus
+  /// matrix if M were diagonal, with the squares of these entries.
   RPSUP_INLINE void calc_geometry(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
     const int n = active_count_;
     G_.fill(0.0);
@@ -235,18 +235,18 @@ class DelassusMatrix {
   /// links among heavy ones give S small eigenvalues in any position.
   RPSUP_INLINE bool are_independent(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
     const int n = active_count_;
-    // In a chain of loops the least eigenvalue is less than the least pivot, by the square of their number.
-    const double least = 1e-7 * n * n;
+    // The least eigenvalue of a chain of loops can be smaller than the least pivot by a factor of n^2.
+    const double least = std::min(1e-7 * n * n, 1e-3);
     std::copy_n(S_.data(), n * n, G_.data());
     const double pivot_of_S = calc_least_pivot(n, G_.data());
     if (pivot_of_S > least) return true;
     calc_geometry(jacobian, free);
-    return pivot_of_S > 0.0 && calc_least_pivot(n, G_.data()) > least;
+    return pivot_of_S > kSingularPivot && calc_least_pivot(n, G_.data()) > least;
   }
 
   int count_;
   bool redundant_;
-  bool regularised_ = false;         ///< here
+  bool regularised_ = false;         ///< whether A_ is the factor of S + e 1
   int active_count_;
   Buffer<int> active_;
   Buffer<double> A_;                 ///< row by row; then its Cholesky factor, or that of S + e 1
