@@ -11,7 +11,7 @@ double EnergyControl::measure(const EnergyAccount& start, const EnergyAccount& e
   // Where a contact law jumps, imbalance falls only in proportion to the step.
   constexpr double kShort = 1e-5;        // [s]
   constexpr double kRounding = 1e-14;    // of the energies
-  // Of the energies' tolerance: Newton's iterations end by the tolerance.
+  // Share of the energies' tolerance: Newton's iterations end by the tolerance.
   constexpr double kNewtonError = 1e-2;
   const double power = t0 > 0.0 ? exchanged_ / t0 : 0.0;
   const double own_part = rigid_ ? relative_ * calc_exchange(start, end) : 0.0;

@@ -289,8 +289,8 @@ class KinematicRun {
   /// those near by, since the next extremum may be as high and as narrow as the last; the error of powers to
   /// the largest of the run, since their sum counts.
   bool is_resolved() {
-    // Of the rates' squares. Smaller accelerations of a uniform motion do not count: next to a change point
-    // they are rounding.
+    // Share of the rates' squares. Smaller accelerations of a uniform motion do not count: next to a change
+    // point they are rounding.
     constexpr double kUniform = 0.3;
     const std::vector<FrameIndex>& unknown = closure_.unknown_coordinates();
     double of_accelerations = 0.0;
