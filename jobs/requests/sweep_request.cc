@@ -9,6 +9,7 @@
 #include "jobs/base/executor_names.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/requests/axis.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
 
@@ -141,6 +142,7 @@ class SweepParser {
     if (!only.is_object()) return "must be an object of lists of values, by the names of parameters";
     for (const auto& [path, values] : only.items()) {
       const std::string pointer = "/replicates/only" + pointer_token(path);
+      if (!is_known_path(path, pointer, faults_)) continue;
       if (!values.is_array() || values.empty()) {
         fault(pointer, "must be a list of one value or more");
         continue;

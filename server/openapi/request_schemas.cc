@@ -50,12 +50,13 @@ Json by_paths(Json properties, Json of_linkage) {
 }
 
 /// An object with a key a parameter, each of which has a list of values, or what stands for one.
-/// @param instead  the schema that numbers may have in the place of a list
+/// @param instead  the schema that numbers may have in the place of a list, "" for none
 Json make_lists(std::string_view instead) {
   Json properties = Json::object();
   const auto list_or_instead = [&](Json list, bool numeric) {
     list["minItems"] = 1;
-    return numeric ? Json{{"anyOf", Json::array({std::move(list), ref(instead)})}} : std::move(list);
+    if (!numeric || instead.empty()) return list;
+    return Json{{"anyOf", Json::array({std::move(list), ref(instead)})}};
   };
   for (const std::string& path : jobs::known_paths())
     properties[path] = list_or_instead(list_of(parameter_ref(path)), jobs::is_numeric(path));
@@ -119,7 +120,7 @@ Json make_replicates() {
                    {"default", defaults.tolerance_factor}},
                   "factor of both tolerances in all replicates but the first")},
        {"only",
-        described({{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}},
+        described({{"allOf", Json::array({ref("Lists")})}},
                   "lists of values by parameter: sets without one of them are run once")}},
       {"perturbation", "seed", "only", "tolerance_factor"});
   replicates["description"] = "each set again with its contact stiffness changed by that relative amount";
@@ -249,6 +250,7 @@ Json make_request_schemas() {
           {"Extension", make_extension()},
           {"Move", make_move()},
           {"Axes", make_lists("Span")},
+          {"Lists", make_lists("")},
           {"Span", make_span()},
           {"Design", make_designs()},
           {"Ranges", make_lists("Range")},
