@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/QR>
+
+#include "engine/model/mechanism.h"
+
+// What the sources of LoopClosure share.
+namespace engine::loop_closure {
+
+constexpr double kClosed = 1e-13;  // of Phi, [m] and [1]: rounding of positions near 1 m
+constexpr int kMaxIterations = 100;
+constexpr double kMaxStep = 0.5;  // of a Newton step, [rad] or [m]; a full one from afar may leave the branch
+constexpr double kDependent = 1e-9;  // of the largest pivot
+
+/// Coordinates that are not driven and for which `holds` is true.
+template <typename Holds>
+std::vector<FrameIndex> find_coordinates(const Mechanism& mechanism, const Holds& holds) {
+  std::vector<FrameIndex> found;
+  for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) {
+    const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(),
+                                    [i](const Drive& d) { return d.coordinate == i; });
+    if (!driven && holds(mechanism.coordinates[static_cast<std::size_t>(i)])) found.push_back(i);
+  }
+  return found;
+}
+
+inline bool is_any(const Coordinate&) { return true; }
+
+/// Complete orthogonal decomposition: J need not have full rank, and in a flat mechanism has not.
+/// @param dependent  of the largest pivot: smaller ones count as zero
+inline Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decompose(
+    const Eigen::MatrixXd& J, double dependent = kDependent) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(dependent);
+  decomposition.compute(J);
+  return decomposition;
+}
+
+/// Numerical rank of J.
+inline Eigen::Index rank_of(const Eigen::MatrixXd& J) { return J.size() == 0 ? 0 : decompose(J).rank(); }
+
+}  // namespace engine::loop_closure
