@@ -27,17 +27,17 @@ DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<Clearan
 
 }  // namespace
 
-/// Eight topologies are static: the paper's linkage with prescribed drives, its yoke about the guide or
-/// across it, with a rigid coupler or one of four elements, with or without clearance. Those with constraints
-/// pass the addresses of their workspaces to functions that are not inlined: nothing of these stays in
-/// registers anyway, so that the flexible ones are rolled.
+/// Six topologies are static: the paper's linkage with prescribed drives, its yoke about the guide or across
+/// it, with clearance and a rigid coupler or one of four elements, or without and with the latter. (Without
+/// clearance the drives determine rigid links: see LoopClosure.) Those with constraints pass the addresses of
+/// their workspaces to functions that are not inlined: nothing of these stays in registers anyway, so that
+/// they are rolled.
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
                                      std::size_t bristles) {
   return try_topologies<
       StaticTopology<kRigidRpsup, true>, StaticTopology<kFlexibleRpsup, true>,
-      StaticTopology<kRigidRpsup, false>, StaticTopology<kFlexibleRpsup, false>::Rolled,
-      StaticTopology<kRigidRpsupAcross, true>, StaticTopology<kFlexibleRpsupAcross, true>,
-      StaticTopology<kRigidRpsupAcross, false>, StaticTopology<kFlexibleRpsupAcross, false>::Rolled,
+      StaticTopology<kFlexibleRpsup, false>::Rolled, StaticTopology<kRigidRpsupAcross, true>,
+      StaticTopology<kFlexibleRpsupAcross, true>, StaticTopology<kFlexibleRpsupAcross, false>::Rolled,
       DynamicTopology>(model, joints, bristles);
 }
 
