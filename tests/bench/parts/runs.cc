@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <benchmark/benchmark.h>
+#include <Eigen/Geometry>
 
 #include "engine/simulate.h"
 #include "engine/simulate_rpsup.h"
@@ -20,13 +21,12 @@ using engine::RpsupParameters;
 using engine::RunOptions;
 
 /// A run by steps alone, without results: what a step costs.
-void take_steps(benchmark::State& run, const RpsupParameters& parameters, const RunOptions& options) {
-  const engine::Rpsup rpsup = engine::build_rpsup(parameters);
+void take_steps(benchmark::State& run, const engine::Mechanism& mechanism, const RunOptions& options) {
   validation::QuietObserver observer;
   double steps = 0.0;
   double evaluations = 0.0;
   for (auto _ : run) {
-    const engine::RunOutcome end = engine::simulate(rpsup.mechanism, options, observer);
+    const engine::RunOutcome end = engine::simulate(mechanism, options, observer);
     if (end.status != engine::RunStatus::kSucceeded) run.SkipWithError(end.detail.c_str());
     steps += static_cast<double>(end.steps);
     evaluations += static_cast<double>(end.evaluations);
@@ -34,6 +34,14 @@ void take_steps(benchmark::State& run, const RpsupParameters& parameters, const 
   using benchmark::Counter;
   run.counters["s_per_step"] = Counter(steps, Counter::kIsRate | Counter::kInvert);
   run.counters["evaluations_per_step"] = evaluations / steps;
+}
+
+/// The same motion of a linkage that fits no topology of compile-time constants, so that the engine visits
+/// its joints in loops: the journal's frame turned about its axis.
+engine::Mechanism turn_journal(engine::Mechanism mechanism) {
+  Eigen::Matrix3d& R = mechanism.cut_joints.front().journal.R;
+  R = R * Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return mechanism;
 }
 
 /// A whole job, all channels and metrics.
@@ -55,13 +63,18 @@ RpsupParameters hurried(RpsupParameters parameters, double duration) {
 
 void register_steps(Coupler coupler, const char* coupler_name) {
   constexpr double kDuration = 0.1;
-  const RpsupParameters parameters = hurried(linkage(coupler, 0.25e-3, 10.0), kDuration);
+  const engine::Mechanism mechanism =
+      engine::build_rpsup(hurried(linkage(coupler, 0.25e-3, 10.0), kDuration)).mechanism;
   for (const NamedIntegrator& integrator : all_integrators()) {
     RunOptions options{.duration = kDuration, .output_rate = 20.0};
     options.integrator = integrator.integrator;
-    benchmark::RegisterBenchmark(("steps/" + integrator.name + "/" + coupler_name).c_str(),
-                                 [=](benchmark::State& run) { take_steps(run, parameters, options); })
-        ->Unit(benchmark::kMillisecond);
+    const std::string name = "steps/" + integrator.name + "/" + coupler_name;
+    for (const auto& [suffix, moved] :
+         {std::pair{"", mechanism}, std::pair{"/dynamic_topology", turn_journal(mechanism)}})
+      benchmark::RegisterBenchmark(
+          (name + suffix).c_str(),
+          [=, moved = moved](benchmark::State& run) { take_steps(run, moved, options); })
+          ->Unit(benchmark::kMillisecond);
   }
 }
 
