@@ -90,10 +90,15 @@ int FakeEngine::stopped() {
   return stopped_;
 }
 
-jobs::ServiceOptions options_of(const TemporaryStore& store, FakeEngine& engine, int threads) {
+jobs::ServiceOptions options_of(const TemporaryStore& store, int threads) {
   jobs::ServiceOptions options;
   options.store = store.file();
   options.threads = threads;
+  return options;
+}
+
+jobs::ServiceOptions options_of(const TemporaryStore& store, FakeEngine& engine, int threads) {
+  jobs::ServiceOptions options = options_of(store, threads);
   options.runner = engine.runner();
   return options;
 }

@@ -51,6 +51,8 @@ class FakeEngine {
   std::vector<double> speeds_;
 };
 
+/// A service on the engine.
+[[nodiscard]] jobs::ServiceOptions options_of(const TemporaryStore& store, int threads);
 /// A service on a fake engine.
 [[nodiscard]] jobs::ServiceOptions options_of(const TemporaryStore& store, FakeEngine& engine, int threads);
 

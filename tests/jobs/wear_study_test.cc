@@ -71,9 +71,7 @@ class SlidingEngine {
 };
 
 jobs::ServiceOptions options_for(const TemporaryStore& store, SlidingEngine& engine) {
-  jobs::ServiceOptions options;
-  options.store = store.file();
-  options.threads = 1;
+  jobs::ServiceOptions options = options_of(store, 1);
   options.runner = engine.runner();
   return options;
 }

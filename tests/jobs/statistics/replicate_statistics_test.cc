@@ -104,9 +104,7 @@ class ScriptedEngine {
   explicit ScriptedEngine(std::vector<std::optional<double>> peaks) : peaks_(std::move(peaks)) {}
 
   [[nodiscard]] jobs::ServiceOptions options(const TemporaryStore& store) {
-    jobs::ServiceOptions options;
-    options.store = store.file();
-    options.threads = 1;  // one after the other
+    jobs::ServiceOptions options = options_of(store, 1);  // one after the other
     options.runner = [this](const jobs::JobSpec&, const engine::StopQuery& stop_requested) {
       return run(stop_requested);
     };

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sweeps over numbers inside the description of a linkage.
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "jobs/requests/expand.h"
+#include "jobs/service.h"
+#include "tests/jobs/request_support.h"
+#include "tests/jobs/requests/example_linkage.h"
+#include "tests/jobs/service_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using nlohmann::json;
+
+TEST(LinkageSweep, GoesOverNumbersInsideADescription) {
+  nlohmann::ordered_json request{{"parameters", example("slider_crank")},
+                                 {"sweep", {{"linkage.joints.crank_pin.clearance.clearance_mm", {0.05, 0.1}},
+                                            {"linkage.bodies.rod.mass_kg", {0.2, 0.3}},
+                                            {"linkage.joints.slider_pin.clearance.restitution", {0.8}}}}};
+  const jobs::SweepPlan plan = jobs::plan_sweep(request, 100);
+  ASSERT_EQ(plan.jobs.size(), 4U);
+  const json first = json::parse(plan.jobs[1].parameters);
+  EXPECT_EQ(first.at("linkage").at("bodies").at("rod").at("mass_kg"), 0.3);
+  EXPECT_EQ(first.at("linkage").at("joints").at("slider_pin").at("clearance").at("restitution"), 0.8);
+  EXPECT_EQ(plan.jobs[1].swept, "[0.05,0.3,0.8]");
+}
+
+// Rows of one point are known by the values that they show.
+TEST(LinkageSweep, ShowsDifferentLinkagesDifferently) {
+  json light = example("slider_crank").at("linkage");
+  light.erase("name");
+  json heavy = light, called = light, namesake = heavy;
+  heavy["bodies"]["rod"]["mass_kg"] = 0.3;
+  called["name"] = "described #2";
+  namesake["name"] = "rpsup";
+  const std::string path = "linkage.bodies.rod.mass_kg";
+  const auto shown = [](const nlohmann::ordered_json& request) {
+    std::vector<std::string> swept;
+    for (const jobs::PlannedJob& job : jobs::plan_sweep(request, 100).jobs) swept.push_back(job.swept);
+    return swept;
+  };
+  const json cases{{{"linkage", light}},  {{"linkage", heavy}},    {{"linkage", light}, {"friction", "none"}},
+                   {{"linkage", called}}, {{"linkage", namesake}}, {{"linkage", "rpsup"}}};
+  EXPECT_EQ(shown({{"cases", cases}}),
+            (std::vector<std::string>{R"(["described","lugre"])", R"(["described #2","lugre"])",
+                                      R"(["described","none"])", R"(["described #2 #2","lugre"])",
+                                      R"(["rpsup #2","lugre"])", R"(["rpsup","lugre"])"}));
+  json many = json::array();
+  for (int k = 0; k < 3000; ++k) {
+    light["bodies"]["rod"]["mass_kg"] = 0.2 + 1e-5 * k;
+    many.push_back({{"linkage", light}});
+  }
+  EXPECT_EQ(jobs::plan_sweep({{"cases", many}}, 10'000).jobs.back().swept, R"(["described #3000"])");
+  EXPECT_EQ(shown({{"cases", {{{"linkage", light}}}}, {"sweep", {{path, {0.2, 0.3}}}}}),
+            (std::vector<std::string>{R"([0.2,"described"])", R"([0.3,"described"])"}))
+      << "one description, with two of its numbers";
+}
+
+std::size_t place_of(const std::string& column, const jobs::ResultTable& table) {
+  return static_cast<std::size_t>(std::ranges::find(table.columns, column) - table.columns.begin());
+}
+
+TEST(LinkageSweep, IsComputedAndTabulated) {
+  const TemporaryStore store;
+  jobs::Service service(options_of(store, 1));
+  json parameters = example("slider_crank");
+  parameters["duration_s"] = 0.01;
+  const std::string path = "linkage.joints.crank_pin.clearance.clearance_mm";
+  const auto sweep = service.submit_sweep({{"parameters", parameters}, {"sweep", {{path, {0.05, 0.1}}}}});
+  const std::string id = sweep.at("id");
+  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::minutes(2)));
+  const auto table = service.find_results(id);
+  ASSERT_TRUE(table);
+  ASSERT_EQ(table->rows.size(), 2U);
+  for (const std::size_t row : {0U, 1U}) {
+    EXPECT_EQ(table->rows[row].at(place_of("state", *table)), "succeeded");
+    EXPECT_EQ(table->rows[row].at(place_of(path, *table)), row == 0 ? 0.05 : 0.1);
+    EXPECT_GT(table->rows[row].at(place_of("peak_guide_acceleration_whole_run_m_s2", *table)).get<double>(), 0.0);
+  }
+  EXPECT_EQ(place_of("peak_slider_acceleration_m_s2", *table), table->columns.size())
+      << "a metric of another linkage";
+}
+
+// Mean and largest value over the replicates, against those of the rows themselves.
+void expect_statistics_of(const jobs::ResultTable& table, const std::string& metric) {
+  const std::size_t column = place_of(metric, table);
+  ASSERT_LT(column, table.columns.size());
+  double sum = 0.0, most = -1e300;
+  for (const auto& row : table.rows) {
+    sum += row.at(column).get<double>();
+    most = std::max(most, row.at(column).get<double>());
+  }
+  ASSERT_EQ(table.replicates.size(), table.rows.size());
+  const double mean = sum / static_cast<double>(table.rows.size());
+  EXPECT_NEAR(table.replicates[0].mean.value(), mean, 1e-9 * most) << metric;
+  EXPECT_EQ(table.replicates[0].max.value(), most) << metric;
+}
+
+TEST(LinkageSweep, ComparesReplicatesByTheMetricThatIsChosen) {
+  const TemporaryStore store;
+  jobs::Service service(options_of(store, 1));
+  json parameters = example("slider_crank");
+  parameters["duration_s"] = 0.01;
+  parameters["run_up_s"] = 0;
+  const std::string metric = "peak_crank_pin_contact_force_n";
+  const json replicates{{"count", 3}, {"perturbation", 1e-3}};
+  const std::string id =
+      service.submit_sweep({{"parameters", parameters}, {"replicates", replicates}}).at("id");
+  ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::minutes(2)));
+  const auto unasked = service.find_results(id);
+  expect_statistics_of(*unasked, unasked->columns.at(3));  // behind job_id, state, replicate: the first one
+  expect_statistics_of(*service.find_results(id, {.metric = metric}), metric);
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)service.find_results(id, {.metric = "no_metric"}); })),
+            std::vector<std::string>{"/metric"});
+}
+
+TEST(LinkageSweep, RefusesWhatIsNoPlaceOrNoValueOfTheDescription) {
+  const auto pointers = [](const json& axes, const json& parameters) {
+    return pointers_of(faults_of([&] {
+      (void)jobs::plan_sweep({{"parameters", parameters}, {"sweep", axes}}, 100);
+    }));
+  };
+  const json parameters = example("slider_crank");
+  EXPECT_EQ(pointers({{"linkage.bodies.pod.mass_kg", {1, 2}}}, parameters),
+            std::vector<std::string>{"/sweep/linkage.bodies.pod.mass_kg"});
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, 2}}}, json::object()),
+            std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg"});
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, "heavy"}}}, parameters),
+            std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg/1"});
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.mass_kg", {1, -1}}}, parameters),
+            std::vector<std::string>{"/sweep/linkage.bodies.rod.mass_kg"});
+  EXPECT_EQ(pointers({{"linkage", {"rpsup"}}}, json::object()), std::vector<std::string>{"/sweep/linkage"});
+  json with_centre = parameters;
+  with_centre["linkage"]["bodies"]["rod"] = {
+      {"mass_kg", 0.2}, {"centre_of_mass_m", {0.1, 0, 0}}, {"inertia_kg_m2", {1e-5, 1e-3, 1e-3}}};
+  EXPECT_EQ(pointers({{"linkage.bodies.rod.centre_of_mass_m.0", {0.1, 0.2}}}, with_centre),
+            std::vector<std::string>{});
+  for (const std::string place : {"3", "00", "-", "x", "123456789012345678901", ""}) {
+    const std::string path = "linkage.bodies.rod.centre_of_mass_m." + place;
+    EXPECT_EQ(pointers({{path, {1, 2}}}, with_centre), std::vector<std::string>{"/sweep/" + path});
+  }
+}
+
+// Where the description has no value of its own, or none that is a number, the design has no centre.
+TEST(LinkageSweep, NeedsACentreForOneAtATime) {
+  const auto pointers = [](const std::string& path, const json& centre) {
+    const json span{{"from", 0.1}, {"to", 0.2}, {"count", 2}};
+    nlohmann::ordered_json request{{"parameters", example("slider_crank")},
+                                   {"design", {{"type", "one_at_a_time"}, {"over", {{path, span}}}}}};
+    if (!centre.is_null()) request["design"]["centre"] = {{path, centre}};
+    return pointers_of(faults_of([&] { (void)jobs::plan_sweep(request, 100); }));
+  };
+  EXPECT_EQ(pointers("linkage.bodies.rod.mass_kg", nullptr), std::vector<std::string>{});
+  EXPECT_EQ(pointers("linkage.joints.slider_pin.clearance.restitution", nullptr),
+            std::vector<std::string>{"/design/centre"});
+  EXPECT_EQ(pointers("linkage.joints.slider_pin.clearance.restitution", 0.8), std::vector<std::string>{});
+  EXPECT_EQ(pointers("crank_length_m", nullptr), std::vector<std::string>{"/design/centre"})
+      << "a described linkage has no such parameter";
+  EXPECT_EQ(pointers("linkage.bodies.rod", nullptr), std::vector<std::string>{"/design/centre"});
+  EXPECT_EQ(pointers("linkage.bodies.rod.mass_kg.123456789012345678901", nullptr),
+            std::vector<std::string>{"/design/centre"});
+}
+
+}  // namespace
+}  // namespace jobs_tests
