@@ -19,7 +19,7 @@ ctest --output-junit "$folder/junit.xml" >/dev/null
 expect() {
   cat >list
   local code=0
-  python3 "$check" junit.xml list release >said 2>&1 || code=$?
+  python3 "$check" junit.xml list release ${prefix:+"$prefix"} >said 2>&1 || code=$?
   [ "$code" -eq "$1" ] && grep -qF "$2" said || { cat said; echo "exit code $code instead of $1, or \"$2\" not said"; exit 1; }
 }
 expect 1 'skips: no cluster here' <<<''
@@ -29,4 +29,13 @@ expect 1 'skips: no cluster here' <<<$'asan skips not this preset\nany is_off fo
 expect 1 'list:1' <<<'any skips'
 echo '<testsuite/>' >junit.xml
 expect 1 'holds no test' <<<''
+prefix=engine.
+cat >junit.xml <<'END'
+<testsuites><testsuite>
+  <testcase name="Runs" classname="Suite" status="run" result="completed"/>
+  <testcase name="Skips" classname="Suite" status="run" result="skipped"/>
+</testsuite></testsuites>
+END
+expect 1 'engine.Suite.Skips' <<<''
+expect 0 '1 of 2 tests were skipped, 0 of them' <<<'any engine.Suite.Skips for a test'
 echo "unlisted skips are found"
