@@ -148,8 +148,9 @@ double find_next_jump(const RiseReturnPause& law, double t) {
 }
 
 double find_next_jump(const DriveLaw& law, double t) {
-  const auto* strokes = std::get_if<RiseReturnPause>(&law);
-  return strokes ? find_next_jump(*strokes, t) : kNever;
+  if (const auto* const strokes = std::get_if<RiseReturnPause>(&law)) return find_next_jump(*strokes, t);
+  const auto* const table = std::get_if<VelocityTable>(&law);
+  return table ? find_next_jump(*table, t) : kNever;
 }
 
 double calc_time_scale(const RunUp& law, double t) {

@@ -5,15 +5,10 @@
 #include <variant>
 #include <vector>
 
-namespace engine {
+#include "engine/model/driven_motion.h"
+#include "engine/model/velocity_table.h"
 
-/// A driven coordinate at one instant.
-struct DrivenMotion {
-  double q = 0.0;     ///< [rad] or [m]
-  double qd = 0.0;    ///< its derivatives by time
-  double qdd = 0.0;
-  double qddd = 0.0;  ///< what linearising by time needs
-};
+namespace engine {
 
 /// From rest to the velocity `omega` by the cycloidal law in `run_up` seconds, then on with it.
 ///
@@ -81,7 +76,8 @@ class Spline {
   std::vector<double> bend_;  ///< second derivative at each point
 };
 
-using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, Polynomial, Spline>;
+using DriveLaw =
+    std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, Polynomial, Spline, VelocityTable>;
 
 [[nodiscard]] DrivenMotion calc_driven_motion(const RunUp& law, double t);
 [[nodiscard]] DrivenMotion calc_driven_motion(const RiseReturnPause& law, double t);
@@ -89,6 +85,9 @@ using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, P
 [[nodiscard]] DrivenMotion calc_driven_motion(const Harmonic& law, double t);
 [[nodiscard]] DrivenMotion calc_driven_motion(const Polynomial& law, double t);
 [[nodiscard]] inline DrivenMotion calc_driven_motion(const Spline& law, double t) { return law.calc(t); }
+[[nodiscard]] inline DrivenMotion calc_driven_motion(const VelocityTable& law, double t) {
+  return law.calc(t);
+}
 [[nodiscard]] DrivenMotion calc_driven_motion(const DriveLaw& law, double t);
 
 /// First instant after t at which one piece of the law meets the next: the acceleration has a kink there, and
@@ -99,10 +98,12 @@ using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, P
 [[nodiscard]] double find_next_corner(const Harmonic& law, double t);
 [[nodiscard]] double find_next_corner(const Polynomial& law, double t);
 [[nodiscard]] inline double find_next_corner(const Spline& law, double t) { return law.next_knot(t); }
+[[nodiscard]] inline double find_next_corner(const VelocityTable& law, double t) { return law.next_point(t); }
 [[nodiscard]] double find_next_corner(const DriveLaw& law, double t);
 
 /// First instant after t at which the law's acceleration jumps. Infinite if none follows, [s]
 [[nodiscard]] double find_next_jump(const RiseReturnPause& law, double t);
+[[nodiscard]] inline double find_next_jump(const VelocityTable& law, double t) { return law.next_jump(t); }
 [[nodiscard]] double find_next_jump(const DriveLaw& law, double t);
 
 /// Time in which the drive moves on by about one radian, of its own angle or of its law's sine, from t on;
@@ -113,6 +114,7 @@ using DriveLaw = std::variant<RunUp, RiseReturnPause, CycloidalRise, Harmonic, P
 [[nodiscard]] double calc_time_scale(const Harmonic& law, double t);
 [[nodiscard]] double calc_time_scale(const Polynomial& law, double t);
 [[nodiscard]] inline double calc_time_scale(const Spline& law, double t) { return law.time_scale(t); }
+[[nodiscard]] inline double calc_time_scale(const VelocityTable& law, double t) { return law.time_scale(t); }
 [[nodiscard]] double calc_time_scale(const DriveLaw& law, double t);
 
 }  // namespace engine

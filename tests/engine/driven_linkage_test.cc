@@ -44,7 +44,11 @@ INSTANTIATE_TEST_SUITE_P(
                     DriveCase{"polynomial", Polynomial{{0.1, 0.5, -2.0, 3.0}}},
                     // From rest to rest without a jolt: the first three derivatives vanish where it begins.
                     DriveCase{"gentle_polynomial", Polynomial{{0.0, 0.0, 0.0, 0.0, 6.5625, -7.875, 3.28125, -0.46875}}},
-                    DriveCase{"spline", Spline({0.0, 0.3, 0.7, 1.4, 2.0}, {0.0, 0.5, 1.8, 0.9, 2.0})}));
+                    DriveCase{"spline", Spline({0.0, 0.3, 0.7, 1.4, 2.0}, {0.0, 0.5, 1.8, 0.9, 2.0})},
+                    DriveCase{"straight_velocities", VelocityTable({0.0, 0.3, 0.7, 1.4}, {0.0, 4.0, -2.0, 3.0},
+                                                                   TableInterpolation::kLinear, 0.2)},
+                    DriveCase{"smooth_velocities", VelocityTable({0.0, 0.3, 0.7, 1.4}, {0.0, 4.0, -2.0, 3.0},
+                                                                 TableInterpolation::kMonotoneCubic, 0.2)}));
 
 // The same forces and moments, whether the motion is solved or integrated.
 TEST(DrivenLinkage, ItsJointsBearTheMomentsOfTheEquationsOfMotion) {
