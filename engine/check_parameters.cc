@@ -182,11 +182,21 @@ double calc_farthest_rod(const RpsupParameters& p) {
 /// True if the coupler reaches the guide for whatever crank angle and rod position: no need to look at
 /// instants then.
 bool reaches_always(const RpsupParameters& p) {
+  if (p.rod_drive) return false;
   const double most = calc_farthest_rod(p);
   const double y = most + std::abs(p.guide_offset_y);
   const double z =
       most * std::abs(std::sin(p.guide_angle)) + std::abs(p.guide_offset_z * std::cos(p.guide_angle));
   return calc_coupler_projection_squared(p, Eigen::Vector3d(0.0, y, z)) > 0.0;
+}
+
+/// Largest rate of a drive, but for what lies between some instants.
+double calc_largest_rate(const DriveLaw& law, double duration) {
+  constexpr int kInstants = 2000;
+  double largest = 1e-9;
+  for (int k = 0; k <= kInstants; ++k)
+    largest = std::max(largest, std::abs(calc_driven_motion(law, duration * k / kInstants).qd));
+  return largest;
 }
 
 /// Time between two looks at the motion, so that neither drive moves far between them; a linkage that would
@@ -195,9 +205,12 @@ double calc_time_between_looks(const RpsupParameters& p, double duration) {
   constexpr double kMostLooks = 1e5;
   constexpr double kAngle = 0.02;     // [rad] of the crank between two looks
   constexpr double kOfStroke = 0.02;  // of the rise time
-  const double speed = std::max(std::abs(p.crank_velocity), 1e-9);
-  return std::max(std::min({kAngle / speed, kOfStroke * p.rod_stroke_time, 0.1 * duration}),
-                  duration / kMostLooks);
+  constexpr double kWay = 1e-3;       // [m] of a rod by another law
+  const double speed = p.crank_drive ? calc_largest_rate(*p.crank_drive, duration)
+                                     : std::max(std::abs(p.crank_velocity), 1e-9);
+  const double of_rod =
+      p.rod_drive ? kWay / calc_largest_rate(*p.rod_drive, duration) : kOfStroke * p.rod_stroke_time;
+  return std::max(std::min({kAngle / speed, of_rod, 0.1 * duration}), duration / kMostLooks);
 }
 
 std::string describe_instant(const std::string& at_start, const std::string& later, double t) {
@@ -241,7 +254,7 @@ void check_yoke(const RpsupParameters& p, double duration) {
   if (p.yoke_axis != YokeAxis::kGuide) return;
   const double apart = std::abs(p.guide_offset_z * std::cos(p.guide_angle)) -
                        calc_farthest_rod(p) * std::abs(std::sin(p.guide_angle));
-  if (apart > p.cross_length + kMeets) return;
+  if (!p.rod_drive && apart > p.cross_length + kMeets) return;
   const double interval = calc_time_between_looks(p, duration);
   const auto looks = static_cast<long>(std::ceil(duration / interval));
   for (long k = 0; k <= looks; ++k) {

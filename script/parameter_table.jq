@@ -5,7 +5,7 @@
 # Subjects in the order of the document; a parameter belongs to the first subject whose pattern matches its key.
 def subjects: [
   ["Linkage and gravity", "^(linkage|yoke_axis|gravity_.*|guide_.*|(coupler|crank|cross|rod)_length_m+)$"],
-  ["Drives", "^(crank_velocity_rad_s|crank_start_rad|run_up_s|rod_(law|pause_s|start_m|stroke_mm|stroke_time_s)|drive|baumgarte_.*)$"],
+  ["Drives", "^(crank_drive|rod_drive|crank_velocity_rad_s|crank_start_rad|run_up_s|rod_(law|pause_s|start_m|stroke_mm|stroke_time_s)|drive|baumgarte_.*)$"],
   ["Clearance joint", "^(clearance_mm|axial_(clearance_mm|levels|elements)|bearing_.*|radial_.*|contact|wear_depth_um)$"],
   ["Normal force", "^(axial_stiffness_n_m|contact_.*|normal_law|restitution|stiffness_law|minimum_impact_velocity_m_s)$"],
   ["Friction", "^(friction.*|bristle_.*|break_away_ratio|stribeck_velocity_m_s)$"],
@@ -15,7 +15,8 @@ def subjects: [
 def subject_of($key): first(subjects[] | . as [$title, $pattern] | select($key | test($pattern)) | $title) // error("\($key) belongs to no subject");
 
 def range:
-  if .oneOf then "`rpsup`, or an object that describes another: [linkages](../linkages/README.md)"
+  if .oneOf and has("default") then "`rpsup`, or an object that describes another: [linkages](../linkages/README.md)"
+  elif .oneOf then "an object with a `law`: [laws](../linkages/README.md#joints)"
   elif .type == "array" and .items.type == "array" then "lists of \(.items.minItems) to \(.items.maxItems) depths, a list for each ring"
   elif .enum then (.enum | map("`\(.)`") | join(", "))
   else (if has("exclusiveMinimum") then "> \(.exclusiveMinimum)" elif has("minimum") then "≥ \(.minimum)" else "" end)

@@ -42,7 +42,8 @@ AssemblyGuess calc_guess_about_guide(const RpsupParameters& p) {
   R_g13.col(0) = (J - S).normalized();
   R_g13.col(2) = z_22;
   R_g13.col(1) = z_22.cross(R_g13.col(0));
-  const Eigen::Vector3d angles = calc_zyx_angles(rotation_about_z(-p.crank_start) * guide_frame(p).R * R_g13);
+  const Eigen::Matrix3d R_crank = rotation_about_z(calc_crank_motion(p, 0.0).q);
+  const Eigen::Vector3d angles = calc_zyx_angles(R_crank.transpose() * guide_frame(p).R * R_g13);
   return {round_to_millionth(angles[0]), round_to_millionth(angles[1]), round_to_millionth(angles[2]),
           round_to_millionth(slider), round_to_millionth(std::atan2(-z_22.y(), z_22.z()))};
 }
@@ -59,6 +60,14 @@ RiseReturnPause rod_law(const RpsupParameters& p) {
           .pause = p.rod_pause,
           .law = p.rod_law,
           .start = p.rod_start - p.rod_length};
+}
+
+DrivenMotion calc_crank_motion(const RpsupParameters& p, double t) {
+  return p.crank_drive ? calc_driven_motion(*p.crank_drive, t) : calc_driven_motion(crank_law(p), t);
+}
+
+DrivenMotion calc_rod_motion(const RpsupParameters& p, double t) {
+  return p.rod_drive ? calc_driven_motion(*p.rod_drive, t) : calc_driven_motion(rod_law(p), t);
 }
 
 Placement guide_frame(const RpsupParameters& p) {
@@ -81,8 +90,8 @@ Eigen::Vector3d gravity_direction_W(Direction direction) {
 }
 
 Eigen::Vector3d calc_s_joint_W(const RpsupParameters& p, double t) {
-  const double psi = calc_driven_motion(crank_law(p), t).q;
-  const double r = p.rod_length + calc_driven_motion(rod_law(p), t).q;
+  const double psi = calc_crank_motion(p, t).q;
+  const double r = p.rod_length + calc_rod_motion(p, t).q;
   return {r * std::cos(psi), r * std::sin(psi), 0.0};
 }
 
@@ -104,8 +113,9 @@ double calc_yoke_arm(const RpsupParameters& p, double t) {
 AssemblyGuess calc_assembly_guess(const RpsupParameters& p) {
   if (p.yoke_axis == YokeAxis::kGuide) return calc_guess_about_guide(p);
   const double along_guide = to_guide(p, calc_s_joint_W(p, 0.0)).x();
-  return {
-      .psi_13 = 0.0 - p.crank_start, .theta_13 = 0.0 - p.guide_angle, .z_21 = along_guide + p.coupler_length};
+  return {.psi_13 = 0.0 - calc_crank_motion(p, 0.0).q,
+          .theta_13 = 0.0 - p.guide_angle,
+          .z_21 = along_guide + p.coupler_length};
 }
 
 }  // namespace engine

@@ -9,9 +9,13 @@
 
 namespace engine {
 
-/// The laws of the two driven coordinates, psi^(1,1) and z^(1,2).
+/// The paper's laws of the two driven coordinates, psi^(1,1) and z^(1,2).
 [[nodiscard]] RunUp crank_law(const RpsupParameters& parameters);
 [[nodiscard]] RiseReturnPause rod_law(const RpsupParameters& parameters);
+
+/// The motions of the two driven coordinates, by those laws or by others in their place.
+[[nodiscard]] DrivenMotion calc_crank_motion(const RpsupParameters& parameters, double t);
+[[nodiscard]] DrivenMotion calc_rod_motion(const RpsupParameters& parameters, double t);
 
 /// The guide's frame {g} in the global frame: x along the guide, y that of the global frame. The slider moves
 /// along x, its axes are those of {g}.

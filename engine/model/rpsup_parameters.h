@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "engine/clearance/cylinder_contact.h"
 #include "engine/clearance/friction_parameters.h"
@@ -84,6 +85,9 @@ struct RpsupParameters {
   double rod_stroke_time = 0.5;                    ///< time of the rise, and of the return, [s]
   double rod_pause = 0.5;                          ///< [s]
   StrokeLaw rod_law = StrokeLaw::kCosine;          ///< of the rise and of the return
+  std::optional<DriveLaw> crank_drive;  ///< of psi^(1,1), in the place of crank_velocity and crank_start
+  std::optional<DriveLaw> rod_drive;  ///< of z^(1,2), 0 with the S joint at rod_length from the crank's axis,
+                                      ///< in the place of rod_start and of the stroke
   DriveEnforcement drive = DriveEnforcement::kPrescribed;
   double baumgarte_alpha = 100.0;                  ///< [1/s]
   double baumgarte_beta = 100.0;                   ///< [1/s]

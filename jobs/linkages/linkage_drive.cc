@@ -14,10 +14,10 @@ namespace {
 using nlohmann::json;
 using Numbers = std::vector<double>;
 
-void check_table(const json& drive, engine::Motion motion, const std::string& pointer,
+/// @param values  key of the list that has a value for each time
+void check_table(const json& drive, const char* values, const std::string& pointer,
                  std::vector<Fault>& faults) {
   const auto times = drive.at("times_s").get<Numbers>();
-  const char* const values = slides(motion) ? "values_m" : "values_rad";
   if (times.size() < 2 ||
       std::ranges::adjacent_find(times, [](double a, double b) { return !(a < b); }) != times.end())
     faults.push_back({pointer + "/times_s", "must be two times or more, each later than the one before"});
@@ -46,6 +46,7 @@ engine::StrokeLaw stroke_law_of(const std::string& word) {
 
 void check_drive(const json& drive, engine::Motion motion, const std::string& pointer,
                  std::vector<Fault>& faults) {
+  if (!drive.is_object()) return faults.push_back({pointer, "must be an object with a law"});
   const std::size_t before = faults.size();
   const std::string law =
       drive.contains("law") && drive.at("law").is_string() ? drive.at("law").get<std::string>() : "";
@@ -57,7 +58,10 @@ void check_drive(const json& drive, engine::Motion motion, const std::string& po
   LinkageFields fields = drive_fields(motion, law);
   if (law == "polynomial") allow_former_key(drive, motion, pointer, fields, faults);
   check_fields(drive, fields, pointer, faults);
-  if (law == "table" && faults.size() == before) check_table(drive, motion, pointer, faults);
+  if (faults.size() > before) return;
+  if (law == "table") check_table(drive, slides(motion) ? "values_m" : "values_rad", pointer, faults);
+  if (law == "velocity_table")
+    check_table(drive, slides(motion) ? "velocities_m_s" : "velocities_rad_s", pointer, faults);
 }
 
 engine::DriveLaw read_drive(const json& drive, engine::Motion motion,
@@ -87,7 +91,13 @@ engine::DriveLaw read_drive(const json& drive, engine::Motion motion,
     const auto [key, former_key] = coefficient_keys(motion);
     return engine::Polynomial{drive.at(drive.contains(key) ? key : former_key).get<Numbers>()};
   }
-  return engine::Spline(drive.at("times_s").get<Numbers>(), numbers("values_m", "values_rad"));
+  if (law == "table")
+    return engine::Spline(drive.at("times_s").get<Numbers>(), numbers("values_m", "values_rad"));
+  const bool linear = drive.value("interpolation", "") == "linear";
+  return engine::VelocityTable(
+      drive.at("times_s").get<Numbers>(), numbers("velocities_m_s", "velocities_rad_s"),
+      linear ? engine::TableInterpolation::kLinear : engine::TableInterpolation::kMonotoneCubic,
+      at("from_m", "from_rad"));
 }
 
 }  // namespace jobs

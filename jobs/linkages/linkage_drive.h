@@ -13,7 +13,7 @@
 
 namespace jobs {
 
-/// The faults of the law by which a coordinate moves. @param drive  an object
+/// The faults of the law by which a coordinate moves.
 void check_drive(const nlohmann::json& drive, engine::Motion motion, const std::string& pointer,
                  std::vector<Fault>& faults);
 

@@ -338,6 +338,22 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
          .unit = slides(motion) ? "m" : "rad",
          .help = "One for each time; between them the natural cubic spline, outside straight on",
          .required = true});
+  } else if (law == "velocity_table") {
+    add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s",
+         .help = "Rising; two or more", .required = true});
+    add({.key = slides(motion) ? "velocities_m_s" : "velocities_rad_s",
+         .kind = FieldKind::kNumbers,
+         .range = kAny,
+         .unit = slides(motion) ? "m/s" : "rad/s",
+         .help = "One for each time; constant before the first and after the last. The position is their "
+                 "exact integral",
+         .required = true});
+    add({.key = "interpolation",
+         .kind = FieldKind::kWord,
+         .help = "Between the times; without it monotone_cubic, which has no extremes between them; linear: "
+                 "the acceleration jumps at each",
+         .words = {"linear", "monotone_cubic"}});
+    add(motion_field(motion, "from_m", "from_rad", "Position at t = 0; without it 0", false, kAny));
   }
   return fields;
 }

@@ -59,8 +59,8 @@ struct CoefficientKeys {
 [[nodiscard]] const LinkageFields& clearance_fields();  ///< parameters of a job that a clearance joint may
                                                         ///< have
 
-inline constexpr std::string_view kLaws[] = {"run_up",   "rise_return_pause", "cycloidal",
-                                             "harmonic", "polynomial",        "table"};
+inline constexpr std::string_view kLaws[] = {"run_up",     "rise_return_pause", "cycloidal",     "harmonic",
+                                             "polynomial", "table",             "velocity_table"};
 
 /// The faults of an object's keys and of the values that can be judged by themselves.
 void check_fields(const nlohmann::json& object, const LinkageFields& fields, const std::string& pointer,

@@ -46,6 +46,6 @@ std::string pointer_of_linkage_field(std::string_view field) {
   return pointer;
 }
 
-json canonical_linkage(const json& description) { return with_doubles(description); }
+json canonical_description(const json& description) { return with_doubles(description); }
 
 }  // namespace jobs

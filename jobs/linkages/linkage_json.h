@@ -32,10 +32,13 @@ inline constexpr std::string_view kRpsupName = "rpsup";
 /// "/linkage/bodies/rod/mass_kg".
 [[nodiscard]] std::string pointer_of_linkage_field(std::string_view field);
 
-/// A description in the one form in which it is stored: all numbers as doubles, -0 as 0.
-[[nodiscard]] nlohmann::json canonical_linkage(const nlohmann::json& description);
+/// A description, of a linkage or of a drive, in the one form in which it is stored: all numbers as doubles,
+/// -0 as 0.
+[[nodiscard]] nlohmann::json canonical_description(const nlohmann::json& description);
 
 /// JSON Schema of the key "linkage".
 [[nodiscard]] nlohmann::json linkage_schema();
+/// JSON Schema of a drive of a coordinate.
+[[nodiscard]] nlohmann::json drive_schema(engine::Motion motion);
 
 }  // namespace jobs

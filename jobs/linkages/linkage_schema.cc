@@ -20,19 +20,9 @@ json named(json entry, std::string_view what) {
 }
 
 json schema_of_drive(engine::Motion motion) {
-  json any = json::array();
-  for (const std::string_view law : kLaws) {
-    json schema = schema_of_fields(drive_fields(motion, law));
-    schema["properties"]["law"] = {{"const", law}};
-    if (law == "polynomial") {
-      const auto [key, former_key] = coefficient_keys(motion);
-      schema["required"] = {"law"};
-      schema["oneOf"] = {{{"required", {key}}}, {{"required", {former_key}}}};
-    }
-    any.push_back(std::move(schema));
-  }
-  return {{"description", "The law by which the coordinate moves; without it it is free"},
-          {"oneOf", std::move(any)}};
+  json schema = drive_schema(motion);
+  schema["description"] = "The law by which the coordinate moves; without it it is free";
+  return schema;
 }
 
 json schema_of_freedom(engine::Motion motion) {
@@ -71,6 +61,21 @@ json schema_of_joint() {
 }
 
 }  // namespace
+
+json drive_schema(engine::Motion motion) {
+  json any = json::array();
+  for (const std::string_view law : kLaws) {
+    json schema = schema_of_fields(drive_fields(motion, law));
+    schema["properties"]["law"] = {{"const", law}};
+    if (law == "polynomial") {
+      const auto [key, former_key] = coefficient_keys(motion);
+      schema["required"] = {"law"};
+      schema["oneOf"] = {{{"required", {key}}}, {{"required", {former_key}}}};
+    }
+    any.push_back(std::move(schema));
+  }
+  return {{"oneOf", std::move(any)}};
+}
 
 json linkage_schema() {
   json described = schema_of_fields(linkage_fields());

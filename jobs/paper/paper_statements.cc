@@ -15,8 +15,6 @@
 
 #include "jobs/base/errors.h"
 #include "jobs/base/optional_json.h"
-#include "jobs/linkages/linkage_json.h"
-#include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/results/table_groups.h"
 #include "jobs/statistics/first_order_index.h"
@@ -202,7 +200,7 @@ Settings gather_settings(const ResultTable& results) {
   std::vector<std::size_t> columns;
   for (std::size_t k = 0; k < results.columns.size(); ++k) {
     const std::string& column = results.columns[k];
-    const bool given = column == kLinkageKey || column == kWearKey || is_linkage_path(column) ||
+    const bool given = is_varied_by_cases(column) || is_linkage_path(column) ||
                        std::ranges::find(known_paths(), column) != known_paths().end();
     if (!given || std::ranges::find(axes, k) != axes.end()) continue;
     columns.push_back(k);

@@ -113,6 +113,8 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
          "linkages are cases"});
   } else if (path == kWearKey) {
     faults.push_back({pointer, "worn bores are cases, each with its lists"});
+  } else if (is_varied_by_cases(path)) {
+    faults.push_back({pointer, "drives are cases, each with its law"});
   } else if (path == "links") {
     faults.push_back({pointer, "the parts of links are swept one by one: \"links.1,3.mass_kg\", say"});
   } else {

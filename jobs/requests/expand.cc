@@ -2,6 +2,7 @@
 #include "jobs/requests/expand.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
@@ -65,34 +67,43 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
-/// Short form of a value in one line: of a worn bore the largest depth, of a described linkage its name, with
-/// a number where another linkage of the sweep has that name already.
+/// Short form of a value in one line: of a worn bore the largest depth, of a described linkage its name, of a
+/// drive its law, with a number where another one of the sweep has that name already.
 class ShownValues {
  public:
   explicit ShownValues(const SweepRequest& sweep) {
-    const std::string rpsup(kRpsupName);
-    // By linkage as the cases give it: numbers inside it may be swept beside it
-    std::map<json, std::string> names{{json(rpsup), rpsup}};
-    std::set<std::string> taken{rpsup};
-    std::map<std::string, int> namesakes;
-    for (const json& given : sweep.cases) {
-      const json linkage = given.value(std::string(kLinkageKey), json(rpsup));
-      const std::string name = linkage.is_object() ? linkage.value("name", std::string("described")) : rpsup;
-      const auto [shown, is_new] = names.try_emplace(linkage, name);
-      while (is_new && !taken.insert(shown->second).second)
-        shown->second = name + " #" + std::to_string(2 + namesakes[name]++);
-      linkages_.push_back(shown->second);
-    }
+    name_cases(sweep, kLinkageKey, "name", std::string(kRpsupName));
+    for (const RpsupDrive& drive : rpsup_drives()) name_cases(sweep, drive.key, "law", json());
   }
 
   [[nodiscard]] json at(const json& completed, const std::string& path, std::size_t case_index) const {
-    if (path == kLinkageKey) return linkages_[case_index];  // which only cases vary
+    if (const auto names = names_.find(path); names != names_.end()) return names->second[case_index];
     const json& value = value_at_path(completed, path);
     return path == kWearKey && !value.is_null() ? json(deepest_wear(value)) : value;
   }
 
  private:
-  std::vector<std::string> linkages_;  ///< one a case
+  /// Names the descriptions under a key that the cases give: numbers inside them may be swept beside them.
+  /// @param name_key   member of a description that names it
+  /// @param undescribed  value of a case that describes none
+  void name_cases(const SweepRequest& sweep, std::string_view key, const char* name_key,
+                  const json& undescribed) {
+    std::map<json, json> names{{undescribed, undescribed}};
+    std::set<json> taken{undescribed};
+    std::map<std::string, int> namesakes;
+    std::vector<json>& shown_names = names_[std::string(key)];
+    for (const json& given : sweep.cases) {
+      const json described = given.value(std::string(key), undescribed);
+      const std::string name =
+          described.is_object() ? described.value(name_key, std::string("described")) : "";
+      const auto [shown, is_new] = names.try_emplace(described, name);
+      while (is_new && !taken.insert(shown->second).second)
+        shown->second = name + " #" + std::to_string(2 + namesakes[name]++);
+      shown_names.push_back(shown->second);
+    }
+  }
+
+  std::map<std::string, std::vector<json>, std::less<>> names_;  ///< by key, one a case
 };
 
 /// Gathers the faults of points: one entry for each place in the request, however many points share it.

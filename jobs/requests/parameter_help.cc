@@ -6,6 +6,7 @@
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
@@ -48,6 +49,8 @@ std::string parameter_help() {
   text += line_of(std::string(kLinkageKey), std::string(kRpsupName), "", "or an object",
                   "The linkage; an object describes another one");
   text += line_of(std::string(kWearKey), "none", "", "lists", kWearHelp);
+  for (const RpsupDrive& drive : rpsup_drives())
+    text += line_of(std::string(drive.key), "none", "", "an object", drive.help);
   const nlohmann::json defaults = complete_parameters(nlohmann::json::object(), "");
   for (const std::string& path : known_paths()) {
     if (path.starts_with("links.")) text += link_line(path, defaults);

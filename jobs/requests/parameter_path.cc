@@ -9,6 +9,7 @@
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/wear_depth.h"
 
 namespace jobs {
@@ -66,10 +67,14 @@ const std::vector<std::string>& known_paths() {
   return paths;
 }
 
+bool is_varied_by_cases(std::string_view key) {
+  return key == kLinkageKey || key == kWearKey || find_rpsup_drive(key) != nullptr;
+}
+
 std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
   std::vector<std::string> paths;
   for (const auto& [key, value] : parameters.items()) {
-    if (find_parameter(key) != nullptr || key == kLinkageKey || key == kWearKey) paths.push_back(key);
+    if (find_parameter(key) != nullptr || is_varied_by_cases(key)) paths.push_back(key);
     if (key != "links" || !value.is_object()) continue;
     for (const auto& [link, parts] : value.items()) {
       if (std::ranges::find(kLinkNames, link) == kLinkNames.end() || !parts.is_object()) continue;

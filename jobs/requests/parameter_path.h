@@ -14,6 +14,9 @@ namespace jobs {
 /// Every path that an axis may have.
 [[nodiscard]] const std::vector<std::string>& known_paths();
 
+/// Whether a key's value is an object or lists of lists, which only the cases of a sweep vary.
+[[nodiscard]] bool is_varied_by_cases(std::string_view key);
+
 /// The paths that a parameter set gives values to, in its order. What is no parameter has none.
 [[nodiscard]] std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters);
 

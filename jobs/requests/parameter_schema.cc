@@ -4,6 +4,7 @@
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/wear_depth.h"
 
 namespace jobs {
@@ -73,6 +74,10 @@ json schema_of_links() {
 
 json parameter_schema() {
   json properties{{kLinkageKey, linkage_schema()}, {"links", schema_of_links()}, {kWearKey, wear_schema()}};
+  for (const RpsupDrive& drive : rpsup_drives()) {
+    properties[drive.key] = drive_schema(drive.motion);
+    properties[drive.key]["description"] = drive.help;
+  }
   for (const ParameterInfo& info : parameter_table()) properties[info.key] = schema_of(info);
   return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
           {"title", "Parameters of a job"},

@@ -10,11 +10,13 @@
 #include "engine/errors.h"
 #include "engine/simulate_linkage.h"
 #include "engine/simulate_rpsup.h"
+#include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/job_spec.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
 
@@ -29,6 +31,7 @@ constexpr double kLeastClearance_mm = 1e-6;    // 1 nm: below, a gap between ato
 
 std::vector<std::string_view> known_keys() {
   std::vector<std::string_view> keys{"links", kLinkageKey, kWearKey};
+  for (const RpsupDrive& drive : rpsup_drives()) keys.push_back(drive.key);
   for (const ParameterInfo& info : parameter_table()) keys.push_back(info.key);
   return keys;
 }
@@ -46,7 +49,8 @@ void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
     const ParameterInfo* info = find_parameter(key);
     if (key == kWearKey)
       faults.push_back({pointer_token(key), std::string(kWearOfDescribed)});
-    else if (key == "links" || (info != nullptr && info->scope == ParameterScope::kRpsup))
+    else if (key == "links" || find_rpsup_drive(key) != nullptr ||
+             (info != nullptr && info->scope == ParameterScope::kRpsup))
       faults.push_back({pointer_token(key),
                         "belongs to the linkage \"rpsup\"; a described linkage says it in its description"});
   }
@@ -68,6 +72,15 @@ void add_clearance_faults(const json& completed, std::vector<Fault>& faults) {
 }
 
 constexpr double kLeastArm_mm = 1.0;           // as of the other lengths
+
+/// Of a law given for a driven coordinate, beside the parameters of the paper's.
+void add_drive_faults(const json& completed, std::vector<Fault>& faults) {
+  for (const RpsupDrive& drive : rpsup_drives())
+    for (const std::string_view parameter : drive.replaced)
+      if (completed.contains(drive.key) && completed.contains(parameter))
+        faults.push_back({pointer_token(parameter), "belongs to the law in whose place " +
+                                                        std::string(drive.key) + " is given"});
+}
 
 /// Sections and lengths without which no default mass makes sense.
 void add_link_faults(const json& completed, std::vector<Fault>& faults) {
@@ -139,9 +152,12 @@ std::string pointer_of_member(const std::string& member) {
 std::string pointer_of_geometry(const json& completed, std::string_view otherwise) {
   for (const std::string_view key : {"guide_offset_z_m", "guide_offset_y_m", "guide_angle_deg",
                                      "coupler_length_m", "rod_start_m", "rod_stroke_mm", "crank_start_rad"}) {
-    if (completed.at(key) != canonical_value(*find_parameter(key), default_value(*find_parameter(key))))
+    if (completed.contains(key) &&
+        completed.at(key) != canonical_value(*find_parameter(key), default_value(*find_parameter(key))))
       return pointer_token(key);
   }
+  for (const RpsupDrive& drive : rpsup_drives())
+    if (completed.contains(drive.key)) return pointer_token(drive.key);
   return pointer_token(otherwise);
 }
 
@@ -213,6 +229,8 @@ std::vector<Fault> find_value_faults(const json& given) {
       std::ranges::move(find_link_faults(value), std::back_inserter(faults));
     } else if (key == kWearKey) {
       std::ranges::move(find_wear_faults(value), std::back_inserter(faults));
+    } else if (const RpsupDrive* drive = find_rpsup_drive(key)) {
+      check_drive(value, drive->motion, pointer_token(key), faults);
     } else if (const ParameterInfo* info = find_parameter(key)) {
       if (std::string detail = describe_fault(*info, value); !detail.empty())
         faults.push_back({pointer_token(key), std::move(detail)});
@@ -242,11 +260,14 @@ json fill_in_defaults(const json& given) {
   for (const ParameterInfo& info : parameter_table()) {
     if (described && info.scope == ParameterScope::kRpsup) continue;
     const auto found = given.find(info.key);
+    if (found == given.end() && find_replacing_drive(given, info.key) != nullptr) continue;
     completed[info.key] = canonical_value(info, found == given.end() ? default_value(info) : *found);
   }
-  completed[kLinkageKey] = described ? canonical_linkage(given.at(kLinkageKey)) : json(kRpsupName);
+  completed[kLinkageKey] = described ? canonical_description(given.at(kLinkageKey)) : json(kRpsupName);
   if (!described) completed["links"] = complete_links(given.value("links", json::object()), completed);
   if (given.contains(kWearKey)) completed[kWearKey] = canonical_wear(given.at(kWearKey));
+  for (const RpsupDrive& drive : rpsup_drives())
+    if (given.contains(drive.key)) completed[drive.key] = canonical_description(given.at(drive.key));
   return completed;
 }
 
@@ -258,6 +279,7 @@ std::vector<Fault> find_combination_faults(const json& completed) {
     if (linkage) add_key_fault(*linkage, faults);
     if (!faults.empty()) return faults;
   } else {
+    add_drive_faults(completed, faults);
     add_link_faults(completed, faults);
     if (faults.empty()) faults = find_inertia_faults(completed);
   }
@@ -286,13 +308,18 @@ JobSpec to_job_spec(const json& completed_parameters) {
   JobSpec spec;
   const bool described = describes_linkage(completed_parameters);
   for (const ParameterInfo& info : parameter_table()) {
-    if (!described || info.scope != ParameterScope::kRpsup)
+    if (described && info.scope == ParameterScope::kRpsup) continue;
+    if (find_replacing_drive(completed_parameters, info.key) == nullptr)
       info.write(spec, completed_parameters.at(info.key));
   }
   if (!described) {
     write_links(completed_parameters.at("links"), spec.parameters);
     if (completed_parameters.contains(kWearKey))
       spec.parameters.wear_depth = to_wear_depth(completed_parameters.at(kWearKey));
+    for (const RpsupDrive& drive : rpsup_drives())
+      if (completed_parameters.contains(drive.key))
+        spec.parameters.*drive.member =
+            read_drive(completed_parameters.at(drive.key), drive.motion, spec.parameters);
   } else if (const json& linkage = completed_parameters.at(kLinkageKey); !linkage.empty()) {
     std::vector<Fault> faults;
     spec.linkage = read_linkage(linkage, spec.parameters, faults);

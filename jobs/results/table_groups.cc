@@ -7,9 +7,7 @@
 #include <string_view>
 
 #include "jobs/base/errors.h"
-#include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_value.h"
-#include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
 
 namespace jobs {
@@ -21,7 +19,7 @@ std::vector<std::string_view> metrics_of(const ResultTable& table) {
   const auto& parameters = known_paths();
   std::vector<std::string_view> metrics;
   for (const std::string& column : table.columns) {
-    const bool given = column == kLinkageKey || column == kWearKey || is_linkage_path(column) ||
+    const bool given = is_varied_by_cases(column) || is_linkage_path(column) ||
                        std::ranges::find(parameters, column) != parameters.end();
     if (!given && std::ranges::find(kOfJobs, column) == kOfJobs.end()) metrics.emplace_back(column);
   }

@@ -45,6 +45,8 @@ export function fromSchema(given, resolve) {
   if ("const" in schema) return fc.constant(schema.const);
   if (schema.enum) return fc.constantFrom(...schema.enum);
   const choices = schema.oneOf ?? schema.anyOf;
+  if (choices && schema.type === "object")  // an object that has the keys of one choice, too
+    return fc.oneof(...choices.map(({ required }) => objectOf({ ...schema, required: [...schema.required, ...required] }, resolve)));
   if (choices) return fc.oneof(...choices.map((choice) => fromSchema(choice, resolve)));
   if (schema.allOf) return fromSchema({ ...resolve(schema.allOf[0]), minProperties: schema.minProperties }, resolve);
   switch (schema.type) {

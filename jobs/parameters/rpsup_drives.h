@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/model/drive_law.h"
+#include "engine/model/mechanism.h"
+#include "engine/model/rpsup_parameters.h"
+
+namespace jobs {
+
+/// A parameter that gives a driven coordinate of the linkage "rpsup" another law than the paper's. It is in a
+/// parameter set only if it is given; the parameters of the paper's law are not in the set then.
+struct RpsupDrive {
+  std::string_view key;
+  engine::Motion motion;
+  std::vector<std::string_view> replaced;  ///< parameters of the paper's law
+  std::string_view help;
+  std::optional<engine::DriveLaw> engine::RpsupParameters::* member;
+};
+
+[[nodiscard]] const std::array<RpsupDrive, 2>& rpsup_drives();
+
+[[nodiscard]] const RpsupDrive* find_rpsup_drive(std::string_view key);  ///< null if there is none
+
+/// The drive given in a parameter set in the place of one of its parameters; null if there is none.
+[[nodiscard]] const RpsupDrive* find_replacing_drive(const nlohmann::json& given, std::string_view parameter);
+
+}  // namespace jobs
