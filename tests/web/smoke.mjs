@@ -311,6 +311,29 @@ test("a sweep is cancelled and retried in the list", async () => {
   await leave(page);
 });
 
+test("a duplicate keeps the parameters that have no field", async () => {
+  const drive = { law: "velocity_table", times_s: [0, 0.01], velocities_rad_s: [0, 10] };
+  const parameters = { duration_s: 0.02, run_up_s: 0.01, crank_drive: drive };
+  const sweep = await ask("/v1/sweeps", { name: "measured", parameters, sweep: { clearance_mm: [0.11] } });
+  const page = await visit(`#/sweeps/${sweep.id}`);
+  await page.getByRole("link", { name: "Duplicate" }).click();
+  const written = page.getByLabel(/JSON object of crank_drive/);
+  assert.deepEqual(JSON.parse(await written.inputValue()), { crank_drive: drive });
+  await picture(page, "measured_drive", { fullPage: true });
+  await written.fill("{\"clearance_mm\": 1}");
+  await page.getByText(/must be a JSON object of crank_drive, rod_drive/).waitFor();
+  await written.fill(JSON.stringify({ crank_drive: drive }));
+  await page.getByRole("button", { name: "Submit" }).click();
+  await page.waitForURL((address) => /#\/sweeps\/[^/?]+$/.test(address.hash) && !address.hash.includes(sweep.id));
+  const again = await ask(`/v1/sweeps/${page.url().split("/").at(-1)}`);
+  assert.notEqual(again.id, sweep.id);
+  assert.deepEqual(again.request.parameters.crank_drive, drive);
+  const job = (await resultsOf(again))[0].job_id;
+  await page.goto(`${url}/#/jobs/${job}`);
+  await page.getByText(/crank by velocity_table/).waitFor();
+  await leave(page);
+});
+
 test("a sweep is followed once, however often its jobs are retried", async () => {
   const sweep = await ask("/v1/sweeps", { name: "again", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
   const page = await visit("#/new");  // not the list: it follows the sweep, too

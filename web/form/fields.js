@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parameters of the service's JSON Schema as fields of a form.
 
+/// Parameters without a field, which are written as JSON.
+export const writtenAsJson = ["crank_drive", "rod_drive", "wear_depth_um"];
+
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {
-  // The linkage is described in JSON, not in fields, and worn bores come from wear studies.
-  return Object.entries(schema.properties).filter(([key]) => key !== "linkage" && key !== "wear_depth_um")
+  return Object.entries(schema.properties).filter(([key]) => key !== "linkage" && !writtenAsJson.includes(key))
     .flatMap(([key, property]) =>
     (property.type === "object" ? fieldsOf(property, `${prefix}${key}.`) : [fieldOf(prefix + key, property)]));
 }
@@ -48,6 +50,7 @@ export function pathOfPointer(pointer, fields) {
   if (parts[0] === "cases" || parts[0] === "design") return parts[0];
   if (parts[0] !== "sweep" && parts[0] !== "parameters") return "";
   if (parts[0] === "parameters" && parts[1] === "linkage") return "linkage";
+  if (parts[0] === "parameters" && writtenAsJson.includes(parts[1])) return "described";
   if (parts[1]?.startsWith("linkage.")) return "inside";
   const path = parts.slice(1).join(".");
   return fields.map((field) => field.path).find((known) => path === known || path.startsWith(`${known}.`)) ?? "";

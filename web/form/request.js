@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // From what stands in the form to a request, and back.
-import { faultOf } from "/form/fields.js";
+import { faultOf, writtenAsJson } from "/form/fields.js";
 
 export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", count: "5", scale: "linear", chosen: [] });
 
 const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
 
-/// @param state  {name, priority, reuse, linkage, inside, cases, design, replicates: {count, perturbation, seed, only,
+/// @param state  {name, priority, reuse, described, linkage, inside, cases, design, replicates: {count, perturbation, seed, only,
 /// tolerance_factor}, entries: {path: entry}}
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
@@ -18,6 +18,9 @@ export function buildRequest(fields, state) {
     if (entry) addEntry(field, entry, request, (detail) => problems.push({ path: field.path, detail }));
   }
   addJson("linkage", state.linkage, request.parameters, problems);
+  const others = { described: {} };
+  addJson("described", state.described, others, problems);
+  Object.assign(request.parameters, others.described);
   const inside = {};
   addJson("inside", state.inside, inside, problems);
   Object.assign(request.sweep, inside.inside);
@@ -69,6 +72,9 @@ function addRange(field, entry, request, refuse) {
 const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
 
 const jsonKinds = {
+  described: { fits: (value) => isObject(value) && Object.keys(value).every((key) => writtenAsJson.includes(key)),
+    detail: `must be a JSON object of ${writtenAsJson.join(", ")}, such as `
+      + "{\"crank_drive\": {\"law\": \"velocity_table\", \"times_s\": [0, 2], \"velocities_rad_s\": [0, 10]}}" },
   linkage: { fits: (value) => isObject(value) || value === "rpsup",
     detail: "must be a JSON object that describes a linkage, with bodies and joints" },
   inside: { fits: (value) => isObject(value) && Object.keys(value).every((path) => path.startsWith("linkage.")),
@@ -79,7 +85,7 @@ const jsonKinds = {
       + "\"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
 };
 
-/// Adds a part that is written as JSON: the linkage, axes inside it, cases or the design.
+/// Adds a part that is written as JSON: drives, the linkage, axes inside it, cases or the design.
 function addJson(key, text, request, problems) {
   if (text.trim() === "") return;
   const { fits, detail } = jsonKinds[key];
@@ -114,10 +120,13 @@ export function readRequest(fields, request = {}) {
       to: String(axis.to), count: String(axis.count), scale: axis.scale ?? "linear" };
   }
   const { linkage } = request.parameters ?? {};
+  const described = Object.fromEntries(Object.entries(request.parameters ?? {})
+    .filter(([key]) => writtenAsJson.includes(key)));
   const inside = Object.fromEntries(Object.entries(request.sweep ?? {})
     .filter(([path]) => path.startsWith("linkage.")));
   return { linkage: isObject(linkage) ? JSON.stringify(linkage, null, 1) : "", inside: Object.keys(inside)
     .length > 0 ? JSON.stringify(inside, null, 1) : "",
+    described: Object.keys(described).length > 0 ? JSON.stringify(described, null, 1) : "",
     name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
     cases: request.cases ? JSON.stringify(request.cases, null, 1) : "",
     design: request.design ? JSON.stringify(request.design, null, 1) : "",

@@ -117,6 +117,15 @@ export class RequestForm {
   }
 
   linkage() {
+    return h("div", {}, this.described(), this.otherLinkage());
+  }
+
+  described() {
+    return h("details", { open: this.state.described !== "" }, h("summary", {}, "Measured drives and worn bore"),
+      ...this.json("described", "JSON object of crank_drive, rod_drive and wear_depth_um"));
+  }
+
+  otherLinkage() {
     return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Custom linkage"),
       h("p", { class: "quiet small" },
         "A custom linkage has its own bodies, joints and drives; the parameters of coupler, crank, rod and guide "
