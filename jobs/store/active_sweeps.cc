@@ -83,7 +83,7 @@ double read_unit(const SQLite::Database& database, std::int64_t sweep, const std
   return first.executeStep() ? optional_double(first.getColumn(0)).value_or(1.0) : 1.0;
 }
 
-bool lacks_rate(const Costs& costs) {
+bool misses_rate(const Costs& costs) {
   return std::ranges::any_of(costs, [](const auto& of_kind) {
     const CostOfKind& cost = of_kind.second;
     return cost.computed == 0 && (cost.queued > 0 || !cost.running.empty());
@@ -167,7 +167,7 @@ namespace {
 
 ActiveSweepSample read_sample(const SQLite::Database& database, const std::vector<ListedSweep>& all) {
   ActiveSweepSample read;
-  bool lacks = all.size() > kMostActiveSweeps;  // a sweep that is not in the sample may lack one
+  bool is_incomplete = all.size() > kMostActiveSweeps;  // a sweep that is not in the sample may have none
   for (const ListedSweep& sweep : sample_of(all)) {
     const bool single = sweep.seq == kSingleJobs;
     const std::string time = single ? kOwnTime : simulated_time(sweep.swept);
@@ -177,9 +177,9 @@ ActiveSweepSample read_sample(const SQLite::Database& database, const std::vecto
                               .unit_s = single ? 1.0 : read_unit(database, sweep.seq, time),
                               .costs = read_costs(database, sweep.seq, time),
                               .weight = sweep.weight});
-    lacks = lacks || lacks_rate(added.first->second.costs);
+    is_incomplete = is_incomplete || misses_rate(added.first->second.costs);
   }
-  if (lacks) read.usual_rates = read_cost_rates(database);
+  if (is_incomplete) read.usual_rates = read_cost_rates(database);
   return read;
 }
 

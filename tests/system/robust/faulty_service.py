@@ -119,7 +119,7 @@ FAULTS = {
     "a deletion is only acknowledged": (request_fault("DELETE .*", look_instead), say_no_content, None),
     "a cancelling is only acknowledged": (request_fault(r"POST .*/cancel", look_instead), None, None),
     "keys are ignored": (forget_key, None, None),
-    "a page lacks an item": (None, answer_fault(r"/v1/sweeps\?.*cursor=.*", change_json(drop_item)), None),
+    "a page leaves out an item": (None, answer_fault(r"/v1/sweeps\?.*cursor=.*", change_json(drop_item)), None),
     "a page has an item twice": (None, answer_fault(r"/v1/sweeps\?.*cursor=.*", change_json(repeat_item)), None),
     "one ETag for all": (None, answer_fault(".*", tag_alike), None),
     "an old answer": (None, answer_fault(SWEEP, Memory()), None),
