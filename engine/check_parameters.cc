@@ -174,29 +174,42 @@ void check_options(const RunOptions& options) {
   require_positive(options.absolute_tolerance, "absolute_tolerance");
 }
 
+/// Bounds of a drive's motion: of its position, but for what it does between 2001 instants of the run at more
+/// than its largest rate there.
+struct MotionBounds {
+  double low, high, rate;
+};
+MotionBounds calc_bounds(const DriveLaw& law, double duration) {
+  constexpr int kInstants = 2000;
+  const DrivenMotion first = calc_driven_motion(law, 0.0);
+  MotionBounds bounds{first.q, first.q, std::max(std::abs(first.qd), 1e-9)};
+  for (int k = 1; k <= kInstants; ++k) {
+    const DrivenMotion at = calc_driven_motion(law, duration * k / kInstants);
+    bounds.low = std::min(bounds.low, at.q);
+    bounds.high = std::max(bounds.high, at.q);
+    bounds.rate = std::max(bounds.rate, std::abs(at.qd));
+  }
+  const double between = 0.5 * bounds.rate * duration / kInstants;
+  return {bounds.low - between, bounds.high + between, bounds.rate};
+}
+
 /// Largest distance of the S joint from the crank's axis.
-double calc_farthest_rod(const RpsupParameters& p) {
+double calc_farthest_rod(const RpsupParameters& p, double duration) {
+  if (p.rod_drive) {
+    const MotionBounds bounds = calc_bounds(*p.rod_drive, duration);
+    return std::max(std::abs(p.rod_length + bounds.low), std::abs(p.rod_length + bounds.high));
+  }
   return std::max(std::abs(p.rod_start), std::abs(p.rod_start + p.rod_stroke));
 }
 
 /// True if the coupler reaches the guide for whatever crank angle and rod position: no need to look at
 /// instants then.
-bool reaches_always(const RpsupParameters& p) {
-  if (p.rod_drive) return false;
-  const double most = calc_farthest_rod(p);
+bool reaches_always(const RpsupParameters& p, double duration) {
+  const double most = calc_farthest_rod(p, duration);
   const double y = most + std::abs(p.guide_offset_y);
   const double z =
       most * std::abs(std::sin(p.guide_angle)) + std::abs(p.guide_offset_z * std::cos(p.guide_angle));
   return calc_coupler_projection_squared(p, Eigen::Vector3d(0.0, y, z)) > 0.0;
-}
-
-/// Largest rate of a drive, but for what lies between some instants.
-double calc_largest_rate(const DriveLaw& law, double duration) {
-  constexpr int kInstants = 2000;
-  double largest = 1e-9;
-  for (int k = 0; k <= kInstants; ++k)
-    largest = std::max(largest, std::abs(calc_driven_motion(law, duration * k / kInstants).qd));
-  return largest;
 }
 
 /// Time between two looks at the motion, so that neither drive moves far between them; a linkage that would
@@ -205,11 +218,11 @@ double calc_time_between_looks(const RpsupParameters& p, double duration) {
   constexpr double kMostLooks = 1e5;
   constexpr double kAngle = 0.02;     // [rad] of the crank between two looks
   constexpr double kOfStroke = 0.02;  // of the rise time
-  constexpr double kWay = 1e-3;       // [m] of a rod by another law
-  const double speed = p.crank_drive ? calc_largest_rate(*p.crank_drive, duration)
+  constexpr double kTravel = 1e-3;    // [m] of a rod by another law
+  const double speed = p.crank_drive ? calc_bounds(*p.crank_drive, duration).rate
                                      : std::max(std::abs(p.crank_velocity), 1e-9);
   const double of_rod =
-      p.rod_drive ? kWay / calc_largest_rate(*p.rod_drive, duration) : kOfStroke * p.rod_stroke_time;
+      p.rod_drive ? kTravel / calc_bounds(*p.rod_drive, duration).rate : kOfStroke * p.rod_stroke_time;
   return std::max(std::min({kAngle / speed, of_rod, 0.1 * duration}), duration / kMostLooks);
 }
 
@@ -219,7 +232,7 @@ std::string describe_instant(const std::string& at_start, const std::string& lat
 
 /// The guide must be within the coupler's reach at every instant.
 void check_reach(const RpsupParameters& p, double duration) {
-  if (reaches_always(p)) return;
+  if (reaches_always(p, duration)) return;
   const auto looks = static_cast<long>(std::ceil(duration / calc_time_between_looks(p, duration)));
   for (long k = 0; k <= looks; ++k) {
     const double t = duration * static_cast<double>(k) / static_cast<double>(looks);
@@ -253,8 +266,8 @@ void check_yoke(const RpsupParameters& p, double duration) {
   const auto arm = [&p](double t) { return calc_yoke_arm(p, t); };
   if (p.yoke_axis != YokeAxis::kGuide) return;
   const double apart = std::abs(p.guide_offset_z * std::cos(p.guide_angle)) -
-                       calc_farthest_rod(p) * std::abs(std::sin(p.guide_angle));
-  if (!p.rod_drive && apart > p.cross_length + kMeets) return;
+                       calc_farthest_rod(p, duration) * std::abs(std::sin(p.guide_angle));
+  if (apart > p.cross_length + kMeets) return;
   const double interval = calc_time_between_looks(p, duration);
   const auto looks = static_cast<long>(std::ceil(duration / interval));
   for (long k = 0; k <= looks; ++k) {
