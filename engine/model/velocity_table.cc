@@ -26,7 +26,7 @@ double calc_inner_slope(double h_before, double d_before, double h, double d) {
   return (w_before + w) / (w_before / d_before + w / d);
 }
 
-/// Slopes at the points of a monotone table of two points or more.
+/// Slopes at the points of a table of two points or more.
 std::vector<double> calc_monotone_slopes(const std::vector<double>& t, const std::vector<double>& v) {
   const std::size_t intervals = t.size() - 1;
   const auto h = [&](std::size_t k) { return t[k + 1] - t[k]; };
@@ -60,7 +60,9 @@ VelocityTable::VelocityTable(const std::vector<double>& t, const std::vector<dou
     }
     const DrivenMotion before = calc(t[k]);
     piece.q = before.q;
-    piece.jumps = std::abs(piece.a - before.qdd) > 1e-12 * (std::abs(piece.a) + std::abs(before.qdd));
+    const bool inside = k > 0 && k + 1 < t.size();
+    const double size = std::abs(piece.a) + std::abs(before.qdd);
+    piece.jumps = !(cubic && inside) && std::abs(piece.a - before.qdd) > 1e-12 * size;
     pieces_.push_back(piece);
   }
   const double shift = start - calc(0.0).q;

@@ -85,6 +85,17 @@ TEST(VelocityTable, TellsWhereItsAccelerationJumps) {
   EXPECT_EQ(smooth.next_jump(0.5), 4.0);
 }
 
+// At an extreme the slope is 0, and that of the piece before it a rounding.
+TEST(VelocityTable, JumpsNowhereInsideTheMonotoneCubic) {
+  std::vector<double> t, v;
+  for (int k = 0; k < 1000; ++k) {
+    t.push_back(0.01 * k);
+    v.push_back(10.0 + std::sin(20.0 * t.back()) + 0.1 * std::sin(777.0 * k));
+  }
+  const VelocityTable table(t, v, TableInterpolation::kMonotoneCubic, 0.0);
+  EXPECT_EQ(table.next_jump(0.0), t.back());
+}
+
 // The same law by another name.
 TEST(RpsupDrives, GiveTheBytesOfTheirParameters) {
   RpsupParameters named;
