@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "jobs/linkages/linkage_fields.h"
+#include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_value.h"
 
 namespace jobs {
@@ -14,13 +15,15 @@ namespace {
 using nlohmann::json;
 using Numbers = std::vector<double>;
 
+constexpr double kLeastInterval = 0.999999e-6;  // [s] between the times of a table: a microsecond, rounded
+
 /// @param values  key of the list that has a value for each time
 void check_table(const json& drive, const char* values, const std::string& pointer,
                  std::vector<Fault>& faults) {
   const auto times = drive.at("times_s").get<Numbers>();
-  if (times.size() < 2 ||
-      std::ranges::adjacent_find(times, [](double a, double b) { return !(a < b); }) != times.end())
-    faults.push_back({pointer + "/times_s", "must be two times or more, each later than the one before"});
+  const auto too_close = [](double a, double b) { return !(b - a >= kLeastInterval); };
+  if (std::ranges::adjacent_find(times, too_close) != times.end())
+    faults.push_back({pointer + "/times_s", "must rise, each by 1e-6 s or more"});
   if (drive.at(values).size() != times.size())
     faults.push_back({pointer + pointer_token(values),
                       "must have one value for each of the " + std::to_string(times.size()) + " times"});
@@ -62,6 +65,18 @@ void check_drive(const json& drive, engine::Motion motion, const std::string& po
   if (law == "table") check_table(drive, slides(motion) ? "values_m" : "values_rad", pointer, faults);
   if (law == "velocity_table")
     check_table(drive, slides(motion) ? "velocities_m_s" : "velocities_rad_s", pointer, faults);
+}
+
+json canonical_drive(const json& drive, engine::Motion motion) {
+  json canonical = canonical_description(drive);
+  const auto [key, former_key] = coefficient_keys(motion);
+  if (canonical.contains(former_key)) {
+    canonical[key] = canonical.at(former_key);
+    canonical.erase(former_key);
+  }
+  if (canonical.at("law") == "velocity_table" && !canonical.contains("interpolation"))
+    canonical["interpolation"] = "monotone_cubic";
+  return canonical;
 }
 
 engine::DriveLaw read_drive(const json& drive, engine::Motion motion,

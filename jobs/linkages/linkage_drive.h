@@ -17,6 +17,10 @@ namespace jobs {
 void check_drive(const nlohmann::json& drive, engine::Motion motion, const std::string& pointer,
                  std::vector<Fault>& faults);
 
+/// A drive without faults in the one form in which it is stored: numbers as doubles, present names of keys,
+/// and the default interpolation.
+[[nodiscard]] nlohmann::json canonical_drive(const nlohmann::json& drive, engine::Motion motion);
+
 /// @param drive  without faults
 [[nodiscard]] engine::DriveLaw read_drive(const nlohmann::json& drive, engine::Motion motion,
                                           const engine::RpsupParameters& defaults);

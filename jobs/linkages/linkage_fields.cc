@@ -27,17 +27,17 @@ std::string points_text(const LinkageField& field, std::string_view count) {
 }
 
 std::string describe_list_fault(const LinkageField& field, const json& value) {
-  const bool fits =
-      value.is_array() && (field.kind == FieldKind::kPoint     ? value.size() == 3
-                           : field.kind == FieldKind::kInertia ? value.size() == 3 || value.size() == 6
-                                                               : !value.empty() && value.size() <= 10'000);
-  const bool numbers = fits && std::all_of(value.begin(), value.end(), [&](const json& x) {
-                         return x.is_number() && field.range.contains(x.get<double>());
-                       });
-  if (numbers) return "";
-  return points_text(field, field.kind == FieldKind::kPoint     ? "three"
-                            : field.kind == FieldKind::kInertia ? "three or six"
-                                                                : "one or more");
+  const std::size_t size = value.is_array() ? value.size() : 0;
+  const auto fault_unless = [&](bool fits, const std::string& count) -> std::string {
+    const bool numbers = fits && std::ranges::all_of(value, [&](const json& x) {
+                           return x.is_number() && field.range.contains(x.get<double>());
+                         });
+    return numbers ? "" : points_text(field, count);
+  };
+  if (field.kind == FieldKind::kPoint) return fault_unless(size == 3, "three");
+  if (field.kind == FieldKind::kInertia) return fault_unless(size == 3 || size == 6, "three or six");
+  return fault_unless(size >= field.fewest && size <= kMostNumbers,
+                      std::to_string(field.fewest) + " to 10,000");
 }
 
 std::string describe_word_fault(const LinkageField& field, const json& value) {
@@ -89,8 +89,8 @@ json schema_of_field(const LinkageField& field) {
                                       {"items", number_schema(field)}}; break;
     case FieldKind::kInertia: schema = {{"type", "array"}, {"minItems", 3}, {"maxItems", 6},
                                         {"items", number_schema(field)}}; break;
-    case FieldKind::kNumbers: schema = {{"type", "array"}, {"minItems", 1}, {"maxItems", 10'000},
-                                        {"items", number_schema(field)}}; break;
+    case FieldKind::kNumbers: schema = {{"type", "array"}, {"minItems", field.fewest},
+                                        {"maxItems", kMostNumbers}, {"items", number_schema(field)}}; break;
     case FieldKind::kObject: schema = {{"type", "object"}}; break;
   }
   schema["description"] = field.help;
@@ -331,23 +331,23 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
                                 : "Former name of coefficients_rad, with the same meaning"});
   } else if (law == "table") {
     add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s",
-         .help = "Rising; two or more", .required = true});
+         .help = "Rising by 1e-6 s or more; 2 to 10,000", .required = true, .fewest = 2});
     add({.key = slides(motion) ? "values_m" : "values_rad",
          .kind = FieldKind::kNumbers,
          .range = kAny,
          .unit = slides(motion) ? "m" : "rad",
          .help = "One for each time; between them the natural cubic spline, outside straight on",
-         .required = true});
+         .required = true, .fewest = 2});
   } else if (law == "velocity_table") {
     add({.key = "times_s", .kind = FieldKind::kNumbers, .range = between(-3600, 7200), .unit = "s",
-         .help = "Rising; two or more", .required = true});
+         .help = "Rising by 1e-6 s or more; 2 to 10,000", .required = true, .fewest = 2});
     add({.key = slides(motion) ? "velocities_m_s" : "velocities_rad_s",
          .kind = FieldKind::kNumbers,
          .range = kAny,
          .unit = slides(motion) ? "m/s" : "rad/s",
          .help = "One for each time; constant before the first and after the last. The position is their "
                  "exact integral",
-         .required = true});
+         .required = true, .fewest = 2});
     add({.key = "interpolation",
          .kind = FieldKind::kWord,
          .help = "Between the times; without it monotone_cubic, which has no extremes between them; linear: "

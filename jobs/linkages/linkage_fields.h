@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,10 @@ struct LinkageField {
   std::string_view help = {};
   bool required = false;
   std::vector<std::string_view> words = {};
+  std::size_t fewest = 1;  ///< of a list of numbers
 };
+
+inline constexpr std::size_t kMostNumbers = 10'000;  ///< of a list
 
 using LinkageFields = std::vector<LinkageField>;
 

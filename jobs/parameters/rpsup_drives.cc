@@ -7,13 +7,13 @@ namespace jobs {
 
 const std::array<RpsupDrive, 2>& rpsup_drives() {
   static const std::array<RpsupDrive, 2> drives{
-      RpsupDrive{.key = "crank_drive",
+      RpsupDrive{.key = kCrankDriveKey,
                  .motion = engine::Motion::kRotation,
                  .replaced = {"crank_velocity_rad_s", "crank_start_rad"},
                  .help = "Law of the crank's angle from x, in the place of crank_velocity_rad_s and "
-                         "crank_start_rad",
+                         "crank_start_rad. Peaks still count from run_up_s on",
                  .member = &engine::RpsupParameters::crank_drive},
-      RpsupDrive{.key = "rod_drive",
+      RpsupDrive{.key = kRodDriveKey,
                  .motion = engine::Motion::kTranslation,
                  .replaced = {"rod_start_m", "rod_stroke_mm", "rod_stroke_time_s", "rod_pause_s", "rod_law"},
                  .help = "Law of the rod's displacement along the crank, 0 with the S joint at rod_length_m "

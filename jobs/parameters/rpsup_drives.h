@@ -14,8 +14,11 @@
 
 namespace jobs {
 
-/// A parameter that gives a driven coordinate of the linkage "rpsup" another law than the paper's. It is in a
-/// parameter set only if it is given; the parameters of the paper's law are not in the set then.
+inline constexpr std::string_view kCrankDriveKey = "crank_drive";
+inline constexpr std::string_view kRodDriveKey = "rod_drive";
+
+/// A parameter that gives a driven coordinate of the linkage "rpsup" another law than the paper's. A set has
+/// either this parameter, if it is given, or those of the paper's law.
 struct RpsupDrive {
   std::string_view key;
   engine::Motion motion;

@@ -78,8 +78,8 @@ void add_drive_faults(const json& completed, std::vector<Fault>& faults) {
   for (const RpsupDrive& drive : rpsup_drives())
     for (const std::string_view parameter : drive.replaced)
       if (completed.contains(drive.key) && completed.contains(parameter))
-        faults.push_back({pointer_token(parameter), "belongs to the law in whose place " +
-                                                        std::string(drive.key) + " is given"});
+        faults.push_back({pointer_token(parameter),
+                          "cannot stand beside " + std::string(drive.key) + ", which replaces it"});
 }
 
 /// Sections and lengths without which no default mass makes sense.
@@ -150,15 +150,14 @@ std::string pointer_of_member(const std::string& member) {
 /// The parameter to name for a linkage that cannot be assembled or locks: many decide it, and one that is not
 /// at its default is the likeliest cause.
 std::string pointer_of_geometry(const json& completed, std::string_view otherwise) {
+  if (completed.contains(kRodDriveKey)) return pointer_token(kRodDriveKey);
   for (const std::string_view key : {"guide_offset_z_m", "guide_offset_y_m", "guide_angle_deg",
                                      "coupler_length_m", "rod_start_m", "rod_stroke_mm", "crank_start_rad"}) {
     if (completed.contains(key) &&
         completed.at(key) != canonical_value(*find_parameter(key), default_value(*find_parameter(key))))
       return pointer_token(key);
   }
-  for (const RpsupDrive& drive : rpsup_drives())
-    if (completed.contains(drive.key)) return pointer_token(drive.key);
-  return pointer_token(otherwise);
+  return pointer_token(completed.contains(kCrankDriveKey) ? kCrankDriveKey : otherwise);
 }
 
 /// The fault of a linkage whose names make one key twice.
@@ -267,7 +266,7 @@ json fill_in_defaults(const json& given) {
   if (!described) completed["links"] = complete_links(given.value("links", json::object()), completed);
   if (given.contains(kWearKey)) completed[kWearKey] = canonical_wear(given.at(kWearKey));
   for (const RpsupDrive& drive : rpsup_drives())
-    if (given.contains(drive.key)) completed[drive.key] = canonical_description(given.at(drive.key));
+    if (given.contains(drive.key)) completed[drive.key] = canonical_drive(given.at(drive.key), drive.motion);
   return completed;
 }
 

@@ -70,7 +70,8 @@ class SweepParser {
   void check_keys() {
     for (const auto& [key, value] : request_.items()) {
       if (std::ranges::find(kSweepRequestKeys, key) != kSweepRequestKeys.end()) continue;
-      const bool is_parameter = std::ranges::find(known_paths(), key) != known_paths().end();
+      const bool is_parameter =
+          is_varied_by_cases(key) || std::ranges::find(known_paths(), key) != known_paths().end();
       fault(pointer_token(key), is_parameter ? "unknown key; parameters stand under \"parameters\""
                                              : describe_unknown_key(key, kSweepRequestKeys));
     }
@@ -142,6 +143,10 @@ class SweepParser {
     if (!only.is_object()) return "must be an object of lists of values, by the names of parameters";
     for (const auto& [path, values] : only.items()) {
       const std::string pointer = "/replicates/only" + pointer_token(path);
+      if (is_varied_by_cases(path) || path == "links") {
+        fault(pointer, "must name a parameter with one value: not a drive, a linkage, links or a worn bore");
+        continue;
+      }
       if (!is_known_path(path, pointer, faults_)) continue;
       if (!values.is_array() || values.empty()) {
         fault(pointer, "must be a list of one value or more");

@@ -10,6 +10,7 @@
 
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/results/name_list.h"
 #include "jobs/store/rows.h"
@@ -48,6 +49,7 @@ TextColumn text_column(const std::string& column) {
   if (column == "verdict" || column == "lost_reason" || column == "parameter" || column == "metric")
     return {.is_text = true, .words = {}};
   if (column == "monotonic") return {.is_text = true, .words = {"true", "false"}};
+  if (is_varied_by_cases(column) && column != kWearKey) return {.is_text = true, .words = {}};
   const ParameterInfo* const info = find_parameter(column);
   if (info == nullptr || info->kind != ParameterKind::kChoice) return {};
   return {.is_text = true, .words = info->choices};

@@ -24,6 +24,10 @@ TEST(RpsupDrive, TakesThePlaceOfTheParametersOfThePaper) {
   EXPECT_FALSE(completed.contains("crank_start_rad"));
   EXPECT_TRUE(completed.contains("rod_stroke_mm"));
   EXPECT_EQ(completed.at("crank_drive").at("times_s").dump(), "[0.0,1.0,2.0]");
+  EXPECT_EQ(completed.at("crank_drive").at("interpolation"), "monotone_cubic");
+  const json former{{"law", "polynomial"}, {"coefficients_rad_s", {0, 5}}};
+  EXPECT_EQ(jobs::complete_parameters({{"crank_drive", former}}, "").at("crank_drive").dump(),
+            R"({"coefficients_rad":[0.0,5.0],"law":"polynomial"})");
   const jobs::JobSpec spec = jobs::to_job_spec(completed);
   ASSERT_TRUE(spec.parameters.crank_drive);
   EXPECT_FALSE(spec.parameters.rod_drive);
@@ -70,10 +74,14 @@ constexpr Refused kRefused[] = {
     {"unknown_law", R"({"parameters": {"crank_drive": {"law": "fast"}}})", "/parameters/crank_drive/law", "velocity_table"},
     {"unit_of_the_other_motion", R"({"parameters": {"rod_drive": {"law": "run_up", "velocity_m_s": 0, "from_rad": 1}}})",
      "/parameters/rod_drive/from_rad", "from_m"},
-    {"fewer_velocities", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 1], "velocities_rad_s": [1]}}})",
+    {"fewer_velocities", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 1], "velocities_rad_s": [1, 2, 3]}}})",
      "/parameters/crank_drive/velocities_rad_s", "each of the 2 times"},
+    {"one_velocity", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 1], "velocities_rad_s": [1]}}})",
+     "/parameters/crank_drive/velocities_rad_s", "2 to 10,000 numbers"},
     {"times_that_fall", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 0], "velocities_rad_s": [1, 1]}}})",
-     "/parameters/crank_drive/times_s", "later"},
+     "/parameters/crank_drive/times_s", "1e-6 s"},
+    {"times_too_close", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 1e-300], "velocities_rad_s": [1, 2]}}})",
+     "/parameters/crank_drive/times_s", "1e-6 s"},
     {"interpolation", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 1], "velocities_rad_s": [1, 1],
       "interpolation": "cubic"}}})", "/parameters/crank_drive/interpolation", "monotone_cubic"},
     {"beside_a_velocity", R"({"parameters": {"crank_velocity_rad_s": 5, "crank_drive": {"law": "run_up", "velocity_rad_s": 5}}})",
@@ -83,6 +91,9 @@ constexpr Refused kRefused[] = {
     {"as_an_axis", R"({"sweep": {"crank_drive": [{"law": "run_up", "velocity_rad_s": 5}]}})", "/sweep/crank_drive", "cases"},
     {"out_of_reach", R"({"parameters": {"rod_drive": {"law": "cycloidal", "rise_m": 3, "time_s": 1}}})",
      "/parameters/rod_drive", "locks"},
+    {"out_of_reach_with_another_crank", R"({"parameters": {"crank_drive": {"law": "run_up", "velocity_rad_s": 5}, "rod_drive": {"law": "cycloidal",
+      "rise_m": 3, "time_s": 1}}})", "/parameters/rod_drive", "locks"},
+    {"beside_the_parameters", R"({"crank_drive": {"law": "run_up", "velocity_rad_s": 5}})", "/crank_drive", "\"parameters\""},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, RefusedRpsupDrive, testing::ValuesIn(kRefused),

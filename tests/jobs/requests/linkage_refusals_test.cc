@@ -71,7 +71,7 @@ constexpr Refusal kRefusals[] = {
      "/linkage/joints/crank/drive/law", "harmonic"},
     {"table_that_turns_back", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
        "value": {"law": "table", "times_s": [0, 2, 1], "values_rad": [0, 1, 2]}}])",
-     "/linkage/joints/crank/drive/times_s", "later"},
+     "/linkage/joints/crank/drive/times_s", "1e-6 s"},
     {"stroke_by_an_unknown_law", R"([{"op": "replace", "path": "/linkage/joints/crank/drive",
        "value": {"law": "rise_return_pause", "stroke_rad": 1, "stroke_time_s": 1, "stroke_law": "sine"}}])",
      "/linkage/joints/crank/drive/stroke_law", R"("cycloidal", "cosine", "parabolic")"},
