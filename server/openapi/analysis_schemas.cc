@@ -13,7 +13,7 @@ const Json kNumberOrNull{{"type", {"number", "null"}}};
 
 /// Rows that have what is swept beside these.
 Json rows_of(Json properties) {
-  for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
+  add_parameters_of_row(properties);
   return list_of(options_of(std::move(properties)));
 }
 

@@ -146,8 +146,7 @@ Json make_page_schema(std::string_view item) {
 
 Json make_result_row() {
   Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", kCount}};
-  for (const std::string& path : jobs::known_paths())
-    properties[path] = or_null(parameter_ref(path));  // null: of jobs of another linkage
+  add_parameters_of_row(properties);
   properties.update(metric_properties(metric_value));
   properties["replicates_count"] =
       described(kCount, "of the row's set, those that have succeeded; the statistics are of their " +
@@ -156,8 +155,6 @@ Json make_result_row() {
     properties[key] = or_null(kNumber);
   for (const std::string_view column : jobs::kErrorColumns)
     properties[std::string(column)] = described(or_null(kText), "why a job failed; only if it is named");
-  properties["linkage"] = described(
-      kText, "of a described one its name, with a number if another one of the sweep has that name");
   Json row = options_of(std::move(properties));
   row["additionalProperties"] = described(
       or_null(kNumber),

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "jobs/parameters/rpsup_drives.h"
+#include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameter_path.h"
 
 namespace server::openapi {
@@ -43,6 +45,16 @@ Json parameter_ref(std::string_view path) {
        slash += sizeof "/properties")
     pointer.insert(slash, "/properties");
   return {{"$ref", "#/components/schemas/Parameters" + pointer}};
+}
+
+void add_parameters_of_row(Json& properties) {
+  for (const std::string& path : jobs::known_paths()) properties[path] = or_null(parameter_ref(path));
+  properties["linkage"] = described(
+      kText, "of a described one its name, with a number if another one of the sweep has that name");
+  for (const jobs::RpsupDrive& drive : jobs::rpsup_drives())
+    properties[std::string(drive.key)] =
+        described(or_null(kText), "the law, with a number if another drive of the sweep has it");
+  properties[std::string(jobs::kWearKey)] = described(or_null(kNumber), "the largest depth, in um");
 }
 
 }  // namespace server::openapi

@@ -40,4 +40,7 @@ inline const Json kCount{{"type", "integer"}, {"minimum", 0}};
 /// The schema of the value of a parameter, by its path: "clearance_mm", "links.1,3.mass_kg".
 [[nodiscard]] Json parameter_ref(std::string_view path);
 
+/// Adds what a row tells of its job's parameters, where they vary: null where the job has no such parameter.
+void add_parameters_of_row(Json& properties);
+
 }  // namespace server::openapi

@@ -37,7 +37,7 @@ Json make_limit() {
 }
 
 Json with_axes(Json properties) {
-  for (const std::string& path : jobs::known_paths()) properties[path] = parameter_ref(path);
+  add_parameters_of_row(properties);
   return options_of(std::move(properties));
 }
 

@@ -87,6 +87,26 @@ TEST(Analyses, PairRigidAndFlexibleJobs) {
   EXPECT_EQ(bench.call("GET", rigid + "/surrogate").status, 409);
 }
 
+// Rows name the law of each drive, and have no velocity where a drive takes its place.
+TEST(Analyses, NameDrivesThatCasesVary) {
+  Bench bench(long_run);
+  const std::string path =
+      "/v1/sweeps/" +
+      bench.run(R"({"parameters": {"run_up_s": 0}, "sweep": {"coupler": ["rigid", "flexible"]}, "cases": [
+             {"crank_drive": {"law": "run_up", "velocity_rad_s": 5}}, {"crank_velocity_rad_s": 5},
+             {"crank_drive": {"law": "velocity_table", "times_s": [0, 1], "velocities_rad_s": [0, 5]}}],
+             "replicates": {"count": 2}})");
+  const json rows = rows_of(bench, path + "/flexibility");
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows.at(0).at("crank_drive"), "run_up");
+  EXPECT_TRUE(rows.at(0).at("crank_velocity_rad_s").is_null());
+  EXPECT_TRUE(rows.at(1).at("crank_drive").is_null());
+  for (const char* const analysis : {"/bifurcation", "/lyapunov", "/results"})
+    EXPECT_GT(rows_of(bench, path + analysis).size(), 1U) << analysis;
+  EXPECT_EQ(rows_of(bench, path + "/results", {{"crank_drive", "velocity_table"}}).size(), 4U);
+  EXPECT_EQ(bench.call("GET", path + "/results", "", {{"crank_drive_gt", "1"}}).status, 422);
+}
+
 TEST(Analyses, LookAtMotionsOnceATurn) {
   Bench bench(long_run);
   const std::string path =
