@@ -313,16 +313,17 @@ test("a sweep is cancelled and retried in the list", async () => {
 
 test("a duplicate keeps the parameters that have no field", async () => {
   const drive = { law: "velocity_table", times_s: [0, 0.01], velocities_rad_s: [0, 10] };
-  const parameters = { duration_s: 0.02, run_up_s: 0.01, crank_drive: drive };
+  const rod = { law: "harmonic", amplitude_m: 0.01, frequency_hz: 1 };
+  const parameters = { duration_s: 0.02, run_up_s: 0.01, crank_drive: drive, rod_drive: rod };
   const sweep = await ask("/v1/sweeps", { name: "measured", parameters, sweep: { clearance_mm: [0.11] } });
   const page = await visit(`#/sweeps/${sweep.id}`);
   await page.getByRole("link", { name: "Duplicate" }).click();
   const written = page.getByLabel(/JSON object of crank_drive/);
-  assert.deepEqual(JSON.parse(await written.inputValue()), { crank_drive: drive });
+  assert.deepEqual(JSON.parse(await written.inputValue()), { crank_drive: drive, rod_drive: rod });
   await picture(page, "measured_drive", { fullPage: true });
   await written.fill("{\"clearance_mm\": 1}");
   await page.getByText(/must be a JSON object of crank_drive, rod_drive/).waitFor();
-  await written.fill(JSON.stringify({ crank_drive: drive }));
+  await written.fill(JSON.stringify({ crank_drive: drive, rod_drive: rod }));
   await page.getByRole("button", { name: "Submit" }).click();
   await page.waitForURL((address) => /#\/sweeps\/[^/?]+$/.test(address.hash) && !address.hash.includes(sweep.id));
   const again = await ask(`/v1/sweeps/${page.url().split("/").at(-1)}`);
@@ -331,6 +332,7 @@ test("a duplicate keeps the parameters that have no field", async () => {
   const job = (await resultsOf(again))[0].job_id;
   await page.goto(`${url}/#/jobs/${job}`);
   await page.getByText(/crank by velocity_table/).waitFor();
+  await page.locator("canvas.scene[data-instant='0']").waitFor();
   await leave(page);
 });
 

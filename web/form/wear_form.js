@@ -18,7 +18,7 @@ export class WearForm extends StudyForm {
   parts() {
     return [this.nameField(),
       h("h2", {}, "Duration and resolution"), numbers.map((key) => this.number(key, units[key] ?? "", names[key])),
-      h("h2", {}, "Linkage"), ...this.parameterFields(),
+      h("h2", {}, "Linkage"), ...this.parameterFields(), this.described(),
       h("details", {}, h("summary", {}, "Priority"), h("p", { class: "actions" }, ...this.orderFields()))];
   }
 

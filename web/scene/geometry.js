@@ -11,8 +11,15 @@ export function guideOf({ guide_offset_y_m: y, guide_offset_z_m: z, guide_angle_
 
 /// Distances of the S joint from the crank's axis, while the rod rests and at the end of its stroke [m].
 /** @param {Api.Parameters} parameters */
-export function rodEnds({ rod_length_m: length, rod_start_m: start = length, rod_stroke_mm: stroke }) {
-  return [start, start + stroke / 1000];
+export function rodEnds({ rod_length_m: length, rod_start_m: start = length, rod_stroke_mm: stroke, rod_drive: drive }) {
+  return drive ? endsOfDrive(drive).map((way) => length + way) : [start, start + stroke / 1000];
+}
+
+/// Least and largest position that a law gives; its start where that is not said [m].
+/** @param {any} drive */
+function endsOfDrive({ from_m: from = 0, stroke_m: stroke = 0, rise_m: rise = 0, mean_m: mean = from, amplitude_m: amplitude = 0,
+  values_m: values = [mean - amplitude, mean + amplitude + stroke + rise] }) {
+  return [Math.min(...values), Math.max(...values)];
 }
 
 /// Places to which the S joint and the slider come in a turn of the crank, and the crank's centre and end.
