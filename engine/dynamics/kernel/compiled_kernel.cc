@@ -27,11 +27,11 @@ DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<Clearan
 
 }  // namespace
 
-/// Six topologies are static: the paper's linkage with prescribed drives, its yoke about the guide or across
-/// it, with clearance and a rigid coupler or one of four elements, or without and with the latter. (Without
-/// clearance the drives determine rigid links: see LoopClosure.) Those with constraints pass the addresses of
-/// their workspaces to functions that are not inlined: nothing of these stays in registers anyway, so that
-/// they are rolled.
+/// Six topologies are static, all of the paper's linkage with prescribed drives. Its yoke turns about the
+/// guide or across it. For each yoke there are three: with clearance and a rigid coupler, with clearance and
+/// a coupler of four elements, and that coupler without clearance. (Drives determine the motion of rigid
+/// links without clearance: see LoopClosure.) The topology without clearance is rolled: its constraint solver
+/// passes addresses of the workspaces to functions that are not inlined, so that nothing stays in registers.
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
                                      std::size_t bristles) {
   return try_topologies<
