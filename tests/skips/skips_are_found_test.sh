@@ -33,9 +33,9 @@ prefix=engine.
 cat >junit.xml <<'END'
 <testsuites><testsuite>
   <testcase name="Runs" classname="Suite" status="run" result="completed"/>
-  <testcase name="Skips" classname="Suite" status="run" result="skipped"/>
+  <testcase name="Skips" classname="Suite" status="run" result="skipped"><skipped message="a.cc:1&#x0A;no room"/></testcase>
 </testsuite></testsuites>
 END
-expect 1 'engine.Suite.Skips' <<<''
+expect 1 'engine.Suite.Skips: no room' <<<''
 expect 0 '1 of 2 tests were skipped, 0 of them' <<<'any engine.Suite.Skips for a test'
 echo "unlisted skips are found"

@@ -45,7 +45,9 @@ def main():
     unlisted = [case for case in skipped if not any(fnmatchcase(name_of(case), pattern) for pattern in allowed)]
     print(f"skips: {len(skipped)} of {len(cases)} tests were skipped, {len(unlisted)} of them without a reason in {path}")
     for case in unlisted:
-        said = (case.findtext("system-out") or "").strip().splitlines()
+        skipped_element = case.find("skipped")
+        message = skipped_element.get("message") if skipped_element is not None else None
+        said = (case.findtext("system-out") or message or "").strip().splitlines()
         print(f"  {name_of(case)}: {said[-1] if said else 'nothing said'}")
     sys.exit(1 if unlisted else 0)
 
