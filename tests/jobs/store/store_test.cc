@@ -234,7 +234,7 @@ TEST(Store, ClaimsAndListsWithLittleWorkBesideManySweeps) {
   const long first = count.steps_of([&] { ASSERT_TRUE(store.queue.claim().has_value()); });  // finds the order
   EXPECT_GT(first, kMany) << "nothing has been counted";
   EXPECT_LT(count.steps_of(claim), kClaims * first / 10);
-  EXPECT_LT(count.steps_of(list), 30 * kMany);
+  EXPECT_LT(count.steps_of(list), 20 * kMany);
 }
 
 // Each has the time left, for which all others count.
