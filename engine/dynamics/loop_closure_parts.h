@@ -9,7 +9,7 @@
 
 #include "engine/model/mechanism.h"
 
-// What the sources of LoopClosure share.
+// Helpers that the sources of LoopClosure share.
 namespace engine::loop_closure {
 
 constexpr double kClosed = 1e-13;  // of Phi, [m] and [1]: rounding of positions near 1 m

@@ -7,7 +7,7 @@
 
 namespace engine {
 
-/// How a table goes on between its points.
+/// Interpolation between the points of a table.
 enum class TableInterpolation {
   kLinear,         ///< straight: the acceleration of a VelocityTable jumps at the points
   kMonotoneCubic,  ///< piecewise cubic with a continuous slope and no extremes between the points: F. N.

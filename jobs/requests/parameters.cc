@@ -73,7 +73,7 @@ void add_clearance_faults(const json& completed, std::vector<Fault>& faults) {
 
 constexpr double kLeastArm_mm = 1.0;           // as of the other lengths
 
-/// Of a law given for a driven coordinate, beside the parameters of the paper's.
+/// Faults of drives that stand beside parameters which they replace.
 void add_drive_faults(const json& completed, std::vector<Fault>& faults) {
   for (const RpsupDrive& drive : rpsup_drives())
     for (const std::string_view parameter : drive.replaced)
