@@ -6,14 +6,16 @@ root=$1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# identity OPTION...: the engine's identity of a build that is configured so
+# identity OPTION...: the engine's identity of a build that is configured so. The first one has found compiler and libraries for the others.
 identity() {
   rm -rf "$folder/build"
+  [ ! -d "$folder/first" ] || cp -r "$folder/first" "$folder/build"
   cmake -S "$root" -B "$folder/build" -G Ninja --log-level=ERROR -DCMAKE_BUILD_TYPE=Release "$@" >/dev/null
   sed -n 's/.*kEngineVersion = "\(.*\)";/\1/p' "$folder/build/generated/jobs/base/program_info.cc" | grep .
 }
 
 plain=$(identity -DCMAKE_CXX_FLAGS_RELEASE=-O3)
+mv "$folder/build" "$folder/first"
 # expect same|other OPTION...
 expect() {
   local wanted=$1 found
