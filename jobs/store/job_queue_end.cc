@@ -215,7 +215,7 @@ DeleteOutcome JobQueue::delete_sweep(const std::string& id, const std::string& s
   }
   // In the log a deletion takes more room than it frees. The room that is held is enough for some jobs at a
   // time, and the sweep has fewer jobs if the rest fails.
-  core_.lock.release_room();
+  const StoreLock::LentRoom lent(core_.lock);
   core_.writer.empty_log();
   while (delete_some_jobs(id, study)) core_.writer.empty_log();
   core_.writer.empty_log();

@@ -54,9 +54,11 @@ void Store::release_free_pages() {
   } catch (const StorageError& error) {
     if (!error.full) throw;
     core_.writer.empty_log();
-    core_.lock.release_room();
   }
-  core_.writer.release_free_pages(Disk::kFull);
+  {
+    const StoreLock::LentRoom lent(core_.lock);
+    core_.writer.release_free_pages(Disk::kFull);
+  }
   core_.lock.hold_room();
 }
 
@@ -74,8 +76,8 @@ Writer StoreCore::open(const std::filesystem::path& path, StoreLock& lock) {
   } catch (const StorageError& error) {
     // SQLite does not tell why it could not make its index.
     if (!error.full && (error.code & 0xff) != SQLITE_IOERR) throw;
-    static_cast<void>(lock.release_room());
   }
+  const StoreLock::LentRoom lent(lock);
   try {
     return Writer(path, LogIndex::kFile);
   } catch (const StorageError& error) {

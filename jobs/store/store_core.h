@@ -44,7 +44,7 @@ struct StoreCore {
       if (!error.full) throw;
     }
     writer.empty_log();
-    lock.release_room();
+    const StoreLock::LentRoom lent(lock);
     return write();
   }
   template <typename Work>

@@ -167,6 +167,7 @@ StoreLock::~StoreLock() {
 bool StoreLock::hold_room() {
   constexpr off_t kRoom = 2 << 20;
   const std::lock_guard lock(room_mutex_);
+  if (lent_ > 0) return false;
   if (has_room_) return true;
   // A file system that cannot set room aside is no full one.
   has_room_ = disk_state(::posix_fallocate(file_, 0, kRoom)) != Disk::kFull;
@@ -179,11 +180,12 @@ bool StoreLock::has_room() {
   return has_room_;
 }
 
-bool StoreLock::release_room() {
+void StoreLock::release_room(int lent) {
   const std::lock_guard lock(room_mutex_);
+  lent_ += lent;
   has_room_ = false;
   struct stat status {};
-  return ::fstat(file_, &status) == 0 && status.st_blocks > 0 && ::ftruncate(file_, 0) == 0;
+  if (::fstat(file_, &status) == 0 && status.st_blocks > 0) static_cast<void>(::ftruncate(file_, 0));
 }
 
 StoreFileLock::StoreFileLock(const std::filesystem::path& store)

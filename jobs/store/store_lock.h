@@ -23,19 +23,33 @@ class StoreLock {
   /// Keeps or gives up a file that was made here: a refused start leaves nothing behind.
   void keep(bool kept) { kept_ = kept; }
 
-  /// Takes the room, unless the file has it. False if the disk is full.
+  /// Takes the room, unless the file has it. False if the disk is full, or the room is lent.
   bool hold_room();
   [[nodiscard]] bool has_room();
-  /// Gives the room to whoever writes next. False if the file had none.
-  bool release_room();
+
+  /// The room is free on the disk, for one who makes the store smaller. As long as this lives nobody takes
+  /// the room back, as the end of a job or a probe would in between.
+  class LentRoom {
+   public:
+    explicit LentRoom(StoreLock& lock) : lock_(lock) { lock_.release_room(+1); }
+    ~LentRoom() { lock_.release_room(-1); }
+    LentRoom(const LentRoom&) = delete;
+    LentRoom& operator=(const LentRoom&) = delete;
+
+   private:
+    StoreLock& lock_;
+  };
 
  private:
+  void release_room(int lent);
+
   const std::string path_;
   bool made_ = false;
   bool kept_ = false;
   int file_ = -1;
-  std::mutex room_mutex_;  // guards has_room_
+  std::mutex room_mutex_;  // guards has_room_ and lent_
   bool has_room_ = false;
+  int lent_ = 0;  ///< to so many at once
 };
 
 /// Lock of the store's file itself, whatever its name: a hard link and a bind mount are the same file, but

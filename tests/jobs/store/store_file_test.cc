@@ -2,6 +2,7 @@
 // Whom the file of a store is for, and which files are refused and left alone.
 
 #include <csignal>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +19,7 @@
 #include "jobs/base/errors.h"
 #include "jobs/service.h"
 #include "jobs/store/store.h"
+#include "jobs/store/store_lock.h"
 #include "tests/jobs/service_support.h"
 #include "tests/jobs/store/store_support.h"
 
@@ -372,6 +374,23 @@ TEST(Store, RefusesALogWhoseStoreIsGone) {
   { std::ofstream(killed) << file; }
   const jobs::Store store(killed);
   EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1U) << "the store was put back";
+}
+
+// A probe or the end of a job asks whether there is room, in the midst of a deletion that has got it.
+TEST(StoreLock, KeepsLentRoomForWhoGotIt) {
+  const TemporaryStore temporary;
+  jobs::StoreLock lock(temporary.file());
+  const std::filesystem::path file = temporary.file().string() + ".lock";
+  ASSERT_TRUE(lock.hold_room());
+  const std::uintmax_t held = std::filesystem::file_size(file);
+  {
+    const jobs::StoreLock::LentRoom lent(lock);
+    EXPECT_FALSE(lock.hold_room());
+    EXPECT_FALSE(lock.has_room());
+    EXPECT_EQ(std::filesystem::file_size(file), 0U);
+  }
+  EXPECT_TRUE(lock.hold_room());
+  EXPECT_EQ(std::filesystem::file_size(file), held);
 }
 
 TEST(Store, TurnsADirectoryOrAMissingFolderDown) {
