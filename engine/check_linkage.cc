@@ -87,7 +87,7 @@ Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled
       qd[coordinates[static_cast<std::size_t>(i)]] = 1.0;
       qd[coordinates[static_cast<std::size_t>(k)]] = 1.0;
       calc_frame_motions(m, assembled.q, qd, qdd, frames);
-      M(i, k) = M(k, i) = calc_kinetic_energy(m, frames);
+      M(i, k) = M(k, i) = calc_kinetic_energy(m, frames, qd);
     }
   const Eigen::VectorXd energies = M.diagonal();
   M.colwise() -= energies;
@@ -109,7 +109,7 @@ void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built,
   const std::vector<Coordinate>& coordinates = built.mechanism.coordinates;
   std::vector<double> carried(coordinates.size());
   for (std::size_t i = coordinates.size(); i-- > 0;) {
-    carried[i] += coordinates[i].mass;
+    if (coordinates[i].role == CoordinateRole::kJoint) carried[i] += coordinates[i].mass;
     if (coordinates[i].parent != kGround)
       carried[static_cast<std::size_t>(coordinates[i].parent)] += carried[i];
   }
@@ -217,8 +217,12 @@ BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
   // If the drives determine the motion, masses need not.
   if (!allows_kinematics(built.mechanism, integrator) ||
       closure.find_determinacy(assembled) == LoopClosure::Determinacy::kFree) {
-    check_masses(linkage, built, assembled, system.free_coordinates());
-    if (closes_loops(built.mechanism)) check_mass_ratios(linkage, built, system.free_coordinates());
+    std::vector<FrameIndex> free = system.free_coordinates();
+    std::erase_if(free, [&](FrameIndex i) {
+      return built.mechanism.coordinates[static_cast<std::size_t>(i)].role != CoordinateRole::kJoint;
+    });
+    check_masses(linkage, built, assembled, free);
+    if (closes_loops(built.mechanism)) check_mass_ratios(linkage, built, free);
   }
   settle_springs(linkage, built, assembled);
   return built;

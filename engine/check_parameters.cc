@@ -14,6 +14,8 @@ namespace engine {
 
 namespace {
 
+constexpr double kStart = 1e-9;  // the part of a run that tells its start, [s]
+
 constexpr double kMostWear = 0.1;  ///< over the bearing's radius: what a shallow depth is
 
 std::string to_text(double value) {
@@ -195,6 +197,7 @@ MotionBounds calc_bounds(const DriveLaw& law, double duration) {
 
 /// Largest distance of the S joint from the crank's axis.
 double calc_farthest_rod(const RpsupParameters& p, double duration) {
+  if (p.rod_actuator) return std::abs(p.rod_start);
   if (p.rod_drive) {
     const MotionBounds bounds = calc_bounds(*p.rod_drive, duration);
     return std::max(std::abs(p.rod_length + bounds.low), std::abs(p.rod_length + bounds.high));
@@ -295,8 +298,11 @@ void check_parameters(const RpsupParameters& parameters, const RunOptions& optio
   check_drives(parameters);
   check_joint(parameters);
   check_options(options);
-  check_reach(parameters, options.duration);
-  check_yoke(parameters, options.duration);
+  // Where actuators take the linkage only the run can tell.
+  const bool is_given = !parameters.crank_actuator && !parameters.rod_actuator;
+  const double known = is_given ? options.duration : kStart;
+  check_reach(parameters, known);
+  check_yoke(parameters, known);
 }
 
 }  // namespace engine

@@ -39,7 +39,7 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
   check_parameters(parameters, options);
   const Rpsup rpsup = build_rpsup(parameters);
   SlidingWork sliding_work(parameters);
-  RpsupObserver observer(RunMetrics(rpsup_measured(parameters, rpsup.layout)),
+  RpsupObserver observer(RunMetrics(rpsup_measured(parameters, rpsup)),
                          RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links),
                          sliding_work, stop_requested);
   const RunOutcome outcome = simulate(rpsup.mechanism, options, observer);

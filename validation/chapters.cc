@@ -5,7 +5,8 @@ namespace validation {
 
 std::vector<Chapter> engine_chapters() {
   return {formulation_chapter(), kinematics_chapter(), contact_chapter(),     flexibility_chapter(),
-          friction_chapter(),    energy_chapter(),     integrators_chapter(), other_codes_chapter()};
+          friction_chapter(),    actuators_chapter(),  energy_chapter(),      integrators_chapter(),
+          other_codes_chapter()};
 }
 
 }  // namespace validation

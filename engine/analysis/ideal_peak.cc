@@ -188,7 +188,7 @@ class IdealPeakSearch {
 
 std::optional<Peak> find_ideal_peak(const RpsupParameters& parameters, double from, double to,
                                     const std::function<bool(double)>& stop_requested) {
-  if (!(from < to)) return std::nullopt;
+  if (!(from < to) || parameters.crank_actuator || parameters.rod_actuator) return std::nullopt;
   return IdealPeakSearch(parameters, stop_requested).find(from, to);
 }
 

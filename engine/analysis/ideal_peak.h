@@ -14,7 +14,8 @@ namespace engine {
 /// @param from, to        window, [s]
 /// @param stop_requested  asked now and then with the simulated time, may be empty; true ends the search
 /// without a result
-/// @returns empty if the window is empty, or the ideal linkage locks in it
+/// @returns empty if the window is empty, the ideal linkage locks in it, or an actuator moves it: drives do
+/// not determine its motion then
 [[nodiscard]] std::optional<Peak> find_ideal_peak(const RpsupParameters& parameters, double from, double to,
                                                   const std::function<bool(double)>& stop_requested);
 

@@ -104,7 +104,7 @@ void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex
               .help = "Largest magnitude of the coordinate's acceleration in the steady window (t ≥ "
                       "run_up_s), sought inside every integration step"},
              [k](const RunMetrics& metrics, const auto&) {
-               return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.magnitude : kNone;
+               return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.magnitude : kNoValue;
              });
   add_metric(
       {.key = "peak_" + name + "_whole_run" + unit + "_s2",
@@ -115,6 +115,7 @@ void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex
        .help = "Root mean square of the coordinate's acceleration in the steady window (t ≥ run_up_s)"},
       [k](const RunMetrics& metrics, const auto&) { return metrics.calc_rms(k); });
   if (freedom.drive) add_drive(freedom, i);
+  if (freedom.actuator || freedom.load || freedom.friction) add_force_elements(freedom, i);
 }
 
 void LinkageQuantities::add_drive(const LinkageFreedom& freedom, FrameIndex i) {
@@ -130,6 +131,65 @@ void LinkageQuantities::add_drive(const LinkageFreedom& freedom, FrameIndex i) {
            std::string("Largest magnitude of the coordinate's driving ") + (slides ? "force" : "torque") +
                " in the whole run",
            1.0, force);
+}
+
+void LinkageQuantities::add_force_elements(const LinkageFreedom& freedom, FrameIndex i) {
+  const bool slides =
+      built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
+  const std::string unit = slides ? "_n" : "_n_m", what = slides ? "force" : "torque";
+  std::vector<ActuatorReadings> readings = find_actuator_readings(built_.mechanism, i);
+  if (freedom.friction) {
+    const Reading friction = readings.back().force;
+    readings.pop_back();
+    add_channel(freedom.name + "_friction" + unit, "Friction in the joint: " + what + " on the coordinate",
+                friction);
+    add_load("peak_" + freedom.name + "_friction" + unit,
+             "Largest magnitude of the joint's friction " + what + " in the whole run", 1.0, friction);
+  }
+  if (freedom.load) {
+    const Reading load = readings.back().force;
+    add_channel(freedom.name + "_load" + unit, "Load on the coordinate: " + what + " by its law", load);
+  }
+  if (!freedom.actuator) return;
+  const ActuatorReadings& actuator = readings.front();
+  const std::string key = freedom.name + "_drive" + unit;
+  add_channel(key, "Driving " + what + " of the coordinate", actuator.force);
+  add_load("peak_" + key, "Largest magnitude of the coordinate's driving " + what + " in the whole run", 1.0,
+           actuator.force);
+  add_channel(freedom.name + "_drive_power_w", "Power of the driving " + what, actuator.power);
+  add_load("peak_" + freedom.name + "_drive_power_w",
+           "Largest magnitude of the power of the driving " + what + " in the whole run", 1.0,
+           actuator.power);
+  if (actuator.current) add_motor(freedom.name, actuator);
+  add_speed(freedom.name, i, slides);
+}
+
+void LinkageQuantities::add_motor(const std::string& name, const ActuatorReadings& motor) {
+  add_channel(name + "_current_a", "Current of the motor", motor.current);
+  add_channel(name + "_voltage_v", "Voltage of the motor's supply", motor.voltage);
+  add_channel(name + "_electric_work_j", "Electric work of the motor's supply since t = 0",
+              motor.electric_work);
+  add_load("peak_" + name + "_current_a", "Largest magnitude of the motor's current in the whole run", 1.0,
+           motor.current);
+  add_load("peak_" + name + "_electric_work_j",
+           "Largest magnitude of the electric work of the motor's supply since t = 0", 1.0,
+           motor.electric_work);
+}
+
+void LinkageQuantities::add_speed(const std::string& name, FrameIndex i, bool slides) {
+  const std::size_t k = measured_.velocities.size();
+  measured_.velocities.push_back(i);
+  add_metric({.key = "mean_" + name + (slides ? "_velocity_m_s" : "_velocity_rad_s"),
+              .help = "Mean velocity of the coordinate in the steady window (t ≥ run_up_s)"},
+             [k](const RunMetrics& metrics, const auto&) {
+               return metrics.calc_mean_velocity(k);
+             });
+  add_metric({.key = name + "_speed_fluctuation",
+              .help = "Coefficient of fluctuation of speed: difference of the coordinate's largest and least "
+                      "velocity by the magnitude of its mean velocity, in the steady window"},
+             [k](const RunMetrics& metrics, const auto&) {
+               return metrics.calc_speed_fluctuation(k);
+             });
 }
 
 void LinkageQuantities::add_joint(const LinkageJoint& joint, const BuiltJoint& built) {

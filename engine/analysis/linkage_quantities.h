@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/analysis/actuator_readings.h"
 #include "engine/analysis/joint_reactions.h"
 #include "engine/analysis/run_channels.h"
 #include "engine/analysis/run_metrics.h"
@@ -43,6 +44,9 @@ class LinkageQuantities {
  private:
   void add_coordinate(const LinkageFreedom& freedom, FrameIndex coordinate);
   void add_drive(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_force_elements(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_motor(const std::string& name, const ActuatorReadings& readings);
+  void add_speed(const std::string& name, FrameIndex coordinate, bool slides);
   void add_joint(const LinkageJoint& joint, const BuiltJoint& built);
   void add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench);
   void add_clearance(const LinkageJoint& joint, std::size_t cut);

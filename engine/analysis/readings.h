@@ -11,7 +11,7 @@
 namespace engine {
 
 /// What a run does not have.
-inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// A number read from the mechanism at one instant.
 using Reading = std::function<double(const Evaluation&)>;

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/analysis/rpsup_quantities.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
+
+#include "engine/analysis/actuator_readings.h"
 
 namespace engine {
 
@@ -12,10 +17,17 @@ namespace {
 double radial_force(const Evaluation& at) { return at.joints[0].load.radial_normal_sum; }
 double penetration(const Evaluation& at) { return at.joints[0].load.max_penetration; }
 double friction_force(const Evaluation& at) { return at.joints[0].load.friction_sum; }
-double crank_torque(const Evaluation& at) { return at.drive_force[0]; }
-double rod_force(const Evaluation& at) { return at.drive_force[1]; }
 double reaction(const Evaluation& at) { return at.joints[0].reaction_W.norm(); }
-double none(const Evaluation&) { return kNone; }
+double none(const Evaluation&) { return kNoValue; }
+
+/// The readings of an actuated coordinate's actuator; of a driven one only the drive's force.
+ActuatorReadings drive_readings(const Mechanism& mechanism, FrameIndex coordinate) {
+  std::vector<ActuatorReadings> actuators = find_actuator_readings(mechanism, coordinate);
+  if (!actuators.empty()) return actuators.front();
+  const auto drive = std::ranges::find(mechanism.drives, coordinate, &Drive::coordinate);
+  const auto index = static_cast<Eigen::Index>(drive - mechanism.drives.begin());
+  return {.force = [index](const Evaluation& at) { return at.drive_force[index]; }};
+}
 
 double calc_deflection(const RpsupParameters& parameters, const Rpsup& rpsup, const Evaluation& at) {
   const CutJoint& joint = rpsup.mechanism.cut_joints[0];
@@ -86,8 +98,21 @@ void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channe
               Channel::Kind::kLargestAcceleration, slider);
 }
 
+/// Of a crank or rod that a motor moves.
+void add_motor_channels(const std::string& link, const ActuatorReadings& motor,
+                        std::vector<Channel>& channels) {
+  if (!motor.current) return;
+  add_reading(channels, link + "_current_a", "Current of the " + link + "'s motor", motor.current);
+  add_reading(channels, link + "_voltage_v", "Voltage of the supply of the " + link + "'s motor",
+              motor.voltage);
+  add_reading(channels, link + "_electric_work_j",
+              "Electric work of the supply of the " + link + "'s motor since t = 0", motor.electric_work);
+}
+
 /// Motion and loads of the joint between coupler and cross link, and the drives' forces.
-void add_joint_channels(bool clearance, std::vector<Channel>& channels) {
+void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>& channels) {
+  const ActuatorReadings crank = drive_readings(rpsup.mechanism, rpsup.layout.crank),
+                         rod = drive_readings(rpsup.mechanism, rpsup.layout.rod);
   add_reading(channels, "journal_x_mm", "Journal centre in the bearing frame {b}: x, across the axis",
               journal_mm(0));
   add_reading(channels, "journal_y_mm", "Journal centre in the bearing frame {b}: y, across the axis",
@@ -102,8 +127,10 @@ void add_joint_channels(bool clearance, std::vector<Channel>& channels) {
   add_reading(channels, "friction_force_n",
               "Sum of the magnitudes of the friction forces on the journal; null without clearance",
               clearance ? &friction_force : &none, "Σ |f_t|");
-  add_reading(channels, "crank_torque_n_m", "Driving torque of the crank", crank_torque);
-  add_reading(channels, "rod_force_n", "Driving force of the telescoping rod", rod_force);
+  add_reading(channels, "crank_torque_n_m", "Driving torque of the crank", crank.force);
+  add_reading(channels, "rod_force_n", "Driving force of the telescoping rod", rod.force);
+  add_motor_channels("crank", crank, channels);
+  add_motor_channels("rod", rod, channels);
   add_reading(channels, "reaction_x_n", "Force of the coupler on the cross link: x in the global frame",
               reaction_along(0));
   add_reading(channels, "reaction_y_n", "Force of the coupler on the cross link: y in the global frame",
@@ -186,6 +213,17 @@ std::span<const QuantityInfo> metric_table() {
        .help = "Largest magnitude of the crank's driving torque in the whole run"},
       {.key = "peak_rod_force_n",
        .help = "Largest magnitude of the telescoping rod's driving force in the whole run"},
+      {.key = "mean_crank_velocity_rad_s",
+       .help = "Mean angular velocity of the crank in the steady window (t ≥ run_up_s); null unless an "
+               "actuator moves the crank"},
+      {.key = "crank_speed_fluctuation",
+       .help = "Coefficient of fluctuation of speed: difference of the crank's largest and least angular "
+               "velocity by the magnitude of its mean one, in the steady window; null unless an actuator "
+               "moves the crank"},
+      {.key = "peak_crank_current_a",
+       .help = "Largest magnitude of the current of the crank's motor in the whole run; null without motor"},
+      {.key = "peak_crank_electric_work_j",
+       .help = "Largest magnitude of the electric work of the crank's motor since t = 0; null without motor"},
       {.key = "peak_joint_reaction_n",
        .help = "Largest magnitude of the force between coupler and cross link in the whole run"},
       {.key = "friction_work_j", .help = "Energy lost to friction in the joint in the whole run"},
@@ -217,7 +255,7 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
                                     const SlidingWork& sliding_work) {
   std::vector<Channel> channels;
   add_motion_channels(rpsup.layout, channels);
-  add_joint_channels(parameters.c_r > 0.0, channels);
+  add_joint_channels(rpsup, parameters.c_r > 0.0, channels);
   add_reading(channels, "coupler_deflection_mm",
               "Distance of the bearing's centre from its place on the undeformed coupler",
               [&parameters, &rpsup](const Evaluation& at) {
@@ -233,11 +271,17 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
   return channels;
 }
 
-Measured rpsup_measured(const RpsupParameters& parameters, const RpsupLayout& layout) {
-  return {.accelerations = {layout.slider},
-          .loads = {radial_force, penetration, crank_torque, rod_force, reaction},
-          .contacts = {{.joint = 0}},
-          .steady_from = parameters.run_up};
+Measured rpsup_measured(const RpsupParameters& parameters, const Rpsup& rpsup) {
+  const ActuatorReadings crank = drive_readings(rpsup.mechanism, rpsup.layout.crank),
+                         rod = drive_readings(rpsup.mechanism, rpsup.layout.rod);
+  Measured measured{.accelerations = {rpsup.layout.slider},
+                    .velocities = {},
+                    .loads = {radial_force, penetration, crank.force, rod.force, reaction},
+                    .contacts = {{.joint = 0}},
+                    .steady_from = parameters.run_up};
+  if (parameters.crank_actuator) measured.velocities = {rpsup.layout.crank};
+  if (crank.current) measured.loads.insert(measured.loads.end(), {crank.current, crank.electric_work});
+  return measured;
 }
 
 std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const RunMetrics& metrics,
@@ -245,26 +289,32 @@ std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const 
                                        const std::optional<Peak>& ideal) {
   const bool has_steady = metrics.steady_time() > 0.0;
   const bool has_clearance = parameters.c_r > 0.0;
-  const double ideal_peak = ideal ? ideal->magnitude : kNone;
+  const bool has_motor =
+      parameters.crank_actuator && std::holds_alternative<DcMotor>(*parameters.crank_actuator);
+  const double ideal_peak = ideal ? ideal->magnitude : kNoValue;
   const RunMetrics::Acceleration& slider = metrics.acceleration(0);
   return {
-      has_steady ? slider.steady.magnitude : kNone,
-      has_steady ? slider.steady.t : kNone,
+      has_steady ? slider.steady.magnitude : kNoValue,
+      has_steady ? slider.steady.t : kNoValue,
       slider.whole_run.magnitude,
       metrics.calc_rms(0),
       ideal_peak,
-      has_steady && ideal_peak > 0.0 ? slider.steady.magnitude / ideal_peak : kNone,
-      has_clearance ? metrics.largest_load(0) : kNone,
-      has_clearance ? 1e6 * metrics.largest_load(1) : kNone,
+      has_steady && ideal_peak > 0.0 ? slider.steady.magnitude / ideal_peak : kNoValue,
+      has_clearance ? metrics.largest_load(0) : kNoValue,
+      has_clearance ? 1e6 * metrics.largest_load(1) : kNoValue,
       static_cast<double>(metrics.onsets()),
-      has_clearance ? metrics.contact_time(0) / outcome.t : kNone,
+      has_clearance ? metrics.contact_time(0) / outcome.t : kNoValue,
       metrics.largest_load(2),
       metrics.largest_load(3),
+      parameters.crank_actuator ? metrics.calc_mean_velocity(0) : kNoValue,
+      parameters.crank_actuator ? metrics.calc_speed_fluctuation(0) : kNoValue,
+      has_motor ? metrics.largest_load(5) : kNoValue,
+      has_motor ? metrics.largest_load(6) : kNoValue,
       metrics.largest_load(4),
       metrics.last_energy().friction_loss,
       metrics.last_energy().impact_loss,
       metrics.last_energy().structural_loss,
-      has_clearance ? sliding_work.total() : kNone,
+      has_clearance ? sliding_work.total() : kNoValue,
       metrics.calc_energy_residual(),
       static_cast<double>(outcome.steps),
       static_cast<double>(outcome.evaluations),

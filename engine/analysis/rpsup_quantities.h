@@ -18,7 +18,7 @@ namespace engine {
                                                   const SlidingWork& sliding_work);
 
 /// What is measured of one.
-[[nodiscard]] Measured rpsup_measured(const RpsupParameters& parameters, const RpsupLayout& layout);
+[[nodiscard]] Measured rpsup_measured(const RpsupParameters& parameters, const Rpsup& rpsup);
 
 /// The metrics of a run, in the order of metric_table().
 /// @param metrics  of rpsup_measured()

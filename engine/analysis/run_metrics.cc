@@ -6,11 +6,14 @@
 #include <limits>
 #include <utility>
 
+#include "engine/analysis/velocity_cubic.h"
+
 namespace engine {
 
 RunMetrics::RunMetrics(Measured measured)
     : measured_(std::move(measured)),
       accelerations_(measured_.accelerations.size()),
+      velocities_(measured_.velocities.size()),
       loads_(measured_.loads.size()),
       start_loads_(measured_.loads.size()),
       contact_times_(measured_.contacts.size()) {}
@@ -24,6 +27,8 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   }
   for (std::size_t k = 0; k < accelerations_.size(); ++k)
     take_acceleration(measured_.accelerations[k], start, end, accelerations_[k]);
+  for (std::size_t k = 0; k < velocities_.size(); ++k)
+    take_velocity(measured_.velocities[k], start, end, velocities_[k]);
   if (end.t > measured_.steady_from) steady_time_ += end.t - std::max(start.t, measured_.steady_from);
   take_loads(start, end);
   take_energy(last_energy_, end.energy);
@@ -46,6 +51,19 @@ void RunMetrics::take_acceleration(FrameIndex i, const Evaluation& start, const 
   const double from = std::max(0.0, (measured_.steady_from - start.t) / dt);
   taken.steady.take(a, from, 1.0, start.t, dt);
   taken.square_integral += a.integrate_square(from, 1.0) * dt;
+}
+
+void RunMetrics::take_velocity(FrameIndex i, const Evaluation& start, const Evaluation& end,
+                               Velocity& taken) const {
+  if (end.t <= measured_.steady_from) return;
+  const double dt = end.t - start.t;
+  const VelocityCubic v(start.qd[i], start.qdd[i], end.qd[i], end.qdd[i], dt);
+  const double from = std::max(0.0, (measured_.steady_from - start.t) / dt);
+  for (const double s : v.find_candidates(from)) {
+    taken.least = std::min(taken.least, v.value(s));
+    taken.most = std::max(taken.most, v.value(s));
+  }
+  taken.way += dt * v.integrate(from, 1.0);
 }
 
 void RunMetrics::take_loads(const Evaluation& start, const Evaluation& end) {
@@ -72,6 +90,16 @@ void RunMetrics::take_energy(const EnergyAccount& start, const EnergyAccount& en
 double RunMetrics::calc_rms(std::size_t k) const {
   return steady_time_ > 0.0 ? std::sqrt(accelerations_[k].square_integral / steady_time_)
                             : std::numeric_limits<double>::quiet_NaN();
+}
+
+double RunMetrics::calc_mean_velocity(std::size_t k) const {
+  return steady_time_ > 0.0 ? velocities_[k].way / steady_time_ : std::numeric_limits<double>::quiet_NaN();
+}
+
+double RunMetrics::calc_speed_fluctuation(std::size_t k) const {
+  const double mean = std::abs(calc_mean_velocity(k));
+  return mean > 0.0 ? (velocities_[k].most - velocities_[k].least) / mean
+                    : std::numeric_limits<double>::quiet_NaN();
 }
 
 double RunMetrics::calc_energy_residual() const {

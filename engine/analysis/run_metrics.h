@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "engine/analysis/readings.h"
@@ -14,6 +15,7 @@ namespace engine {
 /// What of a run is measured.
 struct Measured {
   std::vector<FrameIndex> accelerations;  ///< coordinates whose acceleration is
+  std::vector<FrameIndex> velocities;     ///< coordinates whose velocity is, in the steady window
   std::vector<Reading> loads;             ///< of which the largest magnitude counts
   /// Contact of a journal with its bore, or of its faces with the shoulders.
   struct Contact {
@@ -45,6 +47,17 @@ class RunMetrics {
     double square_integral = 0.0;  ///< over the steady window
   };
   [[nodiscard]] const Acceleration& acceleration(std::size_t k) const { return accelerations_[k]; }
+  /// One of Measured::velocities, over the steady window.
+  struct Velocity {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+    double way = 0.0;  ///< integral of the velocity
+  };
+  /// Not a number without a steady window.
+  [[nodiscard]] double calc_mean_velocity(std::size_t k) const;
+  /// Coefficient of fluctuation of speed: the difference of largest and least velocity by the mean one. Not a
+  /// number without a steady window, or if the mean is 0.
+  [[nodiscard]] double calc_speed_fluctuation(std::size_t k) const;
   /// Length of the steady window, as far as the run came; 0: it did not come there.
   [[nodiscard]] double steady_time() const { return steady_time_; }
   /// Root mean square over the steady window; not a number if there is none.
@@ -68,11 +81,14 @@ class RunMetrics {
  private:
   void take_acceleration(FrameIndex coordinate, const Evaluation& start, const Evaluation& end,
                          Acceleration& taken) const;
+  void take_velocity(FrameIndex coordinate, const Evaluation& start, const Evaluation& end,
+                     Velocity& taken) const;
   void take_loads(const Evaluation& start, const Evaluation& end);
   void take_energy(const EnergyAccount& start, const EnergyAccount& end);
 
   Measured measured_;
   std::vector<Acceleration> accelerations_;
+  std::vector<Velocity> velocities_;
   std::vector<SteppedPeak> loads_;
   std::vector<double> start_loads_;
   std::vector<double> contact_times_;

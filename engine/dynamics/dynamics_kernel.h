@@ -77,6 +77,7 @@ class DynamicsKernel {
 /// their memory of contacts
 [[nodiscard]] std::unique_ptr<DynamicsKernel> make_dynamics_kernel(std::string_view instruction_set,
                                                                    const TreeModel& model,
-                                                                   const std::vector<ClearanceJoint>& joints);
+                                                                   const std::vector<ClearanceJoint>& joints,
+                                                                   const AppliedForceValue* applied);
 
 }  // namespace engine

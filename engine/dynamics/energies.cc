@@ -9,11 +9,16 @@
 
 namespace engine {
 
-double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames) {
+double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames,
+                           const Eigen::VectorXd& qd) {
   double twice = 0.0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Coordinate& body = mechanism.coordinates[i];
-    if (body.mass == 0.0) continue;
+    if (body.armature != 0.0) {
+      const double rate = qd[static_cast<Eigen::Index>(i)];
+      twice += body.armature * rate * rate;
+    }
+    if (body.mass == 0.0 || body.role == CoordinateRole::kMemory) continue;
     const FrameMotion& f = frames[i];
     const Eigen::Vector3d w_F = f.R.transpose() * f.w;
     const Eigen::Vector3d v_F = f.R.transpose() * f.v;

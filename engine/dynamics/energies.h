@@ -11,7 +11,8 @@
 namespace engine {
 
 /// Kinetic energy of the bodies, [J].
-[[nodiscard]] double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames);
+[[nodiscard]] double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames,
+                                         const Eigen::VectorXd& qd);
 
 /// Energy of gravity (zero at the global origin) and of all springs, [J].
 [[nodiscard]] double calc_potential_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames,

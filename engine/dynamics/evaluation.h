@@ -23,7 +23,7 @@ struct JointState {
 struct EnergyAccount {
   double kinetic = 0.0;                                     ///< [J]
   double potential = 0.0;                                   ///< gravity, springs, elastic contact, [J]
-  Eigen::VectorXd drive_work;                               ///< one a drive, [J]
+  Eigen::VectorXd drive_work;                               ///< one a drive, then one an actuator, [J]
   double impact_loss = 0.0;                                 ///< [J]
   double friction_loss = 0.0;                               ///< [J]
   double structural_loss = 0.0;                             ///< [J]
@@ -46,6 +46,8 @@ struct Evaluation {
   double t = 0.0;                                           ///< [s]
   Eigen::VectorXd q, qd, qdd;                               ///< every coordinate
   Eigen::VectorXd drive_force;                              ///< one a drive, [N] or [N m]
+  Eigen::VectorXd applied_force;                            ///< one an AppliedForce, [N], [N m] or [V]
+  Eigen::VectorXd applied_work;                             ///< the same, [J]
   std::vector<FrameMotion> frames;                          ///< one a coordinate; accelerations are not set
   std::vector<JointState> joints;                           ///< one a cut joint
   EnergyAccount energy;                                     ///< kinetic and potential: by calc_energies()

@@ -17,14 +17,15 @@ constexpr int kMaxIterations = 100;
 constexpr double kMaxStep = 0.5;  // of a Newton step, [rad] or [m]; a full one from afar may leave the branch
 constexpr double kDependent = 1e-9;  // of the largest pivot
 
-/// Coordinates that are not driven and for which `holds` is true.
+/// Coordinates of joints that are not driven and for which `holds` is true.
 template <typename Holds>
 std::vector<FrameIndex> find_coordinates(const Mechanism& mechanism, const Holds& holds) {
   std::vector<FrameIndex> found;
   for (FrameIndex i = 0; i < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i) {
     const bool driven = std::any_of(mechanism.drives.begin(), mechanism.drives.end(),
                                     [i](const Drive& d) { return d.coordinate == i; });
-    if (!driven && holds(mechanism.coordinates[static_cast<std::size_t>(i)])) found.push_back(i);
+    const Coordinate& coordinate = mechanism.coordinates[static_cast<std::size_t>(i)];
+    if (!driven && coordinate.role == CoordinateRole::kJoint && holds(coordinate)) found.push_back(i);
   }
   return found;
 }

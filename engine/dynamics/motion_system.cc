@@ -13,7 +13,9 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
     : mechanism_(mechanism),
       model_(mechanism),
       instruction_set_(instruction_set.empty() ? instruction_sets().back() : instruction_set),
-      layout_{static_cast<int>(model_.free.size()), 0, static_cast<int>(mechanism.drives.size())},
+      layout_{static_cast<int>(model_.free.size()), 0, static_cast<int>(mechanism.drives.size()),
+              static_cast<int>(model_.applied_forces.size())},
+      applied_forces_(mechanism_, model_),
       drives_(mechanism.drives.size()) {
   for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
     if (!mechanism.cut_joints[k].clearance) continue;
@@ -33,7 +35,7 @@ void MotionSystem::reload_mechanism() {
 /// first and, without memory for the new ones, leave the vector to free them a second time: vectors that have
 /// entries are replaced.
 void MotionSystem::allocate() {
-  kernel_ = make_dynamics_kernel(instruction_set_, model_, clearance_joints_);
+  kernel_ = make_dynamics_kernel(instruction_set_, model_, clearance_joints_, applied_forces_.values());
   drives_time_ = std::numeric_limits<double>::quiet_NaN();
   solved_ = false;
   set_error_weights();
@@ -70,7 +72,10 @@ Evaluation MotionSystem::make_evaluation() const {
   at.qd.setZero(n);
   at.qdd.setZero(n);
   at.drive_force.setZero(static_cast<Eigen::Index>(mechanism_.drives.size()));
-  at.energy.drive_work = at.drive_force;
+  at.applied_force.setZero(layout_.applied);
+  at.applied_work = at.applied_force;
+  at.energy.drive_work.setZero(
+      static_cast<Eigen::Index>(mechanism_.drives.size() + mechanism_.actuations.size()));
   at.frames.resize(mechanism_.coordinates.size());
   at.joints.resize(mechanism_.cut_joints.size());
   return at;
@@ -93,12 +98,14 @@ bool MotionSystem::move_drives(double t) {
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
+  applied_forces_.calc(piece_.clamp(t), y, drives_, layout_);
   solved_ = false;
   return kernel_->evaluate(y.data(), drives_.data(), moved, dydt.data());
 }
 
 EvaluationStatus MotionSystem::solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
+  applied_forces_.calc(piece_.clamp(t), y, drives_, layout_);
   const EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives_.data(), moved, dydt.data());
   solved_ = status == EvaluationStatus::kOk;
   solved_y_ = y;
@@ -109,10 +116,11 @@ EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& 
                                                Evaluation& at) {
   const EvaluationStatus status = solve(t, y, dydt);
   at.t = t;
-  at.energy.drive_work = y.segment(layout_.work(), layout_.drives);
+  at.energy.drive_work.head(layout_.drives) = y.segment(layout_.work(), layout_.drives);
   at.energy.impact_loss = y[layout_.impact()];
   at.energy.friction_loss = y[layout_.friction()];
   at.energy.structural_loss = y[layout_.structural()];
+  applied_forces_.read_out(y, layout_, at);
   kernel_->read_out(at);
   return status;
 }
@@ -135,7 +143,7 @@ NewtonSolver MotionSystem::choose_newton_solver(Shifts shifts) const {
 }
 
 void MotionSystem::calc_energies(Evaluation& at) const {
-  at.energy.kinetic = calc_kinetic_energy(mechanism_, at.frames);
+  at.energy.kinetic = calc_kinetic_energy(mechanism_, at.frames, at.qd);
   at.energy.potential = calc_potential_energy(mechanism_, at.frames, at.q);
   for (const JointState& joint : at.joints) at.energy.potential += joint.load.elastic_energy;
 }

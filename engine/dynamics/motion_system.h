@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "engine/clearance/clearance_joint.h"
+#include "engine/dynamics/applied_forces.h"
 #include "engine/dynamics/dynamics_kernel.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/dynamics/state_layout.h"
@@ -109,6 +110,7 @@ class MotionSystem {
   std::vector<std::size_t> clearance_joint_of_;  ///< index into cut_joints
   StateLayout layout_;
   Eigen::VectorXd error_weights_;
+  AppliedForces applied_forces_;
 
   double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
   std::vector<DrivenMotion> drives_;

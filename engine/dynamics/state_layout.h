@@ -8,7 +8,7 @@ namespace engine {
 /// Layout of the state vector y of MotionSystem:
 ///
 ///     y = (q, v, bristles, works)
-///     works = (work of each drive, impact loss, friction loss, structural loss)
+///     works = (work of each drive and of each applied force, impact loss, friction loss, structural loss)
 ///
 /// with q the free coordinates and v their rates. Members give the index of an entry of y. Functions are
 /// inlined everywhere: instruction sets share none of them.
@@ -16,6 +16,7 @@ struct StateLayout {
   int free = 0;      ///< free coordinates
   int bristles = 0;  ///< of all joints with clearance
   int drives = 0;
+  int applied = 0;   ///< applied forces
 
   [[nodiscard]] RPSUP_INLINE constexpr int q(int i = 0) const { return i; }
   [[nodiscard]] RPSUP_INLINE constexpr int v(int i = 0) const { return free + i; }
@@ -29,10 +30,11 @@ struct StateLayout {
   [[nodiscard]] RPSUP_INLINE constexpr int controlled_size() const { return work(); }
 
   // Within the works
-  [[nodiscard]] RPSUP_INLINE constexpr int works() const { return drives + 3; }
-  [[nodiscard]] RPSUP_INLINE constexpr int impact_in_works() const { return drives; }
-  [[nodiscard]] RPSUP_INLINE constexpr int friction_in_works() const { return drives + 1; }
-  [[nodiscard]] RPSUP_INLINE constexpr int structural_in_works() const { return drives + 2; }
+  [[nodiscard]] RPSUP_INLINE constexpr int works() const { return drives + applied + 3; }
+  [[nodiscard]] RPSUP_INLINE constexpr int applied_in_works(int i = 0) const { return drives + i; }
+  [[nodiscard]] RPSUP_INLINE constexpr int impact_in_works() const { return drives + applied; }
+  [[nodiscard]] RPSUP_INLINE constexpr int friction_in_works() const { return impact_in_works() + 1; }
+  [[nodiscard]] RPSUP_INLINE constexpr int structural_in_works() const { return impact_in_works() + 2; }
 };
 
 }  // namespace engine

@@ -174,7 +174,7 @@ class KinematicRun {
   }
 
   void calc_energies(Evaluation& at) const {
-    at.energy.kinetic = calc_kinetic_energy(mechanism_, at.frames);
+    at.energy.kinetic = calc_kinetic_energy(mechanism_, at.frames, at.qd);
     at.energy.potential = calc_potential_energy(mechanism_, at.frames, at.q);
   }
 

@@ -18,6 +18,7 @@ bool is_held(const Mechanism& mechanism, FrameIndex i) {
   const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
   return c.stiffness != 0.0 || c.damping != 0.0 ||
          std::ranges::any_of(mechanism.drives, [i](const Drive& d) { return d.coordinate == i; }) ||
+         std::ranges::any_of(mechanism.actuations, [i](const Actuation& a) { return a.coordinate == i; }) ||
          std::ranges::any_of(mechanism.couplings, [i](const Coupling& coupling) {
            return coupling.coordinate == i || coupling.follows == i;
          });

@@ -22,6 +22,7 @@ struct JointTraits {
   bool shifted = false;                 ///< it is not at the origin of the parent's frame
   bool shifted_along_x = false;         ///< the shift has an x component only
   bool sprung = false;                  ///< a spring or damper acts on it
+  bool has_armature = false;            ///< a rotor is geared to it
   Inertia inertia = Inertia::kNone;
   bool com_at_origin = true;
   bool com_along_x = true;

@@ -81,6 +81,8 @@ class JointFinder {
       joint.sprung = joint.sprung || coordinate(i + k).stiffness != 0.0 || coordinate(i + k).damping != 0.0;
       joint_of_[static_cast<std::size_t>(i + k)] = static_cast<int>(joints_.size());
     }
+    joint.armature = c.armature;
+    joint.has_armature = c.armature != 0.0;
     set_body(coordinate(i + joint.count() - 1), joint);
     joints_.push_back(joint);
   }
@@ -95,7 +97,7 @@ class JointFinder {
 
   [[nodiscard]] bool is_free_rotation(int i, Axis axis) const {
     return coordinate(i).motion == Motion::kRotation && coordinate(i).axis == axis &&
-           eliminating_drive(i) < 0;
+           eliminating_drive(i) < 0 && coordinate(i).armature == 0.0;
   }
 
   /// Three free rotations about z, y, x of one point, with nothing else on the two frames between.
@@ -162,6 +164,7 @@ CutRows rows_of(CutKind kind) {
 TreeModel::TreeModel(const Mechanism& mechanism)
     : coordinates(static_cast<int>(mechanism.coordinates.size())),
       couplings(mechanism.couplings),
+      applied_forces(list_applied_forces(mechanism)),
       drive_rows(mechanism.drive_rows == DriveRows::kMultipliers),
       minimum_norm_multipliers(mechanism.minimum_norm_multipliers),
       alpha(mechanism.baumgarte_alpha),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/kinematics/joint_traits.h"
+#include "engine/model/applied_force.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -25,6 +26,7 @@ struct TreeJoint : JointTraits {
   TreePlacement placement;            ///< in the parent's frame
   std::array<double, 3> stiffness{},
       damping{};                      ///< of its coordinates, [N/m] or [N m/rad], and the same times [s]
+  double armature = 0.0;              ///< of a single coordinate: see Coordinate
   double mass = 0.0;                  ///< [kg]
   std::array<double, 3> mc{};         ///< mass times centre of mass, [kg m]
   std::array<double, 9> I{};          ///< about the frame's origin, [kg m^2]
@@ -78,6 +80,7 @@ struct TreeModel {
   std::vector<TreeCutJoint> cut_joints;
   std::vector<Coupling> couplings;
   std::vector<TreeSpring> springs;
+  std::vector<AppliedForce> applied_forces;
   std::vector<int> free;              ///< free coordinates
   std::vector<int> drives;            ///< coordinate of each drive
   bool drive_rows = false;            ///< drives are constraint rows

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
+#include "engine/model/applied_force.h"
 #include "engine/model/linkage.h"
 
 namespace engine {
@@ -55,6 +57,7 @@ class LinkageBuilder {
       if (linkage_.joints[k].cut) add_cut(linkage_.joints[k], built_.joints[k]);
     for (const LinkageSpring& spring : linkage_.springs) add_spring(spring);
     Mechanism& m = built_.mechanism;
+    add_actuations(m);
     m.gravity_W = linkage_.gravity_W;
     m.drive_rows = linkage_.drive_rows;
     m.baumgarte_alpha = linkage_.baumgarte_alpha;
@@ -115,6 +118,20 @@ class LinkageBuilder {
                                   .spring_yields = true});
     if (freedom.drive) built_.mechanism.drives.push_back({index, *freedom.drive});
     return index;
+  }
+
+  /// Behind all other coordinates.
+  void add_actuations(Mechanism& m) const {
+    for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
+      for (std::size_t i = 0; i < linkage_.joints[k].freedoms.size(); ++i) {
+        const LinkageFreedom& freedom = linkage_.joints[k].freedoms[i];
+        const FrameIndex coordinate = built_.joints[k].first + static_cast<FrameIndex>(i);
+        if (freedom.actuator)
+          std::visit([&](const auto& actuator) { add_actuation(m, coordinate, actuator); },
+                     *freedom.actuator);
+        if (freedom.load) add_actuation(m, coordinate, *freedom.load);
+        if (freedom.friction) add_actuation(m, coordinate, *freedom.friction);
+      }
   }
 
   FrameIndex add(Coordinate coordinate) {

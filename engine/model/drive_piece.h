@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include "engine/model/applied_force.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -23,15 +25,19 @@ namespace engine {
   return corner;
 }
 
-/// The stretch of time between two jumps of the drives' accelerations. A step does not cross a jump: it ends
-/// there, with the accelerations before the jump, and the next one begins with those behind it. Steps may end
+/// The stretch of time between two jumps of the drives' accelerations, or kinks of the laws of forces. A step
+/// does not cross a jump: it ends there, with the accelerations before the jump, and the next one begins with
+/// those behind it. Steps may end
 /// a rounding beside the jump; is_over() decides, not a comparison of instants.
 class DrivePiece {
  public:
   /// All of time.
   DrivePiece() = default;
-  /// The first piece, from t = 0 on. @param drives  outlive this
-  explicit DrivePiece(const std::vector<Drive>& drives) : drives_(&drives) { calc_end(0.0); }
+  /// The first piece, from t = 0 on. @param drives, actuations  outlive this
+  explicit DrivePiece(std::span<const Drive> drives, std::span<const Actuation> actuations = {})
+      : drives_(drives), actuations_(actuations) {
+    calc_end(0.0);
+  }
 
   /// The instant of the next jump, infinite if there is none, [s]
   [[nodiscard]] double end() const { return end_; }
@@ -50,17 +56,19 @@ class DrivePiece {
   [[nodiscard]] double clamp(double t) const { return std::clamp(t, earliest_, latest_); }
 
  private:
-  static constexpr double kBeside = 1e-14;       ///< of the time: more than the rounding of a jump's instant
+  static constexpr double kBeside = 1e-14;  ///< of the time: more than the rounding of a jump's instant
   /// Of the time: grids and corners count such instants as one.
   static constexpr double kSameInstant = 2e-12;
 
   void calc_end(double t) {
     end_ = std::numeric_limits<double>::infinity();
-    for (const Drive& drive : *drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
+    for (const Drive& drive : drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
+    for (const Actuation& actuation : actuations_) end_ = std::min(end_, find_next_kink(actuation, t));
     latest_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
   }
 
-  const std::vector<Drive>* drives_ = nullptr;
+  std::span<const Drive> drives_;
+  std::span<const Actuation> actuations_;
   double end_ = std::numeric_limits<double>::infinity();
   double earliest_ = -std::numeric_limits<double>::infinity();
   double latest_ = std::numeric_limits<double>::infinity();

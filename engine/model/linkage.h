@@ -37,7 +37,10 @@ struct LinkageFreedom {
   std::optional<double> start_rate = {};
   double stiffness = 0.0;
   double damping = 0.0;
-  std::optional<DriveLaw> drive = {};   ///< empty: free
+  std::optional<DriveLaw> drive = {};   ///< its motion is given; empty: free, or moved by the actuator
+  std::optional<Actuator> actuator = {};  ///< none of a driven freedom
+  std::optional<ForceLaw> load = {};      ///< acts beside drive or actuator
+  std::optional<JointFriction> friction = {};
 };
 
 /// A body. Unless the joint that carries it says otherwise, its frame is the joint's.

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "engine/clearance/clearance_parameters.h"
+#include "engine/model/actuator.h"
 #include "engine/model/drive_law.h"
 
 namespace engine {
@@ -30,16 +31,25 @@ struct Placement {
 using FrameIndex = int;
 inline constexpr FrameIndex kGround = -1;
 
+/// The thing that a coordinate is of. Those that are none of a joint belong to a force element.
+enum class CoordinateRole {
+  kJoint,
+  kCharge,    ///< that has passed a winding, [C]; its inertia is the inductance
+  kMemory,    ///< the rate is a controller's integral, or the deflection of a bristle; no energy
+};
+
 /// One joint coordinate and the frame it moves. Joints of several degrees of freedom are several of them in a
 /// row. The frame's mass properties are those of the body fixed to it; a frame inside a joint has none.
 struct Coordinate {
   std::string name;                   ///< the paper's symbol in ASCII, e.g. "psi_1_3_0"
+  CoordinateRole role = CoordinateRole::kJoint;
   FrameIndex parent = kGround;        ///< smaller than this coordinate's index
   Placement placement;                ///< of the joint in the parent's frame
   Motion motion = Motion::kRotation;
   Axis axis = Axis::kZ;               ///< in the parent's frame after `placement`, and in its frame
   double stiffness = 0.0;             ///< spring on the coordinate, [N m/rad] or [N/m]
   double damping = 0.0;               ///< damper on the coordinate, [N m s/rad] or [N s/m]
+  double armature = 0.0;              ///< of a rotor geared to the coordinate, n^2 J, [kg m^2] or [kg]
   double assembly_guess = 0.0;        ///< where Newton's method begins to close the loops, [rad] or [m]
   std::optional<double> start =
       {};  ///< where it is at t = 0, whatever the loops ask of the others, [rad] or [m]
@@ -106,6 +116,14 @@ struct Drive {
   DriveLaw law;
 };
 
+/// A coordinate with the cause of a force on it.
+struct Actuation {
+  FrameIndex coordinate = 0;
+  ForceElement element;
+  FrameIndex winding = kGround;  ///< coordinate of a motor's charge; kGround: no motor
+  FrameIndex memory = kGround;   ///< coordinate of a controller's integral or of a bristle; kGround: none
+};
+
 enum class DriveRows {
   kEliminated,  ///< the driven coordinates are substituted: exact
   kMultipliers, ///< constraint rows with Baumgarte's stabilisation, as in the paper
@@ -128,6 +146,7 @@ struct Mechanism {
   /// least ones are taken.
   bool minimum_norm_multipliers = false;
   std::vector<Drive> drives;
+  std::vector<Actuation> actuations;
   DriveRows drive_rows = DriveRows::kEliminated;
   double baumgarte_alpha = 100.0;                         ///< [1/s]
   double baumgarte_beta = 100.0;                          ///< [1/s]

@@ -92,8 +92,18 @@ Placement journal_placement(const RpsupParameters& p) {
 /// The rod's joint in the rod's frame and in the crank's, along both.
 double guide_position(const RpsupParameters& p) { return is_flexible(p.crank) ? p.crank_length : 0.0; }
 
-LinkageFreedom driven(std::string name, const DriveLaw& law) {
-  return {.name = std::move(name), .drive = law};
+/// @param start  of a freedom that the actuator, if there is one, moves from rest
+LinkageFreedom driven(std::string name, const std::optional<Actuator>& actuator, double start,
+                      const DriveLaw& law) {
+  LinkageFreedom freedom{.name = std::move(name)};
+  freedom.actuator = actuator;
+  if (!actuator) {
+    freedom.drive = law;
+    return freedom;
+  }
+  freedom.start = start;
+  freedom.start_rate = 0.0;
+  return freedom;
 }
 
 std::vector<LinkageJoint> describe_joints(const RpsupParameters& p) {
@@ -104,14 +114,16 @@ std::vector<LinkageJoint> describe_joints(const RpsupParameters& p) {
        .from = kGroundName,
        .to = "1,1",
        .placement = {},
-       .freedoms = {driven("psi_1_1", p.crank_drive ? *p.crank_drive : crank_law(p))}},
+       .freedoms = {driven("psi_1_1", p.crank_actuator, p.crank_start,
+                           p.crank_drive ? *p.crank_drive : crank_law(p))}},
       {.name = "rod",
        .kind = JointKind::kPrismatic,
        .from = "1,1",
        .to = "1,2",
        .placement = {.p = {guide, 0.0, 0.0}},
        .axes = {Axis::kX},
-       .freedoms = {driven("z_1_2", p.rod_drive ? *p.rod_drive : rod_law(p))},
+       .freedoms = {driven("z_1_2", p.rod_actuator, p.rod_start - p.rod_length,
+                           p.rod_drive ? *p.rod_drive : rod_law(p))},
        .to_placement = {.p = {guide, 0.0, 0.0}}},
       {.name = "ball",
        .kind = JointKind::kSpherical,

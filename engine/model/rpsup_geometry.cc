@@ -63,10 +63,12 @@ RiseReturnPause rod_law(const RpsupParameters& p) {
 }
 
 DrivenMotion calc_crank_motion(const RpsupParameters& p, double t) {
+  if (p.crank_actuator) return {.q = p.crank_start};
   return p.crank_drive ? calc_driven_motion(*p.crank_drive, t) : calc_driven_motion(crank_law(p), t);
 }
 
 DrivenMotion calc_rod_motion(const RpsupParameters& p, double t) {
+  if (p.rod_actuator) return {.q = p.rod_start - p.rod_length};
   return p.rod_drive ? calc_driven_motion(*p.rod_drive, t) : calc_driven_motion(rod_law(p), t);
 }
 

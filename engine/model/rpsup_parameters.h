@@ -8,6 +8,7 @@
 #include "engine/clearance/friction_parameters.h"
 #include "engine/clearance/normal_law.h"
 #include "engine/clearance/worn_bore.h"
+#include "engine/model/actuator.h"
 #include "engine/model/drive_law.h"
 #include "engine/model/links.h"
 
@@ -88,6 +89,8 @@ struct RpsupParameters {
   std::optional<DriveLaw> crank_drive;  ///< of psi^(1,1), in the place of crank_velocity and crank_start
   std::optional<DriveLaw> rod_drive;  ///< of z^(1,2), 0 with the S joint at rod_length from the crank's axis,
                                       ///< in the place of rod_start and of the stroke
+  /// Moves psi^(1,1) from rest at crank_start, or z^(1,2) from rest at rod_start, in the place of a motion.
+  std::optional<Actuator> crank_actuator, rod_actuator;
   DriveEnforcement drive = DriveEnforcement::kPrescribed;
   double baumgarte_alpha = 100.0;                  ///< [1/s]
   double baumgarte_beta = 100.0;                   ///< [1/s]

@@ -18,7 +18,7 @@ namespace server::openapi {
 namespace {
 
 /// Ends of names and their units; the first that fits counts.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits{{{"_j_m", "J m"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kUnits{{{"_j_m", "J m"},
                                                                                 {"_rad_s2", "rad/s²"},
                                                                                 {"_rad_s", "rad/s"},
                                                                                 {"_m_s2", "m/s²"},
@@ -29,6 +29,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits{{
                                                                                 {"_mm", "mm"},
                                                                                 {"_um", "µm"},
                                                                                 {"_n", "N"},
+                                                                                {"_a", "A"},
+                                                                                {"_v", "V"},
+                                                                                {"_w", "W"},
                                                                                 {"_j", "J"},
                                                                                 {"_s", "s"},
                                                                                 {"_m", "m"},
@@ -72,8 +75,9 @@ Json patterns_of(std::span<const engine::QuantityInfo> quantities, const ValueSc
   return patterns;
 }
 
-/// Quantities of a linkage whose names are placeholders: a body on a driven cylindrical joint, another on a
-/// revolute joint, both joined by a revolute joint with clearance and by a spring.
+/// Quantities of a linkage whose names are placeholders: a body on a driven cylindrical joint, one that
+/// motors move on it, another on a revolute joint; the first and the last are joined by a revolute joint with
+/// clearance and by a spring.
 engine::LinkageTables make_sample_tables() {
   const auto make_joint = [](engine::JointKind kind, const char* from, const char* to) {
     engine::LinkageJoint joint;
@@ -85,14 +89,19 @@ engine::LinkageTables make_sample_tables() {
   };
   engine::LinkageJoint driven = make_joint(engine::JointKind::kCylindrical, engine::kGroundName, "{body}");
   driven.freedoms.assign(2, {.name = "{coordinate}", .drive = engine::DriveLaw{}});
+  engine::LinkageJoint actuated = make_joint(engine::JointKind::kCylindrical, "{body}", "third");
+  actuated.freedoms.assign(2, {.name = "{coordinate}",
+                               .actuator = engine::DcMotor{},
+                               .load = engine::ForceLaw{},
+                               .friction = engine::JointFriction{}});
   engine::LinkageJoint carrying = make_joint(engine::JointKind::kRevolute, engine::kGroundName, "other");
   carrying.freedoms.assign(1, {.name = "{coordinate}"});
   engine::LinkageJoint closing = make_joint(engine::JointKind::kRevolute, "{body}", "other");
   closing.cut = true;
   closing.clearance = engine::ClearanceParameters{};
   engine::Linkage linkage;
-  linkage.bodies = {{.name = "{body}"}, {.name = "other"}};
-  linkage.joints = {driven, carrying, closing};
+  linkage.bodies = {{.name = "{body}"}, {.name = "other"}, {.name = "third"}};
+  linkage.joints = {driven, actuated, carrying, closing};
   linkage.springs = {{.name = "{spring}", .from = "{body}", .to = "other"}};
   return engine::linkage_tables(linkage);
 }
@@ -100,14 +109,15 @@ engine::LinkageTables make_sample_tables() {
 const engine::LinkageTables& sample_tables() {
   static const engine::LinkageTables tables = [] {
     engine::LinkageTables made = make_sample_tables();
-    std::erase_if(made.channels,
-                  [](const engine::QuantityInfo& channel) { return channel.key.starts_with("pose_other"); });
+    std::erase_if(made.channels, [](const engine::QuantityInfo& channel) {
+      return channel.key.starts_with("pose_other") || channel.key.starts_with("pose_third");
+    });
     return made;
   }();
   return tables;
 }
 
-/// Channels of the RPSUP linkage with and without flexible links and wear.
+/// Channels of the RPSUP linkage with and without flexible links, wear and motors.
 std::vector<engine::QuantityInfo> all_channels() {
   std::vector<engine::QuantityInfo> channels = engine::channel_table({});
   engine::RpsupParameters parameters;
@@ -116,6 +126,7 @@ std::vector<engine::QuantityInfo> all_channels() {
     link->model = engine::LinkModel::kFlexible;
     link->diameter = 0.01;
   }
+  parameters.crank_actuator = parameters.rod_actuator = engine::DcMotor{};
   parameters.wear_depth.assign(static_cast<std::size_t>(parameters.radial_levels),
                                std::vector<double>(16, 0.0));
   for (engine::QuantityInfo& channel : engine::channel_table(parameters)) {

@@ -35,7 +35,7 @@ class Scalars {
 
   [[nodiscard]] double kinetic(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
     calc_frame_motions(chains_, q, qd, Eigen::VectorXd::Zero(q.size()), frames_);
-    return calc_kinetic_energy(chains_, frames_);
+    return calc_kinetic_energy(chains_, frames_, qd);
   }
   [[nodiscard]] double potential(const Eigen::VectorXd& q) {
     calc_frame_motions(chains_, q, Eigen::VectorXd::Zero(q.size()), Eigen::VectorXd::Zero(q.size()), frames_);

@@ -8,6 +8,7 @@ const suffixes = [
   ["_m_s2", "m/s²"], ["_rad_s2", "rad/s²"], ["_rad_s", "rad/s"], ["_m_s", "m/s"], ["_n_m", "N m"], ["_kg_m2", "kg m²"],
   ["_kg", "kg"], ["_mrad", "mrad"],
   ["_rad", "rad"], ["_mm", "mm"], ["_um", "µm"], ["_hz", "Hz"], ["_pa", "Pa"], ["_n", "N"], ["_j", "J"], ["_s", "s"],
+  ["_a", "A"], ["_v", "V"], ["_w", "W"],
   ["_m", "m"],
 ];
 

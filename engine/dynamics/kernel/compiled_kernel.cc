@@ -12,16 +12,16 @@ namespace {
 /// @returns null if the tree is of another topology
 template <typename Topology>
 DynamicsKernel* try_topology(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                             std::size_t bristles) {
-  return Topology::fit(model) ? new CompiledKernel<Topology>(model, joints, bristles) : nullptr;
+                             std::size_t bristles, const AppliedForceValue* applied) {
+  return Topology::fit(model) ? new CompiledKernel<Topology>(model, joints, bristles, applied) : nullptr;
 }
 
 /// The kernel of the first topology that fits.
 template <typename... Topologies>
 DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                               std::size_t bristles) {
+                               std::size_t bristles, const AppliedForceValue* applied) {
   DynamicsKernel* kernel = nullptr;
-  (void)(((kernel = try_topology<Topologies>(model, joints, bristles)) != nullptr) || ...);
+  (void)(((kernel = try_topology<Topologies>(model, joints, bristles, applied)) != nullptr) || ...);
   return kernel;
 }
 
@@ -33,12 +33,12 @@ DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<Clearan
 /// links without clearance: see LoopClosure.) The topology without clearance is rolled: its constraint solver
 /// passes addresses of the workspaces to functions that are not inlined, so that nothing stays in registers.
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                                     std::size_t bristles) {
+                                     std::size_t bristles, const AppliedForceValue* applied) {
   return try_topologies<
       StaticTopology<kRigidRpsup, true>, StaticTopology<kFlexibleRpsup, true>,
       StaticTopology<kFlexibleRpsup, false>::Rolled, StaticTopology<kRigidRpsupAcross, true>,
       StaticTopology<kFlexibleRpsupAcross, true>, StaticTopology<kFlexibleRpsupAcross, false>::Rolled,
-      DynamicTopology>(model, joints, bristles);
+      DynamicTopology>(model, joints, bristles, applied);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

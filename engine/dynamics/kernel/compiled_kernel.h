@@ -57,15 +57,17 @@ inline void read_out_joint(const CutJointMotion<double, double>& from, JointStat
 template <typename Topology>
 class CompiledKernel final : public DynamicsKernel {
  public:
-  CompiledKernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles)
+  CompiledKernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles,
+                 const AppliedForceValue* applied)
       : model_(model),
         layout_{static_cast<int>(model.free.size()), static_cast<int>(bristles),
-                static_cast<int>(model.drives.size())},
+                static_cast<int>(model.drives.size()), static_cast<int>(model.applied_forces.size())},
         joints_(joints),
+        applied_(applied),
         bristle_rates_(bristles),
-        kept_(model, joints),
+        kept_(model, joints, applied),
         point_(model, joints, bristles, kept_),
-        linearised_(model, kept_, point_, joints.size()),
+        linearised_(model, kept_, point_, joints.size(), applied),
         jacobian_(layout_),
         schedule_(model, BristleJacobian::kMaxLoads * joints.size(), jacobian_.by_t.size()),
         bristle_jacobian_(joints, schedule_.motion_chunks(), jacobian_.by_t.size()),
@@ -77,7 +79,7 @@ class CompiledKernel final : public DynamicsKernel {
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved,
                             double* dydt) override {
     if constexpr (Topology::is_static) {
-      ForwardDynamics<Topology> at(model_, joints_);
+      ForwardDynamics<Topology> at(model_, joints_, applied_);
       at.bristle_rates = dydt + layout_.bristle();
       return evaluate(y, drives, at, dydt);
     } else {
@@ -169,6 +171,8 @@ class CompiledKernel final : public DynamicsKernel {
     if constexpr (!Topology::is_static) {
       for (std::size_t k = 0; k < at.drive_force.size(); ++k)
         works[k] = at.drive_force[k] * at.qd[model_.drives[k]];
+      for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
+        works[layout_.drives + k] = calc_applied_power(model_.applied_forces[k], applied_[k], at.qd);
     } else {
       Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
         if (!joint.driven) return;
@@ -234,6 +238,10 @@ class CompiledKernel final : public DynamicsKernel {
       schedule_.output(row++) = kept_.qd[drive] * linearised_.drive_force[k] +
                                 kept_.drive_force[k] * schedule_.coordinate_seeds(chunk)[drive].qd;
     }
+    for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
+      schedule_.output(row++) =
+          calc_applied_power_tangent(model_.applied_forces[k], applied_[k], linearised_.applied_force[k],
+                                     kept_.qd.data(), schedule_.coordinate_seeds(chunk));
     schedule_.output(row++) = linearised_.losses.impact;
     schedule_.output(row++) = linearised_.losses.friction;
     schedule_.output(row++) = linearised_.losses.structural;
@@ -257,6 +265,7 @@ class CompiledKernel final : public DynamicsKernel {
   const TreeModel& model_;
   StateLayout layout_;
   const std::vector<ClearanceJoint>& joints_;
+  const AppliedForceValue* applied_;            ///< one for each of the model's applied forces
   Buffer<double> bristle_rates_;                ///< of the kept evaluation
   ForwardDynamics<typename Topology::Rolled> kept_;
   OperatingPoint<typename Topology::Rolled> point_;

@@ -87,6 +87,16 @@ std::vector<Case> all_cases() {
                               .stiffness = 100.0, .damping = 3.0, .free_length = 0.05}};
   Linkage driven_screw = make_screw();
   driven_screw.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
+  Linkage actuated = make_spatial_slider_crank(JointKind::kSpherical);  // a motor with a controller on the crank, a table over the slide
+  actuated.joints[0].freedoms[0].actuator =
+      DcMotor{.voltage = Controller{.target = Harmonic{0.3, 2.0, 5.0, 0.4}, .controlled = Controller::Controlled::kPosition, .proportional = 30.0,
+                                    .integral = 50.0, .derivative = 2.0},
+              .torque_constant = 0.5, .resistance = 0.8, .inductance = 0.02, .gear_ratio = 3.0, .gear_efficiency = 0.8, .rotor_inertia = 1e-3,
+              .viscous_friction = 0.01, .dry_friction = 0.3, .reversal_velocity = 30.0};
+  actuated.joints[1].freedoms[0].friction = JointFriction{{.v_s = 1.0}, 50.0};
+  actuated.joints[2].freedoms[0].friction = JointFriction{{.law = FrictionLaw::kCoulomb, .v_0 = 1.0}, 20.0, 0.03};
+  actuated.joints[1].freedoms[0].load =
+      ForceLaw{TableCurve({-2.0, 0.0, 1.0, 2.0}, {5.0, 0.0, -20.0, -90.0}, TableInterpolation::kMonotoneCubic), ForceLaw::Variable::kPosition};
   RpsupParameters guide;  // the yoke about the guide, three rings
   guide.v_s = 1.0;
   RpsupParameters flexible_guide = guide;
@@ -144,7 +154,7 @@ std::vector<Case> all_cases() {
           of_linkage("cut_cross", make_spatial_slider_crank(JointKind::kUniversal), 1e-5, 1.0),
           of_linkage("cut_slide", make_spatial_slider_crank(JointKind::kPrismatic), 1e-5, 1.0),
           of_linkage("screw", make_screw(), 1e-5, 1.0), of_linkage("sprung", sprung, 1e-5, 1.0),
-          of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0),
+          of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0), of_linkage("actuated", actuated, 1e-5, 1.0),
           of_linkage("dependent_cylinder", make_four_bar(JointKind::kCylindrical), 0.0, 0.0),
           of_linkage("dependent_weld", make_four_bar(JointKind::kWeld), 0.0, 0.0),
           of_linkage("dependent_slot", make_quick_return(JointKind::kPrismatic), 0.0, 0.0)};

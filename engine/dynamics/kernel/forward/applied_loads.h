@@ -58,6 +58,21 @@ RPSUP_INLINE void calc_joint_spring_forces(const TreeModel& model, const Coordin
   });
 }
 
+/// Adds the applied forces to the forces on the coordinates. @param tau  one a coordinate
+template <typename Coordinates>
+RPSUP_INLINE void add_applied_forces(const TreeModel& model, const AppliedForceValue* values,
+                                     Coordinates& tau) {
+  for (std::size_t k = 0; k < model.applied_forces.size(); ++k)
+    tau[model.applied_forces[k].coordinate] += values[k].force;
+}
+
+/// Power of an applied force; 0 of one that has none. @param qd  one a coordinate
+template <typename Coordinates>
+[[nodiscard]] RPSUP_INLINE double calc_applied_power(const AppliedForce& of, const AppliedForceValue& value,
+                                                     const Coordinates& qd) {
+  return of.power == PowerKind::kNone ? 0.0 : value.force * qd[of.coordinate];
+}
+
 /// Adds the powers of the joints' dampers. @param qd  one a coordinate
 template <typename Topology, typename Coordinates>
 RPSUP_INLINE void add_damper_power(const TreeModel& model, const Coordinates& qd, double& power) {

@@ -35,7 +35,8 @@ class ForwardDynamics {
   using Constraints =
       std::conditional_t<Topology::has_constraints, ConstraintSolver<Topology>, NoConstraints>;
 
-  RPSUP_INLINE ForwardDynamics(const TreeModel& model, const std::vector<ClearanceJoint>& joints)
+  RPSUP_INLINE ForwardDynamics(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
+                               const AppliedForceValue* applied)
       : q(model.coordinates, in_sine_blocks(model.coordinates)),
         qd(q.size()), qdd(q.size()),
         drive_force(model.drives.size()),
@@ -44,13 +45,11 @@ class ForwardDynamics {
         spring_forces(model.springs.size()),
         bodies(model),
         constraints(model),
-        model_(model), joints_(joints),
+        model_(model), joints_(joints), applied_(applied),
         ground_(make_ground(model)),
-        work_(model), constraint_work_(model),
-        tau_(q.size()),
+        work_(model), constraint_work_(model), tau_(q.size()),
         sines_(in_sine_blocks(q.size())), cosines_(in_sine_blocks(q.size())),
-        body_bias_force_(model.joints.size()),
-        bias_force_(model.joints.size()),
+        body_bias_force_(model.joints.size()), bias_force_(model.joints.size()),
         slender_motion_(model.joints.size()) {}
 
   /// Computes all results from q, qd, the driven qdd (free ones: zero) and the bristles.
@@ -62,6 +61,7 @@ class ForwardDynamics {
     if (!definite) return EvaluationStatus::kNonFinite;
     calc_bias_forces();
     calc_joint_spring_forces<Topology>(model_, q, qd, tau_);
+    if constexpr (!Topology::is_static) add_applied_forces(model_, applied_, tau_);
     if (!calc_accelerations(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
     calc_losses();
@@ -285,10 +285,11 @@ class ForwardDynamics {
 
   const TreeModel& model_;
   const std::vector<ClearanceJoint>& joints_;
+  const AppliedForceValue* applied_;
   const Frame<double, double> ground_;
   typename ArticulatedBodies<Topology>::template Workspace<double> work_;
   typename Constraints::template Workspace<double> constraint_work_;
-  PerCoordinate<double> tau_;  ///< of springs, dampers, couplings and enforced drives, one a coordinate
+  PerCoordinate<double> tau_;  ///< springs, dampers, applied forces, couplings, enforced drives
   typename Topology::SineBuffer sines_, cosines_;
   PerJoint<SpatialForce<double>> body_bias_force_;  ///< Newton-Euler, kept for bodies that do not move
   PerJoint<SpatialForce<double>> bias_force_;       ///< less contacts and point springs

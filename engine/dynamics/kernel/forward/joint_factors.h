@@ -49,7 +49,8 @@ struct SingleAxisFactor {
       U_a = inertia.A * axis;
       if (joint.moment_matters) U_alpha = transpose_times(inertia.C, axis);
     }
-    const double D = joint.rotates() ? dot(axis, U_alpha) : dot(axis, U_a);
+    double D = joint.rotates() ? dot(axis, U_alpha) : dot(axis, U_a);
+    if (joint.has_armature) D += joint.data().armature;
     D_inverse = 1.0 / D;
     if (joint.parent_moves) {
       const double minus = -D_inverse;

@@ -33,16 +33,14 @@ class LinearisedDynamics {
  public:
   /// @param point  the operating point, of the same dynamics; must outlive this
   LinearisedDynamics(const TreeModel& model, const ForwardDynamics<Topology>& dynamics,
-                     const OperatingPoint<Topology>& point, std::size_t joints_with_clearance)
+                     const OperatingPoint<Topology>& point, std::size_t joints_with_clearance,
+                     const AppliedForceValue* applied)
       : qdd(model.coordinates),
         drive_force(model.drives.size()),
+        applied_force(model.applied_forces.size()),
         journals(joints_with_clearance),
-        model_(model),
-        dynamics_(dynamics),
-        point_(point),
-        frames_(model.joints.size()),
-        joint_rotations_(model.joints.size()),
-        inactive_(model.joints.size()),
+        model_(model), dynamics_(dynamics), point_(point), applied_(applied),
+        frames_(model.joints.size()), joint_rotations_(model.joints.size()), inactive_(model.joints.size()),
         work_(model),
         unconstrained_forces_(Topology::has_constraints ? model.joints.size() : 0),
         tau_(qdd.size()),
@@ -62,6 +60,8 @@ class LinearisedDynamics {
     calc_load_tangents();
     rotate_joint_forces();
     add_joint_spring_tangents<Topology>(model_, seeds_, tau_.data());
+    if constexpr (!Topology::is_static)
+      add_applied_force_tangents(model_, applied_, seeds_, time, applied_force.data(), tau_.data());
     if constexpr (Topology::has_constraints)
       for (std::size_t i = 0; i < unconstrained_forces_.size(); ++i)
         unconstrained_forces_[i] = work_.bias_forces[i];
@@ -75,6 +75,7 @@ class LinearisedDynamics {
   // Out
   Buffer<TangentPack> qdd;  ///< of free coordinates
   Buffer<TangentPack> drive_force;
+  Buffer<TangentPack> applied_force;
   Buffer<JournalTangent_b<TangentPack>> journals;  ///< of each joint with clearance
   LossPowers<TangentPack> losses;
 
@@ -277,6 +278,7 @@ class LinearisedDynamics {
   const TreeModel& model_;
   const ForwardDynamics<Topology>& dynamics_;
   const OperatingPoint<Topology>& point_;
+  const AppliedForceValue* applied_;  ///< one for each of the model's applied forces
   // The seeds of calc_tangents()
   const CoordinateTangent<TangentPack>* seeds_ = nullptr;
   const ContactLoadSeed* load_seeds_ = nullptr;

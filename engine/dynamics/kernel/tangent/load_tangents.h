@@ -34,6 +34,31 @@ using TangentDual = DualOf<TangentPack::kCount>;
           rotated_plus(nominal.vd, f.vd)};
 }
 
+/// Adds the tangents of applied forces to those of the forces on the coordinates.
+/// @param force  out, one an applied force  @param tau  one a coordinate
+RPSUP_INLINE void add_applied_force_tangents(const TreeModel& model, const AppliedForceValue* values,
+                                             const CoordinateTangent<TangentPack>* seeds,
+                                             const TangentPack& time, TangentPack* force, TangentPack* tau) {
+  for (std::size_t k = 0; k < model.applied_forces.size(); ++k) {
+    const AppliedForce& of = model.applied_forces[k];
+    force[k] = values[k].by_t * time;
+    for (std::size_t i = 0; i < kForceInputs; ++i) {
+      if (of.inputs[i] < 0) continue;
+      const CoordinateTangent<TangentPack>& seed = seeds[of.inputs[i]];
+      force[k] += values[k].by_q[i] * seed.q + values[k].by_v[i] * seed.qd;
+    }
+    tau[of.coordinate] += force[k];
+  }
+}
+
+/// Tangent of calc_applied_power(). @param force  tangent of the force
+RPSUP_INLINE TangentPack calc_applied_power_tangent(const AppliedForce& of, const AppliedForceValue& value,
+                                                    const TangentPack& force, const double* qd,
+                                                    const CoordinateTangent<TangentPack>* seeds) {
+  if (of.power == PowerKind::kNone) return {};
+  return qd[of.coordinate] * force + value.force * seeds[of.coordinate].qd;
+}
+
 /// Tangents of the right-hand sides of the couplings' rows. @param lambda  out, one a row
 RPSUP_INLINE void calc_coupling_tangents(const TreeModel& model, const CoordinateTangent<TangentPack>* seeds,
                                          TangentPack* lambda) {

@@ -21,7 +21,7 @@ struct StaticJoint {
   static constexpr JointTraits::Inertia inertia = traits.inertia;
   static constexpr int first = traits.first, first_free = traits.first_free, axis = traits.axis,
                        parent = traits.parent, drive = traits.drive;
-  static constexpr bool driven = traits.driven, sprung = traits.sprung;
+  static constexpr bool driven = traits.driven, sprung = traits.sprung, has_armature = traits.has_armature;
   static constexpr bool rotated = traits.rotated, shifted = traits.shifted,
                         shifted_along_x = traits.shifted_along_x;
   static constexpr bool com_at_origin = traits.com_at_origin, com_along_x = traits.com_along_x;

@@ -145,7 +145,7 @@ struct StaticTopology {
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
     if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() ||
-        !model.couplings.empty())
+        !model.couplings.empty() || !model.applied_forces.empty())
       return false;
     if (model.minimum_norm_multipliers) return false;  // FullRankDelassus cannot factor dependent rows
     if (model.cut_joints.size() != 1 || !CutJoint::fit(model.cut_joints[0])) return false;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/model/mechanism.h"
+
+namespace engine {
+
+/// Number of coordinates on which an applied force may depend.
+inline constexpr int kForceInputs = 2;
+
+/// The part that the power of an applied force has in the energy account.
+enum class PowerKind {
+  kSource,    ///< work of a drive
+  kExchange,  ///< one of a pair whose powers add up to 0: torque and back-EMF of a motor
+  kLoss,      ///< of an actuator: counted with the dampers
+  kFriction,  ///< dry friction in a joint
+  kNone,      ///< no power: the rate of a memory
+};
+
+/// A generalised force on a coordinate.
+struct AppliedForce {
+  FrameIndex coordinate = 0;
+  std::array<FrameIndex, kForceInputs> inputs{kGround, kGround};  ///< coordinates; kGround: none
+  PowerKind power = PowerKind::kSource;
+};
+
+/// An applied force at one instant, with its partial derivatives.
+struct AppliedForceValue {
+  double force = 0.0;  ///< [N] or [N m]; [V] on the charge of a winding
+  double by_t = 0.0;
+  std::array<double, kForceInputs> by_q{}, by_v{};  ///< by position and velocity of the inputs
+};
+
+/// What a force element reads.
+struct ElementState {
+  double q = 0.0, v = 0.0;  ///< of the driven coordinate
+  double current = 0.0;     ///< [A]
+  double memory = 0.0;      ///< x of the controller, or z of the bristle
+};
+
+/// Parts of a motor's applied forces, in their order.
+enum MotorForce { kElectromagnetic, kMotorLoss, kBackEmf, kSupply };
+
+/// The applied forces of a force element; those of a motor in the order of MotorForce.
+[[nodiscard]] std::vector<AppliedForce> list_applied_forces(const Actuation& actuation);
+/// Those of all force elements in their order.
+[[nodiscard]] std::vector<AppliedForce> list_applied_forces(const Mechanism& mechanism);
+
+/// Their values. Allocates nothing.
+/// @param values  out: one for each of list_applied_forces()
+void calc_applied_forces(const Actuation& actuation, double t, const ElementState& state,
+                         AppliedForceValue* values);
+
+/// First instant after t at which the law of a force element has a kink, or its target's acceleration jumps;
+/// infinite if none follows, [s]
+[[nodiscard]] double find_next_kink(const Actuation& actuation, double t);
+
+/// Adds the coordinates that a force element needs beside the given one: the charge of a winding, the
+/// integral of a controller, a bristle; and the inertia of a rotor.
+void add_actuation(Mechanism& mechanism, FrameIndex coordinate, const ForceElement& element);
+
+}  // namespace engine

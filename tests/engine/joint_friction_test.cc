@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dry friction in joints without play, under a given normal force.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/linkage_cases.h"
+#include "tests/engine/linkage_run.h"
+
+namespace engine {
+namespace {
+
+constexpr double kInclineGravity = 9.81;
+
+/// LuGre's law with the values of the article that introduced it, but for the viscous part.
+FrictionParameters published_law() {
+  return {.mu_s = 1.5, .mu_k = 1.0, .sigma_0 = 1e5, .sigma_1 = std::sqrt(1e5), .sigma_2 = 0.0, .v_s = 1e-3};
+}
+
+/// 2 kg on an incline, with the normal force that its weight gives.
+Linkage make_incline(double angle, const FrictionParameters& law, double velocity) {
+  constexpr double kInclineMass = 2.0;
+  Linkage linkage;
+  linkage.gravity_W = kInclineGravity * Eigen::Vector3d(std::sin(angle), -std::cos(angle), 0.0);  // x down the incline
+  linkage.bodies = {make_body("block", kInclineMass, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3})};
+  linkage.joints = {{.name = "slide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "block", .placement = {}, .axes = {Axis::kX, Axis::kY},
+                     .freedoms = {{.name = "q", .start = 0.0, .start_rate = velocity,
+                                   .friction = JointFriction{law, kInclineMass * kInclineGravity * std::cos(angle)}}}}};
+  return linkage;
+}
+
+TEST(JointFriction, LetsABlockSlideDownAsCoulombSays) {
+  FrictionParameters coulomb{.mu_k = 0.3, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6};
+  FrictionParameters lugre = published_law();
+  lugre.mu_s = 0.4;
+  lugre.mu_k = 0.3;
+  lugre.sigma_1 = 0.0;  // a bristle that is not bent at 1 m/s would brake by its damping
+  for (const FrictionParameters& law : {coulomb, lugre}) {
+    const double angle = 0.6, acceleration = kInclineGravity * (std::sin(angle) - 0.3 * std::cos(angle));
+    const LinkageRun run(make_incline(angle, law, 1.0), accurate(1.0));
+    EXPECT_NEAR(run.last("q_m_s"), 1.0 + acceleration, 2e-5);  // LuGre: until the bristle is bent, 3e-6 m
+    EXPECT_NEAR(run.last("q_friction_n"), -0.3 * 2.0 * kInclineGravity * std::cos(angle), 1e-4);  // a bristle of 3e-6 m, known to 1e-10 m
+    EXPECT_NEAR(run.metric("friction_work_j"), 0.3 * 2.0 * kInclineGravity * std::cos(angle) * run.last("q_m"), 1e-3);
+    EXPECT_LT(run.metric("energy_residual"), 1e-8);
+  }
+}
+
+TEST(JointFriction, HoldsABlockBelowTheAngleOfFriction) {
+  const double angle = 0.3;
+  FrictionParameters lugre = published_law();
+  lugre.mu_s = 0.5;
+  lugre.mu_k = 0.4;
+  const LinkageRun run(make_incline(angle, lugre, 0.0), accurate(2.0));
+  EXPECT_NEAR(run.last("q_m_s"), 0.0, 1e-9);
+  EXPECT_LT(run.last("q_m"), 1e-5);
+  EXPECT_NEAR(run.last("q_friction_n"), -2.0 * kInclineGravity * std::sin(angle), 1e-6);
+}
+
+// 1 kg under 1 N, pulled by a spring of 2 N/m whose end moves at 0.1 m/s: where it is after 25 s, by a program of its own for this experiment
+// (the law for one direction, 80-bit numbers, Fehlberg 7(8) at 1e-15).
+TEST(JointFriction, SticksAndSlipsAsPublished) {
+  FrictionParameters law = published_law();
+  law.sigma_2 = 0.4;
+  Linkage linkage;
+  linkage.bodies = {make_body("block", 1.0, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3}), make_body("carriage", 1.0, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3})};
+  const auto slide = [](const char* body, LinkageFreedom freedom) {
+    return LinkageJoint{.name = body, .kind = JointKind::kPrismatic, .from = kGroundName, .to = body, .placement = {}, .axes = {Axis::kX, Axis::kY},
+                        .freedoms = {std::move(freedom)}};
+  };
+  linkage.joints = {slide("block", {.name = "block", .friction = JointFriction{law, 1.0}}),
+                    slide("carriage", {.name = "carriage", .drive = Polynomial{{10.0, 0.1}}})};
+  linkage.springs = {{.name = "pull", .from = "block", .to = "carriage", .stiffness = 2.0, .free_length = 10.0}};
+  RunOptions options = accurate(25.0);
+  options.absolute_tolerance = 1e-13;
+  options.step_limit = 1'000'000;
+  const LinkageRun run(linkage, options);
+  EXPECT_NEAR(run.last("block_m"), 1.9088391992, 1e-9);
+  const std::vector<double>& v = run.column("block_m_s");
+  EXPECT_GT(std::count_if(v.begin(), v.end(), [](double each) { return std::abs(each) < 1e-4; }), 1000);  // it sticks for most of the time
+  options.integrator = Integrator::kRadau5;
+  EXPECT_NEAR(LinkageRun(linkage, options).last("block_m"), 1.9088391992, 1e-6);
+}
+
+// A pin of radius r turns against r mu N: a flywheel runs out in a time that the torque tells.
+TEST(JointFriction, OfAPinStopsAFlywheel) {
+  Linkage linkage;
+  linkage.bodies = {make_body("wheel", 3.0, {0.0, 0.0, 0.0}, {0.05, 0.05, 0.05})};
+  const FrictionParameters law{.mu_k = 0.2, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6};
+  linkage.joints = {{.name = "pin", .from = kGroundName, .to = "wheel", .placement = {},
+                     .freedoms = {{.name = "q", .start = 0.0, .start_rate = 10.0, .friction = JointFriction{law, 100.0, 0.01}}}}};
+  const LinkageRun run(linkage, accurate(1.0));
+  EXPECT_NEAR(run.last("q_rad_s"), 10.0 - 0.2 * 100.0 * 0.01 / 0.05, 1e-7);
+  EXPECT_NEAR(run.last("q_friction_n_m"), -0.2, 1e-9);
+}
+
+}  // namespace
+}  // namespace engine
