@@ -16,7 +16,7 @@ def subject_of($key): first(subjects[] | . as [$title, $pattern] | select($key |
 
 def range:
   if .oneOf and has("default") then "`rpsup`, or an object that describes another: [linkages](../linkages/README.md)"
-  elif .oneOf then "an object with a `law`: [laws](../linkages/README.md#joints)"
+  elif .oneOf then "an object with a `law` or an `actuator`: [laws](../linkages/README.md#joints), [actuators](../linkages/README.md#actuators-and-loads)"
   elif .type == "array" and .items.type == "array" then "lists of \(.items.minItems) to \(.items.maxItems) depths, a list for each ring"
   elif .enum then (.enum | map("`\(.)`") | join(", "))
   else (if has("exclusiveMinimum") then "> \(.exclusiveMinimum)" elif has("minimum") then "≥ \(.minimum)" else "" end)

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "jobs/linkages/linkage_actuator.h"
 #include "jobs/linkages/linkage_beam.h"
 #include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_fields.h"
@@ -236,8 +237,13 @@ class LinkageChecker {
   }
 
   void check_freedom_drive(const json& freedom, engine::Motion motion, const std::string& pointer) {
+    const std::string load = slides(motion) ? "load_n" : "load_n_m";
+    if (freedom.contains(load)) check_load(freedom.at(load), motion, pointer + pointer_token(load), faults_);
+    if (freedom.contains("friction") && freedom.at("friction").is_object())
+      check_friction(freedom.at("friction"), motion, defaults_, pointer + "/friction", faults_);
     if (!freedom.contains("drive") || !freedom.at("drive").is_object()) return;
     check_drive(freedom.at("drive"), motion, pointer + "/drive", faults_);
+    if (is_actuator(freedom.at("drive"))) return;
     for (const char* const key :
          {"start_m", "start_rad", "start_rate_m_s", "start_rate_rad_s", "guess_m", "guess_rad"})
       if (freedom.contains(key)) fault(pointer + pointer_token(key), "is what the drive says");

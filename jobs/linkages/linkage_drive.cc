@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
+#include "jobs/linkages/linkage_actuator.h"
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_value.h"
@@ -49,7 +51,8 @@ engine::StrokeLaw stroke_law_of(const std::string& word) {
 
 void check_drive(const json& drive, engine::Motion motion, const std::string& pointer,
                  std::vector<Fault>& faults) {
-  if (!drive.is_object()) return faults.push_back({pointer, "must be an object with a law"});
+  if (!drive.is_object()) return faults.push_back({pointer, "must be an object with a law or an actuator"});
+  if (is_actuator(drive)) return check_actuator(drive, motion, pointer, faults);
   const std::size_t before = faults.size();
   const std::string law =
       drive.contains("law") && drive.at("law").is_string() ? drive.at("law").get<std::string>() : "";
@@ -69,6 +72,7 @@ void check_drive(const json& drive, engine::Motion motion, const std::string& po
 
 json canonical_drive(const json& drive, engine::Motion motion) {
   json canonical = canonical_description(drive);
+  if (is_actuator(canonical)) return canonical_actuator(std::move(canonical), motion);
   const auto [key, former_key] = coefficient_keys(motion);
   if (canonical.contains(former_key)) {
     canonical[key] = canonical.at(former_key);

@@ -13,7 +13,7 @@
 
 namespace jobs {
 
-/// The faults of the law by which a coordinate moves.
+/// The faults of a drive: a law by which a coordinate moves, or an actuator.
 void check_drive(const nlohmann::json& drive, engine::Motion motion, const std::string& pointer,
                  std::vector<Fault>& faults);
 
@@ -21,7 +21,7 @@ void check_drive(const nlohmann::json& drive, engine::Motion motion, const std::
 /// and the default interpolation.
 [[nodiscard]] nlohmann::json canonical_drive(const nlohmann::json& drive, engine::Motion motion);
 
-/// @param drive  without faults
+/// @param drive  a law without faults
 [[nodiscard]] engine::DriveLaw read_drive(const nlohmann::json& drive, engine::Motion motion,
                                           const engine::RpsupParameters& defaults);
 

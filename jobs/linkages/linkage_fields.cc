@@ -65,6 +65,10 @@ std::string describe_field_fault(const LinkageField& field, const json& value) {
     case FieldKind::kInertia:
     case FieldKind::kNumbers: return describe_list_fault(field, value);
     case FieldKind::kObject: return value.is_object() ? "" : "must be an object";
+    case FieldKind::kEffort:
+      if (value.is_object()) return "";
+      return value.is_number() ? describe_number_fault(field.range, field.unit, value)
+                               : "must be a number or an object with a law";
   }
   return "";
 }
@@ -92,6 +96,7 @@ json schema_of_field(const LinkageField& field) {
     case FieldKind::kNumbers: schema = {{"type", "array"}, {"minItems", field.fewest},
                                         {"maxItems", kMostNumbers}, {"items", number_schema(field)}}; break;
     case FieldKind::kObject: schema = {{"type", "object"}}; break;
+    case FieldKind::kEffort: schema = {{"anyOf", {number_schema(field), {{"type", "object"}}}}}; break;
   }
   schema["description"] = field.help;
   if (!field.unit.empty()) schema["x-unit"] = field.unit;
@@ -280,7 +285,18 @@ LinkageFields freedom_fields(engine::Motion motion) {
        .help = "Of a damper"},
       {.key = "drive",
        .kind = FieldKind::kObject,
-       .help = "The law by which the coordinate moves; without it it is free"},
+       .help = "The law by which the coordinate moves, or the actuator that moves it; without it it is free"},
+      {.key = slides(motion) ? "load_n" : "load_n_m",
+       .kind = FieldKind::kEffort,
+       .range = between(-1e9, 1e9),
+       .unit = slides(motion) ? "N" : "N m",
+       .help = slides(motion) ? "A force along the coordinate on the second body, and its reaction on the "
+                                "first: a number, or a law"
+                              : "A torque about the axis on the second body, and its reaction on the first: "
+                                "a number, or a law"},
+      {.key = "friction",
+       .kind = FieldKind::kObject,
+       .help = "Dry friction in the joint, as the job's own parameters say, save those that stand here"},
   };
 }
 

@@ -26,6 +26,7 @@ enum class FieldKind {
   kInertia,  ///< three numbers, or six: xx, yy, zz, xy, xz, yz
   kNumbers,  ///< a list of numbers
   kObject,   ///< an object of its own, checked by itself
+  kEffort,   ///< a number, or an object as above: the law of a force, torque or voltage
 };
 
 [[nodiscard]] constexpr bool slides(engine::Motion motion) { return motion == engine::Motion::kTranslation; }

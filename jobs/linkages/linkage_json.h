@@ -38,7 +38,9 @@ inline constexpr std::string_view kRpsupName = "rpsup";
 
 /// JSON Schema of the key "linkage".
 [[nodiscard]] nlohmann::json linkage_schema();
-/// JSON Schema of a drive of a coordinate.
+/// JSON Schema of a law by which a coordinate moves.
+[[nodiscard]] nlohmann::json law_schema(engine::Motion motion);
+/// JSON Schema of a drive of a coordinate: a law or an actuator.
 [[nodiscard]] nlohmann::json drive_schema(engine::Motion motion);
 
 }  // namespace jobs

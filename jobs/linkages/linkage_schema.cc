@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "jobs/linkages/actuator_fields.h"
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_json.h"
 
@@ -21,13 +25,88 @@ json named(json entry, std::string_view what) {
 
 json schema_of_drive(engine::Motion motion) {
   json schema = drive_schema(motion);
-  schema["description"] = "The law by which the coordinate moves; without it it is free";
+  schema["description"] =
+      "The law by which the coordinate moves, or the actuator that moves it; without it it is free";
   return schema;
+}
+
+/// Schema of a number or a law under a key of `fields`.
+json schema_of_effort(const LinkageField& field, const EffortKeys& effort, engine::Motion motion,
+                      EffortVariables variables) {
+  json any = json::array();
+  any.push_back(schema_of_fields({field})["properties"][field.key]["anyOf"][0]);
+  for (const std::string_view law : kEffortLaws) {
+    json schema = schema_of_fields(effort_fields(effort, law, motion, variables));
+    schema["properties"]["law"] = {{"const", law}};
+    if (law == "table") {
+      const TableVariables of = table_variables(motion);
+      if (variables == EffortVariables::kTime)
+        schema["required"].push_back(of.times);
+      else
+        for (const std::string_view key : {of.times, of.positions, of.velocities})
+          schema["oneOf"].push_back({{"required", json::array({key})}});
+    }
+    any.push_back(std::move(schema));
+  }
+  return {{"description", field.help}, {"x-unit", field.unit}, {"anyOf", std::move(any)}};
+}
+
+/// Schemas of a controller, one for each controlled quantity. @param beside  further fields
+std::vector<json> schemas_of_controller(const EffortKeys& effort, engine::Motion motion,
+                                        const LinkageFields& beside) {
+  std::vector<json> schemas;
+  for (const std::string_view controlled : kControlled) {
+    LinkageFields fields = controller_fields(effort, controlled, motion);
+    fields.insert(fields.end(), beside.begin(), beside.end());
+    json schema = schema_of_fields(fields);
+    schema["properties"]["controlled"] = {{"const", controlled}};
+    schema["properties"]["target"] = law_schema(motion);
+    schema["anyOf"] = {{{"required", {"proportional"}}}, {{"required", {"integral"}}}};
+    if (controlled == "position") schema["anyOf"].push_back({{"required", {"derivative"}}});
+    schemas.push_back(std::move(schema));
+  }
+  return schemas;
+}
+
+json schema_of_motor(engine::Motion motion) {
+  LinkageFields fields = motor_fields(motion);
+  fields.push_back(actuator_field(motion));
+  json schema = schema_of_fields(fields);
+  json& voltages = schema["properties"]["voltage_v"];
+  voltages = schema_of_effort(fields.front(), voltage(), motion, EffortVariables::kTime);
+  schema["properties"]["controller"] = {{"description", schema["properties"]["controller"]["description"]},
+                                        {"oneOf", schemas_of_controller(voltage(), motion, {})}};
+  schema["oneOf"] = {{{"required", {"voltage_v"}}}, {{"required", {"controller"}}}};
+  return schema;
+}
+
+/// Adds the schemas of all actuators.
+void add_actuator_schemas(engine::Motion motion, json& any) {
+  const EffortKeys& effort = force_or_torque(motion);
+  const LinkageField field = effort_field(effort, "Number, or a law", true);
+  const auto words = actuator_words(motion);
+  const auto add = [&](json schema, std::string_view word) {
+    schema["properties"]["actuator"] = {{"const", word}};
+    any.push_back(std::move(schema));
+  };
+  json of_effort = schema_of_fields({actuator_field(motion), field});
+  of_effort["properties"][field.key] = schema_of_effort(field, effort, motion, EffortVariables::kAny);
+  add(std::move(of_effort), words[0]);
+  for (json& schema : schemas_of_controller(effort, motion, {actuator_field(motion)}))
+    add(std::move(schema), words[1]);
+  add(schema_of_motor(motion), words[2]);
 }
 
 json schema_of_freedom(engine::Motion motion) {
   json schema = schema_of_fields(freedom_fields(motion));
   schema["properties"]["drive"] = schema_of_drive(motion);
+  const LinkageFields fields = freedom_fields(motion);
+  const auto load = std::ranges::find(fields, FieldKind::kEffort, &LinkageField::kind);
+  schema["properties"][load->key] =
+      schema_of_effort(*load, force_or_torque(motion), motion, EffortVariables::kAny);
+  json friction = schema_of_fields(friction_fields(motion));
+  friction["description"] = schema["properties"]["friction"]["description"];
+  schema["properties"]["friction"] = std::move(friction);
   return schema;
 }
 
@@ -48,6 +127,8 @@ json schema_of_joint() {
   take_properties(turn, schema);
   schema["properties"]["drive"] = {
       {"anyOf", {schema_of_drive(engine::Motion::kRotation), schema_of_drive(engine::Motion::kTranslation)}}};
+  schema["properties"]["friction"] = {
+      {"anyOf", {turn["properties"]["friction"], slide["properties"]["friction"]}}};
   json clearance = schema_of_fields(clearance_fields());
   clearance["description"] = schema["properties"]["clearance"]["description"];
   schema["properties"]["clearance"] = std::move(clearance);
@@ -63,6 +144,12 @@ json schema_of_joint() {
 }  // namespace
 
 json drive_schema(engine::Motion motion) {
+  json schema = law_schema(motion);
+  add_actuator_schemas(motion, schema["oneOf"]);
+  return schema;
+}
+
+json law_schema(engine::Motion motion) {
   json any = json::array();
   for (const std::string_view law : kLaws) {
     json schema = schema_of_fields(drive_fields(motion, law));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/model/rpsup.h"
+#include "jobs/linkages/linkage_actuator.h"
 #include "jobs/linkages/linkage_beam.h"
 #include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_fields.h"
@@ -185,7 +186,14 @@ class LinkageMaker {
     freedom.start_rate = optional("start_rate_m_s", "start_rate_rad_s");
     freedom.stiffness = optional("stiffness_n_m", "stiffness_n_m_rad").value_or(0.0);
     freedom.damping = optional("damping_n_s_m", "damping_n_m_s_rad").value_or(0.0);
-    if (given.contains("drive")) freedom.drive = read_drive(given.at("drive"), motion, defaults_);
+    if (given.contains("drive") && is_actuator(given.at("drive")))
+      freedom.actuator = read_actuator(given.at("drive"), motion, defaults_);
+    else if (given.contains("drive"))
+      freedom.drive = read_drive(given.at("drive"), motion, defaults_);
+    if (const char* const load = slides(motion) ? "load_n" : "load_n_m"; given.contains(load))
+      freedom.load = read_load(given.at(load), motion);
+    if (given.contains("friction"))
+      freedom.friction = read_friction(given.at("friction"), motion, defaults_);
     return freedom;
   }
 

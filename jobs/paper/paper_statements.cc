@@ -200,7 +200,7 @@ Settings gather_settings(const ResultTable& results) {
   std::vector<std::size_t> columns;
   for (std::size_t k = 0; k < results.columns.size(); ++k) {
     const std::string& column = results.columns[k];
-    const bool given = is_varied_by_cases(column) || is_linkage_path(column) ||
+    const bool given = is_varied_by_cases(column) || is_path_in_description(column) ||
                        std::ranges::find(known_paths(), column) != known_paths().end();
     if (!given || std::ranges::find(axes, k) != axes.end()) continue;
     columns.push_back(k);

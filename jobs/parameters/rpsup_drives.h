@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/model/actuator.h"
 #include "engine/model/drive_law.h"
 #include "engine/model/mechanism.h"
 #include "engine/model/rpsup_parameters.h"
@@ -17,14 +18,18 @@ namespace jobs {
 inline constexpr std::string_view kCrankDriveKey = "crank_drive";
 inline constexpr std::string_view kRodDriveKey = "rod_drive";
 
-/// A parameter that gives a driven coordinate of the linkage "rpsup" another law than the paper's. A set has
-/// either this parameter, if it is given, or those of the paper's law.
+/// A parameter that gives a driven coordinate of the linkage "rpsup" another law than the paper's, or an
+/// actuator. A set has either this parameter, if it is given, or those that it replaces.
 struct RpsupDrive {
   std::string_view key;
   engine::Motion motion;
-  std::vector<std::string_view> replaced;  ///< parameters of the paper's law
+  std::vector<std::string_view> replaced_by_law, replaced_by_actuator;
   std::string_view help;
-  std::optional<engine::DriveLaw> engine::RpsupParameters::* member;
+  std::optional<engine::DriveLaw> engine::RpsupParameters::* law;
+  std::optional<engine::Actuator> engine::RpsupParameters::* actuator;
+
+  /// @param given  value of the key
+  [[nodiscard]] const std::vector<std::string_view>& replaced_by(const nlohmann::json& given) const;
 };
 
 [[nodiscard]] const std::array<RpsupDrive, 2>& rpsup_drives();

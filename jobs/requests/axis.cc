@@ -99,12 +99,12 @@ void collect_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, 
 
 bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults) {
   const auto& known = known_paths();
-  const bool in_linkage = is_linkage_path(path);
+  const bool in_linkage = is_path_in_description(path);
   if (std::find(known.begin(), known.end(), path) != known.end() ||
       (in_linkage && path.size() <= kLongestLinkagePath))
     return true;
   if (in_linkage) {
-    faults.push_back({pointer, "is longer than any place in a linkage: at most " +
+    faults.push_back({pointer, "is longer than any place in a description: at most " +
                                    std::to_string(kLongestLinkagePath) + " bytes"});
   } else if (path == kLinkageKey) {
     faults.push_back(
@@ -114,7 +114,9 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
   } else if (path == kWearKey) {
     faults.push_back({pointer, "worn bores are cases, each with its lists"});
   } else if (is_varied_by_cases(path)) {
-    faults.push_back({pointer, "drives are cases, each with its law"});
+    faults.push_back({pointer,
+                      "drives are cases; the numbers of one are swept one by one: "
+                      "\"crank_drive.voltage_v\", say"});
   } else if (path == "links") {
     faults.push_back({pointer, "the parts of links are swept one by one: \"links.1,3.mass_kg\", say"});
   } else {
@@ -127,7 +129,7 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
 bool is_numeric(const std::string& path) {
   const ParameterInfo* info = find_parameter(path);
   return info != nullptr ? info->kind != ParameterKind::kChoice
-                         : is_linkage_path(path) || path.ends_with("mass_kg");
+                         : is_path_in_description(path) || path.ends_with("mass_kg");
 }
 
 std::string value_identity(const std::string& path, const json& value) {

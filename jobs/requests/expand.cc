@@ -68,7 +68,7 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
 }
 
 /// Short form of a value in one line: of a worn bore the largest depth, of a described linkage its name, of a
-/// drive its law, with a number where another one of the sweep has that name already.
+/// drive its law or actuator, with a number where another one of the sweep has that name already.
 class ShownValues {
  public:
   explicit ShownValues(const SweepRequest& sweep) {
@@ -95,7 +95,9 @@ class ShownValues {
     for (const json& given : sweep.cases) {
       const json described = given.value(std::string(key), undescribed);
       const std::string name =
-          described.is_object() ? described.value(name_key, std::string("described")) : "";
+          described.is_object()
+              ? described.value(name_key, described.value("actuator", std::string("described")))
+              : "";
       const auto [shown, is_new] = names.try_emplace(described, name);
       while (is_new && !taken.insert(shown->second).second)
         shown->second = name + " #" + std::to_string(2 + namesakes[name]++);

@@ -100,7 +100,7 @@ std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parame
   std::size_t next = 0;
   for (const auto& [path, axis] : design.at("over").items()) {
     const json& value = centre[next++];
-    if (value.is_null() || (is_linkage_path(path) && !value.is_number())) {
+    if (value.is_null() || (is_path_in_description(path) && !value.is_number())) {
       if (are_known)
         faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
     } else {

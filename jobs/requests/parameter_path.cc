@@ -86,14 +86,18 @@ std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
   return paths;
 }
 
-bool is_linkage_path(std::string_view path) { return path.starts_with("linkage."); }
+bool is_path_in_description(std::string_view path) {
+  const std::string_view key = path.substr(0, path.find('.'));
+  return key.size() < path.size() && (key == kLinkageKey || find_rpsup_drive(key) != nullptr);
+}
 
-std::string describe_linkage_path_fault(const nlohmann::json& parameters, std::string_view path) {
+std::string describe_description_path_fault(const nlohmann::json& parameters, std::string_view path) {
   if (const auto* const value = find_at(parameters, path))
-    return value->is_number() ? "" : "is no number of the linkage described";
+    return value->is_number() ? "" : "is no number of the description";
   // A value that is left out has a default, and may be swept as well.
   const auto* const around = find_at(parameters, path.substr(0, path.rfind('.')));
-  return around != nullptr && around->is_object() ? "" : "there is no such place in the linkage described";
+  return around != nullptr && around->is_object() ? ""
+                                                  : "there is no such place in a description that is given";
 }
 
 std::string pointer_of_path(std::string_view path) {

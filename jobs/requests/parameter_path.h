@@ -20,11 +20,12 @@ namespace jobs {
 /// The paths that a parameter set gives values to, in its order. What is no parameter has none.
 [[nodiscard]] std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters);
 
-/// Whether a path names a number inside a described linkage: "linkage.bodies.rod.mass_kg".
-[[nodiscard]] bool is_linkage_path(std::string_view path);
+/// Whether a path names a number inside the description of a linkage or of a drive:
+/// "linkage.bodies.rod.mass_kg", "crank_drive.voltage_v".
+[[nodiscard]] bool is_path_in_description(std::string_view path);
 
-/// Fault of a path that names no number of the linkage in a parameter set; empty if there is none.
-[[nodiscard]] std::string describe_linkage_path_fault(const nlohmann::json& parameters,
+/// Fault of a path that names no number of a description in a parameter set; empty if there is none.
+[[nodiscard]] std::string describe_description_path_fault(const nlohmann::json& parameters,
                                                       std::string_view path);
 
 /// "links.1,3.mass_kg" -> "/links/1,3/mass_kg".

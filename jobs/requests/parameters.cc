@@ -10,6 +10,7 @@
 #include "engine/errors.h"
 #include "engine/simulate_linkage.h"
 #include "engine/simulate_rpsup.h"
+#include "jobs/linkages/linkage_actuator.h"
 #include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/job_spec.h"
@@ -75,11 +76,13 @@ constexpr double kLeastArm_mm = 1.0;           // as of the other lengths
 
 /// Faults of drives that stand beside parameters which they replace.
 void add_drive_faults(const json& completed, std::vector<Fault>& faults) {
-  for (const RpsupDrive& drive : rpsup_drives())
-    for (const std::string_view parameter : drive.replaced)
-      if (completed.contains(drive.key) && completed.contains(parameter))
+  for (const RpsupDrive& drive : rpsup_drives()) {
+    if (!completed.contains(drive.key)) continue;
+    for (const std::string_view parameter : drive.replaced_by(completed.at(drive.key)))
+      if (completed.contains(parameter))
         faults.push_back({pointer_token(parameter),
                           "cannot stand beside " + std::string(drive.key) + ", which replaces it"});
+  }
 }
 
 /// Sections and lengths without which no default mass makes sense.
@@ -245,7 +248,7 @@ std::vector<Fault> find_value_faults(const json& given) {
 }
 
 std::vector<Fault> find_path_faults(const std::string& path, const json& value) {
-  if (is_linkage_path(path))
+  if (is_path_in_description(path))
     return value.is_number() ? std::vector<Fault>{}
                              : std::vector<Fault>{{pointer_of_path(path), "must be a number"}};
   json alone = json::object();
@@ -315,10 +318,14 @@ JobSpec to_job_spec(const json& completed_parameters) {
     write_links(completed_parameters.at("links"), spec.parameters);
     if (completed_parameters.contains(kWearKey))
       spec.parameters.wear_depth = to_wear_depth(completed_parameters.at(kWearKey));
-    for (const RpsupDrive& drive : rpsup_drives())
-      if (completed_parameters.contains(drive.key))
-        spec.parameters.*drive.member =
-            read_drive(completed_parameters.at(drive.key), drive.motion, spec.parameters);
+    for (const RpsupDrive& drive : rpsup_drives()) {
+      if (!completed_parameters.contains(drive.key)) continue;
+      const json& given = completed_parameters.at(drive.key);
+      if (is_actuator(given))
+        spec.parameters.*drive.actuator = read_actuator(given, drive.motion, spec.parameters);
+      else
+        spec.parameters.*drive.law = read_drive(given, drive.motion, spec.parameters);
+    }
   } else if (const json& linkage = completed_parameters.at(kLinkageKey); !linkage.empty()) {
     std::vector<Fault> faults;
     spec.linkage = read_linkage(linkage, spec.parameters, faults);

@@ -275,11 +275,11 @@ class SweepParser {
   /// Numbers inside a description can only be swept where there is one that has them.
   void check_linkage_paths() {
     const auto check = [&](const std::string& path, const std::string& pointer) {
-      if (!is_linkage_path(path)) return;
+      if (!is_path_in_description(path)) return;
       for (std::size_t i = 0; i < std::max<std::size_t>(1, sweep_.cases.size()); ++i) {
         json given = sweep_.parameters;
         if (!sweep_.cases.empty()) given.merge_patch(sweep_.cases[i]);
-        const std::string detail = describe_linkage_path_fault(given, path);
+        const std::string detail = describe_description_path_fault(given, path);
         if (!detail.empty()) return fault(pointer, detail);
       }
     };

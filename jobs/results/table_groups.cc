@@ -19,7 +19,7 @@ std::vector<std::string_view> metrics_of(const ResultTable& table) {
   const auto& parameters = known_paths();
   std::vector<std::string_view> metrics;
   for (const std::string& column : table.columns) {
-    const bool given = is_varied_by_cases(column) || is_linkage_path(column) ||
+    const bool given = is_varied_by_cases(column) || is_path_in_description(column) ||
                        std::ranges::find(parameters, column) != parameters.end();
     if (!given && std::ranges::find(kOfJobs, column) == kOfJobs.end()) metrics.emplace_back(column);
   }

@@ -66,8 +66,8 @@ class SearchParser {
     const std::string pointer = "/over" + pointer_token(path);
     if (!is_known_path(path, pointer, faults_)) return;
     if (!is_numeric(path)) return fault(pointer, "must be a parameter whose values are numbers");
-    if (is_linkage_path(path)) {
-      return fault(pointer, "must be a parameter of the job: the metrics are those of the linkage \"rpsup\"");
+    if (is_path_in_description(path)) {
+      return fault(pointer, "must be a parameter of the job, no number inside a description");
     }
     search_.parameter = path;
     const json given = request_.at("over").begin().value();

@@ -40,12 +40,12 @@ Json make_range() {
   return range;
 }
 
-/// The keys of a parameter each, and of numbers inside a described linkage.
-Json by_paths(Json properties, Json of_linkage) {
+/// The keys of a parameter each, and of numbers inside descriptions of a linkage and of drives.
+Json by_paths(Json properties, Json of_description) {
   Json schema = options_of(std::move(properties));
   schema["patternProperties"] = {
-      {"^linkage\\.",
-       described(std::move(of_linkage), "a number inside the linkage that parameters describe")}};
+      {"^(linkage|crank_drive|rod_drive)\\.",
+       described(std::move(of_description), "a number inside a description that parameters give")}};
   return schema;
 }
 

@@ -53,7 +53,7 @@ void add_parameters_of_row(Json& properties) {
       kText, "of a described one its name, with a number if another one of the sweep has that name");
   for (const jobs::RpsupDrive& drive : jobs::rpsup_drives())
     properties[std::string(drive.key)] =
-        described(or_null(kText), "the law, with a number if another drive of the sweep has it");
+        described(or_null(kText), "the law or actuator, with a number if another drive of the sweep has it");
   properties[std::string(jobs::kWearKey)] = described(or_null(kNumber), "the largest depth, in um");
 }
 

@@ -44,6 +44,10 @@ export function faultOf(field, value) {
     : `${value} is not allowed: must be ${field.kind === "integer" ? "a whole number " : ""}${allowed(field)}`;
 }
 
+/// Whether a path names a number inside the description of a linkage or of a drive.
+/** @param {string} [path] */
+export const isInside = (path) => /^(linkage|crank_drive|rod_drive)\./.test(path ?? "");
+
 /// The field that a pointer of the service's answer means: "/sweep/clearance_mm/1" is clearance_mm's.
 export function pathOfPointer(pointer, fields) {
   const parts = pointer.split("/").slice(1).map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
@@ -51,7 +55,7 @@ export function pathOfPointer(pointer, fields) {
   if (parts[0] !== "sweep" && parts[0] !== "parameters") return "";
   if (parts[0] === "parameters" && parts[1] === "linkage") return "linkage";
   if (parts[0] === "parameters" && writtenAsJson.includes(parts[1])) return "described";
-  if (parts[1]?.startsWith("linkage.")) return "inside";
+  if (isInside(parts[1])) return "inside";
   const path = parts.slice(1).join(".");
   return fields.map((field) => field.path).find((known) => path === known || path.startsWith(`${known}.`)) ?? "";
 }

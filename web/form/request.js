@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From what stands in the form to a request, and back.
-import { faultOf, writtenAsJson } from "/form/fields.js";
+import { faultOf, isInside, writtenAsJson } from "/form/fields.js";
 
 export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", count: "5", scale: "linear", chosen: [] });
 
@@ -77,7 +77,7 @@ const jsonKinds = {
       + "{\"crank_drive\": {\"law\": \"velocity_table\", \"times_s\": [0, 2], \"velocities_rad_s\": [0, 10]}}" },
   linkage: { fits: (value) => isObject(value) || value === "rpsup",
     detail: "must be a JSON object that describes a linkage, with bodies and joints" },
-  inside: { fits: (value) => isObject(value) && Object.keys(value).every((path) => path.startsWith("linkage.")),
+  inside: { fits: (value) => isObject(value) && Object.keys(value).every(isInside),
     detail: "must be a JSON object of axes, such as {\"linkage.bodies.rod.mass_kg\": [0.2, 0.4]}" },
   cases: { fits: Array.isArray, detail: "must be a JSON list of objects, such as [{\"clearance_mm\": 0.1}]" },
   design: { fits: (value) => typeof value?.over === "object",
@@ -123,7 +123,7 @@ export function readRequest(fields, request = {}) {
   const described = Object.fromEntries(Object.entries(request.parameters ?? {})
     .filter(([key]) => writtenAsJson.includes(key)));
   const inside = Object.fromEntries(Object.entries(request.sweep ?? {})
-    .filter(([path]) => path.startsWith("linkage.")));
+    .filter(([path]) => isInside(path)));
   return { linkage: isObject(linkage) ? JSON.stringify(linkage, null, 1) : "", inside: Object.keys(inside)
     .length > 0 ? JSON.stringify(inside, null, 1) : "",
     described: Object.keys(described).length > 0 ? JSON.stringify(described, null, 1) : "",

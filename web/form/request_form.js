@@ -121,7 +121,7 @@ export class RequestForm {
   }
 
   described() {
-    return h("details", { open: this.state.described !== "" }, h("summary", {}, "Measured drives and worn bore"),
+    return h("details", { open: this.state.described !== "" }, h("summary", {}, "Other drives and worn bore"),
       ...this.json("described", "JSON object of crank_drive, rod_drive and wear_depth_um"));
   }
 

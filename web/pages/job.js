@@ -79,7 +79,7 @@ class JobPage {
       .map((link) => `flexible ${link}, `).join("");
     const title = typeof linkage === "object" ? titleOfLinkage(linkage)
       : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${velocity === undefined
-        ? `crank by ${job.parameters.crank_drive?.law}` : `${exact(velocity)} rad/s`}`;
+        ? `crank by ${job.parameters.crank_drive?.law ?? job.parameters.crank_drive?.actuator}` : `${exact(velocity)} rad/s`}`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;

@@ -16,7 +16,8 @@ const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velo
 // Linkages that the program brings along, as sets of parameters.
 const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"],
   ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
-  ["four_bar", "four-bar with a flexible coupler"], ["bricard", "Bricard's linkage"]];
+  ["four_bar", "four-bar with a flexible coupler"],
+  ["motor_press", "slider-crank press with motor, flywheel and load"], ["bricard", "Bricard's linkage"]];
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { query, signal }) {

@@ -9,10 +9,12 @@ export function guideOf({ guide_offset_y_m: y, guide_offset_z_m: z, guide_angle_
   return { point: [0, y, z], angle, direction: [Math.cos(angle), 0, Math.sin(angle)] };
 }
 
-/// Distances of the S joint from the crank's axis, while the rod rests and at the end of its stroke [m].
+/// Distances of the S joint from the crank's axis, while the rod rests and at the end of its stroke; with an actuator
+/// where it starts [m].
 /** @param {Api.Parameters} parameters */
 export function rodEnds({ rod_length_m: length, rod_start_m: start = length, rod_stroke_mm: stroke, rod_drive: drive }) {
-  return drive ? endsOfDrive(drive).map((way) => length + way) : [start, start + stroke / 1000];
+  if (drive) return drive.law ? endsOfDrive(drive).map((way) => length + way) : [start, start];
+  return [start, start + stroke / 1000];
 }
 
 /// Least and largest position that a law gives; its start where that is not said [m].

@@ -63,7 +63,7 @@ TEST_P(LinkageExample, Runs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LinkageExample,
-                         testing::Values("rpsup", "rsup", "slider_crank", "four_bar", "bricard"),
+                         testing::Values("rpsup", "rsup", "slider_crank", "four_bar", "bricard", "motor_press"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(LinkageExamples, HaveTheirJointsAndFreedoms) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/model/actuator.h"
+#include "engine/model/mechanism.h"
+#include "engine/model/rpsup_parameters.h"
+#include "jobs/base/errors.h"
+
+namespace jobs {
+
+/// Whether a drive is an actuator, which gives a force, and no law, which gives the motion.
+[[nodiscard]] bool is_actuator(const nlohmann::json& drive);
+
+/// The faults of an actuator that moves a coordinate.
+void check_actuator(const nlohmann::json& actuator, engine::Motion motion, const std::string& pointer,
+                    std::vector<Fault>& faults);
+
+/// An actuator without faults in the one form in which it is stored. @param actuator  numbers as doubles
+[[nodiscard]] nlohmann::json canonical_actuator(nlohmann::json actuator, engine::Motion motion);
+
+/// @param actuator  without faults
+[[nodiscard]] engine::Actuator read_actuator(const nlohmann::json& actuator, engine::Motion motion,
+                                             const engine::RpsupParameters& defaults);
+
+/// The load of a freedom: a force or torque, by a number or by a law.
+void check_load(const nlohmann::json& load, engine::Motion motion, const std::string& pointer,
+                std::vector<Fault>& faults);
+/// @param load  without faults
+[[nodiscard]] engine::ForceLaw read_load(const nlohmann::json& load, engine::Motion motion);
+
+/// The friction of a freedom.
+void check_friction(const nlohmann::json& friction, engine::Motion motion,
+                    const engine::RpsupParameters& defaults, const std::string& pointer,
+                    std::vector<Fault>& faults);
+/// @param friction  without faults  @returns empty: its law is "none"
+[[nodiscard]] std::optional<engine::JointFriction> read_friction(const nlohmann::json& friction,
+                                                                 engine::Motion motion,
+                                                                 const engine::RpsupParameters& defaults);
+
+}  // namespace jobs
