@@ -15,6 +15,7 @@ void JointReactions::calc(const Evaluation& at) {
                      frames_);  // those of `at` may lack the free coordinates' accelerations
   for (std::size_t k = 0; k < at.joints.size(); ++k) add_cut_joint(mechanism_.cut_joints[k], at.joints[k]);
   for (const PointSpring& spring : mechanism_.springs) add_spring(spring);
+  for (const BodyLoad& load : mechanism_.body_loads) add_body_load(load, at.t);
   (void)inverse_dynamics_.calc(frames_);
 }
 
@@ -27,6 +28,14 @@ void JointReactions::add_spring(const PointSpring& spring) {
   };
   add(spring.to_frame, motion.to, motion.force);
   add(spring.from_frame, motion.from, -motion.force);
+}
+
+void JointReactions::add_body_load(const BodyLoad& load, double t) {
+  const FrameMotion& body = frames_[static_cast<std::size_t>(load.frame)];
+  const double value = calc_signal(load.law, t).value;
+  const Eigen::Matrix3d R = load.follows_body ? body.R : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const Eigen::Vector3d force = value * (R * load.force), arm = body.R * load.at;
+  inverse_dynamics_.add_load(load.frame, {force, value * (R * load.moment) + arm.cross(force)});
 }
 
 /// Force and moment act where the journal's centre is, the opposite ones on the bearing there.

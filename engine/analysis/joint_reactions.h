@@ -26,6 +26,7 @@ class JointReactions {
  private:
   void add_cut_joint(const CutJoint& joint, const JointState& state);
   void add_spring(const PointSpring& spring);
+  void add_body_load(const BodyLoad& load, double t);
 
   const Mechanism& mechanism_;
   InverseDynamics inverse_dynamics_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/dynamics/spring_motion.h"
+#include "engine/model/applied_force.h"
 
 namespace engine {
 
@@ -20,7 +21,9 @@ std::string describe_source(std::string_view source) {
   if (source.empty()) return "every linkage";
   const std::size_t dot = source.find('.');
   const std::string_view kind = source.substr(0, dot);
-  return std::string("the ") + (kind == "bodies" ? "body" : kind == "springs" ? "spring" : "joint") + " " +
+  return std::string("the ") + (kind == "bodies" ? "body" : kind == "springs" ? "spring"
+                                                          : kind == "loads"   ? "load"
+                                                                              : "joint") + " " +
          std::string(source.substr(dot + 1));
 }
 
@@ -60,6 +63,10 @@ LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage&
   for (std::size_t k = 0; k < linkage.springs.size(); ++k) {
     source_ = "springs." + linkage.springs[k].name;
     add_spring(linkage.springs[k], k);
+  }
+  for (std::size_t k = 0; k < linkage.loads.size(); ++k) {
+    source_ = "loads." + linkage.loads[k].name;
+    add_body_load(linkage.loads[k], k);
   }
   source_.clear();
   add_energy_channels();
@@ -269,6 +276,14 @@ void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t inde
   add_channel(spring.name + "_tension_n", "Tension of the spring with its damper", tension);
   add_load("peak_" + spring.name + "_tension_n", "Largest magnitude of the spring's tension in the whole run",
            1.0, tension);
+}
+
+void LinkageQuantities::add_body_load(const LinkageLoad& load, std::size_t index) {
+  const bool is_force = !load.force.isZero(0.0);
+  const auto behind = static_cast<Eigen::Index>(list_applied_forces(built_.mechanism).size() + index);
+  add_channel(load.name + (is_force ? "_n" : "_n_m"),
+              is_force ? "Force of the load, by its law" : "Moment of the load, by its law",
+              [behind](const Evaluation& at) { return at.applied_force[behind]; });
 }
 
 void LinkageQuantities::add_energy_channels() {

@@ -7,7 +7,10 @@
 namespace engine {
 
 AppliedForces::AppliedForces(const Mechanism& mechanism, const TreeModel& model)
-    : mechanism_(mechanism), forces_(model.applied_forces), values_(forces_.size()) {
+    : mechanism_(mechanism),
+      forces_(model.applied_forces),
+      values_(forces_.size()),
+      body_loads_(mechanism.body_loads.size()) {
   std::size_t first = 0;
   for (const Actuation& actuation : mechanism.actuations) {
     const std::size_t end = first + list_applied_forces(actuation).size();
@@ -42,6 +45,8 @@ void AppliedForces::calc(double t, const Eigen::VectorXd& y, const std::vector<D
     }
     calc_applied_forces(mechanism_.actuations[k], t, state, &values_[group.first]);
   }
+  for (std::size_t k = 0; k < body_loads_.size(); ++k)
+    body_loads_[k] = calc_signal(mechanism_.body_loads[k].law, t);
 }
 
 void AppliedForces::read_out(const Eigen::VectorXd& y, const StateLayout& layout, Evaluation& at) const {
@@ -59,6 +64,14 @@ void AppliedForces::read_out(const Eigen::VectorXd& y, const StateLayout& layout
       else
         work += at.applied_work[index];
     }
+  }
+  const auto behind = static_cast<Eigen::Index>(forces_.size());
+  for (std::size_t k = 0; k < body_loads_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    at.applied_force[behind + i] = body_loads_[k].value;
+    at.applied_work[behind + i] = y[layout.work(layout.applied_in_works(static_cast<int>(behind + i)))];
+    at.energy.drive_work[layout.drives + static_cast<Eigen::Index>(groups_.size()) + i] =
+        at.applied_work[behind + i];
   }
 }
 

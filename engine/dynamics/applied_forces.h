@@ -12,14 +12,14 @@
 
 namespace engine {
 
-/// The applied forces of a mechanism's force elements at one instant.
+/// The applied forces of a mechanism's force elements, and the laws of its body loads, at one instant.
 class AppliedForces {
  public:
   /// @param mechanism  must outlive this
   AppliedForces(const Mechanism& mechanism, const TreeModel& model);
 
   /// Values for the kernel; they stay where they are.
-  [[nodiscard]] const AppliedForceValue* values() const { return values_.data(); }
+  [[nodiscard]] AppliedValues values() const { return {values_.data(), body_loads_.data()}; }
 
   /// Computes the values. Allocates nothing.
   void calc(double t, const Eigen::VectorXd& y, const std::vector<DrivenMotion>& drives,
@@ -45,6 +45,7 @@ class AppliedForces {
   std::vector<AppliedForce> forces_;
   std::vector<Group> groups_;  ///< one an Actuation
   std::vector<AppliedForceValue> values_;
+  std::vector<SignalPoint> body_loads_;
 };
 
 }  // namespace engine

@@ -11,15 +11,15 @@ namespace engine {
 // kernel/compiled_kernel.cc is compiled once for each.
 inline namespace baseline {
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                                     std::size_t bristles, const AppliedForceValue* applied);
+                                     std::size_t bristles, AppliedValues applied);
 }
 namespace avx2 {
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                                     std::size_t bristles, const AppliedForceValue* applied);
+                                     std::size_t bristles, AppliedValues applied);
 }
 namespace avx512 {
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                                     std::size_t bristles, const AppliedForceValue* applied);
+                                     std::size_t bristles, AppliedValues applied);
 }
 
 namespace {
@@ -59,7 +59,7 @@ std::vector<std::string_view> instruction_sets() {
 
 std::unique_ptr<DynamicsKernel> make_dynamics_kernel(std::string_view instruction_set, const TreeModel& model,
                                                      const std::vector<ClearanceJoint>& joints,
-                                                     const AppliedForceValue* applied) {
+                                                     AppliedValues applied) {
   std::size_t bristles = 0;
   for (const ClearanceJoint& joint : joints) bristles += static_cast<std::size_t>(joint.bristle_count());
   const auto* const set = std::ranges::find(kCompiled, instruction_set, &InstructionSet::name);

@@ -78,6 +78,6 @@ class DynamicsKernel {
 [[nodiscard]] std::unique_ptr<DynamicsKernel> make_dynamics_kernel(std::string_view instruction_set,
                                                                    const TreeModel& model,
                                                                    const std::vector<ClearanceJoint>& joints,
-                                                                   const AppliedForceValue* applied);
+                                                                   AppliedValues applied);
 
 }  // namespace engine

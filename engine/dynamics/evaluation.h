@@ -23,7 +23,7 @@ struct JointState {
 struct EnergyAccount {
   double kinetic = 0.0;                                     ///< [J]
   double potential = 0.0;                                   ///< gravity, springs, elastic contact, [J]
-  Eigen::VectorXd drive_work;                               ///< one a drive, then one an actuator, [J]
+  Eigen::VectorXd drive_work;                               ///< of drives, force elements, body loads, [J]
   double impact_loss = 0.0;                                 ///< [J]
   double friction_loss = 0.0;                               ///< [J]
   double structural_loss = 0.0;                             ///< [J]
@@ -46,7 +46,7 @@ struct Evaluation {
   double t = 0.0;                                           ///< [s]
   Eigen::VectorXd q, qd, qdd;                               ///< every coordinate
   Eigen::VectorXd drive_force;                              ///< one a drive, [N] or [N m]
-  Eigen::VectorXd applied_force;                            ///< one an AppliedForce, [N], [N m] or [V]
+  Eigen::VectorXd applied_force;                            ///< of AppliedForces; laws of body loads
   Eigen::VectorXd applied_work;                             ///< the same, [J]
   std::vector<FrameMotion> frames;                          ///< one a coordinate; accelerations are not set
   std::vector<JointState> joints;                           ///< one a cut joint

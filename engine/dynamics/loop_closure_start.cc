@@ -54,7 +54,7 @@ Eigen::VectorXd perturb(const Mechanism& mechanism, Eigen::VectorXd q, double si
 /// Whether nothing but drives and constraints moves the mechanism.
 bool LoopClosure::is_left_to_drives() const {
   const auto at_rest = [](const Coordinate& c) { return c.stiffness == 0.0 && c.damping == 0.0; };
-  return ideal_.springs.empty() && ideal_.actuations.empty() &&
+  return ideal_.springs.empty() && ideal_.actuations.empty() && ideal_.body_loads.empty() &&
          std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
          unknown_.size() + ideal_.drives.size() == ideal_.coordinates.size();
 }

@@ -14,7 +14,7 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
       model_(mechanism),
       instruction_set_(instruction_set.empty() ? instruction_sets().back() : instruction_set),
       layout_{static_cast<int>(model_.free.size()), 0, static_cast<int>(mechanism.drives.size()),
-              static_cast<int>(model_.applied_forces.size())},
+              static_cast<int>(model_.applied_forces.size() + model_.body_loads.size())},
       applied_forces_(mechanism_, model_),
       drives_(mechanism.drives.size()) {
   for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
@@ -74,8 +74,8 @@ Evaluation MotionSystem::make_evaluation() const {
   at.drive_force.setZero(static_cast<Eigen::Index>(mechanism_.drives.size()));
   at.applied_force.setZero(layout_.applied);
   at.applied_work = at.applied_force;
-  at.energy.drive_work.setZero(
-      static_cast<Eigen::Index>(mechanism_.drives.size() + mechanism_.actuations.size()));
+  at.energy.drive_work.setZero(static_cast<Eigen::Index>(
+      mechanism_.drives.size() + mechanism_.actuations.size() + mechanism_.body_loads.size()));
   at.frames.resize(mechanism_.coordinates.size());
   at.joints.resize(mechanism_.cut_joints.size());
   return at;

@@ -65,7 +65,7 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
 
 RunOutcome Integration::run(const Evaluation& assembled) {
   const bool fixed = options_.integrator == Integrator::kRk4;
-  piece_ = DrivePiece(mechanism_.drives, mechanism_.actuations);
+  piece_ = DrivePiece(mechanism_.drives, mechanism_.actuations, mechanism_.body_loads);
   system_.follow_drives(piece_);
   if (!start(assembled)) return outcome_;
   end_ = start_;
@@ -151,7 +151,7 @@ void Integration::follow_speed() {
   speed_ = speed;
   const double factor = tolerance_.follow_speed(speed_);
   // The energies of a drive that begins at rest are small at first only.
-  if (mechanism_.drives.empty() && mechanism_.actuations.empty()) energy_control_.follow_speed(factor);
+  if (start_.at.energy.drive_work.size() == 0) energy_control_.follow_speed(factor);
 }
 
 /// Enters the next drive piece and evaluates the state again, with the accelerations after the jump.

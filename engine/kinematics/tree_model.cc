@@ -119,6 +119,8 @@ class JointFinder {
       if (joint.bearing_frame == i || joint.journal_frame == i) return false;
     for (const PointSpring& spring : mechanism_.springs)
       if (spring.from_frame == i || spring.to_frame == i) return false;
+    for (const BodyLoad& load : mechanism_.body_loads)
+      if (load.frame == i) return false;
     return std::count_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(),
                          [i](const Coordinate& c) { return c.parent == i; }) == 1;
   }
@@ -188,6 +190,9 @@ TreeModel::TreeModel(const Mechanism& mechanism)
     cut_joints.push_back(cut);
   }
   for (const PointSpring& spring : mechanism.springs) springs.push_back(make_spring(spring, finder));
+  for (const BodyLoad& load : mechanism.body_loads)
+    body_loads.push_back({finder.joint_of(load.frame), make_placement({.p = load.at}), array_of(load.force),
+                          array_of(load.moment), load.follows_body});
   first_coupling_row = rows;
   rows += static_cast<int>(couplings.size());
   first_drive_row = rows;

@@ -69,6 +69,14 @@ struct TreeSpring {
   double free_length = 0.0;               ///< [m]
 };
 
+/// A load on the body of a joint, -1: on the ground.
+struct TreeBodyLoad {
+  int joint = -1;
+  TreePlacement at;
+  std::array<double, 3> force{}, moment{};  ///< by the value of the law, [N], [N m]
+  bool follows_body = false;                ///< see BodyLoad
+};
+
 /// A mechanism made ready for evaluation.
 struct TreeModel {
   explicit TreeModel(const Mechanism& mechanism);
@@ -81,6 +89,7 @@ struct TreeModel {
   std::vector<Coupling> couplings;
   std::vector<TreeSpring> springs;
   std::vector<AppliedForce> applied_forces;
+  std::vector<TreeBodyLoad> body_loads;
   std::vector<int> free;              ///< free coordinates
   std::vector<int> drives;            ///< coordinate of each drive
   bool drive_rows = false;            ///< drives are constraint rows

@@ -34,6 +34,12 @@ struct AppliedForceValue {
   std::array<double, kForceInputs> by_q{}, by_v{};  ///< by position and velocity of the inputs
 };
 
+/// Values at one instant of all applied forces and of the laws of all body loads, for the kernel.
+struct AppliedValues {
+  const AppliedForceValue* forces = nullptr;
+  const SignalPoint* body_loads = nullptr;
+};
+
 /// What a force element reads.
 struct ElementState {
   double q = 0.0, v = 0.0;  ///< of the driven coordinate

@@ -56,6 +56,8 @@ class LinkageBuilder {
     for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
       if (linkage_.joints[k].cut) add_cut(linkage_.joints[k], built_.joints[k]);
     for (const LinkageSpring& spring : linkage_.springs) add_spring(spring);
+    for (const LinkageLoad& load : linkage_.loads) add_load(load);
+    add_inertial_forces();
     Mechanism& m = built_.mechanism;
     add_actuations(m);
     m.gravity_W = linkage_.gravity_W;
@@ -231,6 +233,24 @@ class LinkageBuilder {
                                         .stiffness = spring.stiffness,
                                         .damping = spring.damping,
                                         .free_length = spring.free_length.value_or(0.0)});
+  }
+
+  void add_load(const LinkageLoad& load) {
+    const auto [frame, at] = locate(load.body, {.p = load.at});
+    const Eigen::Matrix3d R = load.follows_body ? at.R : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    built_.mechanism.body_loads.push_back(
+        {frame, at.p, R * load.force, R * load.moment, load.follows_body, load.law});
+  }
+
+  void add_inertial_forces() {
+    Mechanism& m = built_.mechanism;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::optional<Signal>& law = linkage_.ground_acceleration[static_cast<std::size_t>(axis)];
+      for (std::size_t i = 0; law && i < m.coordinates.size(); ++i)
+        if (const Coordinate& c = m.coordinates[i]; c.mass > 0.0)
+          m.body_loads.push_back({static_cast<FrameIndex>(i), c.com, -c.mass * Eigen::Vector3d::Unit(axis),
+                                  Eigen::Vector3d::Zero(), false, *law});
+    }
   }
 
   const Linkage& linkage_;

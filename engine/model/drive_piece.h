@@ -33,9 +33,10 @@ class DrivePiece {
  public:
   /// All of time.
   DrivePiece() = default;
-  /// The first piece, from t = 0 on. @param drives, actuations  outlive this
-  explicit DrivePiece(std::span<const Drive> drives, std::span<const Actuation> actuations = {})
-      : drives_(drives), actuations_(actuations) {
+  /// The first piece, from t = 0 on. All arguments outlive this
+  explicit DrivePiece(std::span<const Drive> drives, std::span<const Actuation> actuations = {},
+                      std::span<const BodyLoad> body_loads = {})
+      : drives_(drives), actuations_(actuations), body_loads_(body_loads) {
     calc_end(0.0);
   }
 
@@ -64,11 +65,13 @@ class DrivePiece {
     end_ = std::numeric_limits<double>::infinity();
     for (const Drive& drive : drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
     for (const Actuation& actuation : actuations_) end_ = std::min(end_, find_next_kink(actuation, t));
+    for (const BodyLoad& load : body_loads_) end_ = std::min(end_, find_next_kink(load.law, t));
     latest_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
   }
 
   std::span<const Drive> drives_;
   std::span<const Actuation> actuations_;
+  std::span<const BodyLoad> body_loads_;
   double end_ = std::numeric_limits<double>::infinity();
   double earliest_ = -std::numeric_limits<double>::infinity();
   double latest_ = std::numeric_limits<double>::infinity();

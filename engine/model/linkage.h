@@ -81,6 +81,17 @@ struct LinkageSpring {
       {};  ///< [m]; empty: the distance of the ends in the assembled position, see check_linkage()
 };
 
+/// A force or a moment on a body: see BodyLoad.
+struct LinkageLoad {
+  std::string name;
+  std::string body;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< in the body's frame, [m]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< by the value of the law, [N]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< the same, [N m]
+  bool follows_body = false;
+  Signal law;
+};
+
 inline constexpr const char* kGroundName = "ground";
 
 /// A linkage as data: any number of bodies in chains or trees from the ground, closed by any number of cut
@@ -90,6 +101,10 @@ struct Linkage {
   std::vector<LinkageJoint>
       joints;  ///< in the order in which bodies are placed, each behind the one that carries its first body
   std::vector<LinkageSpring> springs = {};
+  std::vector<LinkageLoad> loads = {};
+  /// Acceleration of the ground along x, y and z, [m/s^2]. Its frame moves with it: each body gets the
+  /// inertial force -m a.
+  std::array<std::optional<Signal>, 3> ground_acceleration = {};
   Eigen::Vector3d gravity_W = Eigen::Vector3d::Zero();
   DriveRows drive_rows = DriveRows::kEliminated;
   double baumgarte_alpha = 100.0;       ///< [1/s]

@@ -124,6 +124,16 @@ struct Actuation {
   FrameIndex memory = kGround;   ///< coordinate of a controller's integral or of a bristle; kGround: none
 };
 
+/// A force and a moment on a body at a point, both times a function of time.
+struct BodyLoad {
+  FrameIndex frame = 0;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< in the frame, [m]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< by the value of the law, [N]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< the same, [N m]
+  bool follows_body = false;                         ///< force and moment are in the frame, not in W
+  Signal law;                                        ///< over time
+};
+
 enum class DriveRows {
   kEliminated,  ///< the driven coordinates are substituted: exact
   kMultipliers, ///< constraint rows with Baumgarte's stabilisation, as in the paper
@@ -147,6 +157,7 @@ struct Mechanism {
   bool minimum_norm_multipliers = false;
   std::vector<Drive> drives;
   std::vector<Actuation> actuations;
+  std::vector<BodyLoad> body_loads;
   DriveRows drive_rows = DriveRows::kEliminated;
   double baumgarte_alpha = 100.0;                         ///< [1/s]
   double baumgarte_beta = 100.0;                          ///< [1/s]

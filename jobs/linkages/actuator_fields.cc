@@ -34,6 +34,45 @@ const EffortKeys& voltage() {
   return kVoltage;
 }
 
+const EffortKeys& acceleration() {
+  static constexpr EffortKeys kAcceleration{
+      "value_m_s2", "mean_m_s2", "amplitude_m_s2", "values_m_s2", "", "m/s^2"};
+  return kAcceleration;
+}
+
+LinkageFields load_fields() {
+  const auto law = [](const EffortKeys& effort, std::string_view help) {
+    return effort_field(effort, help, false);
+  };
+  return {{.key = "body", .kind = FieldKind::kBody, .help = "On which it acts", .required = true},
+          {.key = "at_m",
+           .kind = FieldKind::kPoint,
+           .range = between(-1000, 1000),
+           .unit = "m",
+           .help = "Where a force acts, in the body's frame; without it its origin"},
+          {.key = "direction",
+           .kind = FieldKind::kPoint,
+           .range = between(-1e6, 1e6),
+           .help = "Of the force, or of the moment's axis; of any length",
+           .required = true},
+          {.key = "follows_body",
+           .kind = FieldKind::kBoolean,
+           .help = "True: the direction is in the body's frame and turns with it; without it the ground's"},
+          law(force_or_torque(engine::Motion::kTranslation), "A force: a number, or a law over time"),
+          law(force_or_torque(engine::Motion::kRotation), "A moment: a number, or a law over time")};
+}
+
+LinkageFields ground_acceleration_fields() {
+  LinkageFields fields;
+  for (const std::string_view axis : {"x", "y", "z"})
+    fields.push_back({.key = axis,
+                      .kind = FieldKind::kEffort,
+                      .range = between(-1e6, 1e6),
+                      .unit = "m/s^2",
+                      .help = "A number, or a law over time; without it 0"});
+  return fields;
+}
+
 TableVariables table_variables(engine::Motion motion) {
   return slides(motion) ? TableVariables{.positions = "positions_m", .velocities = "velocities_m_s"}
                         : TableVariables{.positions = "positions_rad", .velocities = "velocities_rad_s"};

@@ -28,6 +28,11 @@ struct TableVariables {
 /// A key whose value is a number or a law of the effort.
 [[nodiscard]] LinkageField effort_field(const EffortKeys& effort, std::string_view help, bool required);
 
+/// Of the laws of body loads and of the ground's acceleration.
+[[nodiscard]] const EffortKeys& acceleration();
+[[nodiscard]] LinkageFields load_fields();
+[[nodiscard]] LinkageFields ground_acceleration_fields();
+
 enum class EffortVariables { kTime, kAny };
 [[nodiscard]] LinkageFields effort_fields(const EffortKeys& effort, std::string_view law,
                                           engine::Motion motion, EffortVariables variables);

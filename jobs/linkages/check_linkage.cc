@@ -26,6 +26,7 @@ using nlohmann::json;
 constexpr std::size_t kMostBodies = 200;
 constexpr std::size_t kMostJoints = 400;
 constexpr std::size_t kMostSprings = 400;
+constexpr std::size_t kMostLoads = 400;
 constexpr std::size_t kLongestKey = 32;
 
 class LinkageChecker {
@@ -39,6 +40,10 @@ class LinkageChecker {
     check_bodies();
     check_joints();
     if (given_.contains("springs")) check_springs();
+    if (given_.contains("loads")) check_loads();
+    if (given_.contains("ground_acceleration_m_s2"))
+      check_ground_acceleration(given_.at("ground_acceleration_m_s2"), "/linkage/ground_acceleration_m_s2",
+                                faults_);
     if (failed()) return std::nullopt;
     check_size();
     sort_joints();
@@ -108,6 +113,18 @@ class LinkageChecker {
     if (!check_names("springs", kMostSprings)) return;
     for (const auto& [name, spring] : given_.at("springs").items())
       check_spring(name, spring, "/linkage/springs" + pointer_token(name));
+  }
+
+  void check_loads() {
+    if (!check_names("loads", kMostLoads)) return;
+    for (const auto& [name, load] : given_.at("loads").items()) {
+      const std::string pointer = "/linkage/loads" + pointer_token(name);
+      check_body_load(load, pointer, faults_);
+      if (is_unknown_body(load, "body"))
+        fault(pointer + "/body", "there is no body " + load.at("body").get<std::string>());
+      else if (load.value("body", json()) == engine::kGroundName)
+        fault(pointer + "/body", "must be a body: the ground does not yield");
+    }
   }
 
   void check_spring(const std::string& name, const json& spring, const std::string& pointer) {

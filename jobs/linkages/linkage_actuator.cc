@@ -107,6 +107,11 @@ void check_motor(const json& motor, engine::Motion motion, const std::string& po
     check_controller(motor.at("controller"), voltage(), motion, {}, pointer + "/controller", faults);
 }
 
+Eigen::Vector3d direction_of(const json& load) {
+  const auto direction = load.at("direction").get<std::array<double, 3>>();
+  return {direction[0], direction[1], direction[2]};
+}
+
 void fill_in_interpolation(json& effort) {
   if (effort.is_object() && effort.at("law") == "table" && !effort.contains("interpolation"))
     effort["interpolation"] = "monotone_cubic";
@@ -211,6 +216,51 @@ engine::Actuator read_actuator(const json& actuator, engine::Motion motion,
 void check_load(const json& load, engine::Motion motion, const std::string& pointer,
                 std::vector<Fault>& faults) {
   check_effort(load, force_or_torque(motion), motion, EffortVariables::kAny, pointer, faults);
+}
+
+void check_body_load(const json& load, const std::string& pointer, std::vector<Fault>& faults) {
+  const std::size_t before = faults.size();
+  check_fields(load, load_fields(), pointer, faults);
+  const EffortKeys &force = force_or_torque(engine::Motion::kTranslation),
+                   &moment = force_or_torque(engine::Motion::kRotation);
+  if (load.contains(force.key) == load.contains(moment.key))
+    faults.push_back({pointer, "must have either a force_n or a torque_n_m"});
+  if (load.contains(moment.key) && load.contains("at_m"))
+    faults.push_back({pointer + "/at_m", "belongs to a force: a moment acts alike at all points of a body"});
+  for (const EffortKeys* const effort : {&force, &moment})
+    if (load.contains(effort->key))
+      check_effort(load.at(effort->key), *effort, engine::Motion::kRotation, EffortVariables::kTime,
+                   pointer + pointer_token(effort->key), faults);
+  if (faults.size() == before && !(direction_of(load).norm() > 0.0))
+    faults.push_back({pointer + "/direction", "must not be 0"});
+}
+
+engine::LinkageLoad read_body_load(const std::string& name, const json& load) {
+  const EffortKeys &force = force_or_torque(engine::Motion::kTranslation),
+                   &moment = force_or_torque(engine::Motion::kRotation);
+  const bool is_force = load.contains(force.key);
+  engine::LinkageLoad read{.name = name, .body = load.at("body").get<std::string>(), .law = {}};
+  if (load.contains("at_m")) {
+    const auto at = load.at("at_m").get<std::array<double, 3>>();
+    read.at = {at[0], at[1], at[2]};
+  }
+  (is_force ? read.force : read.moment) = direction_of(load).normalized();
+  read.follows_body = load.value("follows_body", false);
+  const EffortKeys& effort = is_force ? force : moment;
+  read.law = read_effort(load.at(effort.key), effort, engine::Motion::kRotation).law;
+  return read;
+}
+
+void check_ground_acceleration(const json& acceleration_of, const std::string& pointer,
+                               std::vector<Fault>& faults) {
+  check_fields(acceleration_of, ground_acceleration_fields(), pointer, faults);
+  for (const auto& [axis, law] : acceleration_of.items())
+    check_effort(law, acceleration(), engine::Motion::kRotation, EffortVariables::kTime,
+                 pointer + pointer_token(axis), faults);
+}
+
+engine::Signal read_acceleration(const json& law) {
+  return read_effort(law, acceleration(), engine::Motion::kRotation).law;
 }
 
 void check_friction(const json& friction, engine::Motion motion, const engine::RpsupParameters& defaults,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/model/actuator.h"
+#include "engine/model/linkage.h"
 #include "engine/model/mechanism.h"
 #include "engine/model/rpsup_parameters.h"
 #include "jobs/base/errors.h"
@@ -33,6 +34,16 @@ void check_load(const nlohmann::json& load, engine::Motion motion, const std::st
                 std::vector<Fault>& faults);
 /// @param load  without faults
 [[nodiscard]] engine::ForceLaw read_load(const nlohmann::json& load, engine::Motion motion);
+
+/// A load on a body: the faults of its own keys.
+void check_body_load(const nlohmann::json& load, const std::string& pointer, std::vector<Fault>& faults);
+/// @param load  without faults
+[[nodiscard]] engine::LinkageLoad read_body_load(const std::string& name, const nlohmann::json& load);
+
+void check_ground_acceleration(const nlohmann::json& acceleration, const std::string& pointer,
+                               std::vector<Fault>& faults);
+/// @param acceleration  of one axis, without faults
+[[nodiscard]] engine::Signal read_acceleration(const nlohmann::json& acceleration);
 
 /// The friction of a freedom.
 void check_friction(const nlohmann::json& friction, engine::Motion motion,

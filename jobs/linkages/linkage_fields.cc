@@ -122,6 +122,10 @@ const LinkageFields& linkage_fields() {
       {.key = "joints", .kind = FieldKind::kObject, .help = "The joints by their names", .required = true},
       {.key = "springs", .kind = FieldKind::kObject,
        .help = "Springs and dampers between points of two bodies, by their names"},
+      {.key = "loads", .kind = FieldKind::kObject, .help = "Forces and moments on bodies, by their names"},
+      {.key = "ground_acceleration_m_s2", .kind = FieldKind::kObject,
+       .help = "Acceleration of the ground along x, y and z, as of a shaker or a vehicle; positions are "
+               "seen from the ground"},
       {.key = "gravity_m_s2", .kind = FieldKind::kPoint, .range = between(-1000, 1000), .unit = "m/s^2",
        .help = "Acceleration of gravity; without it (0, -gravity_m_s2, 0)"},
   };

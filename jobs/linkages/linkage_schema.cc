@@ -141,6 +141,29 @@ json schema_of_joint() {
   return schema;
 }
 
+json schema_of_body_load() {
+  const LinkageFields fields = load_fields();
+  json schema = schema_of_fields(fields);
+  schema["oneOf"] = json::array();
+  for (const engine::Motion motion : {engine::Motion::kTranslation, engine::Motion::kRotation}) {
+    const EffortKeys& effort = force_or_torque(motion);
+    const auto field = std::ranges::find(fields, effort.key, &LinkageField::key);
+    schema["properties"][effort.key] = schema_of_effort(*field, effort, motion, EffortVariables::kTime);
+    schema["oneOf"].push_back({{"required", json::array({effort.key})}});
+  }
+  schema["oneOf"].back()["not"] = {{"required", {"at_m"}}};  // of a moment
+  return schema;
+}
+
+json schema_of_ground_acceleration(const json& described) {
+  json schema = schema_of_fields(ground_acceleration_fields());
+  for (const LinkageField& field : ground_acceleration_fields())
+    schema["properties"][field.key] =
+        schema_of_effort(field, acceleration(), engine::Motion::kRotation, EffortVariables::kTime);
+  schema["description"] = described.at("description");
+  return schema;
+}
+
 }  // namespace
 
 json drive_schema(engine::Motion motion) {
@@ -170,6 +193,10 @@ json linkage_schema() {
   described["properties"]["joints"] = named(schema_of_joint(), "The joints by their names");
   described["properties"]["springs"] = named(
       schema_of_fields(spring_fields()), "Springs and dampers between points of two bodies, by their names");
+  described["properties"]["loads"] =
+      named(schema_of_body_load(), "Forces and moments on bodies, by their names");
+  json& ground = described["properties"]["ground_acceleration_m_s2"];
+  ground = schema_of_ground_acceleration(ground);
   return {{"description", "The linkage: \"rpsup\", or a description of any other"}, {"default", kRpsupName},
           {"x-default-source", "chosen"},
           {"oneOf", {{{"const", kRpsupName}}, std::move(described)}}};

@@ -89,6 +89,12 @@ class LinkageMaker {
     if (given_.contains("springs"))
       for (const auto& [name, spring] : given_.at("springs").items())
         linkage.springs.push_back(make_spring(name, spring));
+    if (given_.contains("loads"))
+      for (const auto& [name, load] : given_.at("loads").items())
+        linkage.loads.push_back(read_body_load(name, load));
+    if (given_.contains("ground_acceleration_m_s2"))
+      for (const auto& [axis, law] : given_.at("ground_acceleration_m_s2").items())
+        linkage.ground_acceleration[static_cast<std::size_t>(axis[0] - 'x')] = read_acceleration(law);
     linkage.gravity_W = given_.contains("gravity_m_s2") ? point_of(given_, "gravity_m_s2")
                                                         : Eigen::Vector3d(0.0, -defaults_.gravity, 0.0);
     linkage.drive_rows = defaults_.drive == engine::DriveEnforcement::kBaumgarte

@@ -103,6 +103,9 @@ engine::LinkageTables make_sample_tables() {
   linkage.bodies = {{.name = "{body}"}, {.name = "other"}, {.name = "third"}};
   linkage.joints = {driven, actuated, carrying, closing};
   linkage.springs = {{.name = "{spring}", .from = "{body}", .to = "other"}};
+  const Eigen::Vector3d along = Eigen::Vector3d::UnitX();
+  linkage.loads = {{.name = "{load}", .body = "other", .force = along, .law = {}},
+                   {.name = "{load}", .body = "other", .moment = along, .law = {}}};
   return engine::linkage_tables(linkage);
 }
 

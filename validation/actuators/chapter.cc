@@ -19,6 +19,7 @@ slider's acceleration is to that of the prescribed motion.)",
                     {"force_laws_have_their_closed_forms", compute_force_laws},
                     {"controllers_do_as_their_gains_say", compute_controllers},
                     {"joints_rub_by_the_laws_of_friction", compute_joint_friction},
+                    {"bodies_bear_loads_and_a_shaken_ground", compute_body_loads},
                     {"stiff_controller_tends_to_the_prescribed_motion", compute_stiff_controller}}};
 }
 

@@ -12,14 +12,14 @@ namespace {
 /// @returns null if the tree is of another topology
 template <typename Topology>
 DynamicsKernel* try_topology(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                             std::size_t bristles, const AppliedForceValue* applied) {
+                             std::size_t bristles, AppliedValues applied) {
   return Topology::fit(model) ? new CompiledKernel<Topology>(model, joints, bristles, applied) : nullptr;
 }
 
 /// The kernel of the first topology that fits.
 template <typename... Topologies>
 DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                               std::size_t bristles, const AppliedForceValue* applied) {
+                               std::size_t bristles, AppliedValues applied) {
   DynamicsKernel* kernel = nullptr;
   (void)(((kernel = try_topology<Topologies>(model, joints, bristles, applied)) != nullptr) || ...);
   return kernel;
@@ -33,7 +33,7 @@ DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<Clearan
 /// links without clearance: see LoopClosure.) The topology without clearance is rolled: its constraint solver
 /// passes addresses of the workspaces to functions that are not inlined, so that nothing stays in registers.
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                                     std::size_t bristles, const AppliedForceValue* applied) {
+                                     std::size_t bristles, AppliedValues applied) {
   return try_topologies<
       StaticTopology<kRigidRpsup, true>, StaticTopology<kFlexibleRpsup, true>,
       StaticTopology<kFlexibleRpsup, false>::Rolled, StaticTopology<kRigidRpsupAcross, true>,

@@ -58,13 +58,12 @@ template <typename Topology>
 class CompiledKernel final : public DynamicsKernel {
  public:
   CompiledKernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints, std::size_t bristles,
-                 const AppliedForceValue* applied)
+                 AppliedValues applied)
       : model_(model),
         layout_{static_cast<int>(model.free.size()), static_cast<int>(bristles),
-                static_cast<int>(model.drives.size()), static_cast<int>(model.applied_forces.size())},
-        joints_(joints),
-        applied_(applied),
-        bristle_rates_(bristles),
+                static_cast<int>(model.drives.size()),
+                static_cast<int>(model.applied_forces.size() + model.body_loads.size())},
+        joints_(joints), applied_(applied), bristle_rates_(bristles),
         kept_(model, joints, applied),
         point_(model, joints, bristles, kept_),
         linearised_(model, kept_, point_, joints.size(), applied),
@@ -172,7 +171,10 @@ class CompiledKernel final : public DynamicsKernel {
       for (std::size_t k = 0; k < at.drive_force.size(); ++k)
         works[k] = at.drive_force[k] * at.qd[model_.drives[k]];
       for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
-        works[layout_.drives + k] = calc_applied_power(model_.applied_forces[k], applied_[k], at.qd);
+        works[layout_.drives + k] =
+            calc_applied_power(model_.applied_forces[k], applied_.forces[k], at.qd);
+      for (std::size_t k = 0; k < at.body_loads.size(); ++k)
+        works[layout_.drives + model_.applied_forces.size() + k] = at.body_loads[k].power;
     } else {
       Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
         if (!joint.driven) return;
@@ -240,8 +242,10 @@ class CompiledKernel final : public DynamicsKernel {
     }
     for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
       schedule_.output(row++) =
-          calc_applied_power_tangent(model_.applied_forces[k], applied_[k], linearised_.applied_force[k],
-                                     kept_.qd.data(), schedule_.coordinate_seeds(chunk));
+          calc_applied_power_tangent(model_.applied_forces[k], applied_.forces[k],
+                                     linearised_.applied_force[k], kept_.qd.data(),
+                                     schedule_.coordinate_seeds(chunk));
+    for (const TangentPack& power : linearised_.body_load_power) schedule_.output(row++) = power;
     schedule_.output(row++) = linearised_.losses.impact;
     schedule_.output(row++) = linearised_.losses.friction;
     schedule_.output(row++) = linearised_.losses.structural;
@@ -265,7 +269,7 @@ class CompiledKernel final : public DynamicsKernel {
   const TreeModel& model_;
   StateLayout layout_;
   const std::vector<ClearanceJoint>& joints_;
-  const AppliedForceValue* applied_;            ///< one for each of the model's applied forces
+  AppliedValues applied_;
   Buffer<double> bristle_rates_;                ///< of the kept evaluation
   ForwardDynamics<typename Topology::Rolled> kept_;
   OperatingPoint<typename Topology::Rolled> point_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -97,6 +98,11 @@ std::vector<Case> all_cases() {
   actuated.joints[2].freedoms[0].friction = JointFriction{{.law = FrictionLaw::kCoulomb, .v_0 = 1.0}, 20.0, 0.03};
   actuated.joints[1].freedoms[0].load =
       ForceLaw{TableCurve({-2.0, 0.0, 1.0, 2.0}, {5.0, 0.0, -20.0, -90.0}, TableInterpolation::kMonotoneCubic), ForceLaw::Variable::kPosition};
+  Linkage loaded = make_spatial_slider_crank(JointKind::kSpherical);
+  loaded.loads = {{.name = "thrust", .body = "rod", .at = {0.1, 0.02, 0.03}, .force = {3.0, -5.0, 4.0}, .follows_body = true,
+                   .law = Harmonic{1.0, 0.5, 6.0, 0.2}},
+                  {.name = "twist", .body = "crank", .moment = {0.3, 0.2, -0.4}, .law = Harmonic{0.0, 2.0, 4.0, 0.3}}};
+  loaded.ground_acceleration = {Signal(Harmonic{0.0, 3.0, 5.0, 0.1}), std::nullopt, Signal(Constant{2.0})};
   RpsupParameters guide;  // the yoke about the guide, three rings
   guide.v_s = 1.0;
   RpsupParameters flexible_guide = guide;
@@ -155,6 +161,7 @@ std::vector<Case> all_cases() {
           of_linkage("cut_slide", make_spatial_slider_crank(JointKind::kPrismatic), 1e-5, 1.0),
           of_linkage("screw", make_screw(), 1e-5, 1.0), of_linkage("sprung", sprung, 1e-5, 1.0),
           of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0), of_linkage("actuated", actuated, 1e-5, 1.0),
+          of_linkage("loaded", loaded, 1e-5, 1.0),
           of_linkage("dependent_cylinder", make_four_bar(JointKind::kCylindrical), 0.0, 0.0),
           of_linkage("dependent_weld", make_four_bar(JointKind::kWeld), 0.0, 0.0),
           of_linkage("dependent_slot", make_quick_return(JointKind::kPrismatic), 0.0, 0.0)};

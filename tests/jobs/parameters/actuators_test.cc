@@ -157,6 +157,77 @@ TEST(Load, StandsBesideADrive) {
             std::vector<std::string>{"/linkage/joints/guide/load_n_m"});
 }
 
+struct RefusedLoad {
+  const char* name;
+  const char* load;
+  const char* pointer;  ///< below /linkage/loads/l
+};
+void PrintTo(const RefusedLoad& refused, std::ostream* out) { *out << refused.name; }
+
+class RefusedBodyLoad : public testing::TestWithParam<RefusedLoad> {};
+
+TEST_P(RefusedBodyLoad, IsNamedWithItsPlace) {
+  json given = example("motor_press");
+  given["linkage"]["loads"] = {{"l", json_of(GetParam().load)}};
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
+            std::vector<std::string>{std::string("/linkage/loads/l") + GetParam().pointer});
+}
+
+const RefusedLoad kRefusedLoads[] = {
+    {"no_body", R"({"direction": [1, 0, 0], "force_n": 1})", "/body"},
+    {"on_no_body", R"({"body": "slide", "direction": [1, 0, 0], "force_n": 1})", "/body"},
+    {"on_the_ground", R"({"body": "ground", "direction": [1, 0, 0], "force_n": 1})", "/body"},
+    {"no_direction", R"({"body": "slider", "force_n": 1})", "/direction"},
+    {"direction_of_nothing", R"({"body": "slider", "direction": [0, 0, 0], "force_n": 1})", "/direction"},
+    {"neither", R"({"body": "slider", "direction": [1, 0, 0]})", ""},
+    {"both", R"({"body": "slider", "direction": [1, 0, 0], "force_n": 1, "torque_n_m": 1})", ""},
+    {"point_of_a_moment", R"({"body": "slider", "direction": [1, 0, 0], "torque_n_m": 1, "at_m": [1, 0, 0]})", "/at_m"},
+    {"over_the_position", R"({"body": "slider", "direction": [1, 0, 0], "force_n": {"law": "table", "positions_m": [0, 1], "values_n": [0, 1],
+     "times_s": [0, 1]}})", "/force_n/positions_m"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, RefusedBodyLoad, testing::ValuesIn(kRefusedLoads), [](const auto& test) { return std::string(test.param.name); });
+
+TEST(BodyLoad, AndTheGroundsAccelerationAreRead) {
+  json given = example("motor_press");
+  given["linkage"]["loads"] = {{"push", {{"body", "slider"}, {"direction", {0, 3, 4}}, {"force_n", 10}, {"at_m", {0, 0, 0.1}}}}};
+  given["linkage"]["ground_acceleration_m_s2"] = {{"y", {{"law", "harmonic"}, {"amplitude_m_s2", 2}, {"frequency_hz", 3}}}};
+  const engine::Linkage linkage = *jobs::to_job_spec(jobs::complete_parameters(given, "")).linkage;
+  ASSERT_EQ(linkage.loads.size(), 1U);
+  EXPECT_TRUE(linkage.loads[0].force.isApprox(Eigen::Vector3d(0.0, 0.6, 0.8)));
+  EXPECT_FALSE(linkage.ground_acceleration[0]);
+  EXPECT_EQ(std::get<engine::Harmonic>(*linkage.ground_acceleration[1]).amplitude, 2.0);
+  given["linkage"]["ground_acceleration_m_s2"]["w"] = 3;
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
+            std::vector<std::string>{"/linkage/ground_acceleration_m_s2/w"});
+}
+
+TEST(Friction, OfAFreedomIsRead) {
+  json given = example("motor_press");
+  given["linkage"]["joints"]["guide"]["friction"] = {{"normal_force_n", 20}, {"friction_kinetic", 0.25}};
+  given["linkage"]["joints"]["wrist"]["friction"] = {{"normal_force_n", 30}, {"radius_mm", 5}, {"friction", "coulomb"}};
+  const engine::Linkage linkage = *jobs::to_job_spec(jobs::complete_parameters(given, "")).linkage;
+  for (const engine::LinkageJoint& joint : linkage.joints) {
+    if (joint.name == "guide") {
+      EXPECT_EQ(joint.freedoms[0].friction->law.mu_k, 0.25);
+      EXPECT_EQ(joint.freedoms[0].friction->radius, 1.0);
+    } else if (joint.name == "wrist") {
+      EXPECT_EQ(joint.freedoms[0].friction->law.law, engine::FrictionLaw::kCoulomb);
+      EXPECT_EQ(joint.freedoms[0].friction->radius, 0.005);
+    }
+  }
+  const jobs::Outcome outcome = jobs::run_job(given, [](double) { return false; });
+  ASSERT_EQ(outcome.job.at("state"), "succeeded") << outcome.job.at("error");
+  EXPECT_GT(metric(outcome.job, "friction_work_j"), 0.1);
+  json& wrist = given["linkage"]["joints"]["wrist"]["friction"];
+  wrist.erase("radius_mm");
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
+            std::vector<std::string>{"/linkage/joints/wrist/friction/radius_mm"});
+  wrist = {{"normal_force_n", 30}, {"radius_mm", 5}, {"friction", "ambrosio"}, {"friction_velocity_1_m_s", 1e-5}};
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
+            std::vector<std::string>{"/linkage/joints/wrist/friction/friction_velocity_1_m_s"});
+}
+
 // A motion would say where the freedom is at t = 0; an actuator does not.
 TEST(Actuator, LeavesTheStartToTheFreedom) {
   json given = example("motor_press");

@@ -9,6 +9,7 @@
 #include "engine/dynamics/dynamics_kernel.h"
 #include "engine/dynamics/kernel/forward/applied_loads.h"
 #include "engine/dynamics/kernel/forward/articulated_bodies.h"
+#include "engine/dynamics/kernel/forward/body_load.h"
 #include "engine/dynamics/kernel/forward/constraint_solver.h"
 #include "engine/dynamics/kernel/forward/loss_powers.h"
 #include "engine/dynamics/kernel/forward/point_spring.h"
@@ -36,13 +37,13 @@ class ForwardDynamics {
       std::conditional_t<Topology::has_constraints, ConstraintSolver<Topology>, NoConstraints>;
 
   RPSUP_INLINE ForwardDynamics(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
-                               const AppliedForceValue* applied)
+                               AppliedValues applied)
       : q(model.coordinates, in_sine_blocks(model.coordinates)),
         qd(q.size()), qdd(q.size()),
         drive_force(model.drives.size()),
         frames(model.joints.size()), axes(model.joints.size()),
         cuts(model.cut_joints.size()),
-        spring_forces(model.springs.size()),
+        spring_forces(model.springs.size()), body_loads(model.body_loads.size()),
         bodies(model),
         constraints(model),
         model_(model), joints_(joints), applied_(applied),
@@ -61,7 +62,7 @@ class ForwardDynamics {
     if (!definite) return EvaluationStatus::kNonFinite;
     calc_bias_forces();
     calc_joint_spring_forces<Topology>(model_, q, qd, tau_);
-    if constexpr (!Topology::is_static) add_applied_forces(model_, applied_, tau_);
+    if constexpr (!Topology::is_static) add_applied_forces(model_, applied_.forces, tau_);
     if (!calc_accelerations(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
     calc_losses();
@@ -81,8 +82,8 @@ class ForwardDynamics {
   PerJoint<Frame<double, double>> frames;
   PerJoint<JointAxes> axes;
   typename Topology::template PerCutJoint<CutJointMotion<double, double>> cuts;
-  /// of each point spring
   typename Topology::template PerPointSpring<PointSpringForce<double>> spring_forces;
+  typename Topology::template PerBodyLoad<BodyLoadForce<double>> body_loads;
   LossPowers<double> losses;
   ArticulatedBodies<Topology> bodies;
   Constraints constraints;
@@ -159,17 +160,9 @@ class ForwardDynamics {
     Topology::for_each_cut_joint(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) subtract_contact_load(joint, cuts[k], frames, bias_force_);
     });
-    if constexpr (Topology::has_point_springs) subtract_point_springs();
-  }
-
-  RPSUP_INLINE void subtract_point_springs() {
-    for (std::size_t k = 0; k < spring_forces.size(); ++k) {
-      const TreeSpring& spring = model_.springs[k];
-      spring_forces[k] =
-          calc_point_spring_force(spring, frame_of(spring.from_joint), frame_of(spring.to_joint));
-      subtract_point_force(spring.to_joint, spring_forces[k].to, spring_forces[k].force, frames, bias_force_);
-      subtract_point_force(spring.from_joint, spring_forces[k].from, -spring_forces[k].force, frames,
-                           bias_force_);
+    if constexpr (Topology::has_point_springs) {
+      subtract_point_springs(model_, ground_, frames, spring_forces, bias_force_);
+      subtract_body_loads(model_, applied_.body_loads, ground_, frames, body_loads, bias_force_);
     }
   }
 
@@ -285,7 +278,7 @@ class ForwardDynamics {
 
   const TreeModel& model_;
   const std::vector<ClearanceJoint>& joints_;
-  const AppliedForceValue* applied_;
+  AppliedValues applied_;
   const Frame<double, double> ground_;
   typename ArticulatedBodies<Topology>::template Workspace<double> work_;
   typename Constraints::template Workspace<double> constraint_work_;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "engine/dynamics/cut_joint_motion.h"
+#include "engine/dynamics/kernel/forward/applied_loads.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/math/dual.h"
 #include "engine/math/vec3.h"
@@ -37,6 +40,23 @@ template <typename T>
   }
   result.force = -per_length * displacement;
   return result;
+}
+
+/// Subtracts the springs' forces from the bias forces of their bodies.
+/// @param forces  out, one a spring  @param frames, bias_force  one a joint
+template <typename Frames, typename SpringForces, typename Forces>
+RPSUP_INLINE void subtract_point_springs(const TreeModel& model, const Frame<double, double>& ground,
+                                         const Frames& frames, SpringForces& forces, Forces& bias_force) {
+  const auto frame_of = [&](int joint)
+                            RPSUP_INLINE_LAMBDA -> const Frame<double, double>& {
+    return joint < 0 ? ground : frames[joint];
+  };
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const TreeSpring& spring = model.springs[k];
+    forces[k] = calc_point_spring_force(spring, frame_of(spring.from_joint), frame_of(spring.to_joint));
+    subtract_point_force(spring.to_joint, forces[k].to, forces[k].force, frames, bias_force);
+    subtract_point_force(spring.from_joint, forces[k].from, -forces[k].force, frames, bias_force);
+  }
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -18,9 +18,10 @@ namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// Whether RecursiveNewtonSolver can solve a mechanism's Newton systems: it knows neither constraints nor
-/// point springs nor applied forces.
+/// point springs nor applied forces nor body loads.
 [[nodiscard]] inline bool fits_recursive_solver(const TreeModel& model) {
-  return model.rows == 0 && model.springs.empty() && model.applied_forces.empty();
+  return model.rows == 0 && model.springs.empty() && model.applied_forces.empty() &&
+         model.body_loads.empty();
 }
 
 /// The Newton system (sigma 1 - J) x = b of an implicit step, J = df/dy of MotionSystem's state equation,

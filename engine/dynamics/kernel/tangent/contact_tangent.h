@@ -75,5 +75,10 @@ template <typename T>
   return forces;
 }
 
+RPSUP_INLINE void add_load_seed(const ContactLoadSeed& of, LoadTangent<TangentPack>& load) {
+  load.force += Vec3<TangentPack>{of.load[0] * of.seed, of.load[1] * of.seed, of.load[2] * of.seed};
+  load.moment += Vec3<TangentPack>{of.load[3] * of.seed, of.load[4] * of.seed, of.load[5] * of.seed};
+}
+
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

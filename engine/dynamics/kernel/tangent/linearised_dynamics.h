@@ -34,18 +34,14 @@ class LinearisedDynamics {
   /// @param point  the operating point, of the same dynamics; must outlive this
   LinearisedDynamics(const TreeModel& model, const ForwardDynamics<Topology>& dynamics,
                      const OperatingPoint<Topology>& point, std::size_t joints_with_clearance,
-                     const AppliedForceValue* applied)
-      : qdd(model.coordinates),
-        drive_force(model.drives.size()),
-        applied_force(model.applied_forces.size()),
+                     AppliedValues applied)
+      : qdd(model.coordinates), drive_force(model.drives.size()),
+        applied_force(model.applied_forces.size()), body_load_power(model.body_loads.size()),
         journals(joints_with_clearance),
         model_(model), dynamics_(dynamics), point_(point), applied_(applied),
         frames_(model.joints.size()), joint_rotations_(model.joints.size()), inactive_(model.joints.size()),
-        work_(model),
-        unconstrained_forces_(Topology::has_constraints ? model.joints.size() : 0),
-        tau_(qdd.size()),
-        lambda_(model.rows),
-        constraint_work_(model) {}
+        work_(model), unconstrained_forces_(Topology::has_constraints ? model.joints.size() : 0),
+        tau_(qdd.size()), lambda_(model.rows), constraint_work_(model) {}
 
   /// Computes the tangents by a pack of seeds. Much code with two callers: not inlined into both.
   /// @param coordinates  seeds, one a coordinate; qdd of driven ones only
@@ -57,11 +53,11 @@ class LinearisedDynamics {
     load_seeds_ = loads;
     load_count_ = load_count;
     calc_frame_tangents();
-    calc_load_tangents();
+    calc_load_tangents(time);
     rotate_joint_forces();
     add_joint_spring_tangents<Topology>(model_, seeds_, tau_.data());
     if constexpr (!Topology::is_static)
-      add_applied_force_tangents(model_, applied_, seeds_, time, applied_force.data(), tau_.data());
+      add_applied_force_tangents(model_, applied_.forces, seeds_, time, applied_force.data(), tau_.data());
     if constexpr (Topology::has_constraints)
       for (std::size_t i = 0; i < unconstrained_forces_.size(); ++i)
         unconstrained_forces_[i] = work_.bias_forces[i];
@@ -75,7 +71,7 @@ class LinearisedDynamics {
   // Out
   Buffer<TangentPack> qdd;  ///< of free coordinates
   Buffer<TangentPack> drive_force;
-  Buffer<TangentPack> applied_force;
+  Buffer<TangentPack> applied_force, body_load_power;
   Buffer<JournalTangent_b<TangentPack>> journals;  ///< of each joint with clearance
   LossPowers<TangentPack> losses;
 
@@ -109,7 +105,7 @@ class LinearisedDynamics {
     return shift_origin(frames_[joint], offset_from_origin(joint, p));
   }
 
-  RPSUP_INLINE void calc_load_tangents() {
+  RPSUP_INLINE void calc_load_tangents(const TangentPack& time) {
     losses = {};
     for (std::size_t k = 0; k < model_.cut_joints.size(); ++k) {
       const TreeCutJoint& joint = model_.cut_joints[k];
@@ -119,8 +115,19 @@ class LinearisedDynamics {
       }
       calc_contact_tangent(joint, dynamics_.cuts[k]);
     }
-    if constexpr (Topology::has_point_springs)
+    if constexpr (Topology::has_point_springs) {
       for (const TreeSpring& spring : model_.springs) calc_point_spring_tangent(spring);
+      for (std::size_t k = 0; k < model_.body_loads.size(); ++k) calc_body_load_tangent(k, time);
+    }
+  }
+
+  RPSUP_INLINE void calc_body_load_tangent(std::size_t k, const TangentPack& time) {
+    const TreeBodyLoad& load = model_.body_loads[k];
+    const SignalPoint& law = applied_.body_loads[k];
+    const BodyLoadForce<TangentDual> tangent =
+        calc_body_load(load, inertial_frame(load.joint), TangentDual(law.value, law.slope * time));
+    add_load_tangent(load.joint, tangent.p, tangent.force, tangent.moment);
+    body_load_power[k] = tangent.power.d;
   }
 
   RPSUP_INLINE void calc_point_spring_tangent(const TreeSpring& spring) {
@@ -159,15 +166,9 @@ class LinearisedDynamics {
     if (joint.journal_joint >= 0) work_.bias_forces[joint.journal_joint] += forces.on_journal;
   }
 
-  RPSUP_INLINE static void add_load_seed(const ContactLoadSeed& of, LoadTangent<TangentPack>& load) {
-    load.force += Vec3<TangentPack>{of.load[0] * of.seed, of.load[1] * of.seed, of.load[2] * of.seed};
-    load.moment += Vec3<TangentPack>{of.load[3] * of.seed, of.load[4] * of.seed, of.load[5] * of.seed};
-  }
-
   /// From the origin of a joint's body to p.
   [[nodiscard]] RPSUP_INLINE Vec3<double> offset_from_origin(int joint, const Vec3<double>& p) const {
-    if (joint < 0) return p;
-    return p - dynamics_.frames[joint].p;
+    return joint < 0 ? p : p - dynamics_.frames[joint].p;
   }
 
   /// Tangents of an ideal joint's reaction, with constant multipliers, and of the right-hand side of its
@@ -278,7 +279,7 @@ class LinearisedDynamics {
   const TreeModel& model_;
   const ForwardDynamics<Topology>& dynamics_;
   const OperatingPoint<Topology>& point_;
-  const AppliedForceValue* applied_;  ///< one for each of the model's applied forces
+  AppliedValues applied_;  ///< one for each of the model's applied forces
   // The seeds of calc_tangents()
   const CoordinateTangent<TangentPack>* seeds_ = nullptr;
   const ContactLoadSeed* load_seeds_ = nullptr;
@@ -291,8 +292,7 @@ class LinearisedDynamics {
   typename ArticulatedBodies<Topology>::template Workspace<TangentPack> work_;
   /// copy of those bias forces, for the second solution with multipliers
   Buffer<SpatialForce<TangentPack>> unconstrained_forces_;
-  Buffer<TangentPack> tau_;
-  Buffer<TangentPack> lambda_;  ///< in: tangents of the rows' right-hand sides; out: of the multipliers
+  Buffer<TangentPack> tau_, lambda_;  ///< lambda_: in, of the rows' right-hand sides; out, of the multipliers
   typename ForwardDynamics<Topology>::Constraints::template Workspace<TangentPack> constraint_work_;
 };
 

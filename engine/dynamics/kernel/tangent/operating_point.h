@@ -123,6 +123,10 @@ class OperatingPoint {
         subtract_load(model_.springs[k].to_joint, spring.to, spring.force, {});
         subtract_load(model_.springs[k].from_joint, spring.from, -spring.force, {});
       }
+      for (std::size_t k = 0; k < model_.body_loads.size(); ++k) {
+        const BodyLoadForce<double>& load = dynamics_.body_loads[k];
+        subtract_load(model_.body_loads[k].joint, load.p, load.force, load.moment);
+      }
     }
   }
 

@@ -68,6 +68,8 @@ struct DynamicTopology {
   template <typename T>
   using PerPointSpring = Buffer<T>;
   template <typename T>
+  using PerBodyLoad = Buffer<T>;
+  template <typename T>
   using PerRow = Buffer<T>;
   template <typename T>
   using PerSlenderBody = FixedBuffer<T, 0>;  ///< slender bodies move like all others: see SlenderBodyMotion
@@ -136,6 +138,8 @@ struct StaticTopology {
   using PerCutJoint = FixedBuffer<T, 1>;
   template <typename T>
   using PerPointSpring = FixedBuffer<T, 0>;
+  template <typename T>
+  using PerBodyLoad = FixedBuffer<T, 0>;
   using CutJoint = StaticCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
   static constexpr int row_count = clearance ? 0 : CutJoint::rows.count();
   template <typename T>
@@ -145,7 +149,8 @@ struct StaticTopology {
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
     if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() ||
-        !model.couplings.empty() || !model.applied_forces.empty())
+        !model.couplings.empty() || !model.applied_forces.empty() ||
+        !model.body_loads.empty())
       return false;
     if (model.minimum_norm_multipliers) return false;  // FullRankDelassus cannot factor dependent rows
     if (model.cut_joints.size() != 1 || !CutJoint::fit(model.cut_joints[0])) return false;
