@@ -37,6 +37,7 @@ set(page_files
   form/wear_form.js
   linkages/bricard.json
   linkages/four_bar.json
+  linkages/motor_press.json
   linkages/rpsup.json
   linkages/rsup.json
   linkages/slider_crank.json
