@@ -291,7 +291,7 @@ void LinkageQuantities::add_energy_channels() {
               [](const Evaluation& at) { return at.energy.kinetic; });
   add_channel("potential_energy_j", "Potential energy of gravity, of springs and of the elastic contacts",
               [](const Evaluation& at) { return at.energy.potential; });
-  add_channel("drive_work_j", "Work of all drives since t = 0",
+  add_channel("drive_work_j", "Work of all drives and loads since t = 0",
               [](const Evaluation& at) { return at.energy.drive_work.sum(); });
   channels_.push_back(
       {.info = {.key = "energy_imbalance_j", .help = "E − E(0) − work of the drives + losses"},
@@ -316,7 +316,8 @@ void LinkageQuantities::add_run_metrics() {
   add_metric({.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().impact_loss; });
   add_metric({.key = "structural_loss_j",
-              .help = "Energy lost in dampers, including those of flexible bodies, in the whole run"},
+              .help = "Energy lost in dampers, including those of flexible bodies, and in motors in the "
+                      "whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().structural_loss; });
   add_metric({.key = "energy_imbalance_j",
               .help = "Largest |E − E(0) − work of the drives + losses| in the whole run"},

@@ -229,7 +229,7 @@ std::span<const QuantityInfo> metric_table() {
       {.key = "friction_work_j", .help = "Energy lost to friction in the joint in the whole run"},
       {.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
       {.key = "structural_loss_j",
-       .help = "Energy lost in the dampers of the flexible links in the whole run"},
+       .help = "Energy lost in the dampers of the flexible links and in motors in the whole run"},
       {.key = "sliding_work_j",
        .help = "Time integral of normal contact force × sliding speed over the whole run; by Archard's law "
                "worn volume = wear coefficient × sliding work; null without clearance"},

@@ -15,6 +15,7 @@
 #include "jobs/linkages/linkage_joint.h"
 #include "jobs/linkages/linkage_size.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/wear_depth.h"
 
 namespace jobs {

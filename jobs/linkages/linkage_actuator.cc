@@ -14,6 +14,7 @@
 #include "jobs/linkages/linkage_joint.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/units.h"
 
 namespace jobs {
@@ -175,8 +176,6 @@ engine::DcMotor read_motor(const json& given, engine::Motion motion,
 }
 
 }  // namespace
-
-bool is_actuator(const json& drive) { return drive.is_object() && drive.contains("actuator"); }
 
 void check_actuator(const json& actuator, engine::Motion motion, const std::string& pointer,
                     std::vector<Fault>& faults) {

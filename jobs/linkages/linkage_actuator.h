@@ -15,9 +15,6 @@
 
 namespace jobs {
 
-/// Whether a drive is an actuator, which gives a force, and no law, which gives the motion.
-[[nodiscard]] bool is_actuator(const nlohmann::json& drive);
-
 /// The faults of an actuator that moves a coordinate.
 void check_actuator(const nlohmann::json& actuator, engine::Motion motion, const std::string& pointer,
                     std::vector<Fault>& faults);

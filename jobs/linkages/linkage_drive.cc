@@ -10,6 +10,7 @@
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/rpsup_drives.h"
 
 namespace jobs {
 namespace {

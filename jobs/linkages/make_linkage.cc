@@ -14,6 +14,7 @@
 #include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_joint.h"
+#include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/units.h"
 
 namespace jobs {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "jobs/linkages/linkage_actuator.h"
-
 namespace jobs {
 
 const std::array<RpsupDrive, 2>& rpsup_drives() {
@@ -44,6 +42,8 @@ const RpsupDrive* find_replacing_drive(const nlohmann::json& given, std::string_
     }
   return nullptr;
 }
+
+bool is_actuator(const nlohmann::json& drive) { return drive.is_object() && drive.contains("actuator"); }
 
 const std::vector<std::string_view>& RpsupDrive::replaced_by(const nlohmann::json& given) const {
   return is_actuator(given) ? replaced_by_actuator : replaced_by_law;

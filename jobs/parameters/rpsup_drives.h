@@ -34,6 +34,9 @@ struct RpsupDrive {
 
 [[nodiscard]] const std::array<RpsupDrive, 2>& rpsup_drives();
 
+/// Whether a drive is an actuator, which gives a force, and no law, which gives the motion.
+[[nodiscard]] bool is_actuator(const nlohmann::json& drive);
+
 [[nodiscard]] const RpsupDrive* find_rpsup_drive(std::string_view key);  ///< null if there is none
 
 /// The drive given in a parameter set in the place of one of its parameters; null if there is none.

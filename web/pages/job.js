@@ -75,11 +75,13 @@ class JobPage {
   head() {
     const { job } = this;
     const { clearance_mm: clearance, coupler, crank_velocity_rad_s: velocity, linkage } = job.parameters;
+    /** @type {any} */
+    const drive = job.parameters.crank_drive;
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible")
       .map((link) => `flexible ${link}, `).join("");
     const title = typeof linkage === "object" ? titleOfLinkage(linkage)
       : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${velocity === undefined
-        ? `crank by ${job.parameters.crank_drive?.law ?? job.parameters.crank_drive?.actuator}` : `${exact(velocity)} rad/s`}`;
+        ? `crank by ${drive?.law ?? drive?.actuator}` : `${exact(velocity)} rad/s`}`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;

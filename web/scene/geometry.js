@@ -13,7 +13,9 @@ export function guideOf({ guide_offset_y_m: y, guide_offset_z_m: z, guide_angle_
 /// where it starts [m].
 /** @param {Api.Parameters} parameters */
 export function rodEnds({ rod_length_m: length, rod_start_m: start = length, rod_stroke_mm: stroke, rod_drive: drive }) {
-  if (drive) return drive.law ? endsOfDrive(drive).map((way) => length + way) : [start, start];
+  /** @type {any} */
+  const given = drive;
+  if (given) return given.law ? endsOfDrive(given).map((way) => length + way) : [start, start];
   return [start, start + stroke / 1000];
 }
 
