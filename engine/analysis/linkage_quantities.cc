@@ -287,7 +287,7 @@ void LinkageQuantities::add_body_load(const LinkageLoad& load, std::size_t index
 }
 
 void LinkageQuantities::add_energy_channels() {
-  add_channel("kinetic_energy_j", "Kinetic energy of all bodies",
+  add_channel("kinetic_energy_j", "Kinetic energy of all bodies, and of rotors and windings of motors",
               [](const Evaluation& at) { return at.energy.kinetic; });
   add_channel("potential_energy_j", "Potential energy of gravity, of springs and of the elastic contacts",
               [](const Evaluation& at) { return at.energy.potential; });

@@ -141,7 +141,8 @@ void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>
 
 /// The energy account.
 void add_energy_channels(std::vector<Channel>& channels) {
-  add_reading(channels, "kinetic_energy_j", "Kinetic energy of all links",
+  add_reading(channels, "kinetic_energy_j",
+              "Kinetic energy of all links, and of rotors and windings of motors",
               [](const Evaluation& at) { return at.energy.kinetic; });
   add_reading(channels, "potential_energy_j",
               "Potential energy of gravity, of the flexible links' springs and of the elastic contact",

@@ -220,11 +220,11 @@ void calc_applied_forces(const Actuation& actuation, double t, const ElementStat
   std::visit([&](const auto& element) { calc_forces(element, t, state, values); }, actuation.element);
 }
 
-double find_next_kink(const Actuation& actuation, double t) {
+double find_next_corner(const Actuation& actuation, double t) {
   if (const Controller* const controller = controller_of(actuation.element))
     return find_next_jump(controller->target, t);
   const Signal* const signal = signal_of_time(actuation.element);
-  return signal ? find_next_kink(*signal, t) : std::numeric_limits<double>::infinity();
+  return signal ? find_next_point(*signal, t) : std::numeric_limits<double>::infinity();
 }
 
 void add_actuation(Mechanism& mechanism, FrameIndex coordinate, const ForceElement& element) {

@@ -60,9 +60,9 @@ enum MotorForce { kElectromagnetic, kMotorLoss, kBackEmf, kSupply };
 void calc_applied_forces(const Actuation& actuation, double t, const ElementState& state,
                          AppliedForceValue* values);
 
-/// First instant after t at which the law of a force element has a kink, or its target's acceleration jumps;
-/// infinite if none follows, [s]
-[[nodiscard]] double find_next_kink(const Actuation& actuation, double t);
+/// First instant after t at which the law of a force element over time has a point, or its target's
+/// acceleration jumps; infinite if none follows, [s]
+[[nodiscard]] double find_next_corner(const Actuation& actuation, double t);
 
 /// Adds the coordinates that a force element needs beside the given one: the charge of a winding, the
 /// integral of a controller, a bristle; and the inertia of a rotor.

@@ -25,10 +25,10 @@ namespace engine {
   return corner;
 }
 
-/// The stretch of time between two jumps of the drives' accelerations, or kinks of the laws of forces. A step
+/// The stretch of time between two jumps of the drives' accelerations, or points of tables of forces. A step
 /// does not cross a jump: it ends there, with the accelerations before the jump, and the next one begins with
-/// those behind it. Steps may end
-/// a rounding beside the jump; is_over() decides, not a comparison of instants.
+/// those behind it. Steps may end a rounding beside the jump; is_over() decides, not a comparison of
+/// instants.
 class DrivePiece {
  public:
   /// All of time.
@@ -64,8 +64,8 @@ class DrivePiece {
   void calc_end(double t) {
     end_ = std::numeric_limits<double>::infinity();
     for (const Drive& drive : drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
-    for (const Actuation& actuation : actuations_) end_ = std::min(end_, find_next_kink(actuation, t));
-    for (const BodyLoad& load : body_loads_) end_ = std::min(end_, find_next_kink(load.law, t));
+    for (const Actuation& actuation : actuations_) end_ = std::min(end_, find_next_corner(actuation, t));
+    for (const BodyLoad& load : body_loads_) end_ = std::min(end_, find_next_point(load.law, t));
     latest_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
   }
 

@@ -25,9 +25,9 @@ SignalPoint calc_signal(const Signal& signal, double at) {
   return std::visit([at](const auto& kind) { return calc(kind, at); }, signal);
 }
 
-double find_next_kink(const Signal& signal, double at) {
+double find_next_point(const Signal& signal, double at) {
   const auto* const table = std::get_if<TableCurve>(&signal);
-  return table ? table->next_kink(at) : std::numeric_limits<double>::infinity();
+  return table ? table->next_point(at) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace engine

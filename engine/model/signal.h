@@ -24,7 +24,8 @@ struct SignalPoint {
 
 [[nodiscard]] SignalPoint calc_signal(const Signal& signal, double at);
 
-/// First value of the variable after `at` where the slope jumps; infinite if none follows.
-[[nodiscard]] double find_next_kink(const Signal& signal, double at);
+/// First point of a table after `at`; infinite if none follows. Steps end there: a longer one could pass by
+/// what is between.
+[[nodiscard]] double find_next_point(const Signal& signal, double at);
 
 }  // namespace engine

@@ -7,8 +7,9 @@
 namespace jobs {
 namespace {
 
-constexpr Range kEffort = between(-1e9, 1e9);
 constexpr Range kGain = above(0, 1e12);
+
+Range range_of(const EffortKeys& effort) { return between(-effort.largest, effort.largest); }
 
 bool is_friction_parameter(std::string_view key) {
   return key.starts_with("friction") || key.starts_with("bristle") || key.starts_with("stribeck") ||
@@ -23,20 +24,20 @@ LinkageField gain_field(std::string_view key, std::string_view help, std::string
 }  // namespace
 
 const EffortKeys& force_or_torque(engine::Motion motion) {
-  static constexpr EffortKeys kForce{"force_n", "mean_n", "amplitude_n", "values_n", "limit_n", "N"};
-  static constexpr EffortKeys kTorque{"torque_n_m", "mean_n_m",  "amplitude_n_m",
-                                      "values_n_m", "limit_n_m", "N m"};
+  static constexpr EffortKeys kForce{"force_n", "mean_n", "amplitude_n", "values_n", "limit_n", "N", 1e9};
+  static constexpr EffortKeys kTorque{"torque_n_m", "mean_n_m", "amplitude_n_m", "values_n_m", "limit_n_m",
+                                      "N m",        1e9};
   return slides(motion) ? kForce : kTorque;
 }
 
 const EffortKeys& voltage() {
-  static constexpr EffortKeys kVoltage{"voltage_v", "mean_v", "amplitude_v", "values_v", "limit_v", "V"};
+  static constexpr EffortKeys kVoltage{"voltage_v", "mean_v", "amplitude_v", "values_v", "limit_v", "V", 1e9};
   return kVoltage;
 }
 
 const EffortKeys& acceleration() {
-  static constexpr EffortKeys kAcceleration{
-      "value_m_s2", "mean_m_s2", "amplitude_m_s2", "values_m_s2", "", "m/s^2"};
+  static constexpr EffortKeys kAcceleration{"value_m_s2", "mean_m_s2", "amplitude_m_s2", "values_m_s2", "",
+                                            "m/s^2",      1e6};
   return kAcceleration;
 }
 
@@ -67,8 +68,8 @@ LinkageFields ground_acceleration_fields() {
   for (const std::string_view axis : {"x", "y", "z"})
     fields.push_back({.key = axis,
                       .kind = FieldKind::kEffort,
-                      .range = between(-1e6, 1e6),
-                      .unit = "m/s^2",
+                      .range = range_of(acceleration()),
+                      .unit = acceleration().unit,
                       .help = "A number, or a law over time; without it 0"});
   return fields;
 }
@@ -81,7 +82,7 @@ TableVariables table_variables(engine::Motion motion) {
 LinkageField effort_field(const EffortKeys& effort, std::string_view help, bool required) {
   return {.key = effort.key,
           .kind = FieldKind::kEffort,
-          .range = kEffort,
+          .range = range_of(effort),
           .unit = effort.unit,
           .help = help,
           .required = required};
@@ -96,11 +97,15 @@ LinkageFields effort_fields(const EffortKeys& effort, std::string_view law, engi
                         .words = {std::begin(kEffortLaws), std::end(kEffortLaws)}}};
   const auto add = [&](LinkageField field) { fields.push_back(std::move(field)); };
   if (law == "constant") {
-    add({.key = effort.key, .range = kEffort, .unit = effort.unit, .help = "At all times", .required = true});
+    add({.key = effort.key,
+         .range = range_of(effort),
+         .unit = effort.unit,
+         .help = "At all times",
+         .required = true});
   } else if (law == "harmonic") {
-    add({.key = effort.mean, .range = kEffort, .unit = effort.unit, .help = "Without it 0"});
+    add({.key = effort.mean, .range = range_of(effort), .unit = effort.unit, .help = "Without it 0"});
     add({.key = effort.amplitude,
-         .range = kEffort,
+         .range = range_of(effort),
          .unit = effort.unit,
          .help = "Of the sine over time",
          .required = true});
@@ -128,7 +133,7 @@ LinkageFields effort_fields(const EffortKeys& effort, std::string_view law, engi
     }
     add({.key = effort.values,
          .kind = FieldKind::kNumbers,
-         .range = kEffort,
+         .range = range_of(effort),
          .unit = effort.unit,
          .help = "One for each; constant before the first and after the last",
          .required = true,
@@ -183,7 +188,7 @@ LinkageFields motor_fields(engine::Motion motion) {
   return {
       {.key = "voltage_v",
        .kind = FieldKind::kEffort,
-       .range = kEffort,
+       .range = range_of(voltage()),
        .unit = "V",
        .help = "Of the supply: a number, or a law over time"},
       {.key = "controller",

@@ -13,6 +13,7 @@ struct EffortKeys {
   std::string_view key;  ///< of a law or of its constant value
   std::string_view mean, amplitude, values, limit;
   std::string_view unit;
+  double largest;  ///< magnitude
 };
 [[nodiscard]] const EffortKeys& force_or_torque(engine::Motion motion);
 [[nodiscard]] const EffortKeys& voltage();

@@ -268,8 +268,13 @@ json fill_in_defaults(const json& given) {
   completed[kLinkageKey] = described ? canonical_description(given.at(kLinkageKey)) : json(kRpsupName);
   if (!described) completed["links"] = complete_links(given.value("links", json::object()), completed);
   if (given.contains(kWearKey)) completed[kWearKey] = canonical_wear(given.at(kWearKey));
-  for (const RpsupDrive& drive : rpsup_drives())
-    if (given.contains(drive.key)) completed[drive.key] = canonical_drive(given.at(drive.key), drive.motion);
+  for (const RpsupDrive& drive : rpsup_drives()) {
+    if (!given.contains(drive.key)) continue;
+    std::vector<Fault> faults;  // of numbers inside that a sweep varies; find_combination_faults() tells them
+    check_drive(given.at(drive.key), drive.motion, "", faults);
+    completed[drive.key] =
+        faults.empty() ? canonical_drive(given.at(drive.key), drive.motion) : given.at(drive.key);
+  }
   return completed;
 }
 
@@ -281,6 +286,10 @@ std::vector<Fault> find_combination_faults(const json& completed) {
     if (linkage) add_key_fault(*linkage, faults);
     if (!faults.empty()) return faults;
   } else {
+    for (const RpsupDrive& drive : rpsup_drives())
+      if (completed.contains(drive.key))
+        check_drive(completed.at(drive.key), drive.motion, pointer_token(drive.key), faults);
+    if (!faults.empty()) return faults;
     add_drive_faults(completed, faults);
     add_link_faults(completed, faults);
     if (faults.empty()) faults = find_inertia_faults(completed);

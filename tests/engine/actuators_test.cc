@@ -134,6 +134,23 @@ TEST(Actuators, AShortPulseOfATableIsNotMissed) {
   }
 }
 
+// A smooth table has no kinks; its points are not passed either, from rest or under a load.
+TEST(Actuators, AShortPulseOfASmoothTableIsNotMissed) {
+  const TableCurve pulse({0.0, 1.0, 1.0008, 1.001, 1.0012, 1.002, 2.0}, {0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0},
+                         TableInterpolation::kMonotoneCubic);
+  const double impulse = pulse.calc(2.0).integral;
+  ASSERT_GT(impulse, 0.01);
+  for (const RunOptions& options : {accurate(1.5), implicit(1.5), RunOptions{.duration = 1.5}}) {
+    Linkage loaded = make_block({.name = "q"});
+    loaded.loads = {{.name = "push", .body = "body", .force = {0.0, 0.0, 1.0}, .law = pulse}};
+    Linkage shaken = make_block({.name = "q"});
+    shaken.ground_acceleration[2] = pulse;
+    EXPECT_NEAR(LinkageRun(make_block({.name = "q", .actuator = ForceLaw{pulse}}), options).last("q_m_s"), impulse / kBlockMass, 1e-8);
+    EXPECT_NEAR(LinkageRun(loaded, options).last("q_m_s"), impulse / kBlockMass, 1e-8);
+    EXPECT_NEAR(LinkageRun(shaken, options).last("q_m_s"), -impulse, 1e-8);
+  }
+}
+
 // An induction motor whose torque falls in proportion to the speed: T = T_0 (1 - w / w_0).
 TEST(Actuators, ATorqueSpeedCurveLeadsToItsIdleSpeed) {
   const TableCurve curve({0.0, 40.0}, {0.8, 0.0}, TableInterpolation::kLinear);

@@ -74,6 +74,30 @@ TEST(Actuator, NumbersOfOneAreSwept) {
   EXPECT_EQ(plan.jobs[0].swept, "[12.0,0.0]");
 }
 
+// A number inside a drive is checked as the drive itself is: a path must not bring in what the drive would refuse.
+TEST(Actuator, NumbersOfOneAreCheckedWhereTheyAreSwept) {
+  const json run_up{{"law", "run_up"}, {"velocity_rad_s", 5}};
+  const struct {
+    json drive;
+    const char* path;
+    json values;
+  } cases[] = {{given_motor(), "crank_drive.gear_efficiency", {0.5, 2}},
+               {given_motor(), "crank_drive.inductance_h", {0}},
+               {given_motor(), "crank_drive.controller", {5, 6}},
+               {given_motor(), "crank_drive.gear_ratio_rad_m", {1, 2}},
+               {given_motor(), "crank_drive.", {1, 2}},
+               {run_up, "crank_drive.voltage_v", {12, 24}},
+               {run_up, "crank_drive.actuator", {5, 6}},
+               {run_up, "crank_drive.law", {5, 6}},
+               {{{"law", "harmonic"}, {"amplitude_rad", 1}, {"frequency_hz", 1}}, "crank_drive.frequency_hz", {-1}},
+               {{{"actuator", "torque"}, {"torque_n_m", {{"law", "table"}, {"times_s", {0, 1}}, {"values_n_m", {0, 1}}}}},
+                "crank_drive.torque_n_m.times_s.1", {-1, 0}}};
+  for (const auto& [drive, path, values] : cases) {
+    const json request{{"parameters", {{"crank_drive", drive}}}, {"sweep", {{path, values}}}};
+    EXPECT_FALSE(faults_of([&] { (void)jobs::plan_sweep(request, 100); }).empty()) << path;
+  }
+}
+
 TEST(Actuator, IsShownByItsKindInTheCasesOfASweep) {
   json faster = given_motor();
   faster["voltage_v"] = 30;
