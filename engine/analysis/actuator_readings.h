@@ -17,7 +17,7 @@ struct ActuatorReadings {
   Reading electric_work = {};  ///< of the supply since t = 0, [J]
 };
 
-/// Of the actuators of a coordinate, in the order of Mechanism::actuations.
+/// Readings of the actuators of a coordinate, in the order of Mechanism::actuations.
 [[nodiscard]] std::vector<ActuatorReadings> find_actuator_readings(const Mechanism& mechanism,
                                                                    FrameIndex coordinate);
 

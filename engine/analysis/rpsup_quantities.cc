@@ -98,7 +98,7 @@ void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channe
               Channel::Kind::kLargestAcceleration, slider);
 }
 
-/// Of a crank or rod that a motor moves.
+/// Adds the channels of a motor that moves crank or rod.
 void add_motor_channels(const std::string& link, const ActuatorReadings& motor,
                         std::vector<Channel>& channels) {
   if (!motor.current) return;

@@ -61,7 +61,7 @@ struct DcMotor {
   double reversal_velocity = 0.1;            ///< w_s of the rotor, > 0, [rad/s]
 };
 
-/// What moves a coordinate whose motion is not given.
+/// The mover of a coordinate whose motion is not given.
 using Actuator = std::variant<ForceLaw, Controller, DcMotor>;
 
 /// Dry friction in a joint without play under a given normal force N, by a law of friction_law.h:

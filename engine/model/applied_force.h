@@ -40,7 +40,7 @@ struct AppliedValues {
   const SignalPoint* body_loads = nullptr;
 };
 
-/// What a force element reads.
+/// The state that a force element depends on.
 struct ElementState {
   double q = 0.0, v = 0.0;  ///< of the driven coordinate
   double current = 0.0;     ///< [A]

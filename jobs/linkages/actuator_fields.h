@@ -20,7 +20,7 @@ struct EffortKeys {
 
 /// Laws of an effort: {"law": "harmonic", ...}
 inline constexpr std::string_view kEffortLaws[] = {"constant", "harmonic", "table"};
-/// Of the variable of a table.
+/// Keys of the variable of a table.
 struct TableVariables {
   std::string_view times = "times_s", positions, velocities;
 };
@@ -29,7 +29,7 @@ struct TableVariables {
 /// A key whose value is a number or a law of the effort.
 [[nodiscard]] LinkageField effort_field(const EffortKeys& effort, std::string_view help, bool required);
 
-/// Of the laws of body loads and of the ground's acceleration.
+/// Keys of the laws of the ground's acceleration.
 [[nodiscard]] const EffortKeys& acceleration();
 [[nodiscard]] LinkageFields load_fields();
 [[nodiscard]] LinkageFields ground_acceleration_fields();
