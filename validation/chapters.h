@@ -15,6 +15,7 @@ namespace validation {
 [[nodiscard]] Chapter flexibility_chapter();
 [[nodiscard]] Chapter friction_chapter();
 [[nodiscard]] Chapter actuators_chapter();
+[[nodiscard]] Chapter clearances_chapter();
 [[nodiscard]] Chapter integrators_chapter();
 [[nodiscard]] Chapter other_codes_chapter();
 

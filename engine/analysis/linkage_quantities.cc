@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/analysis/linkage_quantities.h"
 
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -246,6 +247,7 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
   add_contact_time(joint.name + "_contact_time_ratio",
                    "Fraction of the whole run in which the journal touches the bore", {.joint = cut});
+  if (!std::isfinite(joint.clearance->c_a)) return;
   const Reading face_force = [=](const Evaluation& at) { return at.joints[cut].load.face_normal_sum; };
   add_channel(joint.name + "_face_force_n",
               "Sum of the normal forces of the shoulders on the journal's faces", face_force);

@@ -7,7 +7,8 @@ namespace engine {
 
 namespace {
 
-std::variant<RadialContinuum, RadialElements> make_radial(const ClearanceParameters& joint) {
+std::variant<RadialContinuum, RadialElements, PointContacts> make_radial(const ClearanceParameters& joint) {
+  if (joint.geometry != ContactGeometry::kJournalInBore) return PointContacts(joint);
   if (joint.form == RadialForm::kElements) return RadialElements(joint);
   return RadialContinuum(joint);
 }
@@ -22,6 +23,7 @@ int ClearanceJoint::bristle_count() const {
 }
 
 int ClearanceJoint::ring_count() const {
+  if (const PointContacts* contacts = points()) return contacts->count();
   return std::visit([](const auto& radial) { return radial.parameters().n_r; }, radial_);
 }
 
@@ -38,6 +40,7 @@ void ClearanceJoint::add_penetrations(const JournalMotion& journal, std::vector<
 }
 
 bool ClearanceJoint::follow(const JournalMotion& journal, double dt, double* bristles) {
+  if (auto* contacts = std::get_if<PointContacts>(&radial_)) return contacts->follow(journal, bristles);
   auto* elements = std::get_if<RadialElements>(&radial_);
   return elements && elements->follow(journal, dt, bristles);
 }

@@ -7,27 +7,27 @@
 #include <Eigen/Core>
 
 #include "engine/clearance/axial_faces.h"
+#include "engine/clearance/point_contacts.h"
 #include "engine/clearance/radial_continuum.h"
 #include "engine/clearance/radial_elements.h"
 
 namespace engine {
 
-/// All contacts of one revolute joint with clearance, with what they remember between steps.
+/// All contacts of one joint with clearance, with what they remember between steps.
 class ClearanceJoint {
  public:
   explicit ClearanceJoint(const ClearanceParameters& joint);
 
+  /// Number of rings, or of contacts that a ball or a block may have.
   [[nodiscard]] int ring_count() const;
   [[nodiscard]] int bristle_count() const;
 
   // For the laws, which the right-hand side takes with its own kind of numbers.
   [[nodiscard]] const AxialFaces& faces() const { return faces_; }
-  [[nodiscard]] const RadialContinuum* continuum() const {
-    return std::get_if<RadialContinuum>(&radial_);
-  }  ///< null: elements
-  [[nodiscard]] const RadialElements* elements() const {
-    return std::get_if<RadialElements>(&radial_);
-  }  ///< null: continuum
+  /// One of the three; the others are null.
+  [[nodiscard]] const RadialContinuum* continuum() const { return std::get_if<RadialContinuum>(&radial_); }
+  [[nodiscard]] const RadialElements* elements() const { return std::get_if<RadialElements>(&radial_); }
+  [[nodiscard]] const PointContacts* points() const { return std::get_if<PointContacts>(&radial_); }
 
   /// Computes the load on the journal and the bristles' rates. @returns false if an element
   /// touches without a bristle in the state: widen()
@@ -46,7 +46,7 @@ class ClearanceJoint {
   [[nodiscard]] Eigen::VectorXd widen(const double* bristles);
 
  private:
-  std::variant<RadialContinuum, RadialElements> radial_;
+  std::variant<RadialContinuum, RadialElements, PointContacts> radial_;
   AxialFaces faces_;
 };
 

@@ -5,6 +5,7 @@
 #include "engine/clearance/continuum_law.h"
 #include "engine/clearance/elements_law.h"
 #include "engine/clearance/faces_law.h"
+#include "engine/clearance/point_contacts_law.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
@@ -21,6 +22,13 @@ template <typename P, typename V, typename Load>
     const bool complete = add_elements(*elements, journal_copy, bristles, bristle_rates, load_copy);
     load = load_copy;
     return complete;
+  }
+  if (const PointContacts* points = joint.points()) {
+    const RelativeMotion<P, V> journal_copy = journal;
+    Load load_copy = load;
+    add_point_contacts(*points, journal_copy, bristles, bristle_rates, load_copy);
+    load = load_copy;
+    return true;
   }
   add_continuum(*joint.continuum(), journal, bristles, bristle_rates, load);
   return true;

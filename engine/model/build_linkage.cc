@@ -54,7 +54,8 @@ class LinkageBuilder {
     for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
       if (!linkage_.joints[k].cut) add_carrying(linkage_.joints[k], built_.joints[k]);
     for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
-      if (linkage_.joints[k].cut) add_cut(linkage_.joints[k], built_.joints[k]);
+      if (linkage_.joints[k].cut || linkage_.joints[k].clearance)
+        add_cut(linkage_.joints[k], built_.joints[k]);
     for (const LinkageSpring& spring : linkage_.springs) add_spring(spring);
     for (const LinkageLoad& load : linkage_.loads) add_load(load);
     add_inertial_forces();
@@ -212,8 +213,11 @@ class LinkageBuilder {
   }
 
   void add_cut(const LinkageJoint& joint, BuiltJoint& made) {
-    const auto [bearing_frame, bearing] = locate(joint.from, joint.placement);
-    const auto [journal_frame, journal] = locate(joint.to, joint.to_placement);
+    Placement from = joint.placement, to = joint.to_placement;
+    if (!joint.cut)
+      for (Placement* placement : {&from, &to}) placement->R *= rotation_between(Axis::kZ, joint.axes[0]);
+    const auto [bearing_frame, bearing] = locate(joint.from, from);
+    const auto [journal_frame, journal] = locate(joint.to, to);
     made.cut = static_cast<int>(built_.mechanism.cut_joints.size());
     built_.mechanism.cut_joints.push_back({.kind = cut_kind_of(joint.kind),
                                            .bearing_frame = bearing_frame,
@@ -259,10 +263,23 @@ class LinkageBuilder {
 
 }  // namespace
 
+Eigen::Matrix3d rotation_between(Axis from, Axis to) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+  const int by = static_cast<int>(to) - static_cast<int>(from) + 3;
+  for (int i = 0; i < 3; ++i) R((i + by) % 3, i) = 1.0;
+  return R;
+}
+
 std::vector<FreedomKind> freedoms_of(const LinkageJoint& joint) {
   const auto turn = [](Axis axis) { return FreedomKind{Motion::kRotation, axis}; };
   const auto slide = [](Axis axis) { return FreedomKind{Motion::kTranslation, axis}; };
   const auto [first, second] = joint.axes;
+  if (joint.clearance && !joint.cut) {
+    std::vector<FreedomKind> all{slide(Axis::kX), slide(Axis::kY), slide(Axis::kZ), turn(first)};
+    for (const Axis axis : {Axis::kZ, Axis::kY, Axis::kX})
+      if (axis != first) all.push_back(turn(axis));
+    return all;
+  }
   switch (joint.kind) {
     case JointKind::kRevolute: return {turn(first)};
     case JointKind::kPrismatic: return {slide(first)};

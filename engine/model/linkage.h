@@ -66,7 +66,9 @@ struct LinkageJoint {
   std::vector<LinkageFreedom> freedoms = {};  ///< one for each of freedoms_of(); none of a cut joint
   bool cut = false;
   Placement to_placement = {};          ///< in the second body's frame
-  std::optional<ClearanceParameters> clearance = {};  ///< of a cut revolute joint
+  /// Of a revolute, prismatic, cylindrical or spherical joint. One that is not cut carries its second body
+  /// with all freedoms, and its surfaces keep the body in place.
+  std::optional<ClearanceParameters> clearance = {};
 };
 
 /// A spring with a damper between points of two bodies: see PointSpring.
@@ -111,7 +113,11 @@ struct Linkage {
   double baumgarte_beta = 100.0;        ///< [1/s]
 };
 
-/// How a joint that is not cut lets its second body move: of a screw in two ways, which its lead couples.
+/// Cyclic permutation of the axes that brings one where another one is.
+[[nodiscard]] Eigen::Matrix3d rotation_between(Axis from, Axis to);
+
+/// How a joint that is not cut lets its second body move: of a screw in two ways, which its lead couples;
+/// with clearance in all ways: slides along x, y and z, and turns, about the joint's own axis first.
 struct FreedomKind {
   Motion motion;
   Axis axis;
@@ -128,7 +134,8 @@ struct BodyFrames {
   std::vector<Part> parts;
 };
 
-/// A joint as built: its coordinates, or which of the mechanism's cut joints it is.
+/// A joint as built: its coordinates, or which of the mechanism's cut joints it is; with clearance it may
+/// have both.
 struct BuiltJoint {
   FrameIndex first = kGround;           ///< coordinate; kGround: it has none
   int count = 0;

@@ -80,15 +80,16 @@ enum class CutKind {
 };
 
 /// A joint at which a loop is cut: a bearing on one frame, a journal on another. Without clearance it is a
-/// constraint row for each freedom that it takes away; a revolute joint with clearance is only the forces
-/// between the two surfaces.
+/// constraint row for each freedom that it takes away; one with clearance is only the forces between the two
+/// surfaces.
 struct CutJoint {
   CutKind kind = CutKind::kRevolute;
   FrameIndex bearing_frame = kGround;
   FrameIndex journal_frame = kGround;
   Placement bearing;                                      ///< {b} in bearing_frame
   Placement journal;                                      ///< {j} in journal_frame
-  std::optional<ClearanceParameters> clearance;           ///< empty: the ideal joint; of revolute joints only
+  /// Empty: the ideal joint; of revolute, prismatic, cylindrical and spherical joints only.
+  std::optional<ClearanceParameters> clearance;
 };
 
 /// A spring with a damper between points of two bodies: at a distance L it pulls them together with k (L -

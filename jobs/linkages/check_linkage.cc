@@ -10,13 +10,13 @@
 
 #include "jobs/linkages/linkage_actuator.h"
 #include "jobs/linkages/linkage_beam.h"
+#include "jobs/linkages/linkage_clearance.h"
 #include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_joint.h"
 #include "jobs/linkages/linkage_size.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/rpsup_drives.h"
-#include "jobs/parameters/wear_depth.h"
 
 namespace jobs {
 namespace {
@@ -103,11 +103,15 @@ class LinkageChecker {
     for (const auto& [name, joint] : given_.at("joints").items())
       check_joint(joint, "/linkage/joints" + pointer_token(name));
     std::set<std::string> names;
-    for (const auto& [name, joint] : given_.at("joints").items())
+    for (const auto& [name, joint] : given_.at("joints").items()) {
+      if (has_cross(joint) && given_.at("bodies").contains(name + std::string(kCrossEnding)))
+        fault("/linkage/joints" + pointer_token(name),
+              "has a cross, which is a body " + name + std::string(kCrossEnding) + ": there is one already");
       for (const std::string& coordinate : coordinate_names(name, joint))
         if (!names.insert(coordinate).second)
           fault("/linkage/joints" + pointer_token(name),
                 "has a coordinate " + coordinate + ", and so has another joint");
+    }
   }
 
   void check_springs() {
@@ -149,9 +153,12 @@ class LinkageChecker {
 
   [[nodiscard]] static std::vector<std::string> coordinate_names(const std::string& name, const json& joint) {
     std::vector<std::string> names;
-    const auto kind = find_joint_kind(joint);
-    if (!kind || closes_loop(joint)) return names;
-    for (const auto& [part, motion] : freedoms_of(*kind))
+    if (!find_joint_kind(joint)) return names;
+    if (closes_loop(joint)) {
+      if (has_cross(joint)) names.push_back(name + "_first");
+      return names;
+    }
+    for (const auto& [part, motion] : list_freedoms(joint))
       names.push_back(part.empty() ? name : name + "_" + std::string(part));
     return names;
   }
@@ -159,7 +166,7 @@ class LinkageChecker {
   void check_joint(const json& joint, const std::string& pointer) {
     const auto kind = find_joint_kind(joint);
     LinkageFields fields = joint_fields();
-    if (kind && !closes_loop(joint) && freedoms_of(*kind).size() == 1)
+    if (kind && !closes_loop(joint) && has_one_freedom(*kind))
       for (LinkageField& field : freedom_fields(freedoms_of(*kind).front().second))
         fields.push_back(std::move(field));
     check_fields(joint, fields, pointer, faults_);
@@ -167,9 +174,11 @@ class LinkageChecker {
     check_body_name(joint, "to", pointer);
     if (!kind) return;
     check_kind(joint, *kind, pointer);
-    if (closes_loop(joint)) return check_clearance(joint, *kind, pointer);
-    check_freedoms(joint, *kind, pointer);
+    check_clearance(joint, *kind, defaults_, pointer, faults_);
+    if (!closes_loop(joint)) check_freedoms(joint, *kind, pointer);
   }
+
+  [[nodiscard]] static bool has_one_freedom(JointKind kind) { return freedoms_of(kind).size() == 1; }
 
   void check_body_name(const json& joint, const char* key, const std::string& pointer) {
     if (!joint.contains(key) || !joint.at(key).is_string()) return;
@@ -195,10 +204,11 @@ class LinkageChecker {
              kind != JointKind::kWeld,
          "a joint with an axis");
     only("lead_mm", kind == JointKind::kScrew, "a screw");
-    only("freedoms", freedoms_of(kind).size() > 1 && !closes,
+    only("freedoms", list_freedoms(joint).size() > 1 && !closes,
          "a joint of several freedoms that carries its second body");
-    only("clearance", kind == JointKind::kRevolute && closes,
-         "a revolute joint that closes a loop: have the loop cut there");
+    only("clearance", can_have_clearance(kind),
+         "a revolute, prismatic, cylindrical, universal or spherical joint");
+    only("cross", has_cross(joint), "a universal joint with clearance");
     only("to_at_m", closes, "a joint that closes a loop");
     only("to_turned_deg", closes, "a joint that closes a loop");
     if (cannot_close && closes)
@@ -216,27 +226,10 @@ class LinkageChecker {
     return joint.value(key, json(otherwise));
   }
 
-  void check_clearance(const json& joint, JointKind kind, const std::string& pointer) {
-    if (kind != JointKind::kRevolute || !joint.contains("clearance") || !joint.at("clearance").is_object())
-      return;
-    const std::size_t before = faults_.size();
-    json clearance = joint.at("clearance");
-    if (clearance.erase(std::string(kWearKey)) > 0)
-      fault(pointer + "/clearance" + pointer_token(kWearKey), std::string(kWearOfDescribed));
-    check_fields(clearance, clearance_fields(), pointer + "/clearance", faults_);
-    if (faults_.size() > before) return;
-    const engine::RpsupParameters given = clearance_parameters(joint.at("clearance"), defaults_);
-    if (given.c_r >= given.bearing_radius)
-      fault(pointer + "/clearance/clearance_mm", "must be less than bearing_radius_mm, which is " +
-                                                     readable_number(1e3 * given.bearing_radius) + " mm");
-    if (given.youngs_modulus > 3.0 * given.shear_modulus)
-      fault(pointer + "/clearance/youngs_modulus_pa",
-            "must be at most 3 times shear_modulus_pa: Poisson's ratio is at most 0.5");
-  }
-
   void check_freedoms(const json& joint, JointKind kind, const std::string& pointer) {
-    const auto freedoms = freedoms_of(kind);
-    if (freedoms.size() == 1) return check_freedom_drive(joint, freedoms[0].second, pointer);
+    if (has_one_freedom(kind)) check_freedom_drive(joint, freedoms_of(kind).front().second, pointer);
+    std::vector<JointFreedom> freedoms = list_freedoms(joint);
+    std::erase_if(freedoms, [](const JointFreedom& freedom) { return freedom.first.empty(); });
     if (!joint.contains("freedoms") || !joint.at("freedoms").is_object()) return;
     for (const auto& [part, freedom] : joint.at("freedoms").items()) {
       const std::string at = pointer + "/freedoms" + pointer_token(part);

@@ -236,14 +236,18 @@ const LinkageFields& joint_fields() {
        .help = "Of a joint that closes a loop: how its frame is turned in the second body's"},
       {.key = "clearance",
        .kind = FieldKind::kObject,
-       .help = "Of a revolute joint that closes a loop: it has clearance, as the job's own parameters say, "
-               "save those that stand here"},
+       .help = "Of a revolute, prismatic, cylindrical, universal or spherical joint: it has clearance, as "
+               "the job's own parameters say, save those that stand here"},
+      {.key = "cross",
+       .kind = FieldKind::kObject,
+       .help = "Of a universal joint with clearance: the body between its two axes"},
       {.key = "freedoms",
        .kind = FieldKind::kObject,
        .help = "Of a joint of several freedoms: slide and turn of a cylindrical or screw joint, first and "
                "second of a universal one, z, y and x of a "
                "spherical one, x, y and turn of a planar one, x, y, z, turn_z, turn_y and turn_x of a free "
-               "one"},
+               "one; with clearance slide_x, slide_y, slide_z, turn_x, turn_y and turn_z beside those of the "
+               "kind"},
   };
   return fields;
 }

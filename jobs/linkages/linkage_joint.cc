@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/linkages/linkage_joint.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <map>
 #include <string>
 
@@ -22,6 +25,14 @@ const std::map<std::string_view, JointKind> kKinds{{"revolute", JointKind::kRevo
                                                    {"spherical", JointKind::kSpherical},
                                                    {"planar", JointKind::kPlanar}, {"free", JointKind::kFree},
                                                    {"weld", JointKind::kWeld}};
+
+/// 0, 1 or 2; z unless the joint names another axis.
+std::size_t axis_index(const json& joint) {
+  const auto word = joint.find("axis");
+  if (word == joint.end() || !word->is_string()) return 2;
+  const std::string& axis = word->get_ref<const std::string&>();
+  return axis == "x" ? 0 : axis == "y" ? 1 : 2;
+}
 
 }  // namespace
 
@@ -50,18 +61,51 @@ std::vector<JointFreedom> freedoms_of(JointKind kind) {
   return {};
 }
 
-std::size_t count_freedoms(const json& joint) { return freedoms_of(find_joint_kind(joint).value()).size(); }
+std::vector<JointFreedom> list_freedoms(const json& joint) {
+  const JointKind kind = find_joint_kind(joint).value();
+  const std::vector<JointFreedom> own = freedoms_of(kind);
+  if (!joint.contains("clearance") || closes_loop(joint) || kind == JointKind::kUniversal) return own;
+  constexpr std::array<std::string_view, 3> kSlides{"slide_x", "slide_y", "slide_z"},
+      kTurns{"turn_x", "turn_y", "turn_z"};
+  using enum engine::Motion;
+  const std::size_t axis = axis_index(joint);
+  const auto name_of = [&](engine::Motion motion, bool is_own, std::string_view other) -> JointFreedom {
+    const auto found = std::ranges::find(own, motion, &JointFreedom::second);
+    return {is_own && found != own.end() ? found->first : other, motion};
+  };
+  std::vector<JointFreedom> all;
+  for (std::size_t i = 0; i < 3; ++i)
+    all.push_back(name_of(kTranslation, i == axis, kSlides[i]));
+  if (kind == JointKind::kSpherical) {
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+  }
+  all.push_back(name_of(kRotation, true, kTurns[axis]));
+  for (const std::size_t i : {2, 1, 0})
+    if (i != axis) all.push_back({kTurns[i], kRotation});
+  return all;
+}
+
+engine::Axis read_axis(const json& joint, const char* key, char otherwise) {
+  const char letter = joint.value(key, std::string(1, otherwise))[0];
+  return static_cast<engine::Axis>(letter - 'x');
+}
 
 bool closes_loop(const json& joint) {
   const auto found = joint.find("closes_loop");
   return found != joint.end() && found->is_boolean() && found->get<bool>();
 }
 
+bool has_cross(const json& joint) {
+  return find_joint_kind(joint) == JointKind::kUniversal && joint.contains("clearance");
+}
+
 engine::RpsupParameters clearance_parameters(const json& clearance, engine::RpsupParameters defaults) {
   JobSpec spec;
   spec.parameters = std::move(defaults);
   for (const auto& [key, value] : clearance.items())
-    find_parameter(key)->write(spec, canonical_value(*find_parameter(key), value));
+    if (const ParameterInfo* parameter = find_parameter(key))
+      parameter->write(spec, canonical_value(*parameter, value));
   return spec.parameters;
 }
 

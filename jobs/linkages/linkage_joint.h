@@ -21,10 +21,18 @@ namespace jobs {
 using JointFreedom = std::pair<std::string_view, engine::Motion>;
 [[nodiscard]] std::vector<JointFreedom> freedoms_of(engine::JointKind kind);
 
-/// @param joint  of a known kind
-[[nodiscard]] std::size_t count_freedoms(const nlohmann::json& joint);
+/// Freedoms that the description of a joint may speak of: with clearance of those of its kind, and all others
+/// as well, in the order of engine::freedoms_of(). @param joint  of a known kind
+[[nodiscard]] std::vector<JointFreedom> list_freedoms(const nlohmann::json& joint);
+
+/// Axis of a joint without faults. @param otherwise  its letter where the joint names none
+[[nodiscard]] engine::Axis read_axis(const nlohmann::json& joint, const char* key, char otherwise);
 
 [[nodiscard]] bool closes_loop(const nlohmann::json& joint);
+
+/// Whether a joint is a universal one with clearance: its cross is a body between two revolute joints.
+[[nodiscard]] bool has_cross(const nlohmann::json& joint);
+inline constexpr std::string_view kCrossEnding = "_cross";  ///< of that body's name, behind the joint's
 
 /// Parameters of a joint with clearance. @param defaults  the job's, for those that the joint does not give
 [[nodiscard]] engine::RpsupParameters clearance_parameters(const nlohmann::json& clearance,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "jobs/linkages/actuator_fields.h"
+#include "jobs/linkages/linkage_clearance.h"
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_json.h"
 
@@ -129,12 +130,22 @@ json schema_of_joint() {
       {"anyOf", {schema_of_drive(engine::Motion::kRotation), schema_of_drive(engine::Motion::kTranslation)}}};
   schema["properties"]["friction"] = {
       {"anyOf", {turn["properties"]["friction"], slide["properties"]["friction"]}}};
-  json clearance = schema_of_fields(clearance_fields());
+  LinkageFields of_clearance = clearance_fields();
+  for (LinkageField field : block_fields()) {
+    field.required = false;
+    of_clearance.push_back(std::move(field));
+  }
+  json clearance = schema_of_fields(of_clearance);
   clearance["description"] = schema["properties"]["clearance"]["description"];
   schema["properties"]["clearance"] = std::move(clearance);
+  json cross = schema_of_fields(cross_fields());
+  cross["description"] = schema["properties"]["cross"]["description"];
+  schema["properties"]["cross"] = std::move(cross);
   json& freedoms = schema["properties"]["freedoms"];
   freedoms["additionalProperties"] = false;
-  freedoms["properties"] = {{"slide", slide}};
+  freedoms["properties"] = json::object();
+  for (const char* const name : {"slide", "slide_x", "slide_y", "slide_z"})
+    freedoms["properties"][name] = slide;
   for (const char* const name : {"turn", "first", "second", "turn_z", "turn_y", "turn_x"})
     freedoms["properties"][name] = turn;
   for (const char* const name : {"x", "y", "z"}) freedoms["properties"][name] = {{"anyOf", {slide, turn}}};

@@ -28,9 +28,13 @@ std::size_t elements_of(const json& beam, std::size_t otherwise) {
 LinkageSize size_of_linkage(const json& description, std::size_t elements) {
   LinkageSize size;
   for (const json& joint : description.at("joints")) {
-    const std::size_t freedoms = count_freedoms(joint);
-    if (closes_loop(joint)) size.constraints += kFreedomsOfABody - freedoms;
-    else size.freedoms += freedoms;
+    const bool cross = has_cross(joint), closes = closes_loop(joint), has_play = joint.contains("clearance");
+    if (cross) size.freedoms += closes ? kFreedomsOfABody : 2 * kFreedomsOfABody;
+    else if (!closes) size.freedoms += list_freedoms(joint).size();
+    // Those of a joint with clearance put it together at the start.
+    if (cross) size.constraints += 2 * (kFreedomsOfABody - 1);
+    else if (closes || has_play)
+      size.constraints += kFreedomsOfABody - freedoms_of(find_joint_kind(joint).value()).size();
   }
   size.coordinates = size.freedoms;
   for (const json& body : description.at("bodies")) {

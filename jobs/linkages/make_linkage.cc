@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "engine/model/rpsup.h"
 #include "jobs/linkages/linkage_actuator.h"
 #include "jobs/linkages/linkage_beam.h"
+#include "jobs/linkages/linkage_clearance.h"
 #include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_joint.h"
@@ -56,19 +56,6 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& degrees) {
   return R;
 }
 
-engine::Axis axis_of(const json& joint, const char* key, char otherwise) {
-  const char letter = joint.value(key, std::string(1, otherwise))[0];
-  return static_cast<engine::Axis>(letter - 'x');
-}
-
-/// Cyclic permutation of the axes that brings one where another one is.
-Eigen::Matrix3d rotation_between(engine::Axis from, engine::Axis to) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
-  const int by = static_cast<int>(to) - static_cast<int>(from) + 3;
-  for (int i = 0; i < 3; ++i) R((i + by) % 3, i) = 1.0;
-  return R;
-}
-
 Eigen::Matrix3d inertia_of(const json& values) {
   const auto at = [&](std::size_t i) { return i < values.size() ? values[i].get<double>() : 0.0; };
   Eigen::Matrix3d I;
@@ -86,7 +73,7 @@ class LinkageMaker {
     for (const auto& [name, body] : given_.at("bodies").items())
       linkage.bodies.push_back(make_body(name, body));
     for (const std::string& name : order)
-      linkage.joints.push_back(make_joint(name, given_.at("joints").at(name)));
+      add_joint(name, given_.at("joints").at(name), linkage);
     if (given_.contains("springs"))
       for (const auto& [name, spring] : given_.at("springs").items())
         linkage.springs.push_back(make_spring(name, spring));
@@ -127,7 +114,31 @@ class LinkageMaker {
     return body;
   }
 
+  void add_joint(const std::string& name, const json& given, engine::Linkage& linkage) const {
+    if (has_cross(given)) add_crossed(name, given, linkage);
+    else linkage.joints.push_back(make_joint(name, given));
+  }
+
   [[nodiscard]] engine::LinkageJoint make_joint(const std::string& name, const json& given) const {
+    engine::LinkageJoint joint = start_joint(name, given);
+    if (has_clearance(given, defaults_))
+      joint.clearance = read_clearance(given.at("clearance"), joint.kind, defaults_);
+    if (joint.cut) {
+      place_cut(given, joint);
+      return joint;
+    }
+    joint.axes = {read_axis(given, "axis", 'z'), read_axis(given, "second_axis", 'y')};
+    joint.lead = given.value("lead_mm", 0.0) / kMmPerM / (2.0 * std::numbers::pi);
+    for (const auto& [part, motion] : joint.clearance ? list_freedoms(given) : freedoms_of(joint.kind)) {
+      const std::string key(part);
+      joint.freedoms.push_back(part.empty()
+                                   ? make_freedom(name, given, motion)
+                                   : make_freedom(name + "_" + key, freedom_of(given, key), motion));
+    }
+    return joint;
+  }
+
+  [[nodiscard]] static engine::LinkageJoint start_joint(const std::string& name, const json& given) {
     engine::LinkageJoint joint;
     joint.name = name;
     joint.kind = find_joint_kind(given).value();
@@ -135,21 +146,56 @@ class LinkageMaker {
     joint.to = given.at("to").get<std::string>();
     joint.placement = {rotation_of(point_of(given, "turned_deg")), point_of(given, "at_m")};
     joint.cut = closes_loop(given);
-    if (joint.cut) {
-      finish_cut(given, joint);
-      return joint;
-    }
-    joint.axes = {axis_of(given, "axis", 'z'), axis_of(given, "second_axis", 'y')};
-    joint.lead = given.value("lead_mm", 0.0) / kMmPerM / (2.0 * std::numbers::pi);
-    for (const auto& [part, motion] : freedoms_of(joint.kind)) {
-      const std::string key(part);
-      joint.freedoms.push_back(
-          part.empty()
-              ? make_freedom(name, given, motion)
-              : make_freedom(name + "_" + key,
-                             given.value("freedoms", json::object()).value(key, json::object()), motion));
-    }
     return joint;
+  }
+
+  [[nodiscard]] static json freedom_of(const json& joint, const std::string& key) {
+    return joint.value("freedoms", json::object()).value(key, json::object());
+  }
+
+  /// A universal joint with clearance: two revolute joints with the cross between them, the first of which
+  /// carries the cross.
+  void add_crossed(const std::string& name, const json& given, engine::Linkage& linkage) const {
+    const engine::LinkageJoint whole = start_joint(name, given);
+    const std::string cross = name + std::string(kCrossEnding);
+    linkage.bodies.push_back(make_body(cross, given.at("cross")));
+    const std::array<engine::Axis, 2> axes{read_axis(given, "axis", 'z'),
+                                           read_axis(given, "second_axis", 'y')};
+    engine::LinkageJoint first = whole, second = whole;
+    for (engine::LinkageJoint* const joint : {&first, &second}) {
+      joint->kind = JointKind::kRevolute;
+      if (has_clearance(given, defaults_))
+        joint->clearance = read_clearance(given.at("clearance"), JointKind::kRevolute, defaults_);
+    }
+    first.name = name + "_first";
+    first.to = cross;
+    first.cut = false;
+    first.axes[0] = axes[0];
+    add_freedoms(first, freedom_of(given, "first"));
+    second.name = name + "_second";
+    second.from = cross;
+    second.placement = {};
+    second.axes[0] = axes[1];
+    if (second.cut) place_cut_axis(given, axes[1], second);
+    else add_freedoms(second, freedom_of(given, "second"));
+    linkage.joints.push_back(std::move(first));
+    linkage.joints.push_back(std::move(second));
+  }
+
+  /// Of a joint of a cross, with clearance or without.
+  void add_freedoms(engine::LinkageJoint& joint, const json& given) const {
+    const json shown{{"kind", "revolute"}, {"axis", std::string(1, "xyz"[static_cast<int>(joint.axes[0])])},
+                     {"clearance", json::object()}};
+    for (const auto& [part, motion] : joint.clearance ? list_freedoms(shown) : freedoms_of(joint.kind))
+      joint.freedoms.push_back(part.empty() ? make_freedom(joint.name, given, motion)
+                                            : make_freedom(joint.name + "_" + std::string(part),
+                                                           json::object(), motion));
+  }
+
+  static void place_cut_axis(const json& given, engine::Axis axis, engine::LinkageJoint& joint) {
+    joint.to_placement = {rotation_of(point_of(given, "to_turned_deg")), point_of(given, "to_at_m")};
+    joint.placement.R = joint.placement.R * engine::rotation_between(engine::Axis::kZ, axis);
+    joint.to_placement.R = joint.to_placement.R * engine::rotation_between(engine::Axis::kZ, axis);
   }
 
   [[nodiscard]] static engine::LinkageSpring make_spring(const std::string& name, const json& given) {
@@ -167,17 +213,12 @@ class LinkageMaker {
 
   /// The engine's cut joints have their axis along z, the second one of a universal joint along the journal's
   /// x.
-  void finish_cut(const json& given, engine::LinkageJoint& joint) const {
-    joint.to_placement = {rotation_of(point_of(given, "to_turned_deg")), point_of(given, "to_at_m")};
-    const engine::Axis axis = axis_of(given, "axis", 'z');
-    joint.placement.R = joint.placement.R * rotation_between(engine::Axis::kZ, axis);
-    joint.to_placement.R =
-        joint.to_placement.R * (joint.kind == JointKind::kUniversal
-                                    ? rotation_between(engine::Axis::kX, axis_of(given, "second_axis", 'y'))
-                                    : rotation_between(engine::Axis::kZ, axis));
-    if (!given.contains("clearance")) return;
-    const engine::RpsupParameters parameters = clearance_parameters(given.at("clearance"), defaults_);
-    if (parameters.c_r > 0.0) joint.clearance = engine::make_clearance(parameters);
+  static void place_cut(const json& given, engine::LinkageJoint& joint) {
+    const engine::Axis axis = read_axis(given, "axis", 'z');
+    place_cut_axis(given, axis, joint);
+    if (joint.kind != JointKind::kUniversal) return;
+    joint.to_placement.R = rotation_of(point_of(given, "to_turned_deg")) *
+                           engine::rotation_between(engine::Axis::kX, read_axis(given, "second_axis", 'y'));
   }
 
   [[nodiscard]] engine::LinkageFreedom make_freedom(std::string name, const json& given,

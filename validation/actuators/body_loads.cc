@@ -30,7 +30,7 @@ Findings compute_body_loads() {
     findings.checks.push_back(
         compare(std::string("angle of a flywheel under a tangential force that turns with it, after 2 s, ") +
                     name,
-                "F r t^2 / (2 J)", column(run_mover(wheel, integrator, 2.0), "q_rad").back(),
+                "F r t^2 / (2 J)", column(run_linkage(wheel, integrator, 2.0), "q_rad").back(),
                 0.5 * kLeverArm / kFlywheelInertia * 2.0, 1e-7, "rad", kStepTolerance));
   }
   Linkage wheel = make_mover(JointKind::kRevolute, {.name = "q", .start = 0.3});
@@ -39,7 +39,7 @@ Findings compute_body_loads() {
                   .at = {kLeverArm, 0.0, 0.0},
                   .force = {1.0, 0.0, 0.0},
                   .law = Constant{2.0}}};
-  const RunResult pulled = run_mover(wheel, Integrator::kDopri5, 1.1);
+  const RunResult pulled = run_linkage(wheel, Integrator::kDopri5, 1.1);
   const double w = column(pulled, "q_rad_s").back(), q = column(pulled, "q_rad").back();
   findings.checks.push_back(compare("energy of the flywheel under a force of constant direction, after 1.1 s",
                                     "F r (cos q - cos q_0)", 0.5 * kFlywheelInertia * w * w,
@@ -51,7 +51,7 @@ Findings compute_body_loads() {
       make_mover(JointKind::kPrismatic, {.name = "q", .start = 0.0, .stiffness = kBlockMass * w0 * w0});
   shaken.ground_acceleration[2] = Harmonic{.mean = 0.0, .amplitude = a, .omega = w1};
   shaken.ground_acceleration[1] = Constant{2.0};
-  const RunResult shake = run_mover(shaken, Integrator::kDopri5, 2.0);
+  const RunResult shake = run_linkage(shaken, Integrator::kDopri5, 2.0);
   findings.checks.push_back(
       compare("displacement of an oscillator on a shaker, after 2 s",
               "-a (sin(w t) - w / w_0 sin(w_0 t)) / (w_0^2 - w^2)", column(shake, "q_m").back(),

@@ -16,10 +16,10 @@ namespace validation {
 namespace {
 
 RunResult run_flywheel(LinkageFreedom freedom, double duration) {
-  return run_mover(make_mover(JointKind::kRevolute, std::move(freedom)), Integrator::kDopri5, duration);
+  return run_linkage(make_mover(JointKind::kRevolute, std::move(freedom)), Integrator::kDopri5, duration);
 }
 RunResult run_block(LinkageFreedom freedom, double duration, Integrator integrator = Integrator::kDopri5) {
-  return run_mover(make_mover(JointKind::kPrismatic, std::move(freedom)), integrator, duration);
+  return run_linkage(make_mover(JointKind::kPrismatic, std::move(freedom)), integrator, duration);
 }
 
 }  // namespace

@@ -63,13 +63,13 @@ Findings compute_joint_friction() {
     findings.checks.push_back(
         compare(std::string("velocity of a block that slides down an incline from 1 m/s, after 1 s, ") + name,
                 "v_0 + g (sin a - mu_k cos a) t",
-                column(run_mover(make_incline(kInclineAngle, law, 1.0), Integrator::kDopri5, 1.0), "q_m_s").back(),
+                column(run_linkage(make_incline(kInclineAngle, law, 1.0), Integrator::kDopri5, 1.0), "q_m_s").back(),
                 expected, 2e-5, "m/s", "LuGre's friction is whole only after 3e-6 m; steps of 1e-10"));
   lugre = published_law();
   lugre.sigma_2 = 0.0;
   lugre.mu_s = 0.5;
   lugre.mu_k = 0.4;
-  const RunResult stuck = run_mover(make_incline(0.3, lugre, 0.0), Integrator::kDopri5, 2.0);
+  const RunResult stuck = run_linkage(make_incline(0.3, lugre, 0.0), Integrator::kDopri5, 2.0);
   findings.checks.push_back(limit("velocity of a block on an incline below the angle of friction, after 2 s",
                                   "0", std::abs(column(stuck, "q_m_s").back()), 1e-9, "m/s", kStepTolerance));
   findings.checks.push_back(compare("friction that holds it", "-m g sin a",

@@ -49,7 +49,7 @@ Findings compute_motor_start() {
          {std::pair{"dopri5", Integrator::kDopri5}, std::pair{"radau5", Integrator::kRadau5}}) {
       motor.inductance = inductance;
       const Linkage linkage = make_mover(JointKind::kRevolute, {.name = "q", .actuator = motor});
-      const RunResult run = run_mover(linkage, integrator, 2.0);
+      const RunResult run = run_linkage(linkage, integrator, 2.0);
       const std::vector<double>&t = column(run, "t_s"), &speed = column(run, "q_rad_s");
       double largest = 0.0;
       for (std::size_t k = 0; k < t.size(); ++k)
@@ -68,7 +68,7 @@ Findings compute_motor_start() {
 Findings compute_stalled_motor() {
   const DcMotor motor = make_motor();
   const double current = kSupplyVoltage / motor.resistance, torque = motor.torque_constant * current;
-  const RunResult run = run_mover(
+  const RunResult run = run_linkage(
       make_mover(JointKind::kRevolute,
                  {.name = "q", .damping = 1.0, .actuator = motor, .load = ForceLaw{Constant{-torque}}}),
       Integrator::kDopri5, 3.0);
@@ -95,7 +95,7 @@ Findings compute_gear() {
                      (k * k / motor.resistance + motor.viscous_friction);
     const Linkage linkage = make_mover(
         JointKind::kRevolute, {.name = "q", .actuator = motor, .load = ForceLaw{Constant{load}}});
-    const RunResult run = run_mover(linkage, Integrator::kDopri5, 4.0);
+    const RunResult run = run_linkage(linkage, Integrator::kDopri5, 4.0);
     const std::string of = load < 0.0 ? "lifts its load" : "is driven by its load";
     findings.checks.push_back(compare("steady speed of a motor with friction and a gear of 70 % that " + of,
                                       "R i + k w = V with the torques in balance",

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +13,7 @@
 #include "engine/simulate_linkage.h"
 #include "validation/flexibility/oscillation.h"
 #include "validation/flexibility/parts.h"
-#include "validation/support/runs.h"
+#include "validation/support/linkage_runs.h"
 #include "validation/support/text.h"
 
 namespace validation {
@@ -27,18 +26,6 @@ struct Method {
 };
 constexpr std::array<Method, 3> kMethods{
     {{"dopri5", Integrator::kDopri5}, {"radau5", Integrator::kRadau5}, {"rodas5", Integrator::kRodas5}}};
-
-RunResult run_spring(const Linkage& linkage, Integrator integrator, double duration, double output_rate) {
-  const RunOptions options{.duration = duration,
-                           .output_rate = output_rate,
-                           .integrator = integrator,
-                           .relative_tolerance = 1e-10,
-                           .absolute_tolerance = 1e-10};
-  RunResult result = simulate_linkage(linkage, options, 0.0, {});
-  if (result.status != RunStatus::kSucceeded)
-    throw std::runtime_error("a run of the validation failed: " + result.detail);
-  return result;
-}
 
 /// Of 2 kg on a slide along x, 0.4 m from the point of the ground that it is tied to: m x'' = -k (x - L_0) -
 /// d x'.
@@ -121,7 +108,7 @@ Findings compute_block_on_a_spring() {
   const double b = 0.5 * kDamping / kSpringMass, w = std::sqrt(kStiffness / kSpringMass - b * b);
   const std::string why = "turning points by a parabola through samples 0.05 ms apart";
   for (const Method& method : kMethods) {
-    const RunResult result = run_spring(make_block(), method.integrator, 1.0, 2e4);
+    const RunResult result = run_linkage(make_block(), method.integrator, 1.0, 2e4);
     const std::vector<double>& t = column(result, "t_s");
     const std::vector<double>& x = column(result, "block_m");
     double largest = 0.0;
@@ -155,7 +142,7 @@ Findings compute_tied_pendulum() {
     findings.checks.push_back(compare(
         std::string("angle of a pendulum tied by a spring and damper beside it, after 2 s, ") + method.name,
         "the equation of its angle, by Runge and Kutta's method",
-        column(run_spring(make_tied_pendulum(), method.integrator, kEnd, 100.0), "bar_rad").back(), expected,
+        column(run_linkage(make_tied_pendulum(), method.integrator, kEnd, 100.0), "bar_rad").back(), expected,
         1e-9, "rad", "the steps' tolerance of 1e-10"));
   return findings;
 }

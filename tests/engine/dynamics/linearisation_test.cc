@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -103,6 +104,21 @@ std::vector<Case> all_cases() {
                    .law = Harmonic{1.0, 0.5, 6.0, 0.2}},
                   {.name = "twist", .body = "crank", .moment = {0.3, 0.2, -0.4}, .law = Harmonic{0.0, 2.0, 4.0, 0.3}}};
   loaded.ground_acceleration = {Signal(Harmonic{0.0, 3.0, 5.0, 0.1}), std::nullopt, Signal(Constant{2.0})};
+  ClearanceParameters socket = *build_rpsup(rigid).mechanism.cut_joints[0].clearance;
+  socket.geometry = ContactGeometry::kBallInSocket;
+  socket.c_a = std::numeric_limits<double>::infinity();
+  Linkage loose_ball = make_spatial_slider_crank(JointKind::kSpherical);
+  loose_ball.joints.back().clearance = socket;
+  ClearanceParameters slot = socket;
+  slot.geometry = ContactGeometry::kBlockInSlot;
+  slot.block_x = 0.01;
+  slot.block_y = 0.02;
+  slot.c_y = slot.c_r;
+  Linkage loose_block = make_spatial_slider_crank(JointKind::kSpherical);  // its slide carries the block
+  loose_block.joints[1].clearance = slot;
+  for (const char* const name : {"slide_y", "slide_z", "turn_x", "turn_z", "turn_y"}) loose_block.joints[1].freedoms.push_back({.name = name});
+  Linkage loose_cut_block = make_spatial_slider_crank(JointKind::kPrismatic);
+  loose_cut_block.joints.back().clearance = slot;
   RpsupParameters guide;  // the yoke about the guide, three rings
   guide.v_s = 1.0;
   RpsupParameters flexible_guide = guide;
@@ -162,6 +178,11 @@ std::vector<Case> all_cases() {
           of_linkage("screw", make_screw(), 1e-5, 1.0), of_linkage("sprung", sprung, 1e-5, 1.0),
           of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0), of_linkage("actuated", actuated, 1e-5, 1.0),
           of_linkage("loaded", loaded, 1e-5, 1.0),
+          {"loose_ball", build_linkage(loose_ball).mechanism, 1, kPressed, kFine},
+          {"loose_block", build_linkage(loose_block).mechanism, 2, kPressed, kFine},
+          {"loose_block_across", build_linkage(loose_block).mechanism, 3, -kPressed, kFine, kPressing},
+          {"loose_block_tilted", build_linkage(loose_block).mechanism, 5, 0.04, kFine},
+          {"loose_cut_block", build_linkage(loose_cut_block).mechanism, 0, 3e-3, kFine},
           of_linkage("dependent_cylinder", make_four_bar(JointKind::kCylindrical), 0.0, 0.0),
           of_linkage("dependent_weld", make_four_bar(JointKind::kWeld), 0.0, 0.0),
           of_linkage("dependent_slot", make_quick_return(JointKind::kPrismatic), 0.0, 0.0)};

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Slider-cranks with clearance: the place of the cut, and the energy account of four clearances.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "validation/clearances/loose_body.h"
+#include "validation/clearances/parts.h"
+#include "validation/support/linkage_runs.h"
+
+namespace validation {
+
+namespace {
+
+constexpr double kCrankLength = 0.05, kRodLength = 0.15;  // [m]
+constexpr double kCrankSpeed = 10.0;                      // [rad/s]
+
+LinkageBody make_bar(const char* name, double mass, double length) {
+  const double m = mass * length * length / 3.0, axial = 1e-2 * m;
+  return {.name = name,
+          .mass = mass,
+          .com = {0.5 * length, 0.0, 0.0},
+          .inertia = Eigen::Vector3d(axial, m, m).asDiagonal()};
+}
+
+Linkage start_slider_crank() {
+  Linkage linkage;
+  linkage.bodies = {make_bar("crank", 0.2, kCrankLength),
+                    make_bar("rod", 0.3, kRodLength),
+                    {.name = "slider", .mass = 0.4, .inertia = 1e-4 * Eigen::Matrix3d::Identity().eval()}};
+  linkage.gravity_W = {0.0, -kStandardGravity, 0.0};
+  return linkage;
+}
+
+ClearanceParameters make_pin() {
+  ClearanceParameters pin;
+  pin.c_r = 0.1e-3;
+  pin.c_a = 0.1e-3;
+  pin.K = calc_hertz_stiffness(pin.r_b, pin.c_r, 2e11, 0.3);
+  pin.friction = FrictionParameters{.mu_s = 0.1, .mu_k = 0.1};
+  return pin;
+}
+
+LinkageJoint make_driven_crank() {
+  return {.name = "crank",
+          .from = kGroundName,
+          .to = "crank",
+          .placement = {},
+          .freedoms = {{.name = "crank", .drive = RunUp{.omega = kCrankSpeed, .run_up = 0.05}}}};
+}
+
+LinkageJoint make_slider_guide(double guess) {
+  return {.name = "slide",
+          .kind = JointKind::kPrismatic,
+          .from = kGroundName,
+          .to = "slider",
+          .placement = {},
+          .axes = {Axis::kX, Axis::kY},
+          .freedoms = {{.name = "slide", .guess = guess}}};
+}
+
+/// Freedoms of a loose joint about z, named by the joint.
+std::vector<LinkageFreedom> name_freedoms(const std::string& joint, double turn_guess) {
+  std::vector<LinkageFreedom> freedoms;
+  for (const char* const part : {"_x", "_y", "_z", "_turn_z", "_turn_y", "_turn_x"})
+    freedoms.push_back({.name = joint + part});
+  freedoms[3].guess = turn_guess;
+  return freedoms;
+}
+
+/// The pin between crank and rod has clearance. @param at_pin  the loop is cut there, else at the slider
+Linkage make_loose_pin(bool at_pin) {
+  Linkage linkage = start_slider_crank();
+  const Placement crank_end{.p = {kCrankLength, 0.0, 0.0}}, rod_end{.p = {kRodLength, 0.0, 0.0}};
+  linkage.joints = {make_driven_crank(), make_slider_guide(kCrankLength + kRodLength)};
+  if (at_pin) {
+    // The rod hangs on the slider and points at the crank.
+    linkage.bodies[1].com = {-0.5 * kRodLength, 0.0, 0.0};
+    linkage.joints.push_back(
+        {.name = "end", .from = "slider", .to = "rod", .placement = {}, .freedoms = {{.name = "end"}}});
+    linkage.joints.push_back({.name = "pin",
+                              .from = "crank",
+                              .to = "rod",
+                              .placement = crank_end,
+                              .cut = true,
+                              .to_placement = {.p = {-kRodLength, 0.0, 0.0}},
+                              .clearance = make_pin()});
+    return linkage;
+  }
+  linkage.joints.push_back({.name = "pin",
+                            .from = "crank",
+                            .to = "rod",
+                            .placement = crank_end,
+                            .freedoms = name_freedoms("pin", 0.0),
+                            .clearance = make_pin()});
+  linkage.joints.push_back(
+      {.name = "end", .from = "slider", .to = "rod", .placement = {}, .cut = true, .to_placement = rod_end});
+  return linkage;
+}
+
+/// Clearance everywhere: the crank's bearing, a ball at its end, a pin in the slider, the slider in its slot.
+Linkage make_all_loose() {
+  Linkage linkage = start_slider_crank();
+  const Placement crank_end{.p = {kCrankLength, 0.0, 0.0}}, rod_end{.p = {kRodLength, 0.0, 0.0}};
+  ClearanceParameters ball = make_pin();
+  ball.geometry = ContactGeometry::kBallInSocket;
+  ball.c_a = std::numeric_limits<double>::infinity();
+  ClearanceParameters slot = ball;
+  slot.geometry = ContactGeometry::kBlockInSlot;
+  slot.block_x = slot.block_y = kBlockHalf;
+  slot.L_b = kBlockLength;
+  slot.c_y = slot.c_r;
+  slot.K = calc_corner_stiffness(1e-3, 2e11, 0.3);
+  LinkageJoint crank = make_driven_crank(), slide = make_slider_guide(0.0);
+  const DriveLaw drive = *crank.freedoms[0].drive;
+  crank.freedoms = name_freedoms("crank", 0.0);
+  crank.freedoms[3].drive = drive;
+  crank.clearance = make_pin();
+  slide.freedoms = name_freedoms("slide", 0.0);
+  slide.freedoms[0].guess = kCrankLength + kRodLength;
+  slide.freedoms[3].guess = 0.0;
+  slide.clearance = slot;
+  linkage.joints = {crank, slide};
+  linkage.joints.push_back({.name = "ball",
+                            .kind = JointKind::kSpherical,
+                            .from = "crank",
+                            .to = "rod",
+                            .placement = crank_end,
+                            .freedoms = name_freedoms("ball", 0.0),
+                            .clearance = ball});
+  linkage.joints.push_back({.name = "pin",
+                            .from = "slider",
+                            .to = "rod",
+                            .placement = {},
+                            .cut = true,
+                            .to_placement = rod_end,
+                            .clearance = make_pin()});
+  return linkage;
+}
+
+}  // namespace
+
+Findings compute_cut_elsewhere() {
+  Findings findings;
+  constexpr double kDuration = 0.1;  // impacts make later differences grow
+  const RunResult here = run_linkage(make_loose_pin(true), Integrator::kRadau5, kDuration, 1000.0);
+  const RunResult there = run_linkage(make_loose_pin(false), Integrator::kRadau5, kDuration, 1000.0);
+  for (const char* const key : {"slide_m", "slide_m_s", "pin_journal_x_mm", "pin_journal_y_mm"}) {
+    const std::vector<double>&a = column(here, key), &b = column(there, key);
+    double off = 0.0, most = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      off = std::max(off, std::abs(a[k] - b[k]));
+      most = std::max(most, std::abs(a[k]));
+    }
+    findings.checks.push_back(limit(std::string(key) + " of a slider-crank with clearance in its pin, 0.1 s",
+                                    "the same with its loop cut at another joint", off / most, 1e-6, "1",
+                                    "both runs step on their own, and each impact makes errors grow"));
+  }
+  return findings;
+}
+
+Findings compute_four_clearances() {
+  Findings findings;
+  const Linkage loose = make_all_loose();
+  const RunResult run = run_linkage(loose, RunOptions{.duration = 1.0, .output_rate = 100.0});
+  findings.checks.push_back(limit("energy residual with clearance in four joints, default tolerances", "0",
+                                  metric_of(loose, run, "energy_residual"), 1e-6, "1",
+                                  "asked of every run at default tolerances"));
+  for (const char* const joint : {"crank", "ball", "pin", "slide"}) {
+    const double time = metric_of(loose, run, std::string(joint) + "_contact_time_ratio");
+    findings.checks.push_back(limit(std::string("part of the run in which ") + joint + " does not touch",
+                                    "less than all of it", 1.0 - time, 0.99, "1", "each joint bears loads"));
+  }
+  return findings;
+}
+
+}  // namespace validation
