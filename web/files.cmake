@@ -36,7 +36,10 @@ set(page_files
   form/study_form.js
   form/wear_form.js
   linkages/bricard.json
+  linkages/double_pendulum.json
   linkages/four_bar.json
+  linkages/loose_guide.json
+  linkages/loose_socket.json
   linkages/motor_press.json
   linkages/rpsup.json
   linkages/rsup.json
@@ -49,6 +52,7 @@ set(page_files
   pages/sweeps.js
   pages/wear.js
   run/captioned.js
+  run/crosses.js
   run/described.js
   run/facts.js
   run/fingers.js
@@ -69,8 +73,11 @@ set(page_files
   scene/described.js
   scene/geometry.js
   scene/linkage.js
+  scene/loads.js
+  scene/marks.js
   scene/player.js
   scene/poses.js
+  scene/ranges.js
   scene/scene_card.js
   scene/shapes.js
   scene/stage.js

@@ -17,7 +17,10 @@ const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velo
 const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"],
   ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
   ["four_bar", "four-bar with a flexible coupler"],
-  ["motor_press", "slider-crank press with motor, flywheel and load"], ["bricard", "Bricard's linkage"]];
+  ["motor_press", "slider-crank press with motor, flywheel and load"],
+  ["loose_guide", "slider-crank whose slider has play in its guide"],
+  ["loose_socket", "pendulum on a ball with play in its socket"],
+  ["double_pendulum", "double pendulum, fitted to a measurement"], ["bricard", "Bricard's linkage"]];
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { query, signal }) {

@@ -63,7 +63,8 @@ TEST_P(LinkageExample, Runs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LinkageExample,
-                         testing::Values("rpsup", "rsup", "slider_crank", "four_bar", "bricard", "motor_press"),
+                         testing::Values("rpsup", "rsup", "slider_crank", "four_bar", "bricard", "motor_press",
+                                         "loose_guide", "loose_socket", "double_pendulum"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(LinkageExamples, HaveTheirJointsAndFreedoms) {
