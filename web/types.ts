@@ -37,6 +37,8 @@ declare namespace Api {
     & { links: Required<NonNullable<Schemas["Parameters"]["links"]>> };
   type Job = Omit<Get<"/v1/jobs/{id}">, "parameters"> & { parameters: Parameters };
   type DescribedLinkage = Exclude<Parameters["linkage"], string>;
+  type DescribedJoint = DescribedLinkage["joints"][string];
+  type BodyLoad = NonNullable<DescribedLinkage["loads"]>[string];
   /** A row of results that was asked for without "fields"; values of axes and metrics by their names. */
   type Row = Required<Pick<Schemas["ResultRow"], "job_id" | "state">>
     & Pick<Schemas["ResultRow"], "replicate"> & { [column: string]: any };

@@ -196,6 +196,26 @@ test("an orbit is saved with what it shows", async () => {
   await leave(page);
 });
 
+test("a described linkage shows the clearance of every kind of joint, and its loads", async () => {
+  const inertia = { inertia_kg_m2: [1e-3, 1e-3, 1e-3] };
+  const linkage = { bodies: { block: { mass_kg: 1, ...inertia }, arm: { mass_kg: 0.5, centre_of_mass_m: [0.1, 0, 0], ...inertia }, tail: { mass_kg: 0.2, centre_of_mass_m: [0.05, 0, 0], ...inertia } },
+    joints: { slide: { kind: "prismatic", from: "ground", to: "block", axis: "x", clearance: { block_width_mm: 40, block_height_mm: 30, clearance_mm: 0.1, clearance_height_mm: 0.2 } },
+      ball: { kind: "spherical", from: "block", to: "arm", clearance: { bearing_radius_mm: 10 } },
+      hook: { kind: "universal", from: "arm", to: "tail", at_m: [0.2, 0, 0], cross: { mass_kg: 0.05, ...inertia }, clearance: {} } },
+    loads: { push: { body: "arm", at_m: [0.1, 0, 0], direction: [0, 0, 1], force_n: 2 }, twist: { body: "block", direction: [1, 0, 0], follows_body: true, torque_n_m: 0.1 } } };
+  const { id } = await computedJob({ linkage, duration_s: 0.02, run_up_s: 0, clearance_mm: 0.3 });
+  const page = await visit(`#/jobs/${id}`);
+  for (const [joint, caption] of [["slide", "Rectangle: clearance 0.1 mm by 0.2 mm."], ["ball", "Circle: clearance 0.3 mm."], ["hook first", "Circle: clearance 0.3 mm."], ["hook second", "Circle: clearance 0.3 mm."]]) {
+    const card = page.locator(".card", { has: page.getByRole("heading", { name: `Journal orbit of ${joint}`, exact: true }) });
+    await card.getByText(caption).waitFor();
+  }
+  await page.locator("canvas.scene[data-instant='0']").waitFor();
+  const names = await page.locator(".card[aria-label=Linkage] .legend span:not(.swatch)").allTextContents();
+  assert.deepEqual(names.map((name) => name.trim()), ["arm", "block", "tail", "hook cross", "loads"]);
+  await picture(page, "described_clearance", { fullPage: true });
+  await leave(page);
+});
+
 test("an answer to what was asked before covers no newer one", async () => {
   const { id } = await computedJob();
   const page = await visit(`#/jobs/${id}`);

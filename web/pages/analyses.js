@@ -5,7 +5,7 @@ import { loadCharts, saveButtons } from "/core/charts.js";
 import { h, setSeen } from "/core/dom.js";
 import { quantityChoice } from "/core/quantities.js";
 import { rememberQuery, routeTo } from "/core/route.js";
-import { metricsOf } from "/study/data.js";
+import { metricsOf, usualMetric } from "/study/data.js";
 import { bifurcationCard } from "/analysis/bifurcation.js";
 import { flexibilityCard } from "/analysis/flexibility.js";
 import { lyapunovCard } from "/analysis/lyapunov.js";
@@ -18,12 +18,12 @@ const usual = "peak_slider_acceleration_m_s2";  // which only RPSUP has
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
   loadCharts().catch(() => {});  // told where a chart would be
-  const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, { limit: 1 }, signal)]);
+  const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, { limit: 50 }, signal)]);
   const metrics = metricsOf(rows, sweep.axes);
   const isRpsup = metrics.includes(usual);
   const numbers = sweep.axes.filter((axis) => typeof rows[0][axis] === "number");
   const analysed = { sweep, numbers, isRpsup, metric: metrics.find((metric) => metric === query.get("metric"))
-    ?? (isRpsup ? usual : metrics[0]) };
+    ?? (isRpsup ? usual : usualMetric(metrics, rows, sweep)) };
   const name = sweep.name || sweep.id;
   document.title = `RPSUP: analysis of ${name}`;
   const cards = h("div");

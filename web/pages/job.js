@@ -18,7 +18,6 @@ import { plotCard, tracesOf } from "/run/plot_card.js";
 import { standingCard } from "/run/standing.js";
 import { timeBar } from "/run/time_bar.js";
 import { TimeWindow } from "/run/time_window.js";
-import { linksOf } from "/scene/poses.js";
 import { sceneCard } from "/scene/scene_card.js";
 
 /** @type {("csv" | "json" | "npz")[]} */
@@ -157,7 +156,7 @@ class JobPage {
       this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay()),
       motionCard(this.job, columns, this.signal),
       !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
-    const side = [sceneCard(this.job, linksOf(all), this.times, this.signal),
+    const side = [sceneCard(this.job, all, this.times, this.signal),
       ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs),
       runCard(this.job, this.schema)];
     return [timeBar(this.times, this.job, this.acceleration.envelope ?? [this.acceleration.channel], this.signal),

@@ -9,7 +9,7 @@ import { quantityChoice } from "/core/quantities.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, summaryOf } from "/analysis/paper.js";
-import { metricsOf, valuesOf } from "/study/data.js";
+import { metricsOf, usualMetric, valuesOf } from "/study/data.js";
 import { Failures } from "/study/failures.js";
 import { heatMap } from "/study/heat_map.js";
 import { linesChart } from "/study/lines.js";
@@ -79,7 +79,8 @@ export class SweepPage {
     const varied = [...this.axes].sort((a, b) => valuesOf(rows, b).length - valuesOf(rows, a).length);
     /** @type {(key: string, allowed: string[], otherwise?: string) => string} */
     const pick = (key, allowed, otherwise) => allowed.find((each) => each === query.get(key)) ?? otherwise ?? "";
-    this.view = { metric: pick("metric", this.metrics, this.metrics[0]), x: pick("x", this.axes, varied[0] ?? "job_id"),
+    this.view = { metric: pick("metric", this.metrics, usualMetric(this.metrics, rows, sweep)),
+      x: pick("x", this.axes, varied[0] ?? "job_id"),
       y: pick("y", this.axes, query.has("x") ? "" : varied[1]),
       panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]),
       xScale: pick("x_scale", ["linear"]), metricScale: pick("metric_scale", ["log"]) };

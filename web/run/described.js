@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Titles, channels and joints of a described linkage, by the names of its joints.
+import { number } from "/core/format.js";
+import { withCrosses } from "/run/crosses.js";
 
 /// True for a job of a described linkage, false for one of the RPSUP linkage.
 /** @type {(job: Pick<Api.Job, "parameters">) => boolean} */
@@ -19,12 +21,34 @@ export function mainAcceleration(channels) {
 /** @type {(channels: string[]) => string[]} */
 export const driveChannels = (channels) => channels.filter((name) => /_drive_n(_m)?$/.test(name));
 
-/// The joints with clearance in a run: {name, prefix, clearance}. @param prefix  of their channels
-/** @param {Api.Job} job  @param {string[]} channels */
+/**
+ * Outline of a joint's clearance across its axis [mm]: a circle of radius x = y, or a rectangle with half sides
+ * x and y.
+ * @typedef {{ isRound: boolean, x: number, y: number }} Clearance
+ */
+
+/// The joints with clearance in a run, two for a universal joint. prefix: of the joint's channels.
+/**
+ * @param {Pick<Api.Job, "parameters">} job
+ * @param {string[]} channels
+ * @returns {{ name: string, prefix: string, clearance: Clearance }[]}
+ */
 export function clearanceJoints({ parameters }, channels) {
-  if (typeof parameters.linkage !== "object") return parameters.clearance_mm > 0
-    ? [{ name: "", prefix: "", clearance: parameters.clearance_mm }] : [];
-  return Object.entries(parameters.linkage.joints).filter(([name]) => channels.includes(`${name}_journal_x_mm`))
-    .map(([name, joint]) =>
-      ({ name, prefix: `${name}_`, clearance: joint.clearance?.clearance_mm ?? parameters.clearance_mm }));
+  const { linkage, clearance_mm: usual } = parameters;
+  if (typeof linkage !== "object") return usual > 0 ? [{ name: "", prefix: "", clearance: circle(usual) }] : [];
+  return Object.entries(withCrosses(linkage).joints).filter(([name]) => channels.includes(`${name}_journal_x_mm`))
+    .map(([name, joint]) => ({ name, prefix: `${name}_`, clearance: outlineOf(joint, usual) }));
 }
+
+/** @type {(radius: number) => Clearance} */
+const circle = (radius) => ({ isRound: true, x: radius, y: radius });
+
+/** @param {Api.DescribedJoint} joint  @param {number} usual  the job's own clearance  @returns {Clearance} */
+function outlineOf({ kind, clearance = {} }, usual) {
+  const { clearance_mm: x = usual, clearance_height_mm: y = x } = clearance;
+  return kind === "prismatic" ? { isRound: false, x, y } : circle(x);
+}
+
+/// The clearance in words: "clearance 0.1 mm", of a rectangle "clearance 0.1 mm by 0.2 mm".
+/** @type {(clearance: Clearance) => string} */
+export const wordsOf = ({ isRound, x, y }) => `clearance ${number(x)} mm${isRound ? "" : ` by ${number(y)} mm`}`;

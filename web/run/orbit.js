@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The journal's path inside the clearance circle, coloured by time or by contact force.
+// The journal's path inside the outline of the clearance, coloured by time or by contact force.
 import { findTrajectory } from "/core/api.js";
 import { choice, contextOf, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
@@ -7,13 +7,15 @@ import { saveCanvas } from "/core/download.js";
 import { latest, settled } from "/core/live.js";
 import { onColours } from "/core/theme.js";
 import { captioned } from "/run/captioned.js";
+import { wordsOf } from "/run/described.js";
 import { drawRing, drawScale, paintOrbit } from "/run/orbit_drawing.js";
 
 const points = 6000;
 const refineMs = 200;
 const quantities = ["journal_x_mm", "journal_y_mm", "contact_force_n"];
 
-/// @param joint  with clearance: its name, empty if it is the only one, the prefix of its channels, its clearance [mm]
+/// @param joint  with clearance: its name, empty if it is the only one, the prefix of its channels, the outline of
+/// its clearance
 /**
  * @param {Api.Job} job
  * @param {ReturnType<typeof import("/run/described.js").clearanceJoints>[number]} joint
@@ -22,10 +24,11 @@ const quantities = ["journal_x_mm", "journal_y_mm", "contact_force_n"];
  */
 export function orbit(job, { name, prefix, clearance }, times, signal) {
   const title = name ? `Journal orbit of ${name.replaceAll("_", " ")}` : "Journal orbit";
+  const outline = clearance.isRound ? "circle" : "rectangle";
   const channels = ["t_s", ...quantities.map((quantity) => prefix + quantity)];
   const columnsOf = async (more, current) => plain(await findTrajectory(job.id, { channels, ...more, points }, current),
     prefix);
-  const canvas = h("canvas", { class: "orbit", role: "img", "aria-label": `${title} inside the clearance circle` });
+  const canvas = h("canvas", { class: "orbit", role: "img", "aria-label": `${title} inside the clearance ${outline}` });
   const bar = h("canvas", { class: "palette", width: 256, height: 1, "aria-hidden": "true" });
   const [low, high] = [h("span"), h("span")];
   const caption = h("p", { class: "quiet small", role: "status" });
@@ -53,7 +56,8 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
     const unit = by === "time" ? "s" : "N";
     low.textContent = `${number(least)} ${unit}`;
     high.textContent = `${number(largest)} ${unit}`;
-    caption.textContent = `Circle: clearance ${number(clearance)} mm. ${shown.t_s.length.toLocaleString("en")} `
+    const shape = clearance.isRound ? "Circle" : "Rectangle";
+    caption.textContent = `${shape}: ${wordsOf(clearance)}. ${shown.t_s.length.toLocaleString("en")} `
       + `samples${shown === whole ? "" : "; the rest of the run is pale"}. Ring: current instant.`;
     canvas.dataset.samples = shown.t_s.length;
     draw();
@@ -75,7 +79,7 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
     const [x, y, force] = channels.slice(1).map((channel) => titleOf(channel));
     return [title, `${x} across, ${y} up`, `colour: ${by === "time" ? "time" : force}, ${low.textContent} `
       + `to ${high.textContent}`,
-      `clearance ${number(clearance)} mm`, job.id].map((text) => ({ name: text }));
+      wordsOf(clearance), job.id].map((text) => ({ name: text }));
   }
 
   const refine = settled(() => signal.aborted || tryLoad(), refineMs);

@@ -15,14 +15,14 @@ const ink = "#e6007a";
  * @param {number} size
  * @param {Record<string, number[]>} columns
  * @param {Record<string, number[]> | null} behind
- * @param {number} clearance
+ * @param {import("/run/described.js").Clearance} clearance
  * @param {(index: number) => number} partOf
  */
 export function paintOrbit(size, columns, behind, clearance, partOf) {
   const picture = document.createElement("canvas");
   Object.assign(picture, { width: size, height: size });
   const context = contextOf(picture);
-  const scale = (0.4 * size) / clearance;
+  const scale = (0.4 * size) / Math.max(clearance.x, clearance.y);
   /** @type {(columns: Record<string, number[]>, i: number) => [number, number]} */
   const at = ({ journal_x_mm: x, journal_y_mm: y }, i) => [size / 2 + scale * x[i], size / 2 - scale * y[i]];
   context.fillStyle = colour("card");
@@ -52,19 +52,28 @@ function drawPale(context, columns, at) {
 
 function drawFrame(context, size, scale, clearance) {
   context.lineWidth = 1.5 * devicePixelRatio;
-  drawRing(context, [size / 2, size / 2], scale * clearance, colour("quiet"));
+  drawOutline(context, size / 2, scale, clearance);
   context.fillStyle = colour("text");
   context.font = `${12 * devicePixelRatio}px system-ui`;
   const bottom = size - 6 * devicePixelRatio;
-  for (const tick of [-clearance, 0, clearance]) {
+  for (const sign of [-1, 0, 1]) {
+    const [across, up] = [sign * clearance.x, sign * clearance.y];
     context.textAlign = "center";
-    context.fillText(number(tick), size / 2 + scale * tick, bottom);
+    context.fillText(number(across), size / 2 + scale * across, bottom);
     context.textAlign = "left";
-    if (tick !== 0) context.fillText(number(tick), 0, size / 2 - scale * tick + 4 * devicePixelRatio);
+    if (sign !== 0) context.fillText(number(up), 0, size / 2 - scale * up + 4 * devicePixelRatio);
   }
   context.fillText("y [mm]", 0, 14 * devicePixelRatio);
   context.textAlign = "right";
   context.fillText("x [mm]", size, bottom - 16 * devicePixelRatio);
+}
+
+function drawOutline(context, middle, scale, { isRound, x, y }) {
+  if (isRound) drawRing(context, [middle, middle], scale * x, colour("quiet"));
+  else {
+    context.strokeStyle = colour("quiet");
+    context.strokeRect(middle - scale * x, middle - scale * y, 2 * scale * x, 2 * scale * y);
+  }
 }
 
 export function drawRing(context, centre, radius, stroke = ink) {

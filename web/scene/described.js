@@ -1,22 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// A described linkage as three.js sees it: bars between the places where joints sit on a body, a mark for each
-// joint, tubes for beams.
+// A described linkage as three.js sees it: bars between the places where joints sit on a body, marks for joints, tubes
+// for beams, arrows for loads.
+import { withCrosses } from "/run/crosses.js";
+import { Loads, channelOf, loadColour } from "/scene/loads.js";
+import { marksOf } from "/scene/marks.js";
+
 const colours = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
-const kindsWithAxis = new Set(["revolute", "cylindrical", "screw"]);
-const degree = Math.PI / 180;
+const groundColour = "#7a8590";
 const springColour = "#7a8590";
 const zigzags = 16;
 
-/// The bodies with their colours, for the legend, and the springs' between them.
+/// The bodies with their colours, for the legend, and the colours of springs and loads.
 /** @param {Api.DescribedLinkage} linkage */
-export function bodyColours({ bodies, springs }) {
-  const named = Object.keys(bodies).map((name, index) => [name.replaceAll("_", " "), colours[index % colours.length]]);
-  return springs ? [...named, ["springs", springColour]] : named;
+export function bodyColours(linkage) {
+  const named = Object.entries(coloursOf(linkage)).map(([name, colour]) => [name.replaceAll("_", " "), colour]);
+  return [...named, ...(linkage.springs ? [["springs", springColour]] : []),
+    ...(linkage.loads ? [["loads", loadColour]] : [])];
 }
+
+/** @param {Api.DescribedLinkage} linkage  @returns {Record<string, string>} */
+function coloursOf(linkage) {
+  return Object.fromEntries(Object.keys(withCrosses(linkage).bodies)
+    .map((name, index) => [name, colours[index % colours.length]]));
+}
+
+/// Channels that the picture needs beside the poses: those of loads, at each instant, and those of the places of
+/// journals along their axes, of which it needs the ranges.
+/** @param {Api.DescribedLinkage} linkage  @param {string[]} channels  of the run */
+export function channelsOf(linkage, channels) {
+  const loads = Object.entries(linkage.loads ?? {}).map(([name, load]) => channelOf(name, load));
+  const journals = Object.keys(withCrosses(linkage).joints).map(journalOf);
+  return { loads: loads.filter((name) => channels.includes(name)),
+    journals: journals.filter((name) => channels.includes(name)) };
+}
+
+/** @type {(joint: string) => string} */
+const journalOf = (joint) => `${joint}_journal_z_mm`;
 
 /// The places on each body's frame that something sits at, its origin first. "ground" is a body, too.
 /** @param {Api.DescribedLinkage} linkage */
-function placesOn({ bodies, joints, springs = {} }) {
+function placesOn({ bodies, joints, springs = {}, loads = {} }) {
   const places = Object.fromEntries(
     ["ground", ...Object.keys(bodies)].map((name) => [name, name === "ground" ? [] : [[0, 0, 0]]]));
   for (const joint of Object.values(joints)) {
@@ -31,6 +54,7 @@ function placesOn({ bodies, joints, springs = {} }) {
     places[from].push(at);
     places[to].push(toAt);
   }
+  for (const { body, at_m: at } of Object.values(loads)) if (at) places[body].push(at);
   return places;
 }
 
@@ -43,24 +67,37 @@ export function reachOf(linkage) {
 }
 
 export class DescribedLinkage {
-  /// @param links  names as in the channels of the poses
-  /** @param {typeof import("three")} THREE  @param {Api.DescribedLinkage} linkage  @param {string[]} links */
-  constructor(THREE, linkage, links) {
+  /// @param links   names as in the channels of the poses
+  /// @param ranges  of the channels of loads and journals
+  /**
+   * @param {typeof import("three")} THREE
+   * @param {Api.DescribedLinkage} given
+   * @param {string[]} links
+   * @param {import("/scene/ranges.js").Ranges} ranges
+   */
+  constructor(THREE, given, links, ranges) {
+    const linkage = withCrosses(given);
+    const bodyColour = coloursOf(given);
     this.THREE = THREE;
     this.group = new THREE.Group();
     this.radius = 0.012 * reachOf(linkage);
     this.bodies = new Map();
     this.beams = new Map();
+    /** @type {import("/scene/marks.js").Mark[]} */
+    this.marksOnBeams = [];
     const places = placesOn(linkage);
-    const grey = new THREE.MeshStandardMaterial({ color: "#7a8590" });
-    Object.entries(linkage.bodies).forEach(([name, body], index) => {
-      const material = new THREE.MeshStandardMaterial({ color: colours[index % colours.length], roughness: 0.55,
-        metalness: 0.1 });
+    for (const [name, body] of Object.entries(linkage.bodies)) {
+      const material = new THREE.MeshStandardMaterial({ color: bodyColour[name], roughness: 0.55, metalness: 0.1 });
       if (body.beam) this.addBeam(name, body.beam, links, material);
       else this.addBody(name, places[name], material);
-    });
-    for (const joint of Object.values(linkage.joints)) this.addJoint(joint, linkage, grey);
-    this.springs = Object.values(linkage.springs ?? {}).map((spring) => this.#makeSpring(spring, linkage));
+    }
+    const look = { radius: this.radius, colourOf: (name) => bodyColour[name] ?? groundColour };
+    for (const [name, joint] of Object.entries(linkage.joints)) {
+      for (const mark of marksOf(THREE, joint, look, ranges[journalOf(name)])) this.#addMark(mark);
+    }
+    this.springs = Object.values(linkage.springs ?? {}).map((spring) => this.#makeSpring(spring));
+    this.loads = new Loads(THREE, linkage.loads ?? {}, this.radius, ranges);
+    this.group.add(this.loads.group);
   }
 
   addBody(name, points, material) {
@@ -91,35 +128,27 @@ export class DescribedLinkage {
     return mesh;
   }
 
-  /// The joint's mark, on its first body: a pin along its axis, a box on a slide, a ball.
-  addJoint({ kind, from, at_m: at = [0, 0, 0], turned_deg: turned = [0, 0, 0], axis = "z" }, { bodies }, material) {
-    const { THREE, radius } = this;
-    const pin = () => new THREE.CylinderGeometry(1.6 * radius, 1.6 * radius, 5 * radius, 24).rotateX(Math.PI / 2);
-    const geometry = kind === "prismatic" ? new THREE.BoxGeometry(3 * radius, 3 * radius, 6 * radius)
-      : kindsWithAxis.has(kind) ? pin() : new THREE.SphereGeometry(1.8 * radius, 24, 12);
-    const mark = new THREE.Mesh(geometry, material);
-    const along = { x: new THREE.Vector3(1, 0, 0), y: new THREE.Vector3(0, 1, 0), z: new THREE.Vector3(0, 0, 1) }[axis];
-    const turn = new THREE.Quaternion()
-      .setFromEuler(new THREE.Euler(turned[0] * degree, turned[1] * degree, turned[2] * degree, "ZYX"));
-    mark.position.fromArray(at);
-    mark.quaternion.copy(turn).multiply(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), along));
-    if (from === "ground") this.group.add(mark);
-    else if (!bodies[from].beam) this.bodies.get(from).add(mark);
+  /// Puts a mark on its body; one on a beam is moved with each frame.
+  /** @param {import("/scene/marks.js").Mark} mark */
+  #addMark(mark) {
+    mark.object.position.fromArray(mark.at);
+    mark.object.quaternion.copy(mark.turn);
+    if (this.beams.has(mark.body)) this.marksOnBeams.push(mark);
+    (this.bodies.get(mark.body) ?? this.group).add(mark.object);
   }
 
-  #makeSpring({ from, to, at_m: at = [0, 0, 0], to_at_m: toAt = [0, 0, 0] }, { bodies }) {
+  #makeSpring({ from, to, at_m: at = [0, 0, 0], to_at_m: toAt = [0, 0, 0] }) {
     const { THREE } = this;
     const line = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: springColour }));
     line.frustumCulled = false;
     this.group.add(line);
-    return { line, ends: [[from, at],
-      [to, toAt]].map(([name, point]) => ({ name, point, length: bodies[name]?.beam?.length_m })) };
+    return { line, ends: [{ body: from, at }, { body: to, at: toAt }] };
   }
 
   /// A zigzag from end to end.
   #placeSpring({ line, ends }, frames) {
     const { THREE, radius } = this;
-    const [from, to] = ends.map((end) => this.#placeOn(end, frames));
+    const [from, to] = ends.map((end) => this.#frameAt(end, frames).position);
     const way = to.clone().sub(from);
     const aside = new THREE.Vector3(0, 0, 1).cross(way);
     if (aside.lengthSq() < 1e-12 * way.lengthSq()) aside.set(1, 0, 0);
@@ -131,20 +160,23 @@ export class DescribedLinkage {
     line.geometry.setFromPoints(points);
   }
 
-  /// A point of a body; of a beam on the element that it is nearest to along the beam.
-  #placeOn({ name, point: [x, y, z], length }, frames) {
+  /// Position of a point of a body, and how the body is turned there; of a beam that of the element nearest to it.
+  /** @param {{ body: string, at: number[] }} place */
+  #frameAt({ body, at: [x, y, z] }, frames) {
     const { THREE } = this;
-    if (name === "ground") return new THREE.Vector3(x, y, z);
-    const beam = this.beams.get(name);
-    const segment = beam ? length / (beam.elements.length - 1) : 0;
-    const index = beam ? Math.min(Math.max(Math.floor(x / segment + 0.5), 0), beam.elements.length - 1) : 0;
-    const [px, py, pz, ...turn] = frames[beam ? beam.elements[index] : name];
-    const own = new THREE.Vector3(index > 0 ? x - (index - 0.5) * segment : x, y, z);
-    return own.applyQuaternion(new THREE.Quaternion(...turn)).add(new THREE.Vector3(px, py, pz));
+    if (body === "ground") return { position: new THREE.Vector3(x, y, z), turn: new THREE.Quaternion() };
+    const { elements, end } = this.beams.get(body) ?? { elements: [body], end: 0 };
+    const last = elements.length - 1;
+    const index = last > 0 ? Math.min(Math.max(Math.floor((x / end + 1) / 2), 0), last) : 0;
+    const [px, py, pz, ...parts] = frames[elements[index]];
+    const turn = new THREE.Quaternion(...parts);
+    const own = new THREE.Vector3(index > 0 ? x - (2 * index - 1) * end : x, y, z);
+    return { position: own.applyQuaternion(turn).add(new THREE.Vector3(px, py, pz)), turn };
   }
 
   /// @param frames  {link: [x, y, z, qx, qy, qz, qw]}
-  place(frames) {
+  /// @param values  of the channels of the loads
+  place(frames, values) {
     for (const [name, body] of this.bodies) {
       const [x, y, z, qx, qy, qz, qw] = frames[name];
       body.position.set(x, y, z);
@@ -152,6 +184,12 @@ export class DescribedLinkage {
     }
     for (const beam of this.beams.values()) this.#placeBeam(beam, frames);
     for (const spring of this.springs) this.#placeSpring(spring, frames);
+    for (const mark of this.marksOnBeams) {
+      const { position, turn } = this.#frameAt(mark, frames);
+      mark.object.position.copy(position);
+      mark.object.quaternion.copy(turn).multiply(mark.turn);
+    }
+    this.loads.place(values, (place) => this.#frameAt(place, frames));
   }
 
   /// Through the origins of its elements, to its end: the last element has half the others' length.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The linkage as three.js sees it: made once from the parameters, then moved from instant to instant.
-import { bushAlongZ, glassBox, measuresOf, rodAlongX, rodAlongZ } from "/scene/shapes.js";
+import { bushAlongZ, glassBox, measuresOf, rodAlongX, rodAlongZ, seeThrough } from "/scene/shapes.js";
 
 export const linkColours = [["crank (1,1)", "#0072b2"], ["sliding rod (1,2)", "#56b4e9"],
   ["coupler (1,3) with bearing", "#e69f00"], ["slider (2,1)", "#009e73"],
@@ -143,10 +143,6 @@ export class Linkage {
 function elementsOf(link, links) {
   const place = (name) => Number(name.slice(link.length + 1));
   return links.filter((name) => name === link || name.startsWith(`${link}_`)).sort((a, b) => place(a) - place(b));
-}
-
-function seeThrough(material, opacity) {
-  Object.assign(material, { transparent: true, opacity, depthWrite: false });
 }
 
 function setFrame(body, [x, y, z, qx, qy, qz, qw]) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Poses of the links at an instant, fetched in chunks of time whose resolution suits the speed of playing.
+// Poses of the links and values of channels at an instant, fetched in chunks of time whose resolution suits the speed
+// of playing.
 import { findTrajectory } from "/core/api.js";
 
 const framesPerStretch = 120;
@@ -11,20 +12,21 @@ export class Poses {
   /** @type {Map<string, { columns: Api.Columns | null }>} */
   #stretches = new Map();
 
-  /// @param links   names as in the channels: "1_1", "1_3_0"
+  /// @param drawn   links by their names as in the channels: "1_1", "1_3_0"; and other channels
   /// @param loaded  is called when more is known than before
   /**
    * @param {Api.Job} job
-   * @param {string[]} links
+   * @param {{ links: string[], others: string[] }} drawn
    * @param {(error: Error | null) => void} loaded
    * @param {AbortSignal} signal
    */
-  constructor(job, links, loaded, signal) {
+  constructor(job, { links, others }, loaded, signal) {
     this.job = job;
     this.links = links;
+    this.others = others;
     this.loaded = loaded;
     this.signal = signal;
-    this.channels = links.flatMap((link) => parts.map((part) => `pose_${link}_${part}`));
+    this.channels = [...links.flatMap((link) => parts.map((part) => `pose_${link}_${part}`)), ...others];
   }
 
   /// Seconds of the run in one stretch, when two seconds of playing are to be in it.
@@ -33,8 +35,8 @@ export class Poses {
     return Math.min(end, Math.max(2 * speed, leastSamples / rate));
   }
 
-  /// The frames at an instant, as {link: [x, y, z, qx, qy, qz, qw]}; null until they have come. What follows next
-  /// is fetched ahead.
+  /// The frames at an instant, as {link: [x, y, z, qx, qy, qz, qw]}, and the values of the other channels by their
+  /// names; null until they have come. What follows next is fetched ahead.
   at(instant, speed) {
     const length = this.#lengthAt(speed);
     const last = Math.max(0, Math.ceil(this.job.parameters.duration_s / length) - 1);
@@ -77,10 +79,13 @@ export class Poses {
     const left = Math.max(0, right - 1);
     const step = times[right] - times[left];
     const part = step > 0 ? Math.min(Math.max((instant - times[left]) / step, 0), 1) : 0;
-    return Object.fromEntries(this.links.map((link) => {
+    const frames = Object.fromEntries(this.links.map((link) => {
       const pose = (row) => parts.map((name) => columns[`pose_${link}_${name}`][row]);
       return [link, mix(pose(left), pose(right), part)];
     }));
+    const values = Object.fromEntries(this.others.map((name) =>
+      [name, columns[name][left] + part * (columns[name][right] - columns[name][left])]));
+    return { frames, values };
   }
 }
 

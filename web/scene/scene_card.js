@@ -4,11 +4,12 @@ import { findTrajectory } from "/core/api.js";
 import { choice, h, part } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
 import { number } from "/core/format.js";
-import { DescribedLinkage, bodyColours, reachOf } from "/scene/described.js";
+import { DescribedLinkage, bodyColours, channelsOf, reachOf } from "/scene/described.js";
 import { placesOf } from "/scene/geometry.js";
 import { Linkage, linkColours } from "/scene/linkage.js";
 import { Player, impactsOf } from "/scene/player.js";
-import { Poses } from "/scene/poses.js";
+import { Poses, linksOf } from "/scene/poses.js";
+import { rangesOf } from "/scene/ranges.js";
 import { Stage } from "/scene/stage.js";
 import { loadThree } from "/scene/three.js";
 import { upOf } from "/scene/upright.js";
@@ -18,9 +19,9 @@ const factors = [1, 2, 5, 10, 20, 50, 100];
 const bendFactors = [...factors, 200, 500, 1000];  // of steel tubes a bend is some micrometres
 const impactPoints = 4000;
 
-/// @param links  names of the links as in the channels of their poses
-/** @param {Api.Job} job  @param {string[]} links  @param {TimeWindow} times  @param {AbortSignal} signal */
-export function sceneCard(job, links, times, signal) {
+/// @param channels  of the run
+/** @param {Api.Job} job  @param {string[]} channels  @param {TimeWindow} times  @param {AbortSignal} signal */
+export function sceneCard(job, channels, times, signal) {
   const { linkage: given } = job.parameters;
   const described = typeof given === "object" ? given : null;
   const hasClearance = !described && job.parameters.clearance_mm > 0;
@@ -45,19 +46,22 @@ export function sceneCard(job, links, times, signal) {
   }
 
   async function start() {
-    const libraries = await loadThree();
+    const links = linksOf(channels);
+    const { loads, journals } = described ? channelsOf(described, channels) : { loads: [], journals: [] };
+    const [libraries, ranges] = await Promise.all([loadThree(), rangesOf(job, [...loads, ...journals], signal)]);
     if (signal.aborted) return;
     const { parameters } = job;
-    const linkage = described ? new DescribedLinkage(libraries.THREE, described, links)
+    const linkage = described ? new DescribedLinkage(libraries.THREE, described, links, ranges)
       : new Linkage(libraries.THREE, parameters, links);
     const stage = new Stage(libraries, canvas, shownOf(parameters), signal);
     stage.scene.add(linkage.group);
-    const poses = new Poses(job, links, (error) => { status.textContent = error ? error.message : ""; draw(); },
-      signal);
+    const poses = new Poses(job, { links, others: loads },
+      (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
     draw = () => {
-      const frames = poses.at(times.instant, player.speed);
-      if (!frames) return;
-      linkage.place(frames, drawn);
+      const shown = poses.at(times.instant, player.speed);
+      if (!shown) return;
+      if (linkage instanceof Linkage) linkage.place(shown.frames, drawn);
+      else linkage.place(shown.frames, shown.values);
       canvas.dataset.instant = String(times.instant);
       stage.request();
     };

@@ -67,3 +67,8 @@ export function glassBox(THREE, sides, material) {
     new THREE.LineBasicMaterial({ color: material.color })));
   return box;
 }
+
+/// Makes a material one that is seen through.
+export function seeThrough(material, opacity) {
+  return Object.assign(material, { transparent: true, opacity, depthWrite: false });
+}

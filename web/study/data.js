@@ -11,6 +11,31 @@ export function metricsOf(rows, axes) {
     && !axes.includes(column));
 }
 
+/// The metric that a page shows first: of a described linkage the first one that no drive prescribes and that differs
+/// between the jobs, else the first one.
+/** @param {string[]} metrics  @param {Api.Row[]} rows  @param {Api.Sweep} sweep  @returns {string | undefined} */
+export function usualMetric(metrics, rows, { request }) {
+  const linkage = request?.parameters?.linkage;
+  if (typeof linkage !== "object") return metrics[0];
+  const free = metrics.filter((metric) => !drivenCoordinates(linkage).some((name) => metric.includes(`_${name}_accel`)));
+  return free.find((metric) => varies(rows, metric)) ?? free[0] ?? metrics[0];
+}
+
+/// Coordinates that move by a law.
+/** @param {any} linkage  @returns {string[]} */
+function drivenCoordinates({ joints = {} }) {
+  return Object.entries(joints).flatMap(([name, joint]) => [[name, joint],
+    ...Object.entries(joint.freedoms ?? {}).map(([part, freedom]) => [`${name}_${part}`, freedom])])
+    .filter(([, freedom]) => freedom.drive?.law).map(([name]) => name);
+}
+
+/** @param {Api.Row[]} rows  @param {string} metric */
+function varies(rows, metric) {
+  const values = rows.map((row) => row[metric]).filter((value) => typeof value === "number");
+  const [least, largest] = [Math.min(...values), Math.max(...values)];
+  return largest - least > 1e-9 * Math.max(Math.abs(least), Math.abs(largest));
+}
+
 /// Sign for a missing value.
 export const none = "–";
 
