@@ -157,7 +157,9 @@ void check_joint(const RpsupParameters& p) {
   require(p.radial_elements >= 3, "radial_elements", "at least 3");
   require(p.axial_levels >= 1, "axial_levels", "at least 1");
   require(p.axial_elements >= 3, "axial_elements", "at least 3");
-  require(p.restitution > 0.0 && p.restitution <= 1.0, "restitution", "above 0 and at most 1");
+  require(p.restitution >= 0.0 && p.restitution <= 1.0, "restitution", "at least 0 and at most 1");
+  require(p.restitution > 0.0 || has_zero_restitution(p.normal_law), "restitution",
+          "above 0 with gonthier, flores or hu_guo, whose damping grows without bound there");
   require_positive(p.contact_stiffness_scale, "contact_stiffness_scale");
   require_not_negative(p.axial_stiffness, "axial_stiffness");
   require_positive(p.minimum_impact_velocity, "minimum_impact_velocity");

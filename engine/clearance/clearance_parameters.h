@@ -49,19 +49,17 @@ struct ClearanceParameters {
   [[nodiscard]] double r_j() const { return r_b - c_r; }  ///< journal radius, [m]
 };
 
-/// Hertz stiffness of the bore: K = 4 / (3 pi 2 h) sqrt(r_b r_j / c_r), h = (1 - nu^2) / (pi E). Source:
-/// project paper, ref. [9].
-/// @param nu  Poisson's ratio, [1]
-[[nodiscard]] inline double calc_hertz_stiffness(double r_b, double c_r, double youngs_modulus, double nu) {
-  const double h = (1.0 - nu * nu) / (std::numbers::pi * youngs_modulus);
-  return 4.0 / (3.0 * std::numbers::pi * 2.0 * h) * std::sqrt(r_b * (r_b - c_r) / c_r);
-}
-
-/// Hertz stiffness of a sphere on a plane, the same with an infinite bore: a rounded corner on its wall.
-/// @param radius  of the rounding, [m]
-[[nodiscard]] inline double calc_corner_stiffness(double radius, double youngs_modulus, double nu) {
+/// Hertz stiffness of a sphere on a plane: K = 4 / (3 pi 2 h) sqrt(R), h = (1 - nu^2) / (pi E).
+/// @param radius  R; of two spheres 1 / R is the sum of their curvatures, [m]
+/// @param nu      Poisson's ratio, [1]
+[[nodiscard]] inline double calc_sphere_stiffness(double radius, double youngs_modulus, double nu) {
   const double h = (1.0 - nu * nu) / (std::numbers::pi * youngs_modulus);
   return 4.0 / (3.0 * std::numbers::pi * 2.0 * h) * std::sqrt(radius);
+}
+
+/// Hertz stiffness of the bore: R = r_b r_j / c_r. Source: project paper, ref. [9].
+[[nodiscard]] inline double calc_hertz_stiffness(double r_b, double c_r, double youngs_modulus, double nu) {
+  return calc_sphere_stiffness(r_b * (r_b - c_r) / c_r, youngs_modulus, nu);
 }
 
 }  // namespace engine

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "engine/clearance/normal_law.h"
 #include "engine/model/rpsup.h"
 #include "jobs/linkages/linkage_joint.h"
 #include "jobs/parameters/parameter_value.h"
@@ -72,7 +73,7 @@ engine::ClearanceParameters make_block(const json& clearance, const engine::Rpsu
   block.c_y = metres("clearance_height_mm", given.c_r * kMmPerM);
   block.K =
       given.contact_stiffness_scale *
-      engine::calc_corner_stiffness(metres("corner_radius_mm", kCornerRadius), given.youngs_modulus, nu);
+      engine::calc_sphere_stiffness(metres("corner_radius_mm", kCornerRadius), given.youngs_modulus, nu);
   return block;
 }
 
@@ -158,6 +159,8 @@ void check_clearance(const json& joint, JointKind kind, const engine::RpsupParam
   if (kind != JointKind::kPrismatic && given.c_r >= given.bearing_radius)
     faults.push_back({at + "/clearance_mm", "must be less than bearing_radius_mm, which is " +
                                                 readable_number(1e3 * given.bearing_radius) + " mm"});
+  if (given.restitution == 0.0 && !engine::has_zero_restitution(given.normal_law))
+    faults.push_back({at + "/restitution", "must be above 0 with gonthier, flores or hu_guo"});
   if (given.youngs_modulus > 3.0 * given.shear_modulus)
     faults.push_back({at + "/youngs_modulus_pa",
                       "must be at most 3 times shear_modulus_pa: Poisson's ratio is at most 0.5"});

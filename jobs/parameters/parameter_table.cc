@@ -172,7 +172,7 @@ void add_joint_rows(Rows& rows) {
        {"hu_guo", NormalForceLaw::kHuGuo},
        {"carvalho_martins", NormalForceLaw::kCarvalhoMartins},
        {"kelvin_voigt", NormalForceLaw::kKelvinVoigt}}));
-  rows.push_back(number({"restitution", "restitution", "", kPaper, "Restitution coefficient of the contact law; kelvin_voigt has none"}, above(0, 1),
+  rows.push_back(number({"restitution", "restitution", "", kPaper, "Restitution coefficient of the contact law; kelvin_voigt has none, gonthier, flores and hu_guo need one above 0. What a body keeps of its speed at 0: 0.06 by carvalho_martins, 0.49 by hunt_crossley and herbert_mcwhannell, 0.66 by lankarani_nikravesh and lee_wang"}, between(0, 1),
                         &P::restitution));
   rows.push_back(number({"contact_damping_n_s_m", "contact_damping", "N s/m", kChosen, "kelvin_voigt: the damper of the bore and that of each face, which contact elements and points share"},
                         between(0, 1e9), &P::contact_damping));

@@ -62,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"steiner_along_z", "links.2,2.inertia", [](auto& p, auto&) { p.cross_length = 0.1; }},
         Refusal{"poisson", "shear_modulus", [](auto& p, auto&) { p.shear_modulus = 0.5e11; }},
         Refusal{"restitution", "restitution", [](auto& p, auto&) { p.restitution = 1.1; }},
+        Refusal{"no_restitution_by_flores", "restitution", [](auto& p, auto&) { p.restitution = 0.0; p.normal_law = NormalForceLaw::kFlores; }},
         Refusal{"wear_of_an_ideal_joint", "wear_depth", [](auto& p, auto&) { p.wear_depth = {{0, 0, 0}, {0, 0, 0}}; p.c_r = 0.0; }},
         Refusal{"wear_of_elements", "wear_depth", [](auto& p, auto&) { p.wear_depth = {{0, 0, 0}, {0, 0, 0}}; p.contact = ContactForm::kElements; }},
         Refusal{"wear_of_another_ring", "wear_depth", [](auto& p, auto&) { p.wear_depth = {{0, 0, 0}}; }},

@@ -114,7 +114,7 @@ Linkage make_all_loose() {
   slot.block_x = slot.block_y = kBlockHalf;
   slot.L_b = kBlockLength;
   slot.c_y = slot.c_r;
-  slot.K = calc_corner_stiffness(1e-3, 2e11, 0.3);
+  slot.K = calc_sphere_stiffness(1e-3, 2e11, 0.3);
   LinkageJoint crank = make_driven_crank(), slide = make_slider_guide(0.0);
   const DriveLaw drive = *crank.freedoms[0].drive;
   crank.freedoms = name_freedoms("crank", 0.0);

@@ -97,6 +97,30 @@ double simulate_face_rebound(double k_r, double gap, const RunOptions& steps) {
   return -observer.rate / kReboundSpeed;
 }
 
+/// What laws return with a restitution coefficient of 0, as the help of that parameter says.
+void add_rebounds_of_no_restitution(Findings& findings) {
+  struct Returned {
+    const char* name;
+    NormalForceLaw law;
+    double e;
+  };
+  constexpr Returned kReturned[] = {{"Lankarani-Nikravesh", NormalForceLaw::kLankaraniNikravesh, 0.66},
+                                    {"Hunt-Crossley", NormalForceLaw::kHuntCrossley, 0.49},
+                                    {"Herbert-McWhannell", NormalForceLaw::kHerbertMcWhannell, 0.49},
+                                    {"Lee-Wang", NormalForceLaw::kLeeWang, 0.66},
+                                    {"Carvalho-Martins", NormalForceLaw::kCarvalhoMartins, 0.06}};
+  for (const Returned& returned : kReturned) {
+    ClearanceParameters joint = one_ring();
+    joint.chi = calc_damping_factor(returned.law, 0.0);
+    const Impact impact =
+        simulate_impact(make_sliding_mass(joint, kReboundMass), kReboundGap, kReboundSpeed,
+                        4.0 * calc_hertz_time(joint.K, kReboundMass, kReboundSpeed));
+    findings.checks.push_back(compare(std::string("rebound ratio with k_r = 0, ") + returned.name,
+                                      "c (1 + e) = ln((1 + c) / (1 - c e)), to two digits",
+                                      impact.speed / kReboundSpeed, returned.e, 5e-3, "1", "two digits"));
+  }
+}
+
 void add_face_rebounds(Findings& findings) {
   Table table{.caption =
                   "Rebound of a mass of 0.8 kg that meets a face of the bearing at 0.1 m/s, K_a = 1e8 N/m. "
@@ -205,6 +229,7 @@ Findings compute_rebounds() {
     row.push_back(number(known.e, 4));
     table.rows.push_back(row);
   }
+  add_rebounds_of_no_restitution(findings);
   findings.checks.push_back(compare_floor());
   findings.tables.push_back(std::move(table));
   add_face_rebounds(findings);
