@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/analysis/linkage_quantities.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "engine/dynamics/spring_motion.h"
 #include "engine/model/applied_force.h"
@@ -153,6 +155,7 @@ void LinkageQuantities::add_force_elements(const LinkageFreedom& freedom, FrameI
                 friction);
     add_load("peak_" + freedom.name + "_friction" + unit,
              "Largest magnitude of the joint's friction " + what + " in the whole run", 1.0, friction);
+    if (freedom.friction->by_reaction) add_normal_force(freedom, i);
   }
   if (freedom.load) {
     const Reading load = readings.back().force;
@@ -198,6 +201,18 @@ void LinkageQuantities::add_speed(const std::string& name, FrameIndex i, bool sl
              [k](const RunMetrics& metrics, const auto&) {
                return metrics.calc_speed_fluctuation(k);
              });
+}
+
+void LinkageQuantities::add_normal_force(const LinkageFreedom& freedom, FrameIndex i) {
+  const std::vector<Actuation>& actuations = built_.mechanism.actuations;
+  const auto found = std::ranges::find_if(actuations, [i](const Actuation& actuation) {
+    return actuation.coordinate == i && std::holds_alternative<JointFriction>(actuation.element);
+  });
+  const Eigen::Index index = found - actuations.begin();
+  add_channel(freedom.name + "_normal_force_n", "Normal force of the joint's friction: preload and reaction",
+              [index, preload = freedom.friction->normal_force](const Evaluation& at) {
+                return preload + at.friction_reaction[index];
+              });
 }
 
 void LinkageQuantities::add_joint(const LinkageJoint& joint, const BuiltJoint& built) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/analysis/actuator_readings.h"
-#include "engine/analysis/joint_reactions.h"
+#include "engine/dynamics/joint_reactions.h"
 #include "engine/analysis/run_channels.h"
 #include "engine/analysis/run_metrics.h"
 #include "engine/integrate/run_outcome.h"
@@ -43,6 +43,7 @@ class LinkageQuantities {
 
  private:
   void add_coordinate(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_normal_force(const LinkageFreedom& freedom, FrameIndex coordinate);
   void add_drive(const LinkageFreedom& freedom, FrameIndex coordinate);
   void add_force_elements(const LinkageFreedom& freedom, FrameIndex coordinate);
   void add_motor(const std::string& name, const ActuatorReadings& readings);

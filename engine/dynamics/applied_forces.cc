@@ -31,11 +31,12 @@ AppliedForces::Source AppliedForces::find_source(const TreeModel& model, FrameIn
 }
 
 void AppliedForces::calc(double t, const Eigen::VectorXd& y, const std::vector<DrivenMotion>& drives,
-                         const StateLayout& layout) {
+                         const StateLayout& layout, const Eigen::VectorXd& reactions) {
   const auto rate_of = [&](const Source& source) { return source.free < 0 ? 0.0 : y[layout.v(source.free)]; };
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     const Group& group = groups_[k];
-    ElementState state{.current = rate_of(group.winding), .memory = rate_of(group.memory)};
+    ElementState state{.current = rate_of(group.winding), .memory = rate_of(group.memory),
+                       .reaction = reactions[static_cast<Eigen::Index>(k)]};
     if (group.coordinate.free >= 0) {
       state.q = y[layout.q(group.coordinate.free)];
       state.v = y[layout.v(group.coordinate.free)];

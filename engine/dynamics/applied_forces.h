@@ -22,8 +22,9 @@ class AppliedForces {
   [[nodiscard]] AppliedValues values() const { return {values_.data(), body_loads_.data()}; }
 
   /// Computes the values. Allocates nothing.
+  /// @param reactions  normal forces by reactions, one an Actuation, [N]
   void calc(double t, const Eigen::VectorXd& y, const std::vector<DrivenMotion>& drives,
-            const StateLayout& layout);
+            const StateLayout& layout, const Eigen::VectorXd& reactions);
 
   /// Forces, works and their part in the energy account. Losses of actuators count as structural loss.
   void read_out(const Eigen::VectorXd& y, const StateLayout& layout, Evaluation& at) const;

@@ -21,6 +21,7 @@ enum class EvaluationStatus {
   kBristleMissing,
   kLocked,          ///< the Delassus matrix is singular
   kOutOfRange,      ///< a penetration beyond what the contact's stiffness law holds for
+  kWedged,          ///< no friction is found that fits the reactions that it makes
   kNonFinite,       ///< an infinity or a NaN, or a mass matrix that is not positive definite
 };
 

@@ -48,6 +48,7 @@ struct Evaluation {
   Eigen::VectorXd drive_force;                              ///< one a drive, [N] or [N m]
   Eigen::VectorXd applied_force;                            ///< of AppliedForces; laws of body loads
   Eigen::VectorXd applied_work;                             ///< the same, [J]
+  Eigen::VectorXd friction_reaction;  ///< normal forces by reactions, one a force element, [N]
   std::vector<FrameMotion> frames;                          ///< one a coordinate; accelerations are not set
   std::vector<JointState> joints;                           ///< one a cut joint
   EnergyAccount energy;                                     ///< kinetic and potential: by calc_energies()

@@ -16,6 +16,8 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
       layout_{static_cast<int>(model_.free.size()), 0, static_cast<int>(mechanism.drives.size()),
               static_cast<int>(model_.applied_forces.size() + model_.body_loads.size())},
       applied_forces_(mechanism_, model_),
+      reaction_friction_(mechanism_),
+      friction_at_(make_evaluation()),
       drives_(mechanism.drives.size()) {
   for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
     if (!mechanism.cut_joints[k].clearance) continue;
@@ -74,6 +76,7 @@ Evaluation MotionSystem::make_evaluation() const {
   at.drive_force.setZero(static_cast<Eigen::Index>(mechanism_.drives.size()));
   at.applied_force.setZero(layout_.applied);
   at.applied_work = at.applied_force;
+  at.friction_reaction.setZero(static_cast<Eigen::Index>(mechanism_.actuations.size()));
   at.energy.drive_work.setZero(static_cast<Eigen::Index>(
       mechanism_.drives.size() + mechanism_.actuations.size() + mechanism_.body_loads.size()));
   at.frames.resize(mechanism_.coordinates.size());
@@ -97,19 +100,40 @@ bool MotionSystem::move_drives(double t) {
 }
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
-  const bool moved = move_drives(t);
-  applied_forces_.calc(piece_.clamp(t), y, drives_, layout_);
   solved_ = false;
+  if (!reaction_friction_.empty()) return solve(t, y, dydt);
+  const bool moved = move_drives(t);
+  calc_applied_forces(t, y);
   return kernel_->evaluate(y.data(), drives_.data(), moved, dydt.data());
+}
+
+void MotionSystem::calc_applied_forces(double t, const Eigen::VectorXd& y) {
+  applied_forces_.calc(piece_.clamp(t), y, drives_, layout_, reaction_friction_.normal_forces());
 }
 
 EvaluationStatus MotionSystem::solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
-  applied_forces_.calc(piece_.clamp(t), y, drives_, layout_);
-  const EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives_.data(), moved, dydt.data());
+  calc_applied_forces(t, y);
+  EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives_.data(), moved, dydt.data());
+  if (status == EvaluationStatus::kOk && !reaction_friction_.empty()) status = solve_friction(t, y, dydt);
   solved_ = status == EvaluationStatus::kOk;
   solved_y_ = y;
   return status;
+}
+
+/// After an evaluation: repeats it until the friction that depends on reactions is that of its reactions.
+EvaluationStatus MotionSystem::solve_friction(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
+  constexpr int kMostPasses = 60;
+  reaction_friction_.start();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    friction_at_.t = piece_.clamp(t);
+    kernel_->read_out(friction_at_);
+    if (reaction_friction_.improve(friction_at_)) return EvaluationStatus::kOk;
+    calc_applied_forces(t, y);
+    const EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives_.data(), false, dydt.data());
+    if (status != EvaluationStatus::kOk) return status;
+  }
+  return EvaluationStatus::kWedged;
 }
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt,
@@ -121,6 +145,7 @@ EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& 
   at.energy.friction_loss = y[layout_.friction()];
   at.energy.structural_loss = y[layout_.structural()];
   applied_forces_.read_out(y, layout_, at);
+  at.friction_reaction = reaction_friction_.normal_forces();
   kernel_->read_out(at);
   return status;
 }

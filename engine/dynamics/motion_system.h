@@ -13,6 +13,7 @@
 #include "engine/dynamics/applied_forces.h"
 #include "engine/dynamics/dynamics_kernel.h"
 #include "engine/dynamics/evaluation.h"
+#include "engine/dynamics/reaction_friction.h"
 #include "engine/dynamics/state_layout.h"
 #include "engine/kinematics/tree_model.h"
 #include "engine/model/drive_piece.h"
@@ -100,6 +101,8 @@ class MotionSystem {
   [[nodiscard]] bool move_drives(double t);
   /// Computes dy/dt; the kernel keeps its solution.
   [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
+  [[nodiscard]] EvaluationStatus solve_friction(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
+  void calc_applied_forces(double t, const Eigen::VectorXd& y);
   void allocate();
   void set_error_weights();
 
@@ -111,6 +114,8 @@ class MotionSystem {
   StateLayout layout_;
   Eigen::VectorXd error_weights_;
   AppliedForces applied_forces_;
+  ReactionFriction reaction_friction_;
+  Evaluation friction_at_;  ///< for solve_friction()
 
   double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
   std::vector<DrivenMotion> drives_;

@@ -8,6 +8,7 @@
 #include "engine/integrate/choose_integrator.h"
 #include "engine/integrate/contact_events.h"
 #include "engine/integrate/interpolation.h"
+#include "engine/model/applied_force.h"
 
 namespace engine {
 
@@ -87,11 +88,12 @@ RunOutcome Integration::run(const Evaluation& assembled) {
 }
 
 bool Integration::start(const Evaluation& assembled) {
-  start_.y = system_.make_state(assembled.q, assembled.qd);
   start_.at = system_.make_evaluation();
   given_chart_observer_.start(assembled);
   start_.at.q = assembled.q;
   start_.at.qd = assembled.qd;
+  bend_bristles(mechanism_, start_.at.qd);
+  start_.y = system_.make_state(start_.at.q, start_.at.qd);
   (void)begin_charts();
   end_ = sample_ = start_;
   start_.f = end_.f = sample_.f = Eigen::VectorXd::Zero(start_.y.size());
@@ -188,6 +190,10 @@ void Integration::widen_bristles() {
 void Integration::fail(EvaluationStatus status) {
   if (status == EvaluationStatus::kLocked)
     fail(RunStatus::kLockUp, "the linkage cannot follow its drives any further");
+  else if (status == EvaluationStatus::kWedged)
+    fail(RunStatus::kLockUp,
+         "friction by reactions wedges the linkage; a smaller coefficient or radius, or a longer bearing, "
+         "may help");
   else if (status == EvaluationStatus::kOutOfRange)
     fail(RunStatus::kContactRange,
          "the journal goes deeper into the bore than the stiffness law holds; "

@@ -64,15 +64,18 @@ struct DcMotor {
 /// The mover of a coordinate whose motion is not given.
 using Actuator = std::variant<ForceLaw, Controller, DcMotor>;
 
-/// Dry friction in a joint without play under a given normal force N, by a law of friction_law.h:
+/// Dry friction in a joint without play under a normal force N, by a law of friction_law.h:
 ///
 ///     force on the coordinate = -r N (sigma_0 z + sigma_1 zd + sigma_2 v),  v = r qd
 ///
-/// or by the law's force ratio where it has no bristle z.
+/// or by the law's force ratio where it has no bristle z. N is the given preload, and with `by_reaction` what
+/// the joint bears beside it: see ReactionFriction.
 struct JointFriction {
   FrictionParameters law;
-  double normal_force = 0.0;  ///< N, >= 0, [N]
+  double normal_force = 0.0;  ///< preload, >= 0, [N]
   double radius = 1.0;  ///< r at which surfaces slide where the joint turns, > 0, [m]; 1 where it slides
+  bool by_reaction = false;
+  double length = 0.0;  ///< of the bearing or guide, about the joint's origin, [m]; 0: it bears no moment
 };
 
 /// The cause of a force on a coordinate.

@@ -132,7 +132,8 @@ void calc_forces(const JointFriction& friction, double /*t*/, const ElementState
   const auto value_of = [](const Dual& d) {
     return AppliedForceValue{.force = d.value, .by_v = {d.d[0], d.d[1]}};
   };
-  values[0] = value_of((-friction.radius * friction.normal_force) * law.along_t.force_ratio);
+  const double normal_force = friction.normal_force + (friction.by_reaction ? state.reaction : 0.0);
+  values[0] = value_of((-friction.radius * normal_force) * law.along_t.force_ratio);
   if (has_bristles(friction.law.law)) values[1] = value_of(law.along_t.rate);
 }
 
@@ -225,6 +226,16 @@ double find_next_corner(const Actuation& actuation, double t) {
     return find_next_jump(controller->target, t);
   const Signal* const signal = signal_of_time(actuation.element);
   return signal ? find_next_point(*signal, t) : std::numeric_limits<double>::infinity();
+}
+
+void bend_bristles(const Mechanism& mechanism, Eigen::VectorXd& qd) {
+  for (const Actuation& actuation : mechanism.actuations) {
+    const auto* const friction = std::get_if<JointFriction>(&actuation.element);
+    if (!friction || !has_bristles(friction->law.law)) continue;
+    const double v = friction->radius * qd[actuation.coordinate];
+    const FrictionParameters& law = friction->law;
+    qd[actuation.memory] = calc_stribeck_curve(law, std::abs(v)) / law.sigma_0 * std::tanh(v / law.v_s);
+  }
 }
 
 void add_actuation(Mechanism& mechanism, FrameIndex coordinate, const ForceElement& element) {

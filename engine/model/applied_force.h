@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "engine/model/mechanism.h"
 
 namespace engine {
@@ -45,6 +47,7 @@ struct ElementState {
   double q = 0.0, v = 0.0;  ///< of the driven coordinate
   double current = 0.0;     ///< [A]
   double memory = 0.0;      ///< x of the controller, or z of the bristle
+  double reaction = 0.0;    ///< normal force by the joint's reaction, [N]
 };
 
 /// Parts of a motor's applied forces, in their order.
@@ -63,6 +66,13 @@ void calc_applied_forces(const Actuation& actuation, double t, const ElementStat
 /// First instant after t at which the law of a force element over time has a point, or its target's
 /// acceleration jumps; infinite if none follows, [s]
 [[nodiscard]] double find_next_corner(const Actuation& actuation, double t);
+
+/// Bends the bristles of joints that move at the start as far as steady sliding does:
+///
+///     z = g(v) / sigma_0 tanh(v / v_s)
+///
+/// @param qd  rates of all coordinates; those of the bristles are their deflections
+void bend_bristles(const Mechanism& mechanism, Eigen::VectorXd& qd);
 
 /// Adds the coordinates that a force element needs beside the given one: the charge of a winding, the
 /// integral of a controller, a bristle; and the inertia of a rotor.

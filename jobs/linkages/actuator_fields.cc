@@ -243,8 +243,16 @@ LinkageFields friction_fields(engine::Motion motion) {
   LinkageFields fields{{.key = "normal_force_n",
                         .range = between(0, 1e9),
                         .unit = "N",
-                        .help = "With which the surfaces are pressed together",
-                        .required = true}};
+                        .help = "With which the surfaces are pressed together beside what the joint bears; "
+                                "needed without by_reaction, 0 with it"},
+                       {.key = "by_reaction",
+                        .kind = FieldKind::kBoolean,
+                        .help = "True: the force that the joint bears presses the surfaces, too"},
+                       {.key = "length_mm",
+                        .range = above(0, 1e6),
+                        .unit = "mm",
+                        .help = "With by_reaction: length of the bearing or guide, about the joint's place; "
+                                "at its ends it bears the moment, too. Without it moments press nothing"}};
   if (!slides(motion))
     fields.push_back({.key = "radius_mm",
                       .range = above(0, 1e5),

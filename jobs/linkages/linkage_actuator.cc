@@ -266,6 +266,11 @@ void check_friction(const json& friction, engine::Motion motion, const engine::R
                     const std::string& pointer, std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
   check_fields(friction, friction_fields(motion), pointer, faults);
+  const bool by_reaction = friction.value("by_reaction", json()) == true;
+  if (!by_reaction && !friction.contains("normal_force_n"))
+    faults.push_back({pointer + "/normal_force_n", "is missing, and so is by_reaction"});
+  if (!by_reaction && friction.contains("length_mm"))
+    faults.push_back({pointer + "/length_mm", "belongs to friction with by_reaction"});
   if (faults.size() > before) return;
   const auto given = read_friction(friction, motion, defaults);
   if (given && given->law.law == engine::FrictionLaw::kAmbrosio && given->law.v_1 <= given->law.v_0)
@@ -274,13 +279,14 @@ void check_friction(const json& friction, engine::Motion motion, const engine::R
 
 std::optional<engine::JointFriction> read_friction(const json& friction, engine::Motion motion,
                                                    const engine::RpsupParameters& defaults) {
-  json parameters = friction;
-  parameters.erase("normal_force_n");
-  parameters.erase("radius_mm");
-  const auto law = engine::make_clearance(clearance_parameters(parameters, defaults)).friction;
+  const auto law = engine::make_clearance(clearance_parameters(friction, defaults)).friction;
   if (!law) return std::nullopt;
-  return engine::JointFriction{*law, friction.at("normal_force_n").get<double>(),
-                               slides(motion) ? 1.0 : friction.at("radius_mm").get<double>() / kMmPerM};
+  return engine::JointFriction{
+      .law = *law,
+      .normal_force = friction.value("normal_force_n", 0.0),
+      .radius = slides(motion) ? 1.0 : friction.at("radius_mm").get<double>() / kMmPerM,
+      .by_reaction = friction.value("by_reaction", false),
+      .length = friction.value("length_mm", 0.0) / kMmPerM};
 }
 
 engine::ForceLaw read_load(const json& load, engine::Motion motion) {

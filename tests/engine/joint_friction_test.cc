@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dry friction in joints without play, under a given normal force.
+// Dry friction in joints without play, under a given normal force or by what they bear.
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +95,44 @@ TEST(JointFriction, OfAPinStopsAFlywheel) {
   const LinkageRun run(linkage, accurate(1.0));
   EXPECT_NEAR(run.last("q_rad_s"), 10.0 - 0.2 * 100.0 * 0.01 / 0.05, 1e-7);
   EXPECT_NEAR(run.last("q_friction_n_m"), -0.2, 1e-9);
+}
+
+// A pin with a preload under the weight of a wheel across it.
+TEST(ReactionFriction, AddsTheReactionToThePreload) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -10.0, 0.0};
+  linkage.bodies = {make_body("wheel", 3.0, {0.0, 0.0, 0.0}, {0.05, 0.05, 0.05})};
+  const FrictionParameters law{.mu_k = 0.2, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6};
+  linkage.joints = {{.name = "pin", .from = kGroundName, .to = "wheel", .placement = {},
+                     .freedoms = {{.name = "q", .start = 0.0, .start_rate = 10.0,
+                                   .friction = JointFriction{.law = law, .normal_force = 70.0, .radius = 0.01, .by_reaction = true}}}}};
+  for (const Integrator integrator : {Integrator::kDopri5, Integrator::kRadau5, Integrator::kRodas5, Integrator::kRk4}) {
+    RunOptions options = accurate(1.0);
+    options.integrator = integrator;
+    const LinkageRun run(linkage, options);
+    EXPECT_NEAR(run.last("q_normal_force_n"), 100.0, 1e-9);
+    EXPECT_NEAR(run.last("q_rad_s"), 10.0 - 0.2 * 100.0 * 0.01 / 0.05, 1e-7);
+  }
+}
+
+/// A drawer of 2 kg in a guide of 0.2 m, its centre of mass 0.3 m beside it, pushed by 10 N.
+RunResult push_drawer(double velocity) {
+  Linkage linkage;
+  linkage.bodies = {make_body("drawer", 2.0, {0.0, 0.3, 0.0}, {1e-2, 1e-2, 1e-2})};
+  linkage.joints = {{.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "drawer", .placement = {}, .axes = {Axis::kX, Axis::kY},
+                     .freedoms = {{.name = "q", .start = 0.0, .start_rate = velocity,
+                                   .load = ForceLaw{.law = Constant{10.0}},
+                                   .friction = JointFriction{.law = {.mu_k = 0.5, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6},
+                                                             .by_reaction = true, .length = 0.2}}}}};
+  return simulate_linkage(linkage, accurate(0.1), 0.0, {});
+}
+
+// N = 2 h / L |F - mu N sign(v)|: with mu h / L = 0.75 the drawer moves on under 12 N, and against the push nothing fits.
+TEST(ReactionFriction, EndsTheRunOfADrawerThatWedges) {
+  EXPECT_EQ(push_drawer(1.0).status, RunStatus::kSucceeded);
+  const RunResult wedged = push_drawer(-1.0);
+  EXPECT_EQ(wedged.status, RunStatus::kLockUp);
+  EXPECT_NE(wedged.detail.find("wedges"), std::string::npos);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ namespace validation {
 [[nodiscard]] Findings compute_controllers();
 /// Dry friction in a joint without play: on an incline, sticking, stick-slip.
 [[nodiscard]] Findings compute_joint_friction();
+/// Dry friction by the reactions of joints without play: an implicit equation.
+[[nodiscard]] Findings compute_reaction_friction();
 /// Forces and moments on bodies, and a ground that accelerates.
 [[nodiscard]] Findings compute_body_loads();
 /// The paper's linkage with a stiff controller on its crank tends to the prescribed motion.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/analysis/joint_reactions.h"
+#include "engine/dynamics/joint_reactions.h"
 
 #include <cstddef>
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/dynamics/reaction_friction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <variant>
+
+#include <Eigen/Geometry>
+
+namespace engine {
+
+ReactionFriction::ReactionFriction(const Mechanism& mechanism) : reactions_(mechanism) {
+  for (std::size_t k = 0; k < mechanism.actuations.size(); ++k) {
+    const auto* const friction = std::get_if<JointFriction>(&mechanism.actuations[k].element);
+    if (!friction || !friction->by_reaction) continue;
+    const FrameIndex coordinate = mechanism.actuations[k].coordinate;
+    joints_.push_back(
+        {.actuation = static_cast<Eigen::Index>(k),
+         .coordinate = coordinate,
+         .turns = mechanism.coordinates[static_cast<std::size_t>(coordinate)].motion == Motion::kRotation,
+         .length = friction->length});
+  }
+  const auto n = static_cast<Eigen::Index>(joints_.size());
+  normal_forces_.setZero(static_cast<Eigen::Index>(mechanism.actuations.size()));
+  inverse_.setIdentity(n, n);
+  for (Eigen::VectorXd* vector : {&residual_, &last_residual_, &step_, &image_, &row_}) vector->setZero(n);
+}
+
+double ReactionFriction::calc_normal_force(const Joint& joint, const Evaluation& at) const {
+  const Wrench& reaction = reactions_.of(joint.coordinate);
+  const Eigen::Vector3d& axis = at.frames[static_cast<std::size_t>(joint.coordinate)].axis;
+  const double axial = axis.dot(reaction.force);
+  const Eigen::Vector3d radial = reaction.force - axial * axis;
+  const double thrust = joint.turns ? std::abs(axial) : 0.0;
+  if (joint.length == 0.0) return radial.norm() + thrust;
+  const Eigen::Vector3d couple = axis.cross(reaction.moment) / joint.length;
+  return (0.5 * radial + couple).norm() + (0.5 * radial - couple).norm() + thrust;
+}
+
+bool ReactionFriction::improve(const Evaluation& at) {
+  constexpr double kSolved = 1e-12;  // of the largest normal force, or of 1 N
+  reactions_.calc(at);
+  double largest = 1.0;
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const double assumed = normal_forces_[joints_[i].actuation];
+    residual_[static_cast<Eigen::Index>(i)] = calc_normal_force(joints_[i], at) - assumed;
+    largest = std::max(largest, std::abs(assumed));
+  }
+  if (residual_.cwiseAbs().maxCoeff() <= kSolved * largest) return true;
+  if (has_last_) update_inverse();
+  step_.noalias() = inverse_ * residual_;
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    normal_forces_[joints_[i].actuation] += step_[static_cast<Eigen::Index>(i)];
+  last_residual_ = residual_;
+  has_last_ = true;
+  return false;
+}
+
+/// inverse += (step - inverse y) (step^T inverse) / (step^T inverse y),  y = last residual - residual
+void ReactionFriction::update_inverse() {
+  last_residual_ -= residual_;
+  image_.noalias() = inverse_ * last_residual_;
+  row_.noalias() = inverse_.transpose() * step_;
+  const double scale = step_.dot(image_);
+  if (!(std::abs(scale) > 1e-3 * step_.squaredNorm())) return;
+  image_ = (step_ - image_) / scale;
+  inverse_.noalias() += image_ * row_.transpose();
+}
+
+}  // namespace engine
