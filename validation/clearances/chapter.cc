@@ -20,6 +20,7 @@ joint. The energy account holds with clearance in two revolute joints, a spheric
                 {"tilted_bodies_bear_a_moment", compute_tilted_bodies},
                 {"bodies_slide_along_their_joint", compute_sliding_bodies},
                 {"loop_may_be_cut_elsewhere", compute_cut_elsewhere},
+                {"slider_crank_is_as_published", compute_published_slider_crank},
                 {"four_clearances_keep_the_energy", compute_four_clearances}}};
 }
 

@@ -17,6 +17,8 @@ namespace validation {
 [[nodiscard]] Findings compute_sliding_bodies();
 /// It makes no difference which joint of a loop is cut.
 [[nodiscard]] Findings compute_cut_elsewhere();
+/// A slider-crank whose slider has play in its guide, against published results.
+[[nodiscard]] Findings compute_published_slider_crank();
 /// The energy account of a linkage of four joints with clearance.
 [[nodiscard]] Findings compute_four_clearances();
 
