@@ -17,6 +17,7 @@ namespace {
 constexpr double kFirstStep = 1e-6;     // [s]; the step control finds its own within some steps
 // A longer step without bristles may have overshot: a shorter one is tried first.
 constexpr double kWidenBelow = 1e-5;  // [s]
+constexpr double kShortestAtTables = 1e-5;  // steps that look for what they pass by, [s]
 constexpr double kHopeless = 1e-11;       // [s]
 constexpr int kMaxHopelessSteps = 100;   // in a row: a short step by itself grows again
 constexpr int kMaxLandings = 6;         // tries to end a step on an event
@@ -248,6 +249,10 @@ bool Integration::try_controlled_step() {
   prepare(dt);
   const Trial trial = try_step(dt);
   if (!accept_or_shrink(trial, dt)) return false;
+  if (dt > kShortestAtTables && passes_by_a_table()) {
+    dt_ = 0.5 * dt;
+    return false;
+  }
   dt_ = dt * control_.accept(trial.error);
   hopeless_steps_ = dt_ < kHopeless ? hopeless_steps_ + 1 : 0;
   if (hopeless_steps_ == kMaxHopelessSteps)
@@ -256,6 +261,13 @@ bool Integration::try_controlled_step() {
   if (failed_ || !land_on_event(dt)) return false;
   if (dt == remaining && end_.t - start_.t == dt) end_.t = stop;
   return true;
+}
+
+/// Whether the step just tried has passed by what a table over position or velocity says.
+bool Integration::passes_by_a_table() const {
+  return std::ranges::any_of(mechanism_.actuations, [this](const Actuation& actuation) {
+    return is_passed_by(actuation, start_.at.q, end_.at.q, start_.at.qd, end_.at.qd);
+  });
 }
 
 Trial Integration::try_step(double dt) {

@@ -32,6 +32,7 @@ class Integration {
   [[nodiscard]] bool start(const Evaluation& assembled);
   [[nodiscard]] bool try_fixed_step();
   [[nodiscard]] bool try_controlled_step();
+  [[nodiscard]] bool passes_by_a_table() const;
   [[nodiscard]] Trial try_step(double dt);
   [[nodiscard]] bool accept_or_shrink(const Trial& trial, double dt);
   [[nodiscard]] bool land_on_event(double dt);

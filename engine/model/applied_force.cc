@@ -228,6 +228,17 @@ double find_next_corner(const Actuation& actuation, double t) {
   return signal ? find_next_point(*signal, t) : std::numeric_limits<double>::infinity();
 }
 
+bool is_passed_by(const Actuation& actuation, const Eigen::VectorXd& q_from, const Eigen::VectorXd& q_to,
+                  const Eigen::VectorXd& qd_from, const Eigen::VectorXd& qd_to) {
+  constexpr double kLeast = 0.02;  // of the table's range
+  const auto* const law = std::get_if<ForceLaw>(&actuation.element);
+  const auto* const table = law ? std::get_if<TableCurve>(&law->law) : nullptr;
+  if (!table || law->variable == ForceLaw::Variable::kTime) return false;
+  const bool by_position = law->variable == ForceLaw::Variable::kPosition;
+  const FrameIndex i = actuation.coordinate;
+  return table->calc_bulge((by_position ? q_from : qd_from)[i], (by_position ? q_to : qd_to)[i]) > kLeast;
+}
+
 void bend_bristles(const Mechanism& mechanism, Eigen::VectorXd& qd) {
   for (const Actuation& actuation : mechanism.actuations) {
     const auto* const friction = std::get_if<JointFriction>(&actuation.element);

@@ -65,6 +65,8 @@ TableCurve::TableCurve(const std::vector<double>& x, const std::vector<double>& 
     piece.has_kink = !(cubic && inside) && std::abs(piece.a - before.slope) > 1e-12 * size;
     pieces_.push_back(piece);
   }
+  const auto [least, largest] = std::ranges::minmax(values);
+  range_ = largest - least;
   const double shift = -calc(0.0).integral;
   for (Piece& piece : pieces_) piece.integral += shift;
 }
@@ -94,6 +96,15 @@ double TableCurve::next_kink(double x) const {
   double next = next_point(x);
   while (std::isfinite(next) && !piece_of(next).has_kink) next = next_point(next);
   return next;
+}
+
+double TableCurve::calc_bulge(double from, double to) const {
+  const auto [low, high] = std::minmax(from, to);
+  const double v_low = calc(low).value, slope = (calc(high).value - v_low) / (high - low);
+  double most = 0.0;
+  for (auto point = &piece_of(low) + 1; point < pieces_.data() + pieces_.size() && point->x < high; ++point)
+    most = std::max(most, std::abs(point->v - v_low - slope * (point->x - low)));
+  return range_ > 0.0 ? most / range_ : 0.0;
 }
 
 }  // namespace engine

@@ -32,6 +32,9 @@ class TableCurve {
   [[nodiscard]] Point calc(double x) const;
   [[nodiscard]] double next_point(double x) const;  ///< infinite behind the last
   [[nodiscard]] double next_kink(double x) const;   ///< where the slope jumps; infinite behind the last
+  /// Largest distance of the points between two arguments from the straight line between the values there, by
+  /// the difference of the table's largest and least value; 0 without points between them. [1]
+  [[nodiscard]] double calc_bulge(double from, double to) const;
 
  private:
   /// From its argument to that of the next piece: v + s (a + s (b + s c)) with s the distance from x.
@@ -43,6 +46,7 @@ class TableCurve {
   [[nodiscard]] const Piece& piece_of(double x) const;
 
   std::vector<Piece> pieces_;  ///< the first from ever on, the others from a point each
+  double range_ = 0.0;         ///< largest less least value
 };
 
 }  // namespace engine
