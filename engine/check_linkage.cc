@@ -186,6 +186,13 @@ std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const 
   return widest.empty() ? "joints" : "joints." + widest;
 }
 
+/// Whether a joint, by its field, has clearance and carries its second body.
+bool is_loose(const Linkage& linkage, const std::string& field) {
+  return std::ranges::any_of(linkage.joints, [&](const LinkageJoint& joint) {
+    return "joints." + joint.name == field && joint.clearance && !joint.cut;
+  });
+}
+
 }  // namespace
 
 BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
@@ -203,6 +210,11 @@ BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
     if (!closure.rates_fit())
       throw InvalidInput(
           joint, "would be torn apart by the start rates given: they and the drives contradict each other");
+    if (is_loose(linkage, joint))
+      throw InvalidInput(joint,
+                         "is not within its clearance at t = 0: a start of one of its coordinates, or of "
+                         "another joint's, is beyond the play (that along the axis is "
+                         "axial_clearance_mm), or the loops do not close");
     throw InvalidInput(joint, "does not close at t = 0: the nearest position found leaves a gap of " +
                                   std::to_string(closure.residual()) +
                                   " m (or between right angles); other lengths, or a guess or start of a "

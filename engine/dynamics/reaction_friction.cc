@@ -10,6 +10,44 @@
 
 namespace engine {
 
+namespace {
+
+/// Whether a coordinate is of the same joint as its parent: the frame between has no mass and is where the
+/// coordinate begins.
+bool continues_joint(const Mechanism& mechanism, FrameIndex i) {
+  const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
+  return c.parent != kGround && c.placement.p.isZero(0.0) && is_unrotated(c.placement) &&
+         mechanism.coordinates[static_cast<std::size_t>(c.parent)].mass == 0.0;
+}
+
+/// The other coordinates of a coordinate's joint.
+std::vector<FrameIndex> find_other_freedoms(const Mechanism& mechanism, FrameIndex of) {
+  std::vector<FrameIndex> others;
+  for (FrameIndex i = of; continues_joint(mechanism, i);) {
+    i = mechanism.coordinates[static_cast<std::size_t>(i)].parent;
+    others.push_back(i);
+  }
+  const auto count = static_cast<FrameIndex>(mechanism.coordinates.size());
+  for (FrameIndex i = of + 1; i < count && continues_joint(mechanism, i) &&
+                              mechanism.coordinates[static_cast<std::size_t>(i)].parent == i - 1;
+       ++i)
+    others.push_back(i);
+  return others;
+}
+
+std::vector<FrameIndex> find_other_slides(const Mechanism& mechanism, FrameIndex of) {
+  std::vector<FrameIndex> slides = find_other_freedoms(mechanism, of);
+  std::erase_if(slides, [&](FrameIndex i) {
+    const bool is_coupled = std::ranges::any_of(
+        mechanism.couplings, [i](const Coupling& c) { return c.coordinate == i || c.follows == i; });
+    return is_coupled ||
+           mechanism.coordinates[static_cast<std::size_t>(i)].motion != Motion::kTranslation;
+  });
+  return slides;
+}
+
+}  // namespace
+
 ReactionFriction::ReactionFriction(const Mechanism& mechanism) : reactions_(mechanism) {
   for (std::size_t k = 0; k < mechanism.actuations.size(); ++k) {
     const auto* const friction = std::get_if<JointFriction>(&mechanism.actuations[k].element);
@@ -19,7 +57,8 @@ ReactionFriction::ReactionFriction(const Mechanism& mechanism) : reactions_(mech
         {.actuation = static_cast<Eigen::Index>(k),
          .coordinate = coordinate,
          .turns = mechanism.coordinates[static_cast<std::size_t>(coordinate)].motion == Motion::kRotation,
-         .length = friction->length});
+         .length = friction->length,
+         .slides = find_other_slides(mechanism, coordinate)});
   }
   const auto n = static_cast<Eigen::Index>(joints_.size());
   normal_forces_.setZero(static_cast<Eigen::Index>(mechanism.actuations.size()));
@@ -30,8 +69,13 @@ ReactionFriction::ReactionFriction(const Mechanism& mechanism) : reactions_(mech
 double ReactionFriction::calc_normal_force(const Joint& joint, const Evaluation& at) const {
   const Wrench& reaction = reactions_.of(joint.coordinate);
   const Eigen::Vector3d& axis = at.frames[static_cast<std::size_t>(joint.coordinate)].axis;
-  const double axial = axis.dot(reaction.force);
-  const Eigen::Vector3d radial = reaction.force - axial * axis;
+  Eigen::Vector3d force = reaction.force;
+  for (const FrameIndex slide : joint.slides) {
+    const Eigen::Vector3d& along = at.frames[static_cast<std::size_t>(slide)].axis;
+    force -= along.dot(force) * along;
+  }
+  const double axial = axis.dot(force);
+  const Eigen::Vector3d radial = force - axial * axis;
   const double thrust = joint.turns ? std::abs(axial) : 0.0;
   if (joint.length == 0.0) return radial.norm() + thrust;
   const Eigen::Vector3d couple = axis.cross(reaction.moment) / joint.length;
@@ -39,7 +83,7 @@ double ReactionFriction::calc_normal_force(const Joint& joint, const Evaluation&
 }
 
 bool ReactionFriction::improve(const Evaluation& at) {
-  constexpr double kSolved = 1e-12;  // of the largest normal force, or of 1 N
+  constexpr double kSolved = 1e-10;  // of the largest normal force, or of 1 N
   reactions_.calc(at);
   double largest = 1.0;
   for (std::size_t i = 0; i < joints_.size(); ++i) {

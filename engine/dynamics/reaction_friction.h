@@ -20,7 +20,8 @@ namespace engine {
 ///     N = |F_r / 2 + a x M / L| + |F_r / 2 - a x M / L| + N_a
 ///
 /// F_r is the part of F across the axis a. N_a is the magnitude of the part along a of a joint that turns, 0
-/// of one that slides. Without a length N = |F_r| + N_a.
+/// of one that slides. Without a length N = |F_r| + N_a. Of a joint of several freedoms F has no part along
+/// those in which it slides: nothing is borne there. (A screw bears its thrust: its slide is no freedom.)
 ///
 /// At one state the reactions are affine in the forces of friction, and these in N. N = g(N) is solved by
 /// Broyden's method. Source: C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations (1995),
@@ -47,6 +48,7 @@ class ReactionFriction {
     FrameIndex coordinate = 0;
     bool turns = false;
     double length = 0.0;
+    std::vector<FrameIndex> slides = {};  ///< other freedoms of the joint
   };
   [[nodiscard]] double calc_normal_force(const Joint& joint, const Evaluation& at) const;
   void update_inverse();

@@ -362,8 +362,10 @@ EvaluationStatus Integration::evaluate_inside(double t) {
   else
     sample_.y = end_.y;
   const EvaluationStatus status = system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
-  if (status != EvaluationStatus::kBristleMissing) return status;
-  sample_.y = end_.y;  // an element touches there that touches at neither end: the end's state is close
+  // An element touches there that touches at neither end, or friction fits the reactions at the ends alone:
+  // the end's state is close.
+  if (status != EvaluationStatus::kBristleMissing && status != EvaluationStatus::kWedged) return status;
+  sample_.y = end_.y;
   return system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
 }
 

@@ -75,7 +75,7 @@ struct JointFriction {
   double normal_force = 0.0;  ///< preload, >= 0, [N]
   double radius = 1.0;  ///< r at which surfaces slide where the joint turns, > 0, [m]; 1 where it slides
   bool by_reaction = false;
-  double length = 0.0;  ///< of the bearing or guide, about the joint's origin, [m]; 0: it bears no moment
+  double length = 0.0;  ///< of the bearing or guide about the origin of what it carries, [m]; 0: no moment
 };
 
 /// The cause of a force on a coordinate.

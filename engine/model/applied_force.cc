@@ -127,14 +127,15 @@ void calc_forces(const JointFriction& friction, double /*t*/, const ElementState
     lanes.set(lane, 1.0);
     return Dual(value, lanes);
   };
-  const Dual v = friction.radius * seeded(state.v, 0), z = seeded(state.memory, 1);
+  const double sigma_0 = friction.law.sigma_0;
+  const Dual v = friction.radius * seeded(state.v, 0), z = seeded(state.memory, 1) / sigma_0;
   const FrictionForce<Dual> law = calc_friction(friction.law, v, Dual(0.0), z, Dual(0.0));
   const auto value_of = [](const Dual& d) {
     return AppliedForceValue{.force = d.value, .by_v = {d.d[0], d.d[1]}};
   };
   const double normal_force = friction.normal_force + (friction.by_reaction ? state.reaction : 0.0);
   values[0] = value_of((-friction.radius * normal_force) * law.along_t.force_ratio);
-  if (has_bristles(friction.law.law)) values[1] = value_of(law.along_t.rate);
+  if (has_bristles(friction.law.law)) values[1] = value_of(sigma_0 * law.along_t.rate);
 }
 
 void list_forces(const ForceLaw&, const Actuation& of, std::vector<AppliedForce>& forces) {
@@ -245,7 +246,7 @@ void bend_bristles(const Mechanism& mechanism, Eigen::VectorXd& qd) {
     if (!friction || !has_bristles(friction->law.law)) continue;
     const double v = friction->radius * qd[actuation.coordinate];
     const FrictionParameters& law = friction->law;
-    qd[actuation.memory] = calc_stribeck_curve(law, std::abs(v)) / law.sigma_0 * std::tanh(v / law.v_s);
+    qd[actuation.memory] = calc_stribeck_curve(law, std::abs(v)) * std::tanh(v / law.v_s);
   }
 }
 

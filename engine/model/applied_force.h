@@ -46,7 +46,7 @@ struct AppliedValues {
 struct ElementState {
   double q = 0.0, v = 0.0;  ///< of the driven coordinate
   double current = 0.0;     ///< [A]
-  double memory = 0.0;      ///< x of the controller, or z of the bristle
+  double memory = 0.0;      ///< x of the controller, or sigma_0 z of the bristle
   double reaction = 0.0;    ///< normal force by the joint's reaction, [N]
 };
 
@@ -75,9 +75,9 @@ void calc_applied_forces(const Actuation& actuation, double t, const ElementStat
 
 /// Bends the bristles of joints that move at the start as far as steady sliding does:
 ///
-///     z = g(v) / sigma_0 tanh(v / v_s)
+///     sigma_0 z = g(v) tanh(v / v_s)
 ///
-/// @param qd  rates of all coordinates; those of the bristles are their deflections
+/// @param qd  rates of all coordinates; those of the bristles are sigma_0 z
 void bend_bristles(const Mechanism& mechanism, Eigen::VectorXd& qd);
 
 /// Adds the coordinates that a force element needs beside the given one: the charge of a winding, the

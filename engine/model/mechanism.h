@@ -35,7 +35,9 @@ inline constexpr FrameIndex kGround = -1;
 enum class CoordinateRole {
   kJoint,
   kCharge,    ///< that has passed a winding, [C]; its inertia is the inductance
-  kMemory,    ///< the rate is a controller's integral, or the deflection of a bristle; no energy
+  /// The rate is a controller's integral, or the deflection of a bristle times its stiffness sigma_0: of the
+  /// order of a friction coefficient, so that tolerances resolve it. No energy.
+  kMemory,
 };
 
 /// One joint coordinate and the frame it moves. Joints of several degrees of freedom are several of them in a

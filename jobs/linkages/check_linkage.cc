@@ -227,7 +227,10 @@ class LinkageChecker {
   }
 
   void check_freedoms(const json& joint, JointKind kind, const std::string& pointer) {
-    if (has_one_freedom(kind)) check_freedom_drive(joint, freedoms_of(kind).front().second, pointer);
+    if (has_one_freedom(kind)) {
+      check_freedom_drive(joint, freedoms_of(kind).front().second, pointer);
+      check_reaction_friction(joint, joint, pointer);
+    }
     std::vector<JointFreedom> freedoms = list_freedoms(joint);
     std::erase_if(freedoms, [](const JointFreedom& freedom) { return freedom.first.empty(); });
     if (!joint.contains("freedoms") || !joint.at("freedoms").is_object()) return;
@@ -243,8 +246,34 @@ class LinkageChecker {
       } else {
         check_fields(freedom, freedom_fields(found->second), at, faults_);
         check_freedom_drive(freedom, found->second, at);
+        check_reaction_friction(joint, freedom, at);
+        check_play(joint, kind, part, freedom, at);
       }
     }
+  }
+
+  /// What bears nothing has no friction by a reaction.
+  void check_reaction_friction(const json& joint, const json& freedom, const std::string& pointer) {
+    if (!freedom.contains("friction") || !freedom.at("friction").is_object() ||
+        freedom.at("friction").value("by_reaction", json()) != true)
+      return;
+    const std::string at = pointer + "/friction/by_reaction";
+    if (joint.contains("clearance"))
+      fault(at, "is of a joint without clearance: the surfaces of this one have friction of their own");
+    else if (find_joint_kind(joint) == JointKind::kFree)
+      fault(at, "is of a joint that bears something: a free one does not");
+  }
+
+  /// A joint that has no play in this job has only the freedoms of its kind.
+  void check_play(const json& joint, JointKind kind, const std::string& part, const json& freedom,
+                  const std::string& pointer) {
+    const std::vector<JointFreedom> own = freedoms_of(kind);
+    if (failed() || !joint.contains("clearance") || has_clearance(joint, defaults_) ||
+        std::ranges::find(own, part, &JointFreedom::first) != own.end())
+      return;
+    for (const char* const key : {"drive", "load_n", "load_n_m", "friction"})
+      if (freedom.contains(key))
+        fault(pointer + pointer_token(key), "moves nothing: the clearance is 0, and the joint ideal");
   }
 
   void check_freedom_drive(const json& freedom, engine::Motion motion, const std::string& pointer) {

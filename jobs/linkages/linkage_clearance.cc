@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string_view>
+
+#include <Eigen/Eigenvalues>
 
 #include "engine/clearance/normal_law.h"
 #include "engine/model/rpsup.h"
@@ -75,6 +79,26 @@ engine::ClearanceParameters make_block(const json& clearance, const engine::Rpsu
       given.contact_stiffness_scale *
       engine::calc_sphere_stiffness(metres("corner_radius_mm", kCornerRadius), given.youngs_modulus, nu);
   return block;
+}
+
+/// Whether a block fits between its walls at half a right angle, about any axis: beyond that its corners meet
+/// the walls beside their own ones.
+bool can_turn_over(const engine::ClearanceParameters& block) {
+  const double x = block.block_x, y = block.block_y, z = 0.5 * block.L_b;
+  const double free_x = x + block.c_r, free_y = y + block.c_y;
+  const auto fits = [](double a, double b, double free) { return (a + b) / std::sqrt(2.0) <= free; };
+  return (fits(x, y, free_x) && fits(x, y, free_y)) || fits(x, z, free_x) || fits(y, z, free_y);
+}
+
+bool is_inertia_of_a_body(const json& cross) {
+  const json& values = cross.at("inertia_kg_m2");
+  const auto at = [&](std::size_t i) { return i < values.size() ? values[i].get<double>() : 0.0; };
+  Eigen::Matrix3d I;
+  I << at(0), at(3), at(4), at(3), at(1), at(5), at(4), at(5), at(2);
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I, Eigen::EigenvaluesOnly).eigenvalues();
+  const double rounding = 1e-9 * I.trace();
+  return moments.minCoeff() > 0.0 && moments.sum() - 2.0 * moments.maxCoeff() >= -rounding;
 }
 
 }  // namespace
@@ -156,6 +180,15 @@ void check_clearance(const json& joint, JointKind kind, const engine::RpsupParam
     check_fields(joint.at("cross"), cross_fields(), pointer + "/cross", faults);
   if (faults.size() > before) return;
   const engine::RpsupParameters given = clearance_parameters(clearance, defaults);
+  constexpr double kLeast = 1e-9;  // [m]
+  if (given.c_r > 0.0 && given.c_r < kLeast)
+    faults.push_back({at + "/clearance_mm", "must be 0 or at least 1e-6 mm"});
+  if (kind == JointKind::kUniversal && !is_inertia_of_a_body(joint.at("cross")))
+    faults.push_back({pointer + "/cross/inertia_kg_m2",
+                      "must be that of a body: no principal moment is below 0 or larger than the sum of the "
+                      "other two"});
+  if (kind == JointKind::kPrismatic && can_turn_over(make_block(clearance, given)))
+    faults.push_back({at + "/clearance_mm", "lets the block turn over between the walls: make it smaller"});
   if (kind != JointKind::kPrismatic && given.c_r >= given.bearing_radius)
     faults.push_back({at + "/clearance_mm", "must be less than bearing_radius_mm, which is " +
                                                 readable_number(1e3 * given.bearing_radius) + " mm"});

@@ -115,6 +115,28 @@ TEST(ReactionFriction, AddsTheReactionToThePreload) {
   }
 }
 
+// A piston bears nothing along its slide: a push there presses no surface.
+TEST(ReactionFriction, TakesNoPushAlongAnotherFreedomOfItsJoint) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -10.0, 0.0};
+  linkage.bodies = {make_body("piston", 2.0, {0.0, 0.0, 0.0}, {0.05, 0.05, 0.05})};
+  const FrictionParameters law{.mu_k = 0.2, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6};
+  linkage.joints = {{.name = "bore", .kind = JointKind::kCylindrical, .from = kGroundName, .to = "piston", .placement = {},
+                     .freedoms = {{.name = "slide", .start = 0.0, .load = ForceLaw{.law = Constant{100.0}}},
+                                  {.name = "turn", .start = 0.0, .start_rate = 10.0,
+                                   .friction = JointFriction{.law = law, .radius = 0.01, .by_reaction = true}}}}};
+  EXPECT_NEAR(LinkageRun(linkage, accurate(0.2)).last("turn_normal_force_n"), 20.0, 1e-9);
+}
+
+// Bristles of 1e5 1/m are bent by 2.5 um, less than the absolute tolerance of lengths.
+TEST(JointFriction, OfStiffBristlesIsRightBetweenSteps) {
+  Linkage linkage = make_incline(0.0, {.mu_s = 0.25, .mu_k = 0.25, .sigma_0 = 1e5, .sigma_1 = 5.0}, 0.0);
+  linkage.joints[0].freedoms[0].load = ForceLaw{.law = Harmonic{.mean = 0.0, .amplitude = 20.0, .omega = 30.0}};
+  const LinkageRun run(linkage, {.duration = 1.0, .output_rate = 5000.0});
+  const double most = 0.25 * 2.0 * kInclineGravity;
+  for (const double friction : run.column("q_friction_n")) ASSERT_LT(std::abs(friction), 1.02 * most);
+}
+
 /// A drawer of 2 kg in a guide of 0.2 m, its centre of mass 0.3 m beside it, pushed by 10 N.
 RunResult push_drawer(double velocity) {
   Linkage linkage;

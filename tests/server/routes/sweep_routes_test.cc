@@ -80,7 +80,7 @@ TEST(PostSweep, NamesThePlaceOfANotANumber) {
     details[error.at("pointer").get<std::string>()] = error.at("detail").get<std::string>();
   EXPECT_EQ(details, (std::map<std::string, std::string>{
                          {"/parameters/clearance_mm", "must be a number in [0, 1000) mm"},
-                         {"/sweep/restitution/1", "must be a number in (0, 1]"}}));
+                         {"/sweep/restitution/1", "must be a number in [0, 1]"}}));
   EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
 }
 
