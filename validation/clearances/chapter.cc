@@ -13,7 +13,8 @@ their surfaces alone. Each has closed forms: speeds after impacts, the angular m
 friction, the pendulum of a ball that slides or rolls, the moment that two edges bear, the acceleration on an
 incline. A ball that rolls in a horizontal circle passes the poles of the coordinates in which its bristle is
 stored. A slider-crank with clearance in its pin moves alike, whether its loop is cut at that pin or at another
-joint. The energy account holds with clearance in two revolute joints, a spherical and a prismatic one.)",
+joint. With play in the guide of its slider it moves as Siconos publishes for the model of Flores, Leine and
+Glocker. The energy account holds with clearance in two revolute joints, a spherical and a prismatic one.)",
       .parts = {{"ball_hits_its_socket", compute_ball_impacts},
                 {"ball_is_a_pendulum", compute_ball_pendulum},
                 {"block_bounces_between_walls", compute_block_impacts},

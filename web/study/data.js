@@ -13,7 +13,7 @@ export function metricsOf(rows, axes) {
 
 /// The metric that a page shows first: of a described linkage the first one that no drive prescribes and that differs
 /// between the jobs, else the first one.
-/** @param {string[]} metrics  @param {Api.Row[]} rows  @param {Api.Sweep} sweep  @returns {string | undefined} */
+/** @param {string[]} metrics  @param {Api.Row[]} rows  @param {Api.Sweep} sweep  @returns {string} */
 export function usualMetric(metrics, rows, { request }) {
   const linkage = request?.parameters?.linkage;
   if (typeof linkage !== "object") return metrics[0];
