@@ -8,13 +8,9 @@ Chapter clearances_chapter() {
   return {
       .name = "clearances",
       .title = "Clearance in joints of every kind",
-      .text = R"(A ball in a socket, a block in a slot and a piston in a cylinder are held by the contact of
-their surfaces alone. Each has closed forms: speeds after impacts, the angular momentum of a ball without
-friction, the pendulum of a ball that slides or rolls, the moment that two edges bear, the acceleration on an
-incline. A ball that rolls in a horizontal circle passes the poles of the coordinates in which its bristle is
-stored. A slider-crank with clearance in its pin moves alike, whether its loop is cut at that pin or at another
-joint. With play in the guide of its slider it moves as Siconos publishes for the model of Flores, Leine and
-Glocker. The energy account holds with clearance in two revolute joints, a spherical and a prismatic one.)",
+      .text = R"(Surfaces alone hold a ball in its socket, a block in its slot, a piston in its cylinder. Impacts,
+pendulums and tilts have closed forms. A slider-crank moves alike wherever its loop is cut, and with play
+in its guide as Siconos publishes.)",
       .parts = {{"ball_hits_its_socket", compute_ball_impacts},
                 {"ball_is_a_pendulum", compute_ball_pendulum},
                 {"block_bounces_between_walls", compute_block_impacts},
