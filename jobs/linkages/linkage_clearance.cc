@@ -81,13 +81,15 @@ engine::ClearanceParameters make_block(const json& clearance, const engine::Rpsu
   return block;
 }
 
-/// Whether a block fits between its walls at half a right angle, about any axis: beyond that its corners meet
-/// the walls beside their own ones.
+/// Whether a block can turn about any axis up to half a right angle: beyond that its corners meet the walls
+/// beside their own ones. Turned by phi it is a cos(phi) + b sin(phi) wide, most at tan(phi) = b / a.
 bool can_turn_over(const engine::ClearanceParameters& block) {
   const double x = block.block_x, y = block.block_y, z = 0.5 * block.L_b;
   const double free_x = x + block.c_r, free_y = y + block.c_y;
-  const auto fits = [](double a, double b, double free) { return (a + b) / std::sqrt(2.0) <= free; };
-  return (fits(x, y, free_x) && fits(x, y, free_y)) || fits(x, z, free_x) || fits(y, z, free_y);
+  const auto fits = [](double a, double b, double free) {
+    return (b < a ? std::hypot(a, b) : (a + b) / std::sqrt(2.0)) <= free;
+  };
+  return (fits(x, y, free_x) && fits(y, x, free_y)) || fits(x, z, free_x) || fits(y, z, free_y);
 }
 
 bool is_inertia_of_a_body(const json& cross) {
