@@ -72,7 +72,7 @@ template <typename P, typename V>
   return locate_corner(contacts, journal, i);
 }
 
-/// How fast the ball's tangents turn about the normal, t' s = a (n_y n_x' - n_x n_y'). A bristle does not
+/// Spin of the ball's tangents about the normal, t' s = a (n_y n_x' - n_x n_y'). A bristle does not
 /// turn with them: on its way along the socket it stays parallel to itself.
 template <typename P, typename V>
 [[nodiscard]] RPSUP_INLINE V calc_tangent_spin(double pole, const RelativeMotion<P, V>& journal,

@@ -66,8 +66,8 @@ struct LinkageJoint {
   std::vector<LinkageFreedom> freedoms = {};  ///< one for each of freedoms_of(); none of a cut joint
   bool cut = false;
   Placement to_placement = {};          ///< in the second body's frame
-  /// Of a revolute, prismatic, cylindrical or spherical joint. One that is not cut carries its second body
-  /// with all freedoms, and its surfaces keep the body in place.
+  /// Play of a revolute, prismatic, cylindrical or spherical joint. One that is not cut carries its second
+  /// body with all freedoms, and its surfaces keep the body in place.
   std::optional<ClearanceParameters> clearance = {};
 };
 
@@ -116,8 +116,8 @@ struct Linkage {
 /// Cyclic permutation of the axes that brings one where another one is.
 [[nodiscard]] Eigen::Matrix3d rotation_between(Axis from, Axis to);
 
-/// How a joint that is not cut lets its second body move: of a screw in two ways, which its lead couples;
-/// with clearance in all ways: slides along x, y and z, and turns, about the joint's own axis first.
+/// Motion that a joint that is not cut lets its second body have. A screw has two, which its lead couples. A
+/// joint with clearance has all: slides along x, y and z, then turns, about the joint's own axis first.
 struct FreedomKind {
   Motion motion;
   Axis axis;

@@ -252,7 +252,7 @@ class LinkageChecker {
     }
   }
 
-  /// What bears nothing has no friction by a reaction.
+  /// Faults of friction by a reaction where the joint bears nothing.
   void check_reaction_friction(const json& joint, const json& freedom, const std::string& pointer) {
     if (!freedom.contains("friction") || !freedom.at("friction").is_object() ||
         freedom.at("friction").value("by_reaction", json()) != true)

@@ -182,7 +182,7 @@ class LinkageMaker {
     linkage.joints.push_back(std::move(second));
   }
 
-  /// Of a joint of a cross, with clearance or without.
+  /// Freedoms of a joint of a cross, with clearance or without.
   void add_freedoms(engine::LinkageJoint& joint, const json& given) const {
     const json shown{{"kind", "revolute"}, {"axis", std::string(1, "xyz"[static_cast<int>(joint.axes[0])])},
                      {"clearance", json::object()}};

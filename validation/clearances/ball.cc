@@ -47,7 +47,7 @@ double find_period(const RunResult& run, const char* key) {
   return 2.0 * (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
 }
 
-/// How deep the ball lies in the socket under a force. [m]
+/// Depth of the ball in the socket under a force. [m]
 double find_depth(double force) { return std::pow(force / make_socket().K, 2.0 / 3.0); }
 
 Check compare_swing(const char* how, const ClearanceParameters& socket, double inertia_factor) {
