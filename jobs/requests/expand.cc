@@ -56,8 +56,8 @@ std::uint64_t points_of_a_case(const SweepRequest& sweep) {
 }
 
 json parameters_at(const SweepRequest& sweep, const Position& position) {
-  json given = sweep.parameters;
-  if (!sweep.cases.empty()) given.merge_patch(sweep.cases[position.case_index]);
+  json given = sweep.cases.empty() ? sweep.parameters
+                                   : parameters_of_case(sweep.parameters, sweep.cases[position.case_index]);
   for (std::size_t i = 0; i < sweep.design.paths.size(); ++i) {
     set_at_path(given, sweep.design.paths[i], sweep.design.points[position.design_point][i]);
   }
@@ -147,8 +147,12 @@ class PointFaults {
     }
     if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end())
       return "/design/over" + pointer_token(path);
-    if (!sweep_.cases.empty() && sweep_.cases[position.case_index].contains(json::json_pointer(pointer))) {
-      return "/cases" + pointer_token(std::to_string(position.case_index)) + pointer;
+    if (!sweep_.cases.empty()) {
+      const json& given = sweep_.cases[position.case_index];
+      const std::string place = "/cases" + pointer_token(std::to_string(position.case_index));
+      if (given.contains(json::json_pointer(pointer))) return place + pointer;
+      for (const auto& [key, value] : given.items())
+        if (is_path_in_description(key) && pointer_of_path(key) == pointer) return place + pointer_token(key);
     }
     return "/parameters" + pointer;
   }

@@ -74,7 +74,8 @@ bool is_varied_by_cases(std::string_view key) {
 std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
   std::vector<std::string> paths;
   for (const auto& [key, value] : parameters.items()) {
-    if (find_parameter(key) != nullptr || is_varied_by_cases(key)) paths.push_back(key);
+    if (find_parameter(key) != nullptr || is_varied_by_cases(key) || is_path_in_description(key))
+      paths.push_back(key);
     if (key != "links" || !value.is_object()) continue;
     for (const auto& [link, parts] : value.items()) {
       if (std::ranges::find(kLinkNames, link) == kLinkNames.end() || !parts.is_object()) continue;
@@ -119,6 +120,22 @@ void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohma
   for (const std::string& part : parts_of(path))
     target = target->is_array() ? &target->at(std::stoul(part)) : &(*target)[part];
   *target = value;
+}
+
+nlohmann::json whole_parameters_of(const nlohmann::json& common, const nlohmann::json& one_case) {
+  nlohmann::json whole = one_case;
+  for (const auto& [key, value] : one_case.items())
+    if (is_path_in_description(key)) whole.erase(key);
+  nlohmann::json made = common;
+  made.merge_patch(whole);
+  return made;
+}
+
+nlohmann::json parameters_of_case(const nlohmann::json& common, const nlohmann::json& one_case) {
+  nlohmann::json made = whole_parameters_of(common, one_case);
+  for (const auto& [key, value] : one_case.items())
+    if (is_path_in_description(key)) set_at_path(made, key, value);
+  return made;
 }
 
 const nlohmann::json& value_at_path(const nlohmann::json& completed, std::string_view path) {

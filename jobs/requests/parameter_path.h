@@ -39,6 +39,15 @@ namespace jobs {
 /// they have
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value);
 
+/// Parameters of a case of a sweep: the case's own replace common ones, and its numbers inside a description
+/// ("linkage.bodies.rod.mass_kg") are set there.
+/// @param one_case  its paths have no fault that describe_description_path_fault() finds
+[[nodiscard]] nlohmann::json parameters_of_case(const nlohmann::json& common, const nlohmann::json& one_case);
+
+/// The same without the numbers inside a description.
+[[nodiscard]] nlohmann::json whole_parameters_of(const nlohmann::json& common,
+                                                 const nlohmann::json& one_case);
+
 /// @param completed  all parameters  @returns null if the linkage of the set has no such value
 [[nodiscard]] const nlohmann::json& value_at_path(const nlohmann::json& completed, std::string_view path);
 

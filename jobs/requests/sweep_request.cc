@@ -222,10 +222,24 @@ class SweepParser {
     for (std::size_t i = 0; i < request_.at("cases").size(); ++i) {
       json given = request_.at("cases")[i];
       const std::string pointer = "/cases" + pointer_token(std::to_string(i));
-      check_values(given, pointer);
+      check_case(given, pointer);
       if (!seen.insert(given.dump()).second) fault(pointer, "is in the list already");
       sweep_.cases.push_back(std::move(given));
     }
+  }
+
+  /// Faults of a case, which may have numbers inside a description beside whole parameters.
+  void check_case(const json& given, const std::string& pointer) {
+    json whole = given;
+    if (given.is_object()) {
+      for (const auto& [path, value] : given.items()) {
+        if (!is_path_in_description(path)) continue;
+        whole.erase(path);
+        const std::string place = pointer + pointer_token(path);
+        if (is_known_path(path, place, faults_) && !value.is_number()) fault(place, "must be a number");
+      }
+    }
+    check_values(whole, pointer);
   }
 
   void read_design() {
@@ -274,17 +288,26 @@ class SweepParser {
 
   /// Numbers inside a description can only be swept where there is one that has them.
   void check_linkage_paths() {
+    const auto check_in = [&](const json& given, const std::string& path, const std::string& pointer) {
+      const std::string detail = describe_description_path_fault(given, path);
+      if (!detail.empty()) fault(pointer, detail);
+      return detail.empty();
+    };
     const auto check = [&](const std::string& path, const std::string& pointer) {
       if (!is_path_in_description(path)) return;
-      for (std::size_t i = 0; i < std::max<std::size_t>(1, sweep_.cases.size()); ++i) {
-        json given = sweep_.parameters;
-        if (!sweep_.cases.empty()) given.merge_patch(sweep_.cases[i]);
-        const std::string detail = describe_description_path_fault(given, path);
-        if (!detail.empty()) return fault(pointer, detail);
-      }
+      bool right = sweep_.cases.empty() ? check_in(sweep_.parameters, path, pointer) : true;
+      for (const json& each : sweep_.cases)
+        right = right && check_in(whole_parameters_of(sweep_.parameters, each), path, pointer);
     };
     for (const Axis& axis : sweep_.axes) check(axis.path, "/sweep" + pointer_token(axis.path));
     for (const std::string& path : sweep_.design.paths) check(path, "/design/over" + pointer_token(path));
+    for (std::size_t i = 0; i < sweep_.cases.size() && sweep_.cases[i].is_object(); ++i) {
+      for (const auto& [path, value] : sweep_.cases[i].items()) {
+        if (is_path_in_description(path))
+          check_in(whole_parameters_of(sweep_.parameters, sweep_.cases[i]), path,
+                   "/cases/" + std::to_string(i) + pointer_token(path));
+      }
+    }
   }
 
   const ordered_json& request_;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "jobs/base/errors.h"
 #include "jobs/requests/expand.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
@@ -32,6 +33,33 @@ TEST(LinkageSweep, GoesOverNumbersInsideADescription) {
   EXPECT_EQ(first.at("linkage").at("bodies").at("rod").at("mass_kg"), 0.3);
   EXPECT_EQ(first.at("linkage").at("joints").at("slider_pin").at("clearance").at("restitution"), 0.8);
   EXPECT_EQ(plan.jobs[1].swept, "[0.05,0.3,0.8]");
+}
+
+TEST(LinkageSweep, HasCasesOfNumbersInsideADescription) {
+  const std::string path = "linkage.bodies.rod.mass_kg";
+  const auto request_of = [](const nlohmann::ordered_json& cases) {
+    return nlohmann::ordered_json{{"parameters", example("slider_crank")}, {"cases", cases}};
+  };
+  const jobs::SweepPlan plan =
+      jobs::plan_sweep(request_of({{{path, 0.2}, {"friction", "none"}}, {{path, 0.3}}}), 100);
+  ASSERT_EQ(plan.jobs.size(), 2U);
+  const json second = json::parse(plan.jobs[1].parameters);
+  EXPECT_EQ(second.at("linkage").at("bodies").at("rod").at("mass_kg"), 0.3);
+  EXPECT_EQ(plan.jobs[0].swept, R"([0.2,"none"])");
+  const auto pointer_of = [&](const nlohmann::ordered_json& one_case) -> std::string {
+    try {
+      (void)jobs::plan_sweep(request_of(nlohmann::ordered_json::array({one_case})), 100);
+    } catch (const jobs::InvalidRequest& invalid) {
+      return invalid.faults().front().pointer;
+    }
+    return "none";
+  };
+  EXPECT_EQ(pointer_of({{path, "heavy"}}), "/cases/0/" + path);
+  EXPECT_EQ(pointer_of({{path, -1}}), "/cases/0/" + path);
+  EXPECT_EQ(pointer_of({{"linkage.bodies.rood.mass_kg", 1}}), "/cases/0/linkage.bodies.rood.mass_kg");
+  EXPECT_EQ(pointer_of({{"linkage.bodies.rod.inertia_kg_m2.7", 1}}),
+            "/cases/0/linkage.bodies.rod.inertia_kg_m2.7");
+  EXPECT_EQ(pointer_of({{"linkage", "rpsup"}, {path, 1}}), "/cases/0/" + path);
 }
 
 // Rows of one point are known by the values that they show.
